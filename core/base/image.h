@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace glovebench {
+
+/// A row-major image that owns its pixels; row 0 is the top row. Copying copies the pixels.
+template <typename T>
+class Image {
+ public:
+  Image() = default;
+  Image(int width, int height, T fill = T{})
+      : width_(width), height_(height), pixels_(static_cast<size_t>(width) * height, fill) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  size_t size() const { return pixels_.size(); }
+  bool empty() const { return pixels_.empty(); }
+  bool contains(int u, int v) const { return u >= 0 && v >= 0 && u < width_ && v < height_; }
+
+  T& operator()(int u, int v) { return pixels_[static_cast<size_t>(v) * width_ + u]; }
+  const T& operator()(int u, int v) const { return pixels_[static_cast<size_t>(v) * width_ + u]; }
+  T& operator[](size_t i) { return pixels_[i]; }
+  const T& operator[](size_t i) const { return pixels_[i]; }
+  T* data() { return pixels_.data(); }
+  const T* data() const { return pixels_.data(); }
+  auto begin() { return pixels_.begin(); }
+  auto end() { return pixels_.end(); }
+  auto begin() const { return pixels_.begin(); }
+  auto end() const { return pixels_.end(); }
+
+  friend bool operator==(const Image&, const Image&) = default;
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> pixels_;
+};
+
+/// Red, green, blue, each 0..255.
+using Rgb = std::array<uint8_t, 3>;
+using ColorImage = Image<Rgb>;
+/// Distance along the optical axis (z, not ray length) in metres; 0 where there is no value.
+using DepthImage = Image<float>;
+/// 0 where there is no glove, 1..kColorCount otherwise.
+using LabelImage = Image<uint8_t>;
+
+/// The glove has ten colors, labeled 1..10 (section III-A).
+inline constexpr int kColorCount = 10;
+
+}  // namespace glovebench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/base/image.h"
+#include "core/camera/pinhole_camera.h"
+
+namespace glovebench {
+
+/// Depth range in which the hand is looked for (equation 1).
+struct WorkingVolume {
+  double z_min = 0.40;  ///< m, > 0
+  double z_max = 1.00;  ///< m, > z_min
+};
+
+struct LabeledPoint {
+  Eigen::Vector3f p_camera;  ///< m
+  uint8_t label = 0;         ///< 1..kColorCount
+};
+
+/// The color-labeled point cloud C of equation (1), in row-major order of its pixels, with what is needed to
+/// say why it is small.
+struct LabeledCloud {
+  std::vector<LabeledPoint> points;
+  LabelImage labels;        ///< L masked by C: labels of the points in the cloud, 0 elsewhere
+  int labeled_outside = 0;  ///< glove pixels with depth outside the working volume
+};
+
+/// Equation (1): glove pixels with a depth in the working volume.
+LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, const PinholeCamera& camera,
+                         const WorkingVolume& volume);
+
+/// Connected components (8-neighborhood; neighbors also lie within `depth_step` metres of each other) of the
+/// glove pixels, largest first, as pixel counts.
+std::vector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
+/// Keeps the largest connected component only (a configuration, not in the paper).
+LabeledCloud largest_component(const LabeledCloud& cloud, const PinholeCamera& camera, double depth_step);
+
+}  // namespace glovebench

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/database/tiny_image.h"
+#include "core/database/view_renderer.h"
+#include "core/hand/hand_model.h"
+
+namespace glovebench {
+
+/// Postures of one database, e.g. "DB_open_power".
+struct PostureSet {
+  std::string name;
+  std::vector<std::string> posture_names;
+  std::vector<Posture> postures;
+};
+
+/// How the views of a posture are rendered.
+struct ViewConfig {
+  double distance = 0.75;           ///< camera to hand origin, m
+  double field_of_view_deg = 24.0;  ///< of the square image
+  int image_size = 192;             ///< px
+  double field_cap_share = 0.5;  ///< largest distance, also that of an absent color, as a share of the side, (0, 1]
+};
+
+inline constexpr int kCameraPositions = 42;                              ///< an icosahedron subdivided once
+inline constexpr int kInPlaneRotations = 18;                             ///< 20 degrees apart
+inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;  ///< 756
+
+/// R_view_hand of the 756 views: a camera that looks at the hand origin. View = position * 18 + rotation.
+const std::vector<Eigen::Matrix3d>& view_rotations();
+
+/// The image database of section III: 756 views of each posture, as tiny images of four sizes with one
+/// distance field a color. Entry = posture * 756 + view. Immutable, shared between threads.
+class Database {
+ public:
+  /// Renders all views; the renderer factory is called once a thread. The result does not depend on `threads`.
+  /// `progress`, if given, hears the share done (0..1).
+  static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
+                        const ViewRendererFactory& renderers, int threads,
+                        const std::function<void(double)>& progress = {});
+
+  /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it; `sizes` are the
+  /// tiny-image sizes whose fields are wanted.
+  void save(const std::string& path) const;
+  static Database load(const std::string& path, const std::vector<int>& sizes = {8, 16, 32, 64});
+  /// What a database made of these inputs would have as `hash()`.
+  static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);
+
+  int entry_count() const { return static_cast<int>(postures_.postures.size()) * kViewCount; }
+  const PostureSet& posture_set() const { return postures_; }
+  const Posture& posture(int entry) const { return postures_.postures[entry / kViewCount]; }
+  static int view(int entry) { return entry % kViewCount; }
+  /// Direction, in the view's camera, from the camera to the center of the hand's bounding square.
+  const Eigen::Vector3d& box_ray(int entry) const { return box_rays_[entry]; }
+  Side side() const { return side_; }
+  /// Hash of all inputs.
+  const std::string& hash() const { return hash_; }
+
+  /// Labels of one entry, size*size.
+  const uint8_t* labels(int size, int entry) const;
+  /// Distance fields of one entry: kColorCount fields of size*size, in steps of 1/kFieldScale px, chamfer metric,
+  /// capped at the view configuration's cap.
+  const uint8_t* fields(int size, int entry) const;
+  bool has_fields(int size) const { return sizes_.contains(size) && !sizes_.at(size).fields.empty(); }
+
+  static constexpr int kFieldScale = 3;  ///< a chamfer 3-4 step of one pixel is 3
+ private:
+  struct SizeData {
+    std::vector<uint8_t> labels;  ///< [entry][pixel]
+    std::vector<uint8_t> fields;  ///< [entry][color][pixel]
+  };
+
+  PostureSet postures_;
+  Side side_ = Side::right;
+  std::string hash_;
+  std::vector<Eigen::Vector3d> box_rays_;
+  std::map<int, SizeData> sizes_;
+};
+
+}  // namespace glovebench

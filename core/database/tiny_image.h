@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+#include "core/base/image.h"
+
+namespace glovebench {
+
+/// Edge lengths of the tiny images, px (section III).
+inline constexpr std::array<int, 4> kTinySizes = {8, 16, 32, 64};
+
+/// A square in an image: half-open pixel ranges, may reach beyond the image.
+struct Square {
+  int left = 0;
+  int top = 0;
+  int side = 0;
+};
+
+/// The square around the bounding box of all labeled pixels, centered on it; side 0 if there are none.
+Square bounding_square(const LabelImage& labels);
+
+/// The square scaled to size x size: each cell takes the label that the most pixels under it have (0 counts;
+/// ties go to the glove, then to the smaller label).
+LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int size);
+
+}  // namespace glovebench

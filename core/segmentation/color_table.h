@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/image.h"
+#include "core/camera/registration.h"
+
+namespace glovebench {
+
+/// Y, U, V, each 0..255 (BT.601, full range, U and V centered at 128).
+using Yuv = std::array<uint8_t, 3>;
+Yuv yuv_from_rgb(const Rgb& rgb);
+
+/// The look-up table of section III-A: 64 x 64 x 64 cells over (Y, U, V), each holding a label 0..10.
+class ColorTable {
+ public:
+  static constexpr int kBits = 6;
+  static constexpr size_t kCells = size_t{1} << (3 * kBits);
+
+  ColorTable() : labels_(kCells, 0) {}
+  /// Throws Error unless there are kCells labels, all 0..kColorCount.
+  explicit ColorTable(std::vector<uint8_t> labels);
+
+  static size_t cell(const Yuv& yuv) {
+    constexpr int shift = 8 - kBits;
+    return (size_t{yuv[0]} >> shift) << (2 * kBits) | (size_t{yuv[1]} >> shift) << kBits |
+           (size_t{yuv[2]} >> shift);
+  }
+  uint8_t label(const Rgb& rgb) const { return labels_[cell(yuv_from_rgb(rgb))]; }
+  const std::vector<uint8_t>& labels() const { return labels_; }
+
+  /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it.
+  void save(const std::string& path) const;
+  static ColorTable load(const std::string& path);
+
+ private:
+  std::vector<uint8_t> labels_;
+};
+
+/// The labeled image L: the table applied to every pixel of M that has a color.
+LabelImage segment(const RegisteredImage& mapped, const ColorTable& table);
+
+/// Replaces each label by the majority of its 3x3 neighborhood (a configuration, not in the paper).
+LabelImage majority_filter(const LabelImage& labels);
+
+}  // namespace glovebench

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/hand/posture.h"
+
+namespace glovebench {
+
+/// What became of one frame. Everything but `tracked` is a lost frame: its posture and pose are the last
+/// tracked ones (or the open hand at the origin before there was any) and must not be used as a measurement.
+enum class TrackStatus {
+  tracked,
+  no_hand,           ///< too few glove pixels in view
+  outside_volume,    ///< the glove is seen, but nearer or farther than the working volume
+  cut_by_border,     ///< the glove touches the image border over a long stretch: the box is not the hand's
+  several_hands,     ///< more than one large glove-colored object
+  too_few_points,    ///< fewer than three usable points
+  degenerate_cloud,  ///< the points lie on one line: no rotation can be told
+  no_shared_color,   ///< the cloud and the visible model share no color
+  poor_match,        ///< the nearest database entry is farther than `max_matching_error`
+  poor_alignment,    ///< the mean distance after alignment is above `max_residual`
+};
+std::string_view to_string(TrackStatus status);
+inline constexpr int kTrackStatusCount = 10;
+
+/// One of the k nearest database entries, best first.
+struct Match {
+  int entry = 0;
+  int posture = 0;  ///< index in the database's postures
+  int view = 0;     ///< 0..755
+  float error = 0;  ///< equation (2), in pixels of the last cascade stage
+};
+
+/// The tracker's answer for one frame: (theta, R, P) of section III-C and what led to it.
+struct TrackResult {
+  int64_t timestamp_us = 0;  ///< of the depth image
+  TrackStatus status = TrackStatus::no_hand;
+
+  Posture posture = Posture::Zero();                                ///< theta, smoothed, rad
+  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< smoothed, m
+
+  Posture posture_unfiltered = Posture::Zero();  ///< of the look-up, rad
+  Eigen::Isometry3d T_camera_hand_unfiltered = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();  ///< before the alignment
+  std::vector<Match> matches;
+
+  bool ambiguous = false;  ///< the matches' rotations spread over more than 60 degrees
+  bool converged = false;  ///< of the alignment
+  int cloud_points = 0;    ///< |C|
+  int icp_points = 0;      ///< used by the alignment
+  int icp_iterations = 0;
+  double icp_residual = 0;  ///< mean point-to-triangle distance at the end, m
+};
+
+}  // namespace glovebench

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/camera/registration.h"
+#include "core/cloud/labeled_cloud.h"
+
+namespace glovebench {
+
+/// One stage of the look-up: keep the `keep` nearest entries by images of `size` px.
+struct CascadeStage {
+  int size = 64;
+  int keep = 3;
+
+  friend bool operator==(const CascadeStage&, const CascadeStage&) = default;
+};
+using Cascade = std::vector<CascadeStage>;
+/// "16:500,64:3". Throws Error if malformed or impossible (unknown size, a stage that keeps more than the one
+/// before it).
+Cascade parse_cascade(std::string_view text);
+std::string to_string(const Cascade& cascade);
+
+struct SegmentationConfig {
+  bool majority_filter = false;    ///< 3x3 majority of the labels; not in the paper
+  bool largest_component = false;  ///< keep the largest connected component; not in the paper
+};
+
+struct LookupConfig {
+  Cascade cascade = {{16, 500}, {64, 3}};  ///< the paper's choice (section IV-B)
+  double interpolation_epsilon = 0.01;     ///< eps in the weights 1 / (E + eps), px of the last stage, > 0
+  double max_matching_error = 8.0;         ///< above it the frame is `poor_match`, px at 64 px, > 0
+};
+
+struct IcpConfig {
+  int max_points = 1000;             ///< uniform stride down to at most this many, >= 3
+  int max_iterations = 60;           ///< >= 1
+  double convergence_share = 1e-3;   ///< stop when the mean distance changes by less than this share, > 0
+  bool cull_each_iteration = false;  ///< back faces: before the first iteration (paper) or in each
+  double max_residual = 0.02;        ///< above it the frame is `poor_alignment`, m, > 0
+};
+
+struct SmoothingConfig {
+  double posture_keep = 0.75;  ///< x = keep * previous + (1 - keep) * new, in [0, 1)
+  double pose_keep = 0.0;      ///< the same for the pose (slerp for the rotation), in [0, 1)
+  int forget_after = 15;       ///< lost frames after which the filter starts anew, >= 1
+};
+
+struct DetectionConfig {
+  int min_pixels = 150;            ///< fewer glove pixels: no hand, >= 3
+  double second_hand_share = 0.3;  ///< a second component above this share of the largest: several hands, (0, 1]
+  double component_depth_step = 0.05;  ///< neighbors farther apart in depth are not connected, m, > 0
+  int max_border_pixels = 40;          ///< more glove pixels than this on the image border: cut by it, >= 0
+};
+
+/// A named, complete configuration ("profile") of the tracker. `paper` does what the paper says.
+struct TrackerConfig {
+  std::string profile = "paper";
+  RegistrationConfig registration;
+  SegmentationConfig segmentation;
+  WorkingVolume volume;
+  DetectionConfig detection;
+  LookupConfig lookup;
+  IcpConfig icp;
+  SmoothingConfig smoothing;
+
+  /// All problems, one per line; empty if there are none.
+  std::vector<std::string> problems() const;
+};
+
+/// The profile of that name ("paper"). Throws Error listing the known ones.
+TrackerConfig profile(const std::string& name);
+/// Overrides the fields of `base` that stand in the JSON object. Unknown keys, wrong types and values out of
+/// range throw Error naming `where` and the key.
+TrackerConfig config_from_json(const nlohmann::json& json, const TrackerConfig& base, const std::string& where);
+nlohmann::json to_json(const TrackerConfig& config);
+
+}  // namespace glovebench
