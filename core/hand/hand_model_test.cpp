@@ -1,0 +1,220 @@
+#include "core/hand/hand_model.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "core/base/angles.h"
+#include "core/base/error.h"
+#include "core/base/image.h"
+
+namespace glovebench {
+namespace {
+
+const HandModel& right_hand() {
+  static const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH);
+  return model;
+}
+
+Eigen::Vector3d joint_position(const PosedHand& hand, const char* name) {
+  return hand.T_hand_joint[joint_index(name)].translation();
+}
+
+void expect_closed(const HandModel& model) {
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  for (const Triangle& t : model.triangles()) {
+    for (int i = 0; i < 3; ++i) ++edges[{t.vertices[i], t.vertices[(i + 1) % 3]}];
+  }
+  for (const auto& [edge, count] : edges) {
+    ASSERT_EQ(count, 1) << "edge used twice in one direction";
+    ASSERT_TRUE(edges.contains({edge.second, edge.first})) << "open edge";
+  }
+}
+
+double volume(const HandModel& model, const PosedHand& hand) {
+  double sum = 0;
+  for (const Triangle& t : model.triangles()) {
+    const auto p = [&](int i) { return hand.vertices[t.vertices[i]].cast<double>().eval(); };
+    sum += p(0).dot(p(1).cross(p(2))) / 6;
+  }
+  return sum;
+}
+
+TEST(HandModel, is_closed_after_cutting_for_both_sides_and_subjects) {
+  for (const Side side : {Side::right, Side::left}) {
+    for (const HandShape& shape : {HandShape{}, second_subject()}) {
+      const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH, side, shape);
+      expect_closed(model);
+      // Outward orientation; a hand with 6 cm of forearm holds 0.2 to 0.6 litres.
+      const double litres = 1000 * volume(model, model.pose(Posture::Zero()));
+      EXPECT_GT(litres, 0.2);
+      EXPECT_LT(litres, 0.6);
+    }
+  }
+}
+
+TEST(HandModel, cutting_adds_no_surface_and_loses_none) {
+  const RiggedMesh mesh = load_rigged_mesh(GLOVEBENCH_HAND_MESH);
+  std::vector<PatchScores> scores = patch_scores(mesh, 0);
+  const GlovedMesh cut = cut_patches(mesh, scores);
+  const auto area = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+    return 0.5 * (b - a).cross(c - a).norm();
+  };
+  double before = 0, after = 0;
+  for (const auto& t : mesh.triangles) {
+    before += area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  }
+  for (const Triangle& t : cut.triangles) {
+    after += area(cut.vertices[t.vertices[0]], cut.vertices[t.vertices[1]], cut.vertices[t.vertices[2]]);
+  }
+  EXPECT_NEAR(after, before, 1e-12);
+  EXPECT_GT(cut.triangles.size(), mesh.triangles.size());
+}
+
+TEST(HandModel, has_twenty_patches_two_of_each_color) {
+  std::map<int, int> triangles_of;
+  for (const Triangle& t : right_hand().triangles()) {
+    ++triangles_of[t.patch];
+    EXPECT_EQ(t.label, patch_labels()[t.patch]);
+  }
+  EXPECT_EQ(triangles_of.size(), static_cast<size_t>(kPatchCount));
+  std::map<int, int> patches_of;
+  for (const uint8_t label : patch_labels()) ++patches_of[label];
+  EXPECT_EQ(patches_of.size(), static_cast<size_t>(kColorCount));
+  for (const auto& [label, count] : patches_of) EXPECT_EQ(count, 2) << int{label};
+}
+
+TEST(HandModel, is_rooted_at_the_palm) {
+  const PosedHand hand = right_hand().pose(Posture::Zero());
+  const Eigen::Vector3d wrist = joint_position(hand, "wrist");
+  const Eigen::Vector3d mcp = joint_position(hand, "middle-finger-phalanx-proximal");
+  EXPECT_LT((wrist + mcp).norm(), 1e-12);
+  EXPECT_NEAR(wrist.x(), 0, 1e-12);
+  EXPECT_NEAR(wrist.y(), 0, 1e-12);
+  EXPECT_GT(wrist.z(), 0.03);
+  // The right thumb is on the left when the back of the hand is seen with the fingers up.
+  EXPECT_LT(joint_position(hand, "thumb-tip").x(), -0.02);
+  EXPECT_GT(joint_position(hand, "pinky-finger-tip").x(), 0.02);
+}
+
+TEST(HandModel, follows_hand_computed_kinematics) {
+  const PosedHand zero = right_hand().pose(Posture::Zero());
+  const Eigen::Vector3d mcp = joint_position(zero, "index-finger-phalanx-proximal");
+  const Eigen::Vector3d pip = joint_position(zero, "index-finger-phalanx-intermediate");
+  const Eigen::Vector3d bone = pip - mcp;
+  EXPECT_NEAR(bone.norm(), 0.0379, 1e-9);  // the corrected length
+
+  // 90 degrees of MCP flexion: what pointed to -z points to -y (palmar), x stays.
+  Posture flexed = Posture::Zero();
+  flexed[kIndexMcpFlexion] = radians_from_degrees(90);
+  const Eigen::Vector3d bent =
+      joint_position(right_hand().pose(flexed), "index-finger-phalanx-intermediate") - mcp;
+  EXPECT_LT((bent - Eigen::Vector3d(bone.x(), bone.z(), -bone.y())).norm(), 1e-12);
+  EXPECT_LT(bent.y(), -0.03);
+
+  // 30 degrees of abduction turn towards the thumb (-x): (x, y, z) -> (cx + sz, y, -sx + cz).
+  Posture abducted = Posture::Zero();
+  abducted[kIndexMcpAbduction] = radians_from_degrees(30);
+  const Eigen::Vector3d turned =
+      joint_position(right_hand().pose(abducted), "index-finger-phalanx-intermediate") - mcp;
+  const double c = std::cos(radians_from_degrees(30)), s = 0.5;
+  EXPECT_LT(
+      (turned - Eigen::Vector3d(c * bone.x() + s * bone.z(), bone.y(), -s * bone.x() + c * bone.z())).norm(),
+      1e-12);
+  EXPECT_LT(turned.x(), -0.015);
+
+  // Abduction first: flexion bends about the abducted axis, so 90 degrees of it end at -y whatever the abduction.
+  Posture both = flexed;
+  both[kIndexMcpAbduction] = radians_from_degrees(30);
+  const Eigen::Vector3d combined =
+      joint_position(right_hand().pose(both), "index-finger-phalanx-intermediate") - mcp;
+  EXPECT_NEAR(combined.y(), bent.y(), 1e-12);
+}
+
+TEST(HandModel, wrist_angles_move_only_forearm_and_cuff) {
+  Posture posture = Posture::Zero();
+  const PosedHand straight = right_hand().pose(posture);
+  posture[kWristFlexion] = radians_from_degrees(40);
+  const PosedHand flexed = right_hand().pose(posture);
+  for (int j = 0; j < kForearmJoint; ++j) {
+    EXPECT_TRUE(flexed.T_hand_joint[j].isApprox(straight.T_hand_joint[j], 0)) << joint_name(j);
+  }
+  // Flexing the wrist brings palm and forearm together: the forearm's end (+z) drops to the palmar side (-y).
+  const Eigen::Vector3d end(0, 0, 0.05);
+  EXPECT_LT((flexed.T_hand_joint[kForearmJoint] * end).y(), -0.02);
+}
+
+TEST(HandModel, left_hand_is_the_mirror_image) {
+  const HandModel left = HandModel::load(GLOVEBENCH_HAND_MESH, Side::left);
+  Posture posture = Posture::Zero();
+  posture[kThumbCmcAbduction] = 0.4;
+  posture[kIndexMcpAbduction] = 0.2;
+  posture[kRingPipFlexion] = 1.0;
+  const PosedHand r = right_hand().pose(posture), l = left.pose(posture);
+  ASSERT_EQ(r.vertices.size(), l.vertices.size());
+  for (size_t v = 0; v < r.vertices.size(); ++v) {
+    ASSERT_EQ(l.vertices[v], Eigen::Vector3f(-r.vertices[v].x(), r.vertices[v].y(), r.vertices[v].z()));
+  }
+}
+
+TEST(HandModel, each_angle_moves_its_patches_and_no_other) {
+  const HandModel& model = right_hand();
+  const PosedHand zero = model.pose(Posture::Zero());
+  for (int a = 0; a < kAngleCount; ++a) {
+    Posture posture = Posture::Zero();
+    posture[a] = radians_from_degrees(20);
+    const PosedHand moved = model.pose(posture);
+    std::map<int, std::pair<double, int>> travel;  // patch -> sum, count
+    for (const Triangle& t : model.triangles()) {
+      for (const uint32_t v : t.vertices) {
+        travel[t.patch].first += (moved.vertices[v] - zero.vertices[v]).norm();
+        ++travel[t.patch].second;
+      }
+    }
+    for (const auto& [patch, sum] : travel) {
+      const double mean = sum.first / sum.second;
+      const bool named = patches_moved()[a] >> patch & 1;
+      // Blended weights at the borders move a neighbor a little; 20 degrees move the own patch by millimetres.
+      if (named) {
+        EXPECT_GT(mean, 0.0006) << angle_infos()[a].name << " patch " << patch;
+      }
+      if (!named) {
+        EXPECT_LT(mean, 0.0022) << angle_infos()[a].name << " patch " << patch;
+      }
+    }
+  }
+}
+
+TEST(HandModel, second_subject_is_five_percent_larger_with_other_segments) {
+  const HandModel other = HandModel::load(GLOVEBENCH_HAND_MESH, Side::right, second_subject());
+  const PosedHand a = right_hand().pose(Posture::Zero()), b = other.pose(Posture::Zero());
+  const auto length = [](const PosedHand& hand, int from, int to) {
+    return (hand.T_hand_joint[from].translation() - hand.T_hand_joint[to].translation()).norm();
+  };
+  EXPECT_NEAR(length(b, kWristJoint, 11) / length(a, kWristJoint, 11), 1.05, 1e-9);
+  // Index proximal is 4% shorter before the scale; its offset lies along the bone within a few degrees.
+  EXPECT_NEAR(length(b, 6, 7) / length(a, 6, 7), 1.05 * 0.96, 0.003);
+  EXPECT_NE(other.hash(), right_hand().hash());
+}
+
+TEST(HandModel, refuses_a_missing_or_altered_mesh) {
+  EXPECT_THROW(HandModel::load("no-such-file.glb"), Error);
+  const std::string path = testing::TempDir() + "altered.glb";
+  {
+    std::ifstream in(GLOVEBENCH_HAND_MESH, std::ios::binary);
+    std::string content((std::istreambuf_iterator<char>(in)), {});
+    content[5000] ^= 1;
+    std::ofstream(path, std::ios::binary) << content;
+  }
+  try {
+    HandModel::load(path);
+    FAIL() << "an altered mesh was accepted";
+  } catch (const Error& e) {
+    EXPECT_THAT(std::string(e.what()), testing::HasSubstr("checksum"));
+  }
+}
+
+}  // namespace
+}  // namespace glovebench

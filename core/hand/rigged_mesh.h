@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace glovebench {
+
+/// Up to four joints that move a vertex; weights are >= 0 and sum to 1, unused slots have weight 0.
+struct Influence {
+  std::array<uint8_t, 4> joint = {0, 0, 0, 0};
+  std::array<float, 4> weight = {0, 0, 0, 0};
+
+  float weight_of(int j) const;
+};
+
+/// A closed triangle mesh with a bind pose. All coordinates in one frame, metres.
+struct RiggedMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Influence> influences;               ///< one a vertex
+  std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+  std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< bind pose, by joint index (skeleton.h)
+};
+
+/// Loads generic-hand/right.glb of npm @webxr-input-profiles/assets 1.0.20, welded by position. The frame is the
+/// file's. Throws Error if the file is missing, altered (checksum), or cannot be parsed.
+RiggedMesh load_rigged_mesh(const std::string& path);
+
+}  // namespace glovebench
