@@ -24,16 +24,6 @@ std::string temporary_name(const std::string& path) {
   return fmt::format("{}.tmp-{}-{}", path, getpid(), counter++);
 }
 
-void write_descriptor(int descriptor, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) throw Error(std::strerror(errno));
-    content.remove_prefix(static_cast<size_t>(written));
-  }
-  if (::fsync(descriptor) != 0) throw Error(std::strerror(errno));
-}
-
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -47,28 +37,43 @@ std::string read_file(const std::string& path) {
   return std::move(content).str();
 }
 
-void write_file(const std::string& path, std::string_view content) {
+WholeFile::WholeFile(const std::string& path) : path_(path), temporary_(temporary_name(path)) {
   const fs::path folder = fs::path(path).parent_path();
   std::error_code error;
   if (!folder.empty()) fs::create_directories(folder, error);
   if (error) throw Error(folder.string(), "folder", error.message(), "a folder that can be written");
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "a file that can be written");
+}
 
-  const std::string temporary = temporary_name(path);
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (descriptor < 0) throw Error(path, "file", std::strerror(errno), "a file that can be written");
-  try {
-    write_descriptor(descriptor, content);
-  } catch (const Error& e) {
-    ::close(descriptor);
-    ::unlink(temporary.c_str());
-    throw Error(path, "file", e.what(), "room to write it whole");
+WholeFile::~WholeFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(temporary_.c_str());
+}
+
+void WholeFile::append(std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor_, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) throw Error(path_, "file", std::strerror(errno), "room to write it whole");
+    content.remove_prefix(static_cast<size_t>(written));
   }
-  ::close(descriptor);
-  if (::rename(temporary.c_str(), path.c_str()) != 0) {
-    const std::string reason = std::strerror(errno);
-    ::unlink(temporary.c_str());
-    throw Error(path, "file", reason, "a file that can be replaced");
+}
+
+void WholeFile::commit() {
+  if (::fsync(descriptor_) != 0) throw Error(path_, "file", std::strerror(errno), "room to write it whole");
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    throw Error(path_, "file", std::strerror(errno), "a file that can be replaced");
   }
+  ::close(descriptor_);
+  descriptor_ = -1;
+}
+
+void write_file(const std::string& path, std::string_view content) {
+  WholeFile file(path);
+  file.append(content);
+  file.commit();
 }
 
 }  // namespace glovebench

@@ -8,8 +8,26 @@ namespace glovebench {
 /// The whole content of a file. Throws Error if it is missing or cannot be read.
 std::string read_file(const std::string& path);
 
-/// Writes a file whole: to a temporary name beside the target, flushed, then renamed, so that a reader sees
-/// the old content or the new one and a full disk leaves the old one. Creates missing folders. Throws Error.
+/// A file that is written whole: to a temporary name beside the target, flushed, then renamed by `commit`, so that
+/// a reader sees the old content or the new one and a full disk leaves the old one. Creates missing folders.
+/// Without `commit` nothing stays. Every function throws Error.
+class WholeFile {
+ public:
+  explicit WholeFile(const std::string& path);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void append(std::string_view content);
+  void commit();
+
+ private:
+  std::string path_;
+  std::string temporary_;
+  int descriptor_ = -1;
+};
+
+/// Writes all of a file through WholeFile.
 void write_file(const std::string& path, std::string_view content);
 
 }  // namespace glovebench

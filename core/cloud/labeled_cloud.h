@@ -15,8 +15,8 @@ struct WorkingVolume {
 };
 
 struct LabeledPoint {
-  Eigen::Vector3f p_camera;  ///< m
-  uint8_t label = 0;         ///< 1..kColorCount
+  Eigen::Vector3f p;  ///< m; camera frame in a cloud
+  uint8_t label = 0;  ///< 1..kColorCount
 };
 
 /// The color-labeled point cloud C of equation (1), in row-major order of its pixels, with what is needed to

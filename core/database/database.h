@@ -3,11 +3,14 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/database/distance_field.h"
 #include "core/database/tiny_image.h"
 #include "core/database/view_renderer.h"
+#include "core/database/view_sphere.h"
 #include "core/hand/hand_model.h"
 
 namespace glovebench {
@@ -27,13 +30,6 @@ struct ViewConfig {
   double field_cap_share = 0.5;  ///< largest distance, also that of an absent color, as a share of the side, (0, 1]
 };
 
-inline constexpr int kCameraPositions = 42;                              ///< an icosahedron subdivided once
-inline constexpr int kInPlaneRotations = 18;                             ///< 20 degrees apart
-inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;  ///< 756
-
-/// R_view_hand of the 756 views: a camera that looks at the hand origin. View = position * 18 + rotation.
-const std::vector<Eigen::Matrix3d>& view_rotations();
-
 /// The image database of section III: 756 views of each posture, as tiny images of four sizes with one
 /// distance field a color. Entry = posture * 756 + view. Immutable, shared between threads.
 class Database {
@@ -47,7 +43,7 @@ class Database {
   /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it; `sizes` are the
   /// tiny-image sizes whose fields are wanted.
   void save(const std::string& path) const;
-  static Database load(const std::string& path, const std::vector<int>& sizes = {8, 16, 32, 64});
+  static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
   /// What a database made of these inputs would have as `hash()`.
   static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);
 
@@ -61,19 +57,20 @@ class Database {
   /// Hash of all inputs.
   const std::string& hash() const { return hash_; }
 
-  /// Labels of one entry, size*size.
+  /// Labels of one entry, size*size. Throws Error if that size was not loaded.
   const uint8_t* labels(int size, int entry) const;
   /// Distance fields of one entry: kColorCount fields of size*size, in steps of 1/kFieldScale px, chamfer metric,
   /// capped at the view configuration's cap.
   const uint8_t* fields(int size, int entry) const;
-  bool has_fields(int size) const { return sizes_.contains(size) && !sizes_.at(size).fields.empty(); }
+  bool has_size(int size) const { return sizes_.contains(size); }
 
-  static constexpr int kFieldScale = 3;  ///< a chamfer 3-4 step of one pixel is 3
  private:
   struct SizeData {
     std::vector<uint8_t> labels;  ///< [entry][pixel]
     std::vector<uint8_t> fields;  ///< [entry][color][pixel]
   };
+
+  const SizeData& data(int size) const;
 
   PostureSet postures_;
   Side side_ = Side::right;

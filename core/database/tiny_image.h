@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/base/image.h"
+#include "core/camera/pinhole_camera.h"
 
 namespace glovebench {
 
@@ -18,6 +19,9 @@ struct Square {
 
 /// The square around the bounding box of all labeled pixels, centered on it; side 0 if there are none.
 Square bounding_square(const LabelImage& labels);
+
+/// Direction from the camera through the middle of a square, unit length.
+Eigen::Vector3d square_ray(const Square& square, const PinholeCamera& camera);
 
 /// The square scaled to size x size: each cell takes the label that the most pixels under it have (0 counts;
 /// ties go to the glove, then to the smaller label).

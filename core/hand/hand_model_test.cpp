@@ -109,8 +109,7 @@ TEST(HandModel, follows_hand_computed_kinematics) {
   // 90 degrees of MCP flexion: what pointed to -z points to -y (palmar), x stays.
   Posture flexed = Posture::Zero();
   flexed[kIndexMcpFlexion] = radians_from_degrees(90);
-  const Eigen::Vector3d bent =
-      joint_position(right_hand().pose(flexed), "index-finger-phalanx-intermediate") - mcp;
+  const Eigen::Vector3d bent = joint_position(right_hand().pose(flexed), "index-finger-phalanx-intermediate") - mcp;
   EXPECT_LT((bent - Eigen::Vector3d(bone.x(), bone.z(), -bone.y())).norm(), 1e-12);
   EXPECT_LT(bent.y(), -0.03);
 
@@ -120,9 +119,8 @@ TEST(HandModel, follows_hand_computed_kinematics) {
   const Eigen::Vector3d turned =
       joint_position(right_hand().pose(abducted), "index-finger-phalanx-intermediate") - mcp;
   const double c = std::cos(radians_from_degrees(30)), s = 0.5;
-  EXPECT_LT(
-      (turned - Eigen::Vector3d(c * bone.x() + s * bone.z(), bone.y(), -s * bone.x() + c * bone.z())).norm(),
-      1e-12);
+  EXPECT_LT((turned - Eigen::Vector3d(c * bone.x() + s * bone.z(), bone.y(), -s * bone.x() + c * bone.z())).norm(),
+            1e-12);
   EXPECT_LT(turned.x(), -0.015);
 
   // Abduction first: flexion bends about the abducted axis, so 90 degrees of it end at -y whatever the abduction.

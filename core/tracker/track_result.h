@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/database/look_up.h"
 #include "core/hand/posture.h"
 
 namespace glovebench {
@@ -25,14 +26,6 @@ enum class TrackStatus {
 };
 std::string_view to_string(TrackStatus status);
 inline constexpr int kTrackStatusCount = 10;
-
-/// One of the k nearest database entries, best first.
-struct Match {
-  int entry = 0;
-  int posture = 0;  ///< index in the database's postures
-  int view = 0;     ///< 0..755
-  float error = 0;  ///< equation (2), in pixels of the last cascade stage
-};
 
 /// The tracker's answer for one frame: (theta, R, P) of section III-C and what led to it.
 struct TrackResult {

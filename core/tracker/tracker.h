@@ -14,7 +14,14 @@
 
 namespace glovebench {
 
-struct FrameTrace;
+/// What each stage of one frame made.
+struct FrameTrace {
+  DepthImage depth;
+  RegisteredImage mapped;
+  LabelImage labels;
+  LabeledCloud cloud;
+  LabelImage tiny;  ///< of the last cascade stage
+};
 
 /// Told the name of each stage when it begins ("register", "segment", ...; "" at the end of the frame), so
 /// that a caller who has a clock can time them.
@@ -42,15 +49,6 @@ class Tracker {
   std::shared_ptr<const Database> database_;
   std::shared_ptr<const ColorTable> table_;
   Smoother smoother_;
-};
-
-/// What each stage of one frame made.
-struct FrameTrace {
-  DepthImage depth;
-  RegisteredImage mapped;
-  LabelImage labels;
-  LabeledCloud cloud;
-  LabelImage tiny;  ///< of the last cascade stage
 };
 
 }  // namespace glovebench

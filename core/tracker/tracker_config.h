@@ -7,21 +7,10 @@
 
 #include "core/camera/registration.h"
 #include "core/cloud/labeled_cloud.h"
+#include "core/database/look_up.h"
+#include "core/pose/icp.h"
 
 namespace glovebench {
-
-/// One stage of the look-up: keep the `keep` nearest entries by images of `size` px.
-struct CascadeStage {
-  int size = 64;
-  int keep = 3;
-
-  friend bool operator==(const CascadeStage&, const CascadeStage&) = default;
-};
-using Cascade = std::vector<CascadeStage>;
-/// "16:500,64:3". Throws Error if malformed or impossible (unknown size, a stage that keeps more than the one
-/// before it).
-Cascade parse_cascade(std::string_view text);
-std::string to_string(const Cascade& cascade);
 
 struct SegmentationConfig {
   bool majority_filter = false;    ///< 3x3 majority of the labels; not in the paper
@@ -31,15 +20,7 @@ struct SegmentationConfig {
 struct LookupConfig {
   Cascade cascade = {{16, 500}, {64, 3}};  ///< the paper's choice (section IV-B)
   double interpolation_epsilon = 0.01;     ///< eps in the weights 1 / (E + eps), px of the last stage, > 0
-  double max_matching_error = 8.0;         ///< above it the frame is `poor_match`, px at 64 px, > 0
-};
-
-struct IcpConfig {
-  int max_points = 1000;             ///< uniform stride down to at most this many, >= 3
-  int max_iterations = 60;           ///< >= 1
-  double convergence_share = 1e-3;   ///< stop when the mean distance changes by less than this share, > 0
-  bool cull_each_iteration = false;  ///< back faces: before the first iteration (paper) or in each
-  double max_residual = 0.02;        ///< above it the frame is `poor_alignment`, m, > 0
+  double max_matching_error = 0.08;  ///< above it the frame is `poor_match`, share of the last stage's side, > 0
 };
 
 struct SmoothingConfig {
@@ -64,6 +45,7 @@ struct TrackerConfig {
   DetectionConfig detection;
   LookupConfig lookup;
   IcpConfig icp;
+  double max_residual = 0.02;  ///< a larger mean distance after the alignment is `poor_alignment`, m, > 0
   SmoothingConfig smoothing;
 
   /// All problems, one per line; empty if there are none.

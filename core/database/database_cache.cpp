@@ -1,0 +1,58 @@
+#include "core/database/database_cache.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+namespace {
+
+/// An exclusive lock on a file; the kernel frees it even if the process is killed.
+class FileLock {
+ public:
+  explicit FileLock(const std::string& path)
+      : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
+    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX) != 0) {
+      throw Error(path, "lock", std::strerror(errno), "a cache folder that can be written");
+    }
+  }
+  ~FileLock() { ::close(descriptor_); }
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+}  // namespace
+
+Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
+                            std::span<const int> sizes) const {
+  const std::string hash = Database::input_hash(postures, model, views);
+  const std::string path = fmt::format("{}/{}-{}.glovedb", folder, postures.name, hash.substr(0, 16));
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(folder, "cache folder", error.message(), "a folder that can be written");
+
+  const FileLock lock(path + ".lock");
+  if (std::filesystem::exists(path)) {
+    try {
+      Database database = Database::load(path, sizes);
+      if (database.hash() == hash) return database;
+      message(path + ": made of other inputs; rebuilding it");
+    } catch (const Error& e) {
+      message(fmt::format("{}; rebuilding it", e.what()));
+    }
+  }
+  Database built = Database::build(postures, model, views, renderers, threads, progress);
+  built.save(path);
+  return built;
+}
+
+}  // namespace glovebench

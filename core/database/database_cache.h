@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/database/database.h"
+
+namespace glovebench {
+
+/// Loads the database of these inputs from `folder`, or builds and stores it there. The file's name holds the hash
+/// of all inputs, so a changed input makes another file. Two processes that want the same one wait for each other;
+/// a damaged file is named through `message` and rebuilt.
+struct DatabaseCache {
+  std::string folder;
+  ViewRendererFactory renderers;
+  int threads = 1;
+  std::function<void(const std::string&)> message = [](const std::string&) {};
+  std::function<void(double)> progress;  ///< share built, 0..1; may be empty
+
+  Database get(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
+               std::span<const int> sizes) const;
+};
+
+}  // namespace glovebench

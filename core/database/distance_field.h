@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/image.h"
+
+namespace glovebench {
+
+/// Stored distances count in steps of 1/kFieldScale px: a chamfer 3-4 step to a neighbor is 3, to a diagonal
+/// one 4.
+inline constexpr int kFieldScale = 3;
+
+/// The distance field of one color by chamfering (section III-B): for each pixel the distance to the nearest pixel
+/// of that color, capped; `cap` everywhere if the color is absent. Units: 1/kFieldScale px. `field` has the image's
+/// size.
+void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
+
+}  // namespace glovebench

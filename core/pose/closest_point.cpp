@@ -1,0 +1,129 @@
+#include "core/pose/closest_point.h"
+
+#include <Eigen/Geometry>
+#include <limits>
+
+namespace glovebench {
+
+/// What the two searches share.
+struct PrunedSearch {
+  static const Surface::Color& color(const Surface& surface, uint8_t label) { return surface.colors_[label]; }
+};
+
+namespace {
+
+struct Best {
+  Eigen::Vector3f p = Eigen::Vector3f::Zero();
+  float squared = std::numeric_limits<float>::infinity();
+  int face = -1;
+
+  /// Equally close faces: the first wins, in whatever order they are tried.
+  void consider(const Eigen::Vector3f& point, const std::vector<Surface::Face>& faces, int f) {
+    const Eigen::Vector3f candidate = closest_on_triangle(point, faces[f]);
+    const float d = (candidate - point).squaredNorm();
+    if (d < squared || (d == squared && f < face)) *this = {candidate, d, f};
+  }
+  ClosestPoint result() const {
+    if (face < 0) return {};
+    return {p, std::sqrt(squared), face};
+  }
+};
+
+}  // namespace
+
+Surface::Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand) {
+  Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (uint32_t t = 0; t < model.triangles().size(); ++t) {
+    const Triangle& triangle = model.triangles()[t];
+    const Face face{hand.vertices[triangle.vertices[0]], hand.vertices[triangle.vertices[1]],
+                    hand.vertices[triangle.vertices[2]], t};
+    const Eigen::Vector3f normal = (face.b - face.a).cross(face.c - face.a);
+    const Eigen::Vector3f to_viewer = viewpoint_hand - face.a;
+    const float facing = normal.dot(to_viewer);
+    if (facing <= 0) continue;
+    Color& color = colors_[triangle.label];
+    color.faces.push_back(face);
+    const Eigen::Vector3f middle = (face.a + face.b + face.c) / 3;
+    const float radius = std::sqrt(std::max(
+        {(face.a - middle).squaredNorm(), (face.b - middle).squaredNorm(), (face.c - middle).squaredNorm()}));
+    color.x.push_back(middle.x());
+    color.y.push_back(middle.y());
+    color.z.push_back(middle.z());
+    color.radius.push_back(radius * 1.0001f + 1e-7f);  // never below the true one after rounding
+    const double area = facing / to_viewer.norm();
+    weighted += area * middle.cast<double>();
+    total += area;
+  }
+  if (total > 0) center_ = (weighted / total).cast<float>();
+}
+
+bool Surface::empty() const {
+  return std::all_of(colors_.begin(), colors_.end(), [](const Color& c) { return c.faces.empty(); });
+}
+
+Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Face& face) {
+  const Eigen::Vector3f ab = face.b - face.a, ac = face.c - face.a, ap = p - face.a;
+  const float d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return face.a;
+  const Eigen::Vector3f bp = p - face.b;
+  const float d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return face.b;
+  const float vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return face.a + d1 / (d1 - d3) * ab;
+  const Eigen::Vector3f cp = p - face.c;
+  const float d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return face.c;
+  const float vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return face.a + d2 / (d2 - d6) * ac;
+  const float va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    return face.b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (face.c - face.b);
+  }
+  const float scale = 1 / (va + vb + vc);
+  return face.a + ab * (vb * scale) + ac * (vc * scale);
+}
+
+std::vector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand, const Surface& surface) {
+  std::vector<ClosestPoint> result;
+  result.reserve(points_hand.size());
+  for (const LabeledPoint& point : points_hand) {
+    const std::vector<Surface::Face>& faces = surface.faces(point.label);
+    Best best;
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f) best.consider(point.p, faces, f);
+    result.push_back(best.result());
+  }
+  return result;
+}
+
+std::vector<ClosestPoint> closest_points(std::span<const LabeledPoint> points_hand, const Surface& surface,
+                                         std::span<const ClosestPoint> previous) {
+  std::vector<ClosestPoint> result;
+  result.reserve(points_hand.size());
+  std::vector<float> gap;  // squared distance to each sphere's center
+  for (size_t i = 0; i < points_hand.size(); ++i) {
+    const Eigen::Vector3f& p = points_hand[i].p;
+    const auto& color = PrunedSearch::color(surface, points_hand[i].label);
+    const int count = static_cast<int>(color.faces.size());
+    Best best;
+    if (!previous.empty() && previous[i].face >= 0 && previous[i].face < count) {
+      best.consider(p, color.faces, previous[i].face);
+    }
+    gap.resize(count);
+    for (int f = 0; f < count; ++f) {
+      const float dx = color.x[f] - p.x(), dy = color.y[f] - p.y(), dz = color.z[f] - p.z();
+      gap[f] = dx * dx + dy * dy + dz * dz;
+    }
+    float reach = std::sqrt(best.squared);
+    for (int f = 0; f < count; ++f) {
+      const float limit = (reach + color.radius[f]) * 1.0001f;
+      if (gap[f] > limit * limit) continue;
+      best.consider(p, color.faces, f);
+      reach = std::sqrt(best.squared);
+    }
+    result.push_back(best.result());
+  }
+  return result;
+}
+
+}  // namespace glovebench

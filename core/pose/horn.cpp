@@ -1,0 +1,54 @@
+#include "core/pose/horn.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "core/base/check.h"
+
+namespace glovebench {
+namespace {
+
+Eigen::Vector3d mean(std::span<const Eigen::Vector3f> points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& p : points) sum += p.cast<double>();
+  return sum / static_cast<double>(points.size());
+}
+
+/// The points spread in one direction only, within a thousandth of it.
+bool on_a_line(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& center) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d d = p.cast<double>() - center;
+    covariance += d * d.transpose();
+  }
+  const Eigen::Vector3d spread =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  return spread[1] <= 1e-6 * spread[2];
+}
+
+}  // namespace
+
+std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> from,
+                                              std::span<const Eigen::Vector3f> to) {
+  check(from.size() == to.size(), "points are paired");
+  if (from.size() < 3) return {};
+  const Eigen::Vector3d center_from = mean(from), center_to = mean(to);
+  if (on_a_line(from, center_from) || on_a_line(to, center_to)) return {};
+
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+  for (size_t i = 0; i < from.size(); ++i) {
+    S += (from[i].cast<double>() - center_from) * (to[i].cast<double>() - center_to).transpose();
+  }
+  Eigen::Matrix4d N;  // Horn 1987, section 4.A; quaternion order w, x, y, z
+  N << S.trace(), S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0),                   //
+      S(1, 2) - S(2, 1), S(0, 0) - S(1, 1) - S(2, 2), S(0, 1) + S(1, 0), S(2, 0) + S(0, 2),  //
+      S(2, 0) - S(0, 2), S(0, 1) + S(1, 0), S(1, 1) - S(0, 0) - S(2, 2), S(1, 2) + S(2, 1),  //
+      S(0, 1) - S(1, 0), S(2, 0) + S(0, 2), S(1, 2) + S(2, 1), S(2, 2) - S(0, 0) - S(1, 1);
+  const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(N).eigenvectors().col(3);
+
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+  T.translation() = center_to - T.linear() * center_from;
+  return T;
+}
+
+}  // namespace glovebench

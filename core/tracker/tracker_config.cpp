@@ -1,0 +1,182 @@
+#include "core/tracker/tracker_config.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Range {
+  double min;
+  double max;
+  bool open_below = false;  ///< min itself is not allowed
+
+  bool contains(double x) const { return (open_below ? x > min : x >= min) && x <= max; }
+  std::string text() const {
+    if (max == kInfinity) return fmt::format("{} {}", open_below ? "above" : "at least", min);
+    return fmt::format("{}{}, {}]", open_below ? "(" : "[", min, max);
+  }
+};
+
+constexpr Range kPositive{0, kInfinity, true};
+constexpr Range kShare{0, 1, true};
+
+/// Every field of a configuration, once: section, key, value and range. Reading, writing and checking go through
+/// here.
+template <typename Config, typename Visit>
+void visit_fields(Config& c, Visit&& visit) {
+  visit("registration", "occlusion_tolerance_m", c.registration.occlusion_tolerance, kPositive);
+  visit("segmentation", "majority_filter", c.segmentation.majority_filter, Range{});
+  visit("segmentation", "largest_component", c.segmentation.largest_component, Range{});
+  visit("volume", "z_min_m", c.volume.z_min, kPositive);
+  visit("volume", "z_max_m", c.volume.z_max, kPositive);
+  visit("detection", "min_pixels", c.detection.min_pixels, Range{3, 307200});
+  visit("detection", "second_hand_share", c.detection.second_hand_share, kShare);
+  visit("detection", "component_depth_step_m", c.detection.component_depth_step, kPositive);
+  visit("detection", "max_border_pixels", c.detection.max_border_pixels, Range{0, 307200});
+  visit("lookup", "cascade", c.lookup.cascade, Range{});
+  visit("lookup", "interpolation_epsilon_px", c.lookup.interpolation_epsilon, kPositive);
+  visit("lookup", "max_matching_error_share", c.lookup.max_matching_error, kPositive);
+  visit("icp", "max_points", c.icp.max_points, Range{3, 307200});
+  visit("icp", "max_iterations", c.icp.max_iterations, Range{1, 10000});
+  visit("icp", "convergence_share", c.icp.convergence_share, kShare);
+  visit("icp", "cull_each_iteration", c.icp.cull_each_iteration, Range{});
+  visit("icp", "max_residual_m", c.max_residual, kPositive);
+  visit("smoothing", "posture_keep", c.smoothing.posture_keep, Range{0, 0.999});
+  visit("smoothing", "pose_keep", c.smoothing.pose_keep, Range{0, 0.999});
+  visit("smoothing", "forget_after_frames", c.smoothing.forget_after, Range{1, 1e6});
+}
+
+[[noreturn]] void wrong_type(const std::string& where, const std::string& field, const json& found,
+                             const std::string& expected) {
+  throw Error(where, field, found.dump(), expected);
+}
+
+void read(double& value, const json& j, const std::string& where, const std::string& field) {
+  if (!j.is_number()) wrong_type(where, field, j, "a number");
+  value = j;
+}
+void read(int& value, const json& j, const std::string& where, const std::string& field) {
+  if (!j.is_number_integer() || j < std::numeric_limits<int>::min() || j > std::numeric_limits<int>::max()) {
+    wrong_type(where, field, j, "a whole number");
+  }
+  value = j;
+}
+void read(bool& value, const json& j, const std::string& where, const std::string& field) {
+  if (!j.is_boolean()) wrong_type(where, field, j, "true or false");
+  value = j;
+}
+void read(Cascade& value, const json& j, const std::string& where, const std::string& field) {
+  if (!j.is_string()) wrong_type(where, field, j, "a cascade such as \"16:500,64:3\"");
+  try {
+    value = parse_cascade(j.get<std::string>());
+  } catch (const Error& e) {
+    throw Error(where + ": " + field + ": " + e.what());
+  }
+}
+
+json written(double value) {
+  return value;
+}
+json written(int value) {
+  return value;
+}
+json written(bool value) {
+  return value;
+}
+json written(const Cascade& value) {
+  return to_string(value);
+}
+
+template <typename Number>
+void check_range(const std::string& field, Number value, const Range& range, std::vector<std::string>& problems) {
+  if (range.contains(value)) return;
+  problems.push_back(fmt::format("{}: found {}, expected {}", field, value, range.text()));
+}
+template <>
+void check_range(const std::string&, bool, const Range&, std::vector<std::string>&) {}
+void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
+  try {
+    parse_cascade(to_string(value));
+  } catch (const Error& e) {
+    problems.push_back(field + ": " + e.what());
+  }
+}
+
+/// Every key of the object must be one that the fields name.
+void refuse_unknown_keys(const json& j, const std::string& where) {
+  std::set<std::string> sections = {"profile"}, keys;
+  TrackerConfig any;
+  visit_fields(any, [&](const char* section, const char* key, auto&, const Range&) {
+    sections.insert(section);
+    keys.insert(fmt::format("{}.{}", section, key));
+  });
+  const auto listed = [](const std::set<std::string>& names) {
+    return fmt::format("one of {}", fmt::join(names, ", "));
+  };
+  for (const auto& [section, content] : j.items()) {
+    if (!sections.contains(section)) throw Error(where, section, "an unknown key", listed(sections));
+    if (section == "profile") continue;
+    if (!content.is_object()) wrong_type(where, section, content, "an object");
+    for (const auto& [key, value] : content.items()) {
+      const std::string field = section + "." + key;
+      if (!keys.contains(field)) throw Error(where, field, "an unknown key", listed(keys));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> TrackerConfig::problems() const {
+  std::vector<std::string> problems;
+  visit_fields(*this, [&](const char* section, const char* key, const auto& value, const Range& range) {
+    check_range(fmt::format("{}.{}", section, key), value, range, problems);
+  });
+  if (volume.z_min >= volume.z_max) {
+    problems.push_back(
+        fmt::format("volume.z_min_m: found {}, expected less than z_max_m = {}", volume.z_min, volume.z_max));
+  }
+  return problems;
+}
+
+TrackerConfig profile(const std::string& name) {
+  if (name == "paper") return {};
+  throw Error("profile", "name", name, "one of paper");
+}
+
+TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const std::string& where) {
+  if (!j.is_object()) wrong_type(where, "configuration", j, "an object");
+  refuse_unknown_keys(j, where);
+  TrackerConfig config = base;
+  if (j.contains("profile")) {
+    if (!j["profile"].is_string()) wrong_type(where, "profile", j["profile"], "a name");
+    config = profile(j["profile"]);
+  }
+  visit_fields(config, [&](const char* section, const char* key, auto& value, const Range&) {
+    if (!j.contains(section) || !j[section].contains(key)) return;
+    read(value, j[section][key], where, fmt::format("{}.{}", section, key));
+  });
+  const std::vector<std::string> problems = config.problems();
+  if (!problems.empty()) throw Error(fmt::format("{}: {}", where, fmt::join(problems, "; ")));
+  return config;
+}
+
+json to_json(const TrackerConfig& config) {
+  json j;
+  j["profile"] = config.profile;
+  visit_fields(config, [&](const char* section, const char* key, const auto& value, const Range&) {
+    j[section][key] = written(value);
+  });
+  return j;
+}
+
+}  // namespace glovebench
