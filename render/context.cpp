@@ -1,0 +1,62 @@
+#include "render/context.h"
+
+#include <GL/osmesa.h>
+
+#include <cstdlib>
+#include <mutex>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+
+namespace glovebench::render {
+namespace {
+
+/// The one place where Mesa is configured. It reads the variable when the first context is made.
+void configure_mesa() {
+  static std::once_flag once;
+  std::call_once(once, [] { setenv("LP_NUM_THREADS", "0", 1); });
+}
+
+}  // namespace
+
+/// OSMesa wants a window-like buffer; everything is drawn into framebuffer objects instead.
+struct Context::State {
+  OSMesaContext context = nullptr;
+  std::array<uint8_t, 4 * 4 * 4> buffer{};
+};
+
+Context::Context() : state_(std::make_unique<State>()) {
+  configure_mesa();
+  const std::array<int, 15> attributes = {OSMESA_FORMAT,
+                                          OSMESA_RGBA,
+                                          OSMESA_DEPTH_BITS,
+                                          0,
+                                          OSMESA_STENCIL_BITS,
+                                          0,
+                                          OSMESA_ACCUM_BITS,
+                                          0,
+                                          OSMESA_PROFILE,
+                                          OSMESA_CORE_PROFILE,
+                                          OSMESA_CONTEXT_MAJOR_VERSION,
+                                          4,
+                                          OSMESA_CONTEXT_MINOR_VERSION,
+                                          5,
+                                          0};
+  state_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+  if (!state_->context) {
+    throw Error("renderer", "OpenGL context", "refused by OSMesa", "an off-screen OpenGL 4.5 core context");
+  }
+  make_current();
+}
+
+Context::~Context() {
+  OSMesaDestroyContext(state_->context);
+}
+
+void Context::make_current() const {
+  if (OSMesaGetCurrentContext() == state_->context) return;
+  check(OSMesaMakeCurrent(state_->context, state_->buffer.data(), 0x1401 /* GL_UNSIGNED_BYTE */, 4, 4),
+        "an OSMesa context can be made current");
+}
+
+}  // namespace glovebench::render

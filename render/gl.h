@@ -1,0 +1,96 @@
+#pragma once
+
+// OpenGL for the sources of this module only; its headers do not show it.
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glcorearb.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/camera/pinhole_camera.h"
+
+namespace glovebench::render::gl {
+
+/// Nearest and farthest depth that is drawn, m.
+inline constexpr double kNear = 0.05;
+inline constexpr double kFar = 10.0;
+
+/// Camera coordinates (x right, y down, z forward) to OpenGL's clip space, such that the framebuffer's first row is
+/// the image's top row. OpenGL's pixel centers lie at +0.5, the camera's at integers. The mirrored y turns
+/// counter-clockwise triangles clockwise (glFrontFace(GL_CW)).
+Eigen::Matrix4f projection(const PinholeCamera& camera);
+
+/// A compiled and linked program. Compiler errors are broken invariants: the sources are this module's own.
+class Program {
+ public:
+  Program(const std::string& vertex_source, const std::string& fragment_source);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void use() const;
+  void set(const char* name, const Eigen::Matrix4f& value) const;
+  void set(const char* name, const Eigen::Vector3f& value) const;
+  void set(const char* name, float value) const;
+  void set(const char* name, int value) const;
+  void set(const char* name, std::span<const Eigen::Vector4f> values) const;
+
+ private:
+  GLint location(const char* name) const;
+  GLuint id_;
+};
+
+/// Color attachments of the given internal formats and a 32-bit float depth buffer.
+class Framebuffer {
+ public:
+  explicit Framebuffer(std::vector<GLenum> formats) : formats_(std::move(formats)) {}
+  ~Framebuffer();
+  Framebuffer(const Framebuffer&) = delete;
+  Framebuffer& operator=(const Framebuffer&) = delete;
+
+  /// Binds it for drawing; (re)makes its textures only if the size changed.
+  void bind(int width, int height);
+  GLuint texture(int attachment) const { return textures_[attachment]; }
+  /// Copies the pixels of one attachment, row 0 first.
+  void read(int attachment, GLenum format, GLenum type, void* pixels) const;
+
+ private:
+  void release();
+  GLuint attach(GLenum point, GLenum format) const;
+  std::vector<GLenum> formats_;
+  std::vector<GLuint> textures_;
+  GLuint depth_ = 0;
+  GLuint id_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+/// An indexed triangle mesh in OpenGL's memory. Attribute locations are chosen by the caller.
+class VertexArray {
+ public:
+  VertexArray();
+  ~VertexArray();
+  VertexArray(const VertexArray&) = delete;
+  VertexArray& operator=(const VertexArray&) = delete;
+
+  void set_floats(int location, std::span<const Eigen::Vector3f> values, GLenum usage);
+  void set_bytes(int location, std::span<const uint8_t> values);
+  void set_indices(std::span<const uint32_t> indices);
+  void draw() const;
+
+ private:
+  void bind_buffer(int location);
+  GLuint id_ = 0;
+  GLuint indices_ = 0;
+  GLsizei index_count_ = 0;
+  std::vector<GLuint> buffers_;
+};
+
+/// Depth test, culling of back faces, no blending, no dithering: the same in every pass.
+void set_pass_state();
+
+}  // namespace glovebench::render::gl

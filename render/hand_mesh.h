@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/hand/hand_model.h"
+
+namespace glovebench::render {
+
+/// The model's triangles for drawing: a vertex on a patch border stands once for each of its patches, so that label
+/// and patch belong to vertices.
+struct HandMesh {
+  std::vector<uint32_t> source;   ///< vertex of the model
+  std::vector<uint8_t> labels;    ///< 1..kColorCount
+  std::vector<uint8_t> patches;   ///< patch + 1
+  std::vector<uint32_t> indices;  ///< three a triangle, in the model's order
+};
+HandMesh make_hand_mesh(const HandModel& model);
+
+/// One value per vertex of the mesh, from one per vertex of the model.
+std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, const std::vector<Eigen::Vector3f>& values);
+
+/// Unit normals of the posed model's vertices in the hand frame, area-weighted, pointing outwards.
+std::vector<Eigen::Vector3f> vertex_normals(const HandModel& model, const PosedHand& hand);
+
+}  // namespace glovebench::render

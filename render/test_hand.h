@@ -1,0 +1,38 @@
+#pragma once
+
+// The hand that the tests of this module draw.
+
+#include "core/hand/hand_model.h"
+
+namespace glovebench::render {
+
+inline const HandModel& test_hand() {
+  static const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH);
+  return model;
+}
+
+/// Half-closed fingers, so that surfaces cover each other.
+inline Posture test_posture() {
+  Posture posture = Posture::Zero();
+  posture[kWristFlexion] = 0.3;
+  posture[kThumbCmcFlexion] = 0.4;
+  posture[kIndexMcpFlexion] = 0.9;
+  posture[kIndexPipFlexion] = 1.1;
+  posture[kMiddlePipFlexion] = 0.5;
+  return posture;
+}
+
+/// The camera looks down on the back of the hand, whose fingers point up in the image; then turned about x, y, z.
+inline Eigen::Isometry3d test_pose(const Eigen::Vector3d& position,
+                                   const Eigen::Vector3d& turn = {0.4, -0.5, 0.3}) {
+  Eigen::Matrix3d R_camera_hand;
+  R_camera_hand << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
+  T_camera_hand.translation() = position;
+  T_camera_hand.linear() = Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX()) *
+                           Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()) * R_camera_hand;
+  return T_camera_hand;
+}
+
+}  // namespace glovebench::render
