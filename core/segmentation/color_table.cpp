@@ -1,0 +1,134 @@
+#include "core/segmentation/color_table.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+
+namespace glovebench {
+namespace {
+
+// File: this line, the hash of the labels (32 hexadecimal digits) and a line feed, then one byte a cell.
+constexpr std::string_view kMagic = "glovebench color table, version ";
+constexpr std::string_view kVersion = "1\n";
+constexpr size_t kHashLength = 32;
+constexpr size_t kHeaderLength = kMagic.size() + kVersion.size() + kHashLength + 1;
+
+/// 16-bit fixed point, rounded.
+uint8_t channel(int r, int g, int b, int offset) {
+  return static_cast<uint8_t>(std::clamp(((r + g + b + (1 << 15)) >> 16) + offset, 0, 255));
+}
+
+constexpr uint8_t kOutside = kColorCount + 1;  // pads the label image; has no vote
+
+/// A label image with a margin of one pixel.
+class PaddedLabels {
+ public:
+  explicit PaddedLabels(const LabelImage& labels)
+      : stride_(labels.width() + 2), pixels_(size_t(stride_) * (labels.height() + 2), kOutside) {
+    for (int v = 0; v < labels.height(); ++v)
+      std::copy_n(labels.data() + size_t(v) * labels.width(), labels.width(),
+                  &pixels_[size_t(v + 1) * stride_ + 1]);
+  }
+  /// The upper left of the neighborhood of pixel (0, v).
+  const uint8_t* row(int v) const { return &pixels_[size_t(v) * stride_]; }
+  int stride() const { return stride_; }
+
+ private:
+  int stride_;
+  std::vector<uint8_t> pixels_;
+};
+
+uint64_t load_eight(const uint8_t* bytes) {
+  uint64_t word;
+  std::memcpy(&word, bytes, sizeof word);
+  return word;
+}
+
+/// Whether the eight pixels whose neighborhoods begin at `corner` all equal their neighbors.
+bool eight_are_uniform(const uint8_t* corner, int stride) {
+  const uint64_t center = load_eight(corner + stride + 1);
+  uint64_t difference = 0;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) difference |= center ^ load_eight(corner + row * stride + column);
+  return difference == 0;
+}
+
+uint8_t majority(const uint8_t* corner, int stride) {
+  std::array<uint8_t, kOutside + 1> votes{};
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) ++votes[corner[row * stride + column]];
+  uint8_t best = corner[stride + 1];
+  for (uint8_t label = 0; label <= kColorCount; ++label)
+    if (votes[label] > votes[best]) best = label;
+  return best;
+}
+
+}  // namespace
+
+Yuv yuv_from_rgb(const Rgb& rgb) {
+  const int r = rgb[0], g = rgb[1], b = rgb[2];
+  return {channel(19595 * r, 38470 * g, 7471 * b, 0), channel(-11059 * r, -21709 * g, 32768 * b, 128),
+          channel(32768 * r, -27439 * g, -5329 * b, 128)};
+}
+
+ColorTable::ColorTable(std::vector<uint8_t> labels) : labels_(std::move(labels)) {
+  if (labels_.size() != kCells)
+    throw Error("color table", "cells", std::to_string(labels_.size()), std::to_string(kCells));
+  const auto wrong = std::find_if(labels_.begin(), labels_.end(), [](uint8_t l) { return l > kColorCount; });
+  if (wrong != labels_.end())
+    throw Error("color table", "cell " + std::to_string(wrong - labels_.begin()), std::to_string(*wrong),
+                "a label of 0.." + std::to_string(kColorCount));
+}
+
+void ColorTable::save(const std::string& path) const {
+  const std::string cells(labels_.begin(), labels_.end());
+  write_file(path, std::string(kMagic) + std::string(kVersion) + hash_text(cells) + "\n" + cells);
+}
+
+ColorTable ColorTable::load(const std::string& path) {
+  const std::string content = read_file(path);
+  const std::string_view view = content;
+  if (!view.starts_with(kMagic)) throw Error(path, "header", "something else", "a color table");
+  const std::string_view version = view.substr(kMagic.size());
+  if (!version.starts_with(kVersion))
+    throw Error(path, "version", "\"" + std::string(version.substr(0, version.find('\n')).substr(0, 20)) + "\"",
+                "1");
+  if (content.size() != kHeaderLength + kCells)
+    throw Error(path, "size", std::to_string(content.size()) + " bytes",
+                std::to_string(kHeaderLength + kCells) + " bytes");
+  const std::string_view cells = view.substr(kHeaderLength);
+  const std::string expected = hash_text(cells) + "\n";
+  const std::string_view found = view.substr(kHeaderLength - kHashLength - 1, kHashLength + 1);
+  if (found != expected) throw Error(path, "checksum", "another one", "that of the cells");
+  return ColorTable(std::vector<uint8_t>(cells.begin(), cells.end()));
+}
+
+LabelImage segment(const RegisteredImage& mapped, const ColorTable& table) {
+  LabelImage labels(mapped.color.width(), mapped.color.height());
+  for (size_t i = 0; i < labels.size(); ++i)
+    if (mapped.has_color[i]) labels[i] = table.label(mapped.color[i]);
+  return labels;
+}
+
+LabelImage majority_filter(const LabelImage& labels) {
+  const PaddedLabels padded(labels);
+  LabelImage filtered = labels;
+  for (int v = 0; v < labels.height(); ++v) {
+    const uint8_t* row = padded.row(v);
+    for (int u = 0; u < labels.width(); ++u) {
+      // Most of an image is uniform; eight such pixels cost nine reads.
+      if (u + 8 <= labels.width() && eight_are_uniform(row + u, padded.stride())) {
+        u += 7;
+        continue;
+      }
+      filtered(u, v) = majority(row + u, padded.stride());
+    }
+  }
+  return filtered;
+}
+
+}  // namespace glovebench
