@@ -1,0 +1,37 @@
+# Sourced by the scripts beside it: where the repository is, and how it is configured and built.
+# shellcheck shell=bash
+set -euo pipefail
+exec </dev/null # nothing here is interactive, and a closed stdin would hand descriptor 0 to the next file
+
+root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+cd "$root"
+export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
+
+# Runs a command and keeps its output to itself unless the command fails.
+quietly() {
+  local log status=0
+  log="$(mktemp)"
+  "$@" >"$log" 2>&1 || status=$?
+  if [[ $status -ne 0 ]]; then cat "$log" >&2; fi
+  rm -f "$log"
+  return "$status"
+}
+
+# build PRESET CONFIGURE_OPTIONS... [-- TARGETS...]
+build() {
+  local preset="$1" options=()
+  shift
+  while [[ $# -gt 0 && "$1" != -- ]]; do
+    options+=("$1")
+    shift
+  done
+  shift $(($# > 0)) # the --
+  quietly cmake --preset "$preset" "${options[@]}"
+  cmake --build --preset "$preset" ${1:+--target "$@"}
+}
+
+# How each command of the project says that it lacks something.
+fail() {
+  echo "$(basename "$0"): $1" >&2
+  exit 2
+}
