@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+
+#include "core/robot/shadow_hand.h"
+#include "core/tracker/track_result.h"
+
+namespace glovebench {
+
+/// Where the robot's hand shall be and what its joints shall do.
+struct RobotTargets {
+  ShadowHandTargets hand;
+  Eigen::Isometry3d T_base_hand = Eigen::Isometry3d::Identity();  ///< in the arm's base frame, m
+};
+
+/// What is sent to hand and arm for one frame (section V).
+struct RobotCommand {
+  int64_t frame_timestamp_us = 0;  ///< of the frame that was tracked
+  int64_t timestamp_us = 0;        ///< of the command: that of its frame, as nothing here reads a clock
+  TrackStatus status = TrackStatus::no_hand;
+  bool hold = true;                     ///< the frame is lost: the targets are those of the last tracked frame
+  std::optional<RobotTargets> targets;  ///< empty until a first frame was tracked
+};
+
+/// Turns the tracker's answers into commands, in time order. A lost frame repeats the last targets and says so.
+class RobotCommander {
+ public:
+  /// `T_base_camera` is the tracker's frame in the arm's base frame. Throws Error unless it is a finite rigid
+  /// transform.
+  explicit RobotCommander(const Eigen::Isometry3d& T_base_camera);
+  /// Throws Error if a tracked posture or pose is not finite.
+  RobotCommand command(const TrackResult& result);
+
+ private:
+  Eigen::Isometry3d T_base_camera_;
+  std::optional<RobotTargets> last_;
+};
+
+/// Where commands go: a file here; a middleware, a simulation or a safety filter in front of one elsewhere.
+class RobotCommandSink {
+ public:
+  virtual ~RobotCommandSink() = default;
+  virtual void send(const RobotCommand& command) = 0;
+  /// No more commands follow. Throws Error if what was sent could not be delivered.
+  virtual void finish() = 0;
+};
+
+}  // namespace glovebench

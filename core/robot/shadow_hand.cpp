@@ -1,0 +1,73 @@
+#include "core/robot/shadow_hand.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/angles.h"
+#include "core/base/error.h"
+
+namespace glovebench {
+
+const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos() {
+  static constexpr std::array<ShadowJointInfo, kShadowJointCount> infos = {{
+      {"FFJ1", 0, 90, kIndexDipFlexion, +1},    {"FFJ2", 0, 90, kIndexPipFlexion, +1},
+      {"FFJ3", -15, 90, kIndexMcpFlexion, +1},  {"FFJ4", -20, 20, kIndexMcpAbduction, -1},
+      {"MFJ1", 0, 90, kMiddleDipFlexion, +1},   {"MFJ2", 0, 90, kMiddlePipFlexion, +1},
+      {"MFJ3", -15, 90, kMiddleMcpFlexion, +1}, {"MFJ4", -20, 20, kMiddleMcpAbduction, -1},
+      {"RFJ1", 0, 90, kRingDipFlexion, +1},     {"RFJ2", 0, 90, kRingPipFlexion, +1},
+      {"RFJ3", -15, 90, kRingMcpFlexion, +1},   {"RFJ4", -20, 20, kRingMcpAbduction, +1},
+      {"LFJ1", 0, 90, kLittleDipFlexion, +1},   {"LFJ2", 0, 90, kLittlePipFlexion, +1},
+      {"LFJ3", -15, 90, kLittleMcpFlexion, +1}, {"LFJ4", -20, 20, kLittleMcpAbduction, +1},
+      {"LFJ5", 0, 45, std::nullopt, +1},  // fold of the palm: the model's palm is rigid
+      {"THJ1", -15, 90, kThumbIpFlexion, +1},   {"THJ2", -40, 40, kThumbMcpFlexion, +1},
+      {"THJ3", -12, 12, std::nullopt, +1},  // sideways at the thumb's MCP: a hinge in the model
+      {"THJ4", 0, 70, kThumbCmcAbduction, +1},  {"THJ5", -60, 60, kThumbCmcFlexion, +1},
+      {"WRJ1", -40, 28, kWristFlexion, +1},     {"WRJ2", -28, 10, kWristAbduction, +1},
+  }};
+  return infos;
+}
+
+const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos() {
+  static constexpr std::array<ShadowActuatorInfo, kShadowActuatorCount> infos = {{
+      {"FFJ0", kFFJ2, kFFJ1},        {"FFJ3", kFFJ3, std::nullopt}, {"FFJ4", kFFJ4, std::nullopt},
+      {"MFJ0", kMFJ2, kMFJ1},        {"MFJ3", kMFJ3, std::nullopt}, {"MFJ4", kMFJ4, std::nullopt},
+      {"RFJ0", kRFJ2, kRFJ1},        {"RFJ3", kRFJ3, std::nullopt}, {"RFJ4", kRFJ4, std::nullopt},
+      {"LFJ0", kLFJ2, kLFJ1},        {"LFJ3", kLFJ3, std::nullopt}, {"LFJ4", kLFJ4, std::nullopt},
+      {"LFJ5", kLFJ5, std::nullopt}, {"THJ1", kTHJ1, std::nullopt}, {"THJ2", kTHJ2, std::nullopt},
+      {"THJ3", kTHJ3, std::nullopt}, {"THJ4", kTHJ4, std::nullopt}, {"THJ5", kTHJ5, std::nullopt},
+      {"WRJ1", kWRJ1, std::nullopt}, {"WRJ2", kWRJ2, std::nullopt},
+  }};
+  return infos;
+}
+
+ShadowHandTargets map_to_shadow_hand(const Posture& posture) {
+  ShadowHandTargets targets;
+  for (int j = 0; j < kShadowJointCount; ++j) {
+    const ShadowJointInfo& info = shadow_joint_infos()[j];
+    if (!info.source) continue;
+    const double wanted = info.sign * posture[*info.source];
+    if (!std::isfinite(wanted))
+      throw Error("robot command", std::string(angle_infos()[*info.source].name), fmt::format("{}", wanted),
+                  "a finite angle");
+    targets.joints[j] = std::clamp(wanted, radians_from_degrees(info.min_deg), radians_from_degrees(info.max_deg));
+    targets.joint_clamped[j] = targets.joints[j] != wanted;
+  }
+  for (int a = 0; a < kShadowActuatorCount; ++a) {
+    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
+    targets.actuators[a] = targets.joints[info.joint];
+    targets.actuator_clamped[a] = targets.joint_clamped[info.joint];
+    if (!info.coupled_joint) continue;
+    double& proximal = targets.joints[info.joint];
+    double& distal = targets.joints[*info.coupled_joint];
+    targets.actuators[a] = proximal + distal;
+    targets.actuator_clamped[a] |= targets.joint_clamped[*info.coupled_joint];
+    if (distal > proximal) {
+      proximal = distal = targets.actuators[a] / 2;
+      targets.joint_clamped[info.joint] = targets.joint_clamped[*info.coupled_joint] = true;
+    }
+  }
+  return targets;
+}
+
+}  // namespace glovebench

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/hand/posture.h"
+
+namespace glovebench {
+
+/// The 24 joints of a Shadow Dexterous Hand. J1 of a finger is its last joint, J4 its spread.
+// clang-format off: one finger a row
+enum ShadowJoint : int {
+  kFFJ1,
+  kFFJ2,
+  kFFJ3,
+  kFFJ4,
+  kMFJ1,
+  kMFJ2,
+  kMFJ3,
+  kMFJ4,
+  kRFJ1,
+  kRFJ2,
+  kRFJ3,
+  kRFJ4,
+  kLFJ1,
+  kLFJ2,
+  kLFJ3,
+  kLFJ4,
+  kLFJ5,
+  kTHJ1,
+  kTHJ2,
+  kTHJ3,
+  kTHJ4,
+  kTHJ5,
+  kWRJ1,
+  kWRJ2,
+};
+// clang-format on
+inline constexpr int kShadowJointCount = 24;
+inline constexpr int kShadowActuatorCount = 20;
+
+/// A joint of the robot: its limits and the human angle that drives it. Robot angle = sign * human angle.
+/// Spread (J4) counts towards the thumb as negative on the first and middle finger, as positive on the ring and
+/// little finger; THJ5 turns the thumb across the palm, THJ4 lifts it off the palm; WRJ1 bends to the palm and
+/// WRJ2 turns towards the thumb.
+struct ShadowJointInfo {
+  std::string_view name;
+  double min_deg;
+  double max_deg;
+  std::optional<Angle> source;  ///< none: the hand model has no such angle, the joint stays at zero
+  int sign;                     ///< +1 or -1
+};
+const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
+
+/// A motor of the robot. J0 of a finger drives two joints by one tendon: its target is their sum.
+struct ShadowActuatorInfo {
+  std::string_view name;
+  ShadowJoint joint;
+  std::optional<ShadowJoint> coupled_joint;
+};
+const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
+
+/// Targets within the limits, rad, with a flag for each that is not what the posture asked for.
+struct ShadowHandTargets {
+  std::array<double, kShadowJointCount> joints{};
+  std::array<bool, kShadowJointCount> joint_clamped{};
+  std::array<double, kShadowActuatorCount> actuators{};
+  std::array<bool, kShadowActuatorCount> actuator_clamped{};
+};
+
+/// The direct mapping of section V. Each joint takes the angle of its source, clamped to its limits; then, in the
+/// coupled fingers, J1 may not exceed J2: where it would, both take their mean, which keeps their sum J0.
+/// Throws Error if an angle is not finite.
+ShadowHandTargets map_to_shadow_hand(const Posture& posture);
+
+}  // namespace glovebench
