@@ -49,7 +49,7 @@ std::vector<int> component_roots(const LabeledCloud& cloud, double depth_step) {
       current[u + 1] = point;
       for (int neighbor : {current[u], above[u], above[u + 1], above[u + 2]})
         if (neighbor >= 0 &&
-            std::abs(cloud.points[neighbor].p_camera.z() - cloud.points[point].p_camera.z()) <= depth_step)
+            std::abs(cloud.points[neighbor].p.z() - cloud.points[point].p.z()) <= depth_step)
           sets.unite(neighbor, point);
     }
   }

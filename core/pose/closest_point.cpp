@@ -5,23 +5,27 @@
 
 namespace glovebench {
 
-/// What the two searches share.
-struct PrunedSearch {
-  static const Surface::Color& color(const Surface& surface, uint8_t label) { return surface.colors_[label]; }
-};
-
 namespace {
+
+// Single-precision rounding at hand size: far below any distance that matters, far above an ulp at 0.2 m (1.5e-8).
+constexpr float kSlack = 1e-6f;
 
 struct Best {
   Eigen::Vector3f p = Eigen::Vector3f::Zero();
   float squared = std::numeric_limits<float>::infinity();
   int face = -1;
+  float last = 0;  // distance of the face tried last
 
   /// Equally close faces: the first wins, in whatever order they are tried.
   void consider(const Eigen::Vector3f& point, const std::vector<Surface::Face>& faces, int f) {
     const Eigen::Vector3f candidate = closest_on_triangle(point, faces[f]);
     const float d = (candidate - point).squaredNorm();
-    if (d < squared || (d == squared && f < face)) *this = {candidate, d, f};
+    if (d < squared || (d == squared && f < face)) {
+      p = candidate;
+      squared = d;
+      face = f;
+    }
+    last = std::sqrt(d);
   }
   ClosestPoint result() const {
     if (face < 0) return {};
@@ -96,34 +100,62 @@ std::vector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> poi
   return result;
 }
 
-std::vector<ClosestPoint> closest_points(std::span<const LabeledPoint> points_hand, const Surface& surface,
-                                         std::span<const ClosestPoint> previous) {
+std::vector<ClosestPoint> ClosestPointSearch::operator()(std::span<const LabeledPoint> points_hand) {
+  memory_.resize(points_hand.size());
   std::vector<ClosestPoint> result;
   result.reserve(points_hand.size());
-  std::vector<float> gap;  // squared distance to each sphere's center
   for (size_t i = 0; i < points_hand.size(); ++i) {
-    const Eigen::Vector3f& p = points_hand[i].p;
-    const auto& color = PrunedSearch::color(surface, points_hand[i].label);
-    const int count = static_cast<int>(color.faces.size());
-    Best best;
-    if (!previous.empty() && previous[i].face >= 0 && previous[i].face < count) {
-      best.consider(p, color.faces, previous[i].face);
+    const LabeledPoint& point = points_hand[i];
+    Memory& memory = memory_[i];
+    if (memory.face >= 0) {
+      Best same;
+      same.consider(point.p, surface_.faces(point.label), memory.face);
+      const float moved = (point.p - memory.p_hand).norm();
+      const ClosestPoint kept = same.result();
+      if (kept.distance + kSlack < memory.others_beyond - moved) {
+        result.push_back(kept);
+        continue;
+      }
     }
-    gap.resize(count);
-    for (int f = 0; f < count; ++f) {
-      const float dx = color.x[f] - p.x(), dy = color.y[f] - p.y(), dz = color.z[f] - p.z();
-      gap[f] = dx * dx + dy * dy + dz * dz;
-    }
-    float reach = std::sqrt(best.squared);
-    for (int f = 0; f < count; ++f) {
-      const float limit = (reach + color.radius[f]) * 1.0001f;
-      if (gap[f] > limit * limit) continue;
-      best.consider(p, color.faces, f);
-      reach = std::sqrt(best.squared);
-    }
-    result.push_back(best.result());
+    result.push_back(search(point, memory));
   }
   return result;
+}
+
+ClosestPoint ClosestPointSearch::search(const LabeledPoint& point, Memory& memory) {
+  const Surface::Color& color = surface_.colors_[point.label];
+  const int count = static_cast<int>(color.faces.size());
+  const Eigen::Vector3f& p = point.p;
+  gap_.resize(count);
+  for (int f = 0; f < count; ++f) {
+    const float dx = color.x[f] - p.x(), dy = color.y[f] - p.y(), dz = color.z[f] - p.z();
+    gap_[f] = std::sqrt(dx * dx + dy * dy + dz * dz) - color.radius[f];
+  }
+  Best best;
+  float nearest = std::numeric_limits<float>::infinity(), second = nearest;  // of the distances or their bounds
+  const auto try_face = [&](int f) {
+    const float before = best.squared;
+    best.consider(p, color.faces, f);
+    const float d = best.last;
+    if (best.face == f) {
+      second = std::min(second, std::sqrt(before));
+      nearest = d;
+    } else {
+      second = std::min(second, d);
+    }
+  };
+  if (memory.face >= 0) try_face(memory.face);
+  for (int f = 0; f < count; ++f) {
+    if (f == memory.face) continue;
+    // A face that cannot be nearest still bounds how far the point may move before it is looked at again.
+    if (gap_[f] > nearest + kSlack) {
+      second = std::min(second, gap_[f]);
+      continue;
+    }
+    try_face(f);
+  }
+  memory = {p, best.face, second - kSlack};
+  return best.result();
 }
 
 }  // namespace glovebench

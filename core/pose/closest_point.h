@@ -28,7 +28,7 @@ class Surface {
   const Eigen::Vector3f& center() const { return center_; }
 
  private:
-  friend struct PrunedSearch;
+  friend class ClosestPointSearch;
   /// Bounding spheres of the faces, for pruning.
   struct Color {
     std::vector<Face> faces;
@@ -52,9 +52,25 @@ Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Fac
 /// the paper describes it: every face of the color.
 std::vector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand, const Surface& surface);
 
-/// The same answer; skips faces whose bounding sphere is farther than the best so far, which starts at the face of
-/// the last call's answer (`previous`, may be empty).
-std::vector<ClosestPoint> closest_points(std::span<const LabeledPoint> points_hand, const Surface& surface,
-                                         std::span<const ClosestPoint> previous);
+/// The same answer, faster, for points that move little from call to call. A face is skipped if its bounding sphere
+/// is farther than the best so far; and a point keeps its face without a search if it has moved less than would
+/// bring any other face nearer. One object follows one set of points on one surface, which outlives it.
+class ClosestPointSearch {
+ public:
+  explicit ClosestPointSearch(const Surface& surface) : surface_(surface) {}
+  std::vector<ClosestPoint> operator()(std::span<const LabeledPoint> points_hand);
+
+ private:
+  struct Memory {
+    Eigen::Vector3f p_hand;  ///< where the point was at its last full search
+    int face = -1;
+    float others_beyond = 0;  ///< every other face was at least this far from p_hand, m
+  };
+  ClosestPoint search(const LabeledPoint& point, Memory& memory);
+
+  const Surface& surface_;
+  std::vector<Memory> memory_;
+  std::vector<float> gap_;  ///< reused by `search`
+};
 
 }  // namespace glovebench

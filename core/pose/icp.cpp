@@ -71,11 +71,11 @@ Alignment align(const HandModel& model, const PosedHand& hand, std::span<const L
   if (points.size() < 3) return result;
 
   Surface surface(model, hand, viewpoint(result.T_camera_hand));
-  const auto search = [&](std::span<const ClosestPoint> previous) {
-    return closest_points(in_hand_frame(points, result.T_camera_hand), surface, previous);
+  std::optional<ClosestPointSearch> search(surface);
+  const auto pairs_now = [&] {
+    return make_pairs(points, (*search)(in_hand_frame(points, result.T_camera_hand)), result.T_camera_hand);
   };
-  std::vector<ClosestPoint> closest = search({});
-  Pairs pairs = make_pairs(points, closest, result.T_camera_hand);
+  Pairs pairs = pairs_now();
   while (true) {
     if (pairs.cloud_camera.size() < 3) {
       result.status = AlignmentStatus::no_shared_color;
@@ -95,10 +95,9 @@ Alignment align(const HandModel& model, const PosedHand& hand, std::span<const L
     ++result.iterations;
     if (config.cull_each_iteration) {
       surface = Surface(model, hand, viewpoint(result.T_camera_hand));
-      closest.clear();
+      search.emplace(surface);
     }
-    closest = search(closest);
-    pairs = make_pairs(points, closest, result.T_camera_hand);
+    pairs = pairs_now();
     const double change = std::abs(result.residual - pairs.mean_distance);
     if (change <= config.convergence_share * result.residual) {
       result.residual = pairs.mean_distance;
