@@ -10,7 +10,6 @@
 namespace glovebench {
 namespace {
 
-constexpr float kOutside = -1e9f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Eigen::Matrix3d intrinsic_matrix(const PinholeCamera& camera) {
@@ -19,7 +18,7 @@ Eigen::Matrix3d intrinsic_matrix(const PinholeCamera& camera) {
   return K;
 }
 
-/// The pixels of one depth row in the RGB camera; kOutside in both coordinates where there is no depth.
+/// The pixels of one depth row in the RGB camera; z is 0 or negative where there is nothing to see.
 struct ProjectedRow {
   std::vector<float> u_px, v_px, z;
 };
@@ -49,11 +48,10 @@ class RowProjector {
       const float z = d[u] * (start.z() + step.z() * fu) + b.z();
       const float x = d[u] * (start.x() + step.x() * fu) + b.x();
       const float y = d[u] * (start.y() + step.y() * fu) + b.y();
-      const bool seen = (d[u] > 0) & (z > 0);
       const float inverse = 1.0f / z;
-      u_out[u] = seen ? x * inverse : kOutside;
-      v_out[u] = seen ? y * inverse : kOutside;
-      z_out[u] = z;
+      u_out[u] = x * inverse;
+      v_out[u] = y * inverse;
+      z_out[u] = d[u] > 0 ? z : 0.0f;
     }
     return row_;
   }
@@ -86,7 +84,7 @@ cv::Mat nearest_surface(const DepthImage& depth, const RgbdCalibration& calibrat
     const ProjectedRow& row = projector.project(depth, v);
     for (int u = 0; u < depth.width(); ++u) {
       const float i = row.u_px[u] + offset, j = row.v_px[u] + offset;
-      if (!(i >= 0 && j >= 0 && i < width && j < height)) continue;
+      if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
       float& cell = cells.at<float>(static_cast<int>(j), static_cast<int>(i));
       cell = std::min(cell, row.z[u]);
     }
@@ -115,7 +113,7 @@ RegisteredImage register_color(const DepthImage& depth, const ColorImage& color,
     const ProjectedRow& row = projector.project(depth, v);
     for (int u = 0; u < depth.width(); ++u) {
       const float i = row.u_px[u] + 0.5f, j = row.v_px[u] + 0.5f;  // truncated: the nearest pixel
-      if (!(i >= 0 && j >= 0 && i < width && j < height)) continue;
+      if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
       const int u_rgb = static_cast<int>(i), v_rgb = static_cast<int>(j);
       if (row.z[u] > nearest.at<float>(v_rgb, u_rgb) + tolerance) continue;
       mapped.color(u, v) = color(u_rgb, v_rgb);

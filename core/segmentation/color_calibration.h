@@ -11,7 +11,7 @@ struct ColorModel {
   double not_glove_prior = 0.5;           ///< share of pixels that are not glove, (0, 1)
   double kept_share = 0.995;              ///< of a color's pixels; rarer shades are left unlabeled, (0, 1]
   double min_posterior = 0.7;             ///< of the label given the cell, [0, 1)
-  int min_luma = 24;                      ///< darker cells tell no color, 0..255
+  int min_luma = 28;                      ///< darker cells tell no color, 0..255
 };
 
 /// Builds a color table from views whose true labels are known: labeled images under several lightings, with

@@ -17,11 +17,6 @@ constexpr std::string_view kVersion = "1\n";
 constexpr size_t kHashLength = 32;
 constexpr size_t kHeaderLength = kMagic.size() + kVersion.size() + kHashLength + 1;
 
-/// 16-bit fixed point, rounded.
-uint8_t channel(int r, int g, int b, int offset) {
-  return static_cast<uint8_t>(std::clamp(((r + g + b + (1 << 15)) >> 16) + offset, 0, 255));
-}
-
 constexpr uint8_t kOutside = kColorCount + 1;  // pads the label image; has no vote
 
 /// A label image with a margin of one pixel.
@@ -68,12 +63,6 @@ uint8_t majority(const uint8_t* corner, int stride) {
 }
 
 }  // namespace
-
-Yuv yuv_from_rgb(const Rgb& rgb) {
-  const int r = rgb[0], g = rgb[1], b = rgb[2];
-  return {channel(19595 * r, 38470 * g, 7471 * b, 0), channel(-11059 * r, -21709 * g, 32768 * b, 128),
-          channel(32768 * r, -27439 * g, -5329 * b, 128)};
-}
 
 ColorTable::ColorTable(std::vector<uint8_t> labels) : labels_(std::move(labels)) {
   if (labels_.size() != kCells)

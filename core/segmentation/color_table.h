@@ -12,7 +12,14 @@ namespace glovebench {
 
 /// Y, U, V, each 0..255 (BT.601, full range, U and V centered at 128).
 using Yuv = std::array<uint8_t, 3>;
-Yuv yuv_from_rgb(const Rgb& rgb);
+constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
+  // 16-bit fixed point, rounded (halves down, so that U and V of pure blue and red end at 255 without a clamp).
+  constexpr int half = (1 << 15) - 1, center = 128 << 16;
+  const int r = rgb[0], g = rgb[1], b = rgb[2];
+  return {static_cast<uint8_t>((19595 * r + 38470 * g + 7471 * b + half) >> 16),
+          static_cast<uint8_t>((-11059 * r - 21709 * g + 32768 * b + half + center) >> 16),
+          static_cast<uint8_t>((32768 * r - 27439 * g - 5329 * b + half + center) >> 16)};
+}
 
 /// The look-up table of section III-A: 64 x 64 x 64 cells over (Y, U, V), each holding a label 0..10.
 class ColorTable {

@@ -1,0 +1,95 @@
+#include "core/camera/rgbd_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/base/angles.h"
+#include "core/base/error.h"
+#include "core/base/file.h"
+
+namespace glovebench {
+namespace {
+
+using nlohmann::json;
+
+std::string error_of(const json& content) {
+  try {
+    calibration_from_json(content, "here.json");
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+TEST(SyntheticCalibration, IsThatOfTheDesign) {
+  const RgbdCalibration calibration = synthetic_calibration();
+  EXPECT_EQ(calibration.ir.fx, 575.816);
+  EXPECT_EQ(calibration.rgb.fx, 525.0);
+  EXPECT_NEAR(calibration.T_rgb_ir.translation().norm(), 0.024, 1e-12);
+  EXPECT_GT(std::abs(calibration.T_rgb_ir.translation().x()), 0.0235);
+  const double angle = Eigen::AngleAxisd(calibration.T_rgb_ir.linear()).angle();
+  EXPECT_GT(angle, radians_from_degrees(0.1));
+  EXPECT_LT(angle, radians_from_degrees(1.0));
+  for (const PinholeCamera& camera : {calibration.ir, calibration.rgb}) {
+    EXPECT_NEAR(camera.cx, 319.5, 5);
+    EXPECT_NEAR(camera.cy, 239.5, 5);
+  }
+}
+
+TEST(Calibration, ReturnsFromItsFileBitForBit) {
+  const std::string folder = testing::TempDir() + "calibration_" + std::to_string(getpid());
+  const RgbdCalibration saved = synthetic_calibration();
+  save_calibration(saved, folder + "/calibration.json");
+  const RgbdCalibration loaded = load_calibration(folder + "/calibration.json");
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(loaded.ir, saved.ir);
+  EXPECT_EQ(loaded.rgb, saved.rgb);
+  EXPECT_EQ(loaded.T_rgb_ir.matrix(), saved.T_rgb_ir.matrix());
+}
+
+TEST(Calibration, NamesTheWrongField) {
+  const json good = to_json(synthetic_calibration());
+  ASSERT_EQ(error_of(good), "");
+  const auto error_with = [&](const char* pointer, const json& value) {
+    json bad = good;
+    bad[json::json_pointer(pointer)] = value;
+    return error_of(bad);
+  };
+  EXPECT_TRUE(starts_with(error_with("/version", 2), "here.json: version: found 2"));
+  EXPECT_TRUE(starts_with(error_with("/baseline", 1), "here.json: baseline: found an unknown key"));
+  EXPECT_TRUE(starts_with(error_with("/ir/k1", 0.1), "here.json: ir.k1: found an unknown key"));
+  EXPECT_TRUE(starts_with(error_with("/ir/fx_px", "575"), "here.json: ir.fx_px: found string"));
+  EXPECT_TRUE(starts_with(error_with("/ir/fx_px", -1), "here.json: ir.fx_px: found -1"));
+  EXPECT_TRUE(starts_with(error_with("/rgb/cx_px", std::numeric_limits<double>::quiet_NaN()),
+                          "here.json: rgb.cx_px: found a number that is not finite"));
+  EXPECT_TRUE(starts_with(error_with("/rgb/width_px", 640.5), "here.json: rgb.width_px: found 640.5"));
+  EXPECT_TRUE(starts_with(error_with("/rgb/width_px", 0), "here.json: rgb.width_px: found 0"));
+  EXPECT_TRUE(starts_with(error_with("/T_rgb_ir/translation_m", {0.1, 0.2}), "here.json: T_rgb_ir.translation_m"));
+  EXPECT_TRUE(starts_with(error_with("/T_rgb_ir/rotation/1/1", 0.9), "here.json: T_rgb_ir.rotation"));
+  const json mirrored = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_TRUE(starts_with(error_with("/T_rgb_ir/rotation", mirrored), "here.json: T_rgb_ir.rotation"));
+  json missing = good;
+  missing["rgb"].erase("fy_px");
+  EXPECT_TRUE(starts_with(error_of(missing), "here.json: rgb.fy_px: found nothing"));
+  EXPECT_TRUE(starts_with(error_of(json::array()), "here.json: content: found array"));
+}
+
+TEST(Calibration, RefusesFilesThatAreNotJson) {
+  const std::string path = testing::TempDir() + "not_json_" + std::to_string(getpid());
+  for (const char* content : {"", "{\"ir\": NaN}", "[1, 2", "{\"version\": 1e999}", "\xff\xfe"}) {
+    write_file(path, content);
+    EXPECT_THROW(load_calibration(path), Error) << content;
+  }
+  std::filesystem::remove(path);
+  EXPECT_THROW(load_calibration(path), Error);
+}
+
+}  // namespace
+}  // namespace glovebench

@@ -1,0 +1,220 @@
+#include "core/kinect/recording.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/random.h"
+#include "core/kinect/recording_files.h"
+
+namespace glovebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for each test, and a small camera: corruption is tried hundreds of times.
+class Recording : public testing::Test {
+ protected:
+  void SetUp() override {
+    calibration_.ir.width = calibration_.rgb.width = 32;
+    calibration_.ir.height = calibration_.rgb.height = 24;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  DeviceFrame frame(int64_t depth_us, int64_t color_us) const {
+    DeviceFrame frame{Image<uint16_t>(32, 24), ColorImage(32, 24), depth_us, color_us};
+    RandomStream random(1, "recording", depth_us, "pixels");
+    for (uint16_t& raw : frame.raw_disparity) raw = static_cast<uint16_t>(random.index(2048));
+    for (Rgb& rgb : frame.color)
+      for (uint8_t& channel : rgb) channel = static_cast<uint8_t>(random.index(256));
+    return frame;
+  }
+  void record(const std::vector<DeviceFrame>& frames) const {
+    RecordingWriter writer(folder_, calibration_);
+    for (const DeviceFrame& f : frames) writer.write(f);
+    writer.finish();
+  }
+  std::string path(const std::string& name) const { return (fs::path(folder_) / name).string(); }
+  /// The message of the first Error on the way through the whole recording, "" if there is none.
+  std::string play_error() const {
+    try {
+      RecordingDevice device(folder_);
+      while (device.next_frame()) {
+      }
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  const std::string folder_ = testing::TempDir() + "recording_" + std::to_string(getpid());
+  RgbdCalibration calibration_ = synthetic_calibration();
+};
+
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(RecordedName, HoldsMicrosecondsExactly) {
+  // 12.000345 s are 720,020,700 ticks of 60 MHz.
+  EXPECT_EQ(recorded_name({RecordedKind::depth, 12'000'345}), "d-12.000345-720020700.pgm");
+  for (int64_t timestamp_us : {int64_t{0}, int64_t{999'999}, int64_t{1'000'000}, int64_t{1'700'000'000'123'457}}) {
+    const RecordedName parsed =
+        parse_recorded_name(recorded_name({RecordedKind::color, timestamp_us}), "INDEX.txt");
+    EXPECT_EQ(parsed.timestamp_us, timestamp_us);
+    EXPECT_EQ(parsed.kind, RecordedKind::color);
+  }
+}
+
+TEST(RecordedName, IsParsedStrictly) {
+  EXPECT_NO_THROW(parse_recorded_name("a-1299626063.123456-3941023.dump", "INDEX.txt"));
+  for (const char* name :
+       {"", "d", "x-1.000000-1.pgm", "d-1.000000-1.ppm", "d-1.000-1.pgm", "d-1.000000-1.pgm ", "d--1.000000-1.pgm",
+        "d-1.000000-.pgm", "../d-1.000000-1.pgm", "d-1.000000-1.pgm\r", "d-9999999999999.000000-1.pgm"})
+    EXPECT_THROW(parse_recorded_name(name, "INDEX.txt"), Error) << name;
+}
+
+TEST_F(Recording, PlaysWhatWasWritten) {
+  const std::vector<DeviceFrame> frames = {frame(1'000'001, 1'004'000), frame(1'066'667, 1'070'123),
+                                           frame(1'133'334, 1'131'000)};
+  record(frames);
+  RecordingDevice device(folder_);
+  EXPECT_EQ(device.frame_count(), 3);
+  EXPECT_EQ(device.unpaired_depth_count(), 0);
+  EXPECT_EQ(device.calibration().T_rgb_ir.matrix(), calibration_.T_rgb_ir.matrix());
+  EXPECT_EQ(device.calibration().rgb, calibration_.rgb);
+  for (const DeviceFrame& expected : frames) {
+    const std::optional<DeviceFrame> found = device.next_frame();
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->raw_disparity, expected.raw_disparity);
+    EXPECT_EQ(found->color, expected.color);
+    EXPECT_EQ(found->depth_timestamp_us, expected.depth_timestamp_us);
+    EXPECT_EQ(found->color_timestamp_us, expected.color_timestamp_us);
+  }
+  EXPECT_FALSE(device.next_frame());
+  EXPECT_FALSE(device.next_frame());
+}
+
+TEST_F(Recording, ListsItsFilesInOrderOfTime) {
+  record({frame(1'000'001, 1'004'000), frame(1'066'667, 1'060'000)});
+  EXPECT_EQ(read_file(path("INDEX.txt")),
+            "d-1.000001-60000060.pgm\nr-1.004000-60240000.ppm\nr-1.060000-63600000.ppm\nd-1.066667-64000020.pgm\n");
+}
+
+TEST_F(Recording, KeepsAColorImageThatTwoDepthImagesShareOnce) {
+  DeviceFrame first = frame(1'000'000, 1'010'000), second = frame(1'033'000, 1'010'000);
+  second.color = first.color;
+  record({first, second});
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2 + 1 + 2);
+  RecordingDevice device(folder_);
+  EXPECT_EQ(device.next_frame()->color, first.color);
+  EXPECT_EQ(device.next_frame()->color, first.color);
+}
+
+TEST_F(Recording, PairsTheNearestInTime) {
+  record({frame(1'000'000, 1'001'000), frame(1'100'000, 1'101'000)});
+  // As fakenect dumps are: depth alone at first, unsorted, with accelerometer lines; and one depth between.
+  const std::string depth = read_file(path("d-1.000000-60000000.pgm"));
+  write_file(path("d-0.500000-1.pgm"), depth);
+  write_file(path("d-1.051000-1.pgm"), depth);  // as near to 1.001 as to 1.101: the earlier
+  write_file(path("INDEX.txt"), "d-0.500000-1.pgm\na-0.6000000-5.dump\n");
+  EXPECT_TRUE(mentions(play_error(), "INDEX.txt, line 2: file name"));  // seven digits
+  write_file(path("INDEX.txt"),
+             "d-1.100000-66000000.pgm\nd-0.500000-1.pgm\na-0.600000-5.dump\nr-1.101000-66060000.ppm\n"
+             "d-1.051000-1.pgm\nd-1.000000-60000000.pgm\nr-1.001000-60060000.ppm\n");
+  RecordingDevice device(folder_);
+  EXPECT_EQ(device.unpaired_depth_count(), 1);
+  for (const auto& [depth_us, color_us] :
+       {std::pair{1'000'000, 1'001'000}, {1'051'000, 1'001'000}, {1'100'000, 1'101'000}}) {
+    const std::optional<DeviceFrame> found = device.next_frame();
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->depth_timestamp_us, depth_us);
+    EXPECT_EQ(found->color_timestamp_us, color_us);
+  }
+}
+
+TEST_F(Recording, NamesTheFileThatIsMissingOrDamaged) {
+  record({frame(1'000'000, 1'001'000)});
+  const std::string depth = "d-1.000000-60000000.pgm", color = "r-1.001000-60060000.ppm";
+  const auto error_with = [&](const std::string& name, const std::string& content) {
+    const std::string good = read_file(path(name));
+    write_file(path(name), content);
+    const std::string error = play_error();
+    write_file(path(name), good);
+    return error;
+  };
+  ASSERT_EQ(play_error(), "");
+  const std::string depth_content = read_file(path(depth)), color_content = read_file(path(color));
+  EXPECT_TRUE(mentions(error_with(depth, ""), depth + ": header: found an empty file"));
+  EXPECT_TRUE(mentions(error_with(depth, "P5 32 24 255\n" + std::string(1536, 0)), depth + ": header"));
+  EXPECT_TRUE(mentions(error_with(depth, depth_content + "x"), depth + ": size: found 1537 bytes of pixels"));
+  EXPECT_TRUE(mentions(error_with(color, color_content.substr(0, 1000)), color + ": size"));
+  std::string twelve_bits = depth_content;
+  twelve_bits.back() = 8;  // the high byte of the last pixel
+  EXPECT_TRUE(mentions(error_with(depth, twelve_bits), depth + ": pixel (31, 23)"));
+  EXPECT_TRUE(mentions(error_with("INDEX.txt", ""), "INDEX.txt: frames: found 0 depth and 0 color images"));
+  EXPECT_TRUE(mentions(error_with("INDEX.txt", depth + "\n" + depth + "\n" + color + "\n"), "1000000 us twice"));
+  EXPECT_TRUE(mentions(error_with("calibration.json", "{}"), "calibration.json: version: found nothing"));
+  for (const std::string& name : {depth, color, std::string("INDEX.txt"), std::string("calibration.json")}) {
+    fs::rename(path(name), path("away"));
+    EXPECT_TRUE(mentions(play_error(), name + ": file")) << name;
+    fs::rename(path("away"), path(name));
+  }
+}
+
+TEST_F(Recording, SurvivesTruncationsAndByteFlips) {
+  record({frame(1'000'000, 1'001'000), frame(1'033'000, 1'034'000)});
+  const std::vector<std::string> names = {"INDEX.txt", "calibration.json", "d-1.000000-60000000.pgm",
+                                          "r-1.034000-62040000.ppm"};
+  RandomStream random(2, "recording", 0, "damage");
+  int truncations_noticed = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::string& name = names[random.index(names.size())];
+    const std::string good = read_file(path(name));
+    std::string bad = good;
+    const bool truncate = i % 2 == 0;
+    if (truncate) {
+      // Not the last byte alone: a text without its final line feed means the same.
+      bad.resize(random.index(bad.size() - 1));
+    } else {
+      // The first bytes hold the header; flips there matter most.
+      const size_t at = random.index(i % 4 == 1 ? 16 : bad.size());
+      bad[at] = static_cast<char>(bad[at] ^ (1 << random.index(8)));
+    }
+    write_file(path(name), bad);
+    const std::string error = play_error();  // anything but an Error would end the test
+    EXPECT_FALSE(mentions(error, "\n")) << error;
+    // An index cut between two lines is a shorter recording; all other truncations must be told.
+    if (truncate && name != "INDEX.txt") {
+      EXPECT_TRUE(mentions(error, name)) << name << " cut to " << bad.size();
+      ++truncations_noticed;
+    }
+    write_file(path(name), good);
+  }
+  EXPECT_GT(truncations_noticed, 50);
+  EXPECT_EQ(play_error(), "");
+}
+
+TEST_F(Recording, WriterRefusesWhatNoKinectGives) {
+  record({frame(1'000'000, 1'001'000)});
+  EXPECT_THROW(RecordingWriter(folder_, calibration_), Error);  // would overwrite
+  fs::remove_all(folder_);
+
+  RecordingWriter writer(folder_, calibration_);
+  EXPECT_THROW(writer.finish(), Error);
+  EXPECT_THROW(writer.write(frame(-1, 0)), Error);
+  writer.write(frame(1'000'000, 1'001'000));
+  EXPECT_THROW(writer.write(frame(1'000'000, 1'034'000)), Error);
+  EXPECT_THROW(writer.write(frame(1'033'000, 1'000'999)), Error);
+  DeviceFrame twelve_bits = frame(1'033'000, 1'034'000);
+  twelve_bits.raw_disparity(3, 3) = 2048;
+  EXPECT_THROW(writer.write(twelve_bits), Error);
+  DeviceFrame small = frame(1'033'000, 1'034'000);
+  small.color = ColorImage(8, 8);
+  EXPECT_THROW(writer.write(small), Error);
+}
+
+}  // namespace
+}  // namespace glovebench

@@ -1,0 +1,158 @@
+#include "core/segmentation/color_table.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/random.h"
+
+namespace glovebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that lives as long as the test.
+class ColorTableFile : public testing::Test {
+ protected:
+  void TearDown() override { fs::remove_all(folder_); }
+
+  const fs::path folder_ = fs::path(testing::TempDir()) / ("color_table_" + std::to_string(getpid()));
+  const std::string path_ = (folder_ / "glove.colors").string();
+};
+
+ColorTable random_table() {
+  RandomStream random(3, "color table", 0, "labels");
+  std::vector<uint8_t> labels(ColorTable::kCells);
+  for (uint8_t& label : labels) label = static_cast<uint8_t>(random.index(kColorCount + 1));
+  return ColorTable(labels);
+}
+
+std::string load_error(const std::string& path) {
+  try {
+    ColorTable::load(path);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Yuv, MatchesHandComputedValues) {
+  // BT.601: Y = 0.299 R + 0.587 G + 0.114 B, U = 128 + 0.564 (B - Y), V = 128 + 0.713 (R - Y).
+  EXPECT_EQ(yuv_from_rgb({0, 0, 0}), (Yuv{0, 128, 128}));
+  EXPECT_EQ(yuv_from_rgb({255, 255, 255}), (Yuv{255, 128, 128}));
+  EXPECT_EQ(yuv_from_rgb({255, 0, 0}), (Yuv{76, 85, 255}));
+  EXPECT_EQ(yuv_from_rgb({0, 255, 0}), (Yuv{150, 44, 21}));
+  EXPECT_EQ(yuv_from_rgb({0, 0, 255}), (Yuv{29, 255, 107}));
+  EXPECT_EQ(yuv_from_rgb({100, 100, 100}), (Yuv{100, 128, 128}));
+}
+
+TEST(ColorTable, CellsAreFourStepsWide) {
+  EXPECT_EQ(ColorTable::cell({0, 0, 0}), 0u);
+  EXPECT_EQ(ColorTable::cell({3, 3, 3}), 0u);
+  EXPECT_EQ(ColorTable::cell({4, 0, 0}), 64u * 64u);
+  EXPECT_EQ(ColorTable::cell({0, 4, 0}), 64u);
+  EXPECT_EQ(ColorTable::cell({0, 0, 4}), 1u);
+  EXPECT_EQ(ColorTable::cell({255, 255, 255}), ColorTable::kCells - 1);
+}
+
+TEST(ColorTable, RefusesImpossibleLabels) {
+  EXPECT_THROW(ColorTable(std::vector<uint8_t>(5)), Error);
+  std::vector<uint8_t> labels(ColorTable::kCells, kColorCount);
+  EXPECT_NO_THROW(ColorTable{labels});
+  labels[17] = kColorCount + 1;
+  EXPECT_THROW(ColorTable{labels}, Error);
+}
+
+TEST_F(ColorTableFile, LoadsWhatWasSaved) {
+  const ColorTable table = random_table();
+  table.save(path_);
+  EXPECT_EQ(ColorTable::load(path_).labels(), table.labels());
+}
+
+TEST_F(ColorTableFile, NamesFileAndFieldOfDamage) {
+  random_table().save(path_);
+  const std::string good = read_file(path_);
+  const auto error_of = [&](const std::string& content) {
+    write_file(path_, content);
+    return load_error(path_);
+  };
+  EXPECT_EQ(error_of(good), "");
+  std::string other_version = good;
+  other_version[good.find('\n') - 1] = '2';
+  EXPECT_NE(error_of(other_version).find(path_ + ": version: found \"2\""), std::string::npos);
+  EXPECT_NE(error_of("PK" + good).find(path_ + ": header"), std::string::npos);
+  EXPECT_NE(error_of(good.substr(0, good.size() - 1)).find(path_ + ": size"), std::string::npos);
+  EXPECT_NE(error_of(good + "x").find(path_ + ": size"), std::string::npos);
+  EXPECT_NE(error_of("").find(path_ + ": header"), std::string::npos);
+  fs::remove(path_);
+  EXPECT_NE(load_error(path_).find(path_), std::string::npos);
+}
+
+TEST_F(ColorTableFile, RefusesEveryByteFlip) {
+  random_table().save(path_);
+  const std::string good = read_file(path_);
+  RandomStream random(5, "color table", 0, "flips");
+  for (int i = 0; i < 100; ++i) {
+    std::string bad = good;
+    // Half of the flips hit the header.
+    const size_t at = random.index(i % 2 == 0 ? 68 : bad.size());
+    bad[at] = static_cast<char>(bad[at] ^ (1 << random.index(8)));
+    write_file(path_, bad);
+    EXPECT_NE(load_error(path_), "") << "byte " << at;
+  }
+}
+
+TEST(Segment, LabelsOnlyPixelsThatHaveAColor) {
+  std::vector<uint8_t> cells(ColorTable::kCells, 0);
+  cells[ColorTable::cell(yuv_from_rgb({200, 30, 40}))] = 4;
+  const ColorTable table(cells);
+  RegisteredImage mapped{ColorImage(3, 1), Image<uint8_t>(3, 1)};
+  mapped.color(0, 0) = mapped.color(1, 0) = {200, 30, 40};
+  mapped.color(2, 0) = {30, 200, 40};
+  mapped.has_color(0, 0) = mapped.has_color(2, 0) = 1;
+  const LabelImage labels = segment(mapped, table);
+  EXPECT_EQ(labels(0, 0), 4);
+  EXPECT_EQ(labels(1, 0), 0);  // the same color, but hidden from the RGB camera
+  EXPECT_EQ(labels(2, 0), 0);
+}
+
+/// Votes counted one by one; ties go to the center's label, else to the smallest.
+uint8_t counted_majority(const LabelImage& labels, int u, int v) {
+  std::array<int, kColorCount + 1> votes{};
+  for (int j = v - 1; j <= v + 1; ++j)
+    for (int i = u - 1; i <= u + 1; ++i)
+      if (labels.contains(i, j)) ++votes[labels(i, j)];
+  const auto most = std::max_element(votes.begin(), votes.end());
+  return votes[labels(u, v)] == *most ? labels(u, v) : static_cast<uint8_t>(most - votes.begin());
+}
+
+TEST(MajorityFilter, CountsVotesLikeThePlainWay) {
+  // Blocks (so that ties, uniform runs and borders occur) with a tenth of the pixels wrong.
+  LabelImage labels(37, 23);
+  RandomStream random(9, "majority", 0, "labels");
+  for (int v = 0; v < labels.height(); ++v)
+    for (int u = 0; u < labels.width(); ++u)
+      labels(u, v) =
+          static_cast<uint8_t>(u > 18 && random.uniform() < 0.3 ? random.index(11) : (u / 14 + v / 9) % 4);
+  const LabelImage filtered = majority_filter(labels);
+  for (int v = 0; v < labels.height(); ++v)
+    for (int u = 0; u < labels.width(); ++u)
+      EXPECT_EQ(filtered(u, v), counted_majority(labels, u, v)) << u << ", " << v;
+}
+
+TEST(MajorityFilter, RemovesSpecksAndFillsHoles) {
+  LabelImage labels(20, 20);
+  labels(3, 3) = 5;
+  for (int v = 8; v < 18; ++v)
+    for (int u = 8; u < 18; ++u) labels(u, v) = 2;
+  labels(12, 12) = 0;
+  const LabelImage filtered = majority_filter(labels);
+  EXPECT_EQ(filtered(3, 3), 0);
+  EXPECT_EQ(filtered(12, 12), 2);
+  EXPECT_EQ(majority_filter(LabelImage()).size(), 0u);
+}
+
+}  // namespace
+}  // namespace glovebench
