@@ -81,6 +81,7 @@ class VertexArray {
   void set_bytes(int location, std::span<const uint8_t> values);
   void set_indices(std::span<const uint32_t> indices);
   void draw() const;
+  GLuint id() const { return id_; }
 
  private:
   void bind_buffer(int location);

@@ -1,0 +1,79 @@
+#include "render/pictures.h"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "render/glove_colors.h"
+
+namespace glovebench::render {
+
+ColorImage picture_of_labels(const LabelImage& labels) {
+  ColorImage picture(labels.width(), labels.height());
+  for (size_t i = 0; i < labels.size(); ++i) {
+    check(labels[i] <= kColorCount, "a label image holds labels 0..kColorCount");
+    picture[i] = label_palette()[labels[i]];
+  }
+  return picture;
+}
+
+ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far) {
+  cv::Mat ramp(1, 256, CV_8UC1);
+  for (int i = 0; i < 256; ++i) ramp.at<uint8_t>(i) = static_cast<uint8_t>(255 - i);
+  cv::Mat colors;
+  cv::applyColorMap(ramp, colors, cv::COLORMAP_TURBO);
+  ColorImage picture(depth.width(), depth.height());
+  for (size_t i = 0; i < depth.size(); ++i) {
+    if (depth[i] <= 0) continue;
+    const double share = std::clamp((depth[i] - z_near) / (z_far - z_near), 0.0, 1.0);
+    const auto& bgr = colors.at<cv::Vec3b>(static_cast<int>(std::lround(255 * share)));
+    picture[i] = {bgr[2], bgr[1], bgr[0]};
+  }
+  return picture;
+}
+
+ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels) {
+  check(color.width() == labels.width() && color.height() == labels.height(), "outline and image have one size");
+  ColorImage picture = color;
+  for (int v = 0; v + 1 < labels.height(); ++v) {
+    for (int u = 0; u + 1 < labels.width(); ++u) {
+      const uint8_t label = labels(u, v);
+      if (label != labels(u + 1, v) || label != labels(u, v + 1)) picture(u, v) = {255, 255, 255};
+    }
+  }
+  return picture;
+}
+
+ColorImage side_by_side(const std::vector<ColorImage>& images) {
+  int width = 0;
+  for (const ColorImage& image : images) {
+    check(image.height() == images.front().height(), "images side by side have one height");
+    width += image.width();
+  }
+  ColorImage picture(width, images.empty() ? 0 : images.front().height());
+  int left = 0;
+  for (const ColorImage& image : images) {
+    for (int v = 0; v < image.height(); ++v) {
+      for (int u = 0; u < image.width(); ++u) picture(left + u, v) = image(u, v);
+    }
+    left += image.width();
+  }
+  return picture;
+}
+
+void write_png(const std::string& path, const ColorImage& image) {
+  cv::Mat bgr(image.height(), image.width(), CV_8UC3);
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      const Rgb& rgb = image(u, v);
+      bgr.at<cv::Vec3b>(v, u) = {rgb[2], rgb[1], rgb[0]};
+    }
+  }
+  std::vector<uint8_t> bytes;
+  if (!cv::imencode(".png", bgr, bytes)) throw Error(path, "image", "one that does not encode", "a PNG image");
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace glovebench::render

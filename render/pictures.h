@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/image.h"
+
+namespace glovebench::render {
+
+/// Labels in the glove's colors on black.
+ColorImage picture_of_labels(const LabelImage& labels);
+/// Depth as colors, near is warm, far is cold; black where there is no value. Range in metres, z_near < z_far.
+ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far);
+/// The color image with a white line along the borders of the labeled areas (outer and between colors), e.g. those
+/// of the estimated hand. Both images have one size.
+ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels);
+/// Images side by side, all of one height.
+ColorImage side_by_side(const std::vector<ColorImage>& images);
+
+/// Writes a PNG, whole or not at all. Throws Error if the file cannot be written.
+void write_png(const std::string& path, const ColorImage& image);
+
+}  // namespace glovebench::render
