@@ -1,0 +1,129 @@
+#include "reports/chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace glovebench::reports {
+namespace {
+
+// The chart's box in SVG units.
+constexpr double kWidth = 760, kHeight = 190;
+constexpr double kLeft = 52, kRight = 750, kTop = 26, kBottom = 156;
+
+/// Where places and values lie in the box.
+struct Scale {
+  double x_max = 1;
+  double y_max = 1;
+  double x(double place) const { return kLeft + (kRight - kLeft) * place / x_max; }
+  double y(double value) const { return kBottom - (kBottom - kTop) * value / y_max; }
+};
+
+Scale make_scale(const LineChart& chart) {
+  size_t places = 2;
+  double largest = 0;
+  for (const Series& series : chart.series) {
+    places = std::max(places, series.values.size());
+    for (const auto& value : series.values) {
+      if (!value) continue;
+      check(std::isfinite(*value) && *value >= 0, "a chart shows finite values of 0 or more");
+      largest = std::max(largest, *value);
+    }
+  }
+  return {static_cast<double>(places - 1), axis_ticks(largest, 4).back()};
+}
+
+std::string text(double x, double y, const char* anchor, const std::string& label) {
+  return fmt::format("<text class=\"label\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
+                     escape_html(label));
+}
+
+std::string line(const char* style, double x1, double y1, double x2, double y2) {
+  return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", style, x1,
+                     y1, x2, y2);
+}
+
+std::string axes(const LineChart& chart, const Scale& scale) {
+  std::string svg;
+  for (const double tick : axis_ticks(scale.y_max, 4)) {
+    svg += line("grid", kLeft, scale.y(tick), kRight, scale.y(tick));
+    svg += text(kLeft - 6, scale.y(tick) + 4, "end", fmt::format("{:g}", tick));
+  }
+  for (const double tick : axis_ticks(scale.x_max, 8)) {
+    if (tick > scale.x_max) break;
+    svg += line("axis", scale.x(tick), kBottom, scale.x(tick), kBottom + 4);
+    svg += text(scale.x(tick), kBottom + 17, "middle", fmt::format("{:g}", tick));
+  }
+  svg += line("axis", kLeft, kBottom, kRight, kBottom);
+  svg += text(kLeft, kTop - 12, "start", chart.y_label);
+  svg += text((kLeft + kRight) / 2, kHeight - 3, "middle", chart.x_label);
+  return svg;
+}
+
+/// One path whose pen is lifted over gaps; a value between two gaps becomes a dot by its round line cap.
+std::string path(const Series& series, size_t index, const Scale& scale) {
+  std::string data;
+  bool pen_down = false;
+  for (size_t i = 0; i < series.values.size(); ++i) {
+    if (series.values[i]) {
+      const double x = scale.x(static_cast<double>(i)), y = scale.y(*series.values[i]);
+      const bool alone = !pen_down && (i + 1 == series.values.size() || !series.values[i + 1]);
+      data += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", x, y);
+      if (alone) data += "h0";
+    }
+    pen_down = series.values[i].has_value();
+  }
+  return fmt::format("<path class=\"line series-{}\" d=\"{}\"/>\n", index, data);
+}
+
+}  // namespace
+
+std::vector<double> axis_ticks(double max, int count) {
+  if (max <= 0) return {0, 1};
+  const double raw_step = max / count;
+  const double power = std::pow(10, std::floor(std::log10(raw_step)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= raw_step * (1 - 1e-9)) step = factor * power;
+  std::vector<double> ticks = {0};
+  while (ticks.back() < max * (1 - 1e-9)) ticks.push_back(step * static_cast<double>(ticks.size()));
+  return ticks;
+}
+
+std::string to_svg(const LineChart& chart) {
+  const Scale scale = make_scale(chart);
+  std::string svg = fmt::format("<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\">\n<title>{}</title>\n",
+                                kWidth, kHeight, escape_html(chart.title));
+  svg += axes(chart, scale);
+  // The first series is drawn last: it is the one to look at.
+  for (size_t i = chart.series.size(); i-- > 0;) svg += path(chart.series[i], i, scale);
+  return svg + "</svg>\n";
+}
+
+std::string escape_html(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,109 @@
+#pragma once
+
+// Results made by hand and by seeded chance, for the tests and for looking at the page. Not part of the library.
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+/// A tracked frame whose errors are the given ones and plain multiples of them.
+inline FrameRecord example_frame(int index, double position_mm, double posture_deg, double rotation_deg) {
+  FrameRecord frame;
+  frame.frame = index;
+  frame.timestamp_us = index * 1000000LL / 15;
+  frame.status = TrackStatus::tracked;
+  frame.covered = position_mm < 50 && rotation_deg < 30;
+  frame.false_tracked = !frame.covered;
+  frame.converged = true;
+  frame.icp_iterations = 20;
+  for (const Metric& metric : metrics()) frame.*metric.value = posture_deg / 2;
+  frame.position_error_mm = position_mm;
+  frame.rotation_error_deg = rotation_deg;
+  frame.posture_rms_deg = posture_deg;
+  frame.posture_rms_hidden_deg.reset();  // nothing hidden
+  frame.vertex_error_mm = frame.joint_error_mm = position_mm * 1.25;
+  frame.fingertip_error_mm = position_mm * 1.5;
+  return frame;
+}
+
+/// A lost frame has no errors.
+inline FrameRecord example_lost_frame(int index) {
+  FrameRecord frame;
+  frame.frame = index;
+  frame.timestamp_us = index * 1000000LL / 15;
+  frame.status = TrackStatus::poor_match;
+  frame.false_lost = true;
+  return frame;
+}
+
+/// Four experiments: one whose means are 4 mm / 3 deg / 2 deg with one lost frame of four, one of lost frames only,
+/// one without frames, and one of another noise.
+inline RunResult small_result() {
+  RunResult result;
+  result.protocol = make_protocol("by time stamp, exact", {{"Tr1", "00ff"}, {"Tr4", "ff00"}});
+  result.program_version = "0.1.0";
+  result.commit = "0123456789";
+  result.configuration = {{"profile", "paper"}, {"icp", {{"max_points", 1000}}}};
+  const PckCurve pck = pck_curve(std::vector<double>{1, 5, 30}, 4);
+  const BootstrapConfig bootstrap = {.block_frames = 1, .resamples = 100};
+  const ExperimentKey key = {"Tr4", "DB_open_power", TruthKind::recorded, 1, {}};
+  std::vector<SeedRun> runs = {{1, {example_frame(0, 3, 2, 1), example_lost_frame(1)}},
+                               {2, {example_frame(0, 4, 3, 2), example_frame(1, 5, 4, 3)}}};
+  result.experiments.push_back(summarize(key, runs, pck, {0.5, 0.25, 3.0}, bootstrap));
+  result.experiments.push_back(summarize({"Tr4", "DB_open_power", TruthKind::source, 2, {}},
+                                         {{1, {example_lost_frame(0), example_lost_frame(1)}}}, pck_curve({}, 2),
+                                         {}));
+  result.experiments.push_back(
+      summarize({"Tr1", "DB_20_postures", TruthKind::source, 1, {}}, {}, pck_curve({}, 0), {}));
+  result.experiments.push_back(summarize({"Tr4", "DB_open_power", TruthKind::recorded, 1, {"kinect", 0.5}},
+                                         {{1, {example_frame(0, 400, 2, 1)}}}, pck_curve({}, 1), {}));
+  return result;
+}
+
+/// Errors that wander around a level, with two jumps of the posture that decay as a filter does.
+inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t seed, int count, double level) {
+  std::vector<FrameRecord> frames;
+  RandomStream random(seed, name, 0, "example");
+  double posture_deg = 1;
+  for (int i = 0; i < count; ++i) {
+    posture_deg = 0.75 * posture_deg + (i % 50 == 10 ? 25 : 0);
+    if (i == 70 && level > 6)
+      frames.push_back(example_lost_frame(i));
+    else
+      frames.push_back(example_frame(i, level + std::abs(random.normal()), posture_deg + level / 10,
+                                     level / 2 + std::abs(random.normal())));
+  }
+  return frames;
+}
+
+/// All of Figure 4 with invented errors, two seeds.
+inline RunResult full_result() {
+  RunResult result = small_result();
+  result.experiments.clear();
+  for (int t = 1; t <= 5; ++t) {
+    const std::string trajectory = "Tr" + std::to_string(t);
+    const int frames = t == 1 ? 137 : 117;
+    double level = 2;
+    for (const char* database :
+         {t <= 2 ? "DB_open_pinch" : "DB_open_power", "DB_open_pinch_power", "DB_20_postures"}) {
+      for (const auto& [truth, subject] :
+           {std::pair{TruthKind::recorded, 1}, {TruthKind::source, 1}, {TruthKind::source, 2}}) {
+        level += 0.7;
+        const ExperimentKey key = {trajectory, database, truth, subject, {}};
+        const std::string name = to_string(key);
+        std::vector<SeedRun> runs = {{1, example_frames(name, 1, frames, level)},
+                                     {2, example_frames(name, 2, frames, level)}};
+        std::vector<double> errors;
+        for (const FrameRecord& frame : runs[0].frames)
+          if (frame.joint_error_mm) errors.push_back(*frame.joint_error_mm);
+        result.experiments.push_back(summarize(key, std::move(runs), pck_curve(errors, frames), {0.4, 0.3, 2.9}));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,113 @@
+#include "reports/json_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.h"
+
+namespace glovebench::reports {
+namespace {
+
+using nlohmann::json;
+
+/// The value in a few characters, for one line of an error.
+std::string excerpt(const json& value) {
+  constexpr size_t kLongest = 40;
+  if (value.is_structured()) return value.is_object() ? "an object" : fmt::format("{} items", value.size());
+  // Replacing instead of throwing: a damaged file may hold text that is no UTF-8.
+  const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+}  // namespace
+
+json parse_json(const std::string& text, const std::string& where) {
+  try {
+    return json::parse(text);
+  } catch (const json::parse_error& error) {
+    throw Error(where, fmt::format("byte {}", error.byte), "something else", "JSON");
+  } catch (const json::exception&) {
+    throw Error(where, "number", "one that no double can hold", "a finite number");
+  }
+}
+
+void JsonReader::expect_keys(std::initializer_list<std::string_view> keys) const {
+  for (const auto& member : object().items())
+    if (std::ranges::find(keys, member.key()) == keys.end())
+      throw Error(where_, field_.empty() ? "top level" : field_,
+                  fmt::format("unknown key {}", excerpt(member.key())),
+                  fmt::format("only {}", fmt::join(keys, ", ")));
+  for (const std::string_view key : keys) (*this)[key];
+}
+
+JsonReader JsonReader::operator[](std::string_view key) const {
+  const std::string field = field_.empty() ? std::string(key) : fmt::format("{}.{}", field_, key);
+  const auto member = object().find(key);
+  if (member == value_.end()) throw Error(where_, field, "nothing", "a value");
+  return {*member, where_, field};
+}
+
+std::vector<JsonReader> JsonReader::items() const {
+  if (!value_.is_array()) fail("an array");
+  std::vector<JsonReader> items;
+  items.reserve(value_.size());
+  for (size_t i = 0; i < value_.size(); ++i) items.push_back({value_[i], where_, fmt::format("{}[{}]", field_, i)});
+  return items;
+}
+
+std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
+  std::vector<std::pair<std::string, JsonReader>> members;
+  for (const auto& member : object().items()) members.emplace_back(member.key(), (*this)[member.key()]);
+  return members;
+}
+
+const json& JsonReader::object() const {
+  if (!value_.is_object()) fail("an object");
+  return value_;
+}
+
+std::string JsonReader::text() const {
+  if (!value_.is_string()) fail("a text");
+  return value_.get<std::string>();
+}
+
+void JsonReader::expect_text(std::string_view expected) const {
+  if (text() != expected) fail(fmt::format("\"{}\"", expected));
+}
+
+bool JsonReader::boolean() const {
+  if (!value_.is_boolean()) fail("true or false");
+  return value_.get<bool>();
+}
+
+double JsonReader::number() const {
+  if (!value_.is_number()) fail("a number");
+  return value_.get<double>();
+}
+
+std::optional<double> JsonReader::number_or_null() const {
+  if (value_.is_null()) return std::nullopt;
+  if (!value_.is_number()) fail("a number or null");
+  return value_.get<double>();
+}
+
+int64_t JsonReader::integer(int64_t min, int64_t max) const {
+  const bool fits = value_.is_number_unsigned()
+                        ? value_.get<uint64_t>() <= static_cast<uint64_t>(std::numeric_limits<int64_t>::max())
+                        : value_.is_number_integer();
+  if (!fits || value_.get<int64_t>() < min || value_.get<int64_t>() > max)
+    fail(fmt::format("a whole number in {}..{}", min, max));
+  return value_.get<int64_t>();
+}
+
+uint64_t JsonReader::unsigned_integer() const {
+  if (!value_.is_number_unsigned()) fail("a whole number of 0 or more");
+  return value_.get<uint64_t>();
+}
+
+void JsonReader::fail(const std::string& expected) const {
+  throw Error(where_, field_.empty() ? "top level" : field_, excerpt(value_), expected);
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,158 @@
+#include "core/base/file.h"
+#include "reports/json_reader.h"
+#include "reports/results_json.h"
+
+namespace glovebench::reports {
+namespace {
+
+template <typename Value>
+Value named(const JsonReader& json, std::initializer_list<Value> values) {
+  const std::string name = json.text();
+  for (const Value value : values)
+    if (to_string(value) == name) return value;
+  json.fail("a known name");
+}
+
+TrackStatus read_status(const JsonReader& json) {
+  const std::string name = json.text();
+  for (int s = 0; s < kTrackStatusCount; ++s)
+    if (to_string(static_cast<TrackStatus>(s)) == name) return static_cast<TrackStatus>(s);
+  json.fail("a frame's status");
+}
+
+std::vector<std::string> read_texts(const JsonReader& json) {
+  std::vector<std::string> texts;
+  for (const JsonReader& item : json.items()) texts.push_back(item.text());
+  return texts;
+}
+
+std::vector<double> read_numbers(const JsonReader& json) {
+  std::vector<double> numbers;
+  for (const JsonReader& item : json.items()) numbers.push_back(item.number());
+  return numbers;
+}
+
+Protocol read_protocol(const JsonReader& json) {
+  json.expect_keys({"id", "metric_definitions", "joint_order", "metric_keys", "association", "truth_hashes"});
+  Protocol protocol;
+  protocol.metric_definitions = json["metric_definitions"].count();
+  protocol.joint_order = read_texts(json["joint_order"]);
+  protocol.metric_keys = read_texts(json["metric_keys"]);
+  protocol.association = json["association"].text();
+  for (const auto& [truth, hash] : json["truth_hashes"].members()) protocol.truth_hashes[truth] = hash.text();
+  json["id"].expect_text(protocol.id());
+  return protocol;
+}
+
+FrameRecord read_frame(const JsonReader& json) {
+  const std::vector<JsonReader> row = json.items();
+  constexpr size_t kFirstMetric = 9;
+  if (row.size() != kFirstMetric + kMetricCount) json.fail("one value for each of frame_columns");
+  FrameRecord frame;
+  frame.frame = row[0].count();
+  frame.timestamp_us = row[1].integer(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max());
+  frame.status = read_status(row[2]);
+  frame.covered = row[3].boolean();
+  frame.false_tracked = row[4].boolean();
+  frame.false_lost = row[5].boolean();
+  frame.ambiguous = row[6].boolean();
+  frame.converged = row[7].boolean();
+  frame.icp_iterations = row[8].count();
+  for (int m = 0; m < kMetricCount; ++m) frame.*metrics()[m].value = row[kFirstMetric + m].number_or_null();
+  return frame;
+}
+
+std::vector<SeedRun> read_runs(const JsonReader& json) {
+  std::vector<SeedRun> runs;
+  for (const JsonReader& item : json.items()) {
+    item.expect_keys({"seed", "frames"});
+    SeedRun run;
+    run.seed = item["seed"].unsigned_integer();
+    for (const JsonReader& frame : item["frames"].items()) run.frames.push_back(read_frame(frame));
+    if (!runs.empty() && run.frames.size() != runs.front().frames.size())
+      item["frames"].fail(std::to_string(runs.front().frames.size()) + " items, as the first seed has");
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+Coverage read_coverage(const JsonReader& json) {
+  json.expect_keys({"frames", "covered", "lost", "false_tracked", "false_lost", "share"});
+  json["share"].number_or_null();
+  return {json["frames"].count(), json["covered"].count(), json["lost"].count(), json["false_tracked"].count(),
+          json["false_lost"].count()};
+}
+
+std::optional<ConfidenceInterval> read_interval(const JsonReader& json) {
+  if (json.is_null()) return std::nullopt;
+  json.expect_keys({"low", "high", "level", "seeds", "blocks", "block_frames", "over"});
+  return ConfidenceInterval{json["low"].number(),  json["high"].number(),  json["level"].number(),
+                            json["seeds"].count(), json["blocks"].count(), json["block_frames"].count(),
+                            json["over"].text()};
+}
+
+void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
+  if (json.members().size() != kMetricCount) json.fail(std::to_string(kMetricCount) + " metrics");
+  for (int m = 0; m < kMetricCount; ++m) {
+    const JsonReader item = json[metrics()[m].key];
+    item.expect_keys({"count", "mean", "median", "rms", "p95", "max", "interval"});
+    experiment.aggregates[m] = {item["count"].count(),           item["mean"].number_or_null(),
+                                item["median"].number_or_null(), item["rms"].number_or_null(),
+                                item["p95"].number_or_null(),    item["max"].number_or_null()};
+    experiment.intervals[m] = read_interval(item["interval"]);
+  }
+}
+
+ExperimentKey read_key(const JsonReader& json) {
+  json["noise"].expect_keys({"model", "factor"});
+  ExperimentKey key;
+  key.trajectory = json["trajectory"].text();
+  key.database = json["database"].text();
+  key.truth = named(json["truth"], {TruthKind::recorded, TruthKind::source});
+  key.subject = json["subject"].count();
+  key.noise = {json["noise"]["model"].text(), json["noise"]["factor"].number()};
+  return key;
+}
+
+ExperimentResult read_experiment(const JsonReader& json) {
+  json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
+                    "sequence", "runs"});
+  json["joint_pck"].expect_keys({"thresholds_mm", "shares", "area"});
+  json["sequence"].expect_keys({"jitter_position_mm", "jitter_rotation_deg", "latency_frames"});
+  ExperimentResult experiment;
+  experiment.key = read_key(json);
+  experiment.runs = read_runs(json["runs"]);
+  experiment.coverage = read_coverage(json["coverage"]);
+  if (experiment.coverage != count_coverage(experiment.runs))
+    json["coverage"].fail("the counts of the frames in runs");
+  read_aggregates(json["aggregates"], experiment);
+  const JsonReader pck = json["joint_pck"], sequence = json["sequence"];
+  experiment.pck = {read_numbers(pck["thresholds_mm"]), read_numbers(pck["shares"]), pck["area"].number_or_null()};
+  if (experiment.pck.shares.size() != experiment.pck.thresholds_mm.size())
+    pck["shares"].fail("one for each threshold");
+  experiment.sequence = {sequence["jitter_position_mm"].number_or_null(),
+                         sequence["jitter_rotation_deg"].number_or_null(),
+                         sequence["latency_frames"].number_or_null()};
+  return experiment;
+}
+
+}  // namespace
+
+RunResult read_results(const std::string& path) {
+  const nlohmann::json document = parse_json(read_file(path), path);
+  const JsonReader json(document, path);
+  json["format"].expect_text(kResultsFormat);
+  json["version"].integer(kResultsVersion, kResultsVersion);
+  json.expect_keys({"format", "version", "protocol", "program", "configuration", "frame_columns", "experiments"});
+  json["program"].expect_keys({"version", "commit"});
+  if (read_texts(json["frame_columns"]) != frame_columns()) json["frame_columns"].fail("the columns of version 1");
+  RunResult result;
+  result.protocol = read_protocol(json["protocol"]);
+  result.program_version = json["program"]["version"].text();
+  result.commit = json["program"]["commit"].text();
+  result.configuration = json["configuration"].object();
+  for (const JsonReader& item : json["experiments"].items()) result.experiments.push_back(read_experiment(item));
+  return result;
+}
+
+}  // namespace glovebench::reports

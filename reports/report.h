@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/page.h"
+#include "reports/results.h"
+#include "reports/timings.h"
+
+namespace glovebench::reports {
+
+/// Writes a run's folder, each file whole, and returns their names:
+///   results.json   everything (reports/schema/results.schema.json)
+///   config.json    the effective configuration
+///   summary.md     the tables, to read
+///   index.html     tables, curves, pictures; one file that needs no other
+///   timings.json   what differs from run to run; all other files depend on the results alone
+///   tables/        figure4.csv; figure5.csv and figure6.csv if those experiments were run; frames_*.csv for each
+/// Throws Error if the folder cannot be written.
+std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
+                                      const std::vector<Picture>& pictures = {});
+
+}  // namespace glovebench::reports

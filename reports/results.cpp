@@ -1,0 +1,112 @@
+#include "reports/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/base/hash.h"
+#include "core/hand/posture.h"
+
+namespace glovebench::reports {
+
+const std::array<Metric, kMetricCount>& metrics() {
+  using F = FrameRecord;
+  static constexpr std::array<Metric, kMetricCount> all = {{
+      {"position_error_mm", &F::position_error_mm},
+      {"rotation_error_deg", &F::rotation_error_deg},
+      {"posture_rms_deg", &F::posture_rms_deg},
+      {"posture_mean_abs_deg", &F::posture_mean_abs_deg},
+      {"posture_rms_without_wrist_deg", &F::posture_rms_without_wrist_deg},
+      {"posture_mean_abs_without_wrist_deg", &F::posture_mean_abs_without_wrist_deg},
+      {"posture_rms_observed_deg", &F::posture_rms_observed_deg},
+      {"posture_rms_hidden_deg", &F::posture_rms_hidden_deg},
+      {"posture_rms_unfiltered_deg", &F::posture_rms_unfiltered_deg},
+      {"vertex_error_mm", &F::vertex_error_mm},
+      {"fingertip_error_mm", &F::fingertip_error_mm},
+      {"joint_error_mm", &F::joint_error_mm},
+      {"matching_error_px", &F::matching_error_px},
+      {"icp_residual_mm", &F::icp_residual_mm},
+  }};
+  return all;
+}
+
+int metric_index(std::string_view key) {
+  const auto found = std::ranges::find(metrics(), key, &Metric::key);
+  check(found != metrics().end(), "a metric of that key exists");
+  return static_cast<int>(found - metrics().begin());
+}
+
+std::string_view to_string(TruthKind truth) {
+  return truth == TruthKind::recorded ? "recorded" : "source";
+}
+
+std::string to_string(const ExperimentKey& key) {
+  return fmt::format("{}_{}_{}_subject{}_{}_{}", key.trajectory, key.database, to_string(key.truth), key.subject,
+                     key.noise.model, key.noise.factor);
+}
+
+std::optional<double> Coverage::share() const {
+  if (frames == 0) return std::nullopt;
+  return static_cast<double>(covered) / frames;
+}
+
+Coverage count_coverage(const std::vector<SeedRun>& runs) {
+  Coverage coverage;
+  for (const SeedRun& run : runs) {
+    for (const FrameRecord& frame : run.frames) {
+      ++coverage.frames;
+      coverage.covered += frame.covered;
+      coverage.lost += frame.status != TrackStatus::tracked;
+      coverage.false_tracked += frame.false_tracked;
+      coverage.false_lost += frame.false_lost;
+    }
+  }
+  return coverage;
+}
+
+ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
+                           const BootstrapConfig& bootstrap) {
+  ExperimentResult result;
+  result.key = std::move(key);
+  result.runs = std::move(runs);
+  result.pck = std::move(pck);
+  result.sequence = sequence;
+  result.coverage = count_coverage(result.runs);
+  for (int m = 0; m < kMetricCount; ++m) {
+    std::vector<double> values;
+    std::vector<std::vector<std::optional<double>>> by_seed;
+    for (const SeedRun& run : result.runs) {
+      by_seed.emplace_back();
+      for (const FrameRecord& frame : run.frames) {
+        const std::optional<double>& value = frame.*metrics()[m].value;
+        by_seed.back().push_back(value);
+        if (value) values.push_back(*value);
+      }
+    }
+    result.aggregates[m] = aggregate(values);
+    result.intervals[m] = confidence_interval(by_seed, bootstrap);
+  }
+  return result;
+}
+
+std::string Protocol::id() const {
+  const nlohmann::json content = {metric_definitions, joint_order, metric_keys, association, truth_hashes};
+  return hash_text(content.dump());
+}
+
+Protocol make_protocol(std::string association, std::map<std::string, std::string> truth_hashes) {
+  Protocol protocol;
+  for (const AngleInfo& info : angle_infos()) protocol.joint_order.emplace_back(info.name);
+  for (const Metric& metric : metrics()) protocol.metric_keys.emplace_back(metric.key);
+  protocol.association = std::move(association);
+  protocol.truth_hashes = std::move(truth_hashes);
+  return protocol;
+}
+
+const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key) {
+  const auto found = std::ranges::find(result.experiments, key, &ExperimentResult::key);
+  return found == result.experiments.end() ? nullptr : &*found;
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/tracker/track_result.h"
+#include "reports/statistics.h"
+
+namespace glovebench::reports {
+
+/// What one frame of a replay came to, against the truth. Errors are of the filtered estimate unless the name says
+/// otherwise; a value is empty where it cannot be told (a lost frame's errors, hidden joints when none is hidden).
+struct FrameRecord {
+  int frame = 0;
+  int64_t timestamp_us = 0;
+  TrackStatus status = TrackStatus::no_hand;
+  bool covered = false;        ///< tracked, and the error is under 50 mm and 30 degrees
+  bool false_tracked = false;  ///< says tracked, and is not covered
+  bool false_lost = false;     ///< says lost, though the hand was there to be tracked
+  bool ambiguous = false;      ///< the matches' rotations spread over more than 60 degrees
+  bool converged = false;      ///< of the alignment
+  int icp_iterations = 0;
+
+  std::optional<double> position_error_mm;   ///< distance of the hand origins
+  std::optional<double> rotation_error_deg;  ///< geodesic angle
+  std::optional<double> posture_rms_deg;     ///< over the 22 angles: the headline posture error
+  std::optional<double> posture_mean_abs_deg;
+  std::optional<double> posture_rms_without_wrist_deg;
+  std::optional<double> posture_mean_abs_without_wrist_deg;
+  std::optional<double> posture_rms_observed_deg;    ///< angles that move at least 30 visible pixels
+  std::optional<double> posture_rms_hidden_deg;      ///< the others
+  std::optional<double> posture_rms_unfiltered_deg;  ///< before the smoothing
+  std::optional<double> vertex_error_mm;             ///< mean over the posed mesh, in the camera frame
+  std::optional<double> fingertip_error_mm;          ///< mean over the five tips
+  std::optional<double> joint_error_mm;              ///< mean over the joints
+  std::optional<double> matching_error_px;           ///< equation (2), of the best match
+  std::optional<double> icp_residual_mm;             ///< mean point-to-triangle distance at the end
+
+  friend bool operator==(const FrameRecord&, const FrameRecord&) = default;
+};
+
+/// The metrics of a frame: the one list that files, tables and aggregates follow.
+struct Metric {
+  std::string_view key;  ///< with its unit
+  std::optional<double> FrameRecord::*value;
+};
+inline constexpr int kMetricCount = 14;
+const std::array<Metric, kMetricCount>& metrics();
+/// Index in metrics(); a key that does not exist is a broken invariant.
+int metric_index(std::string_view key);
+
+enum class TruthKind { recorded, source };
+std::string_view to_string(TruthKind truth);
+
+struct NoiseSetting {
+  std::string model = "gradient";  ///< "gradient" (the paper's), "kinect", "none"
+  double factor = 1;               ///< of the noise's gain
+
+  friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
+};
+
+/// What makes one experiment: one trajectory replayed against one database.
+struct ExperimentKey {
+  std::string trajectory;  ///< "Tr4"
+  std::string database;    ///< "DB_open_power"
+  TruthKind truth = TruthKind::recorded;
+  int subject = 1;  ///< the hand in front of the camera: 1 is the tracker's own, 2 another
+  NoiseSetting noise;
+
+  friend bool operator==(const ExperimentKey&, const ExperimentKey&) = default;
+};
+/// Names files: "Tr4_DB_open_power_recorded_subject1_gradient_1".
+std::string to_string(const ExperimentKey& key);
+
+/// The frames of one noise seed, all of the trajectory's in order.
+struct SeedRun {
+  uint64_t seed = 0;
+  std::vector<FrameRecord> frames;
+
+  friend bool operator==(const SeedRun&, const SeedRun&) = default;
+};
+
+/// How often the tracker had the hand; lost frames stay in the denominator.
+struct Coverage {
+  int frames = 0;
+  int covered = 0;
+  int lost = 0;
+  int false_tracked = 0;
+  int false_lost = 0;
+  std::optional<double> share() const;  ///< covered / frames
+
+  friend bool operator==(const Coverage&, const Coverage&) = default;
+};
+
+/// Of a whole sequence; empty where the trajectory has no hold or no movement to measure it on.
+struct SequenceMetrics {
+  std::optional<double> jitter_position_mm;
+  std::optional<double> jitter_rotation_deg;
+  std::optional<double> latency_frames;
+
+  friend bool operator==(const SequenceMetrics&, const SequenceMetrics&) = default;
+};
+
+Coverage count_coverage(const std::vector<SeedRun>& runs);
+
+struct ExperimentResult {
+  ExperimentKey key;
+  std::vector<SeedRun> runs;
+  // From here on: computed from the runs by `summarize`, but for what is handed to it.
+  Coverage coverage;
+  std::array<Aggregate, kMetricCount> aggregates;  ///< over all frames and seeds that have the value
+  std::array<std::optional<ConfidenceInterval>, kMetricCount> intervals;  ///< of the means
+  PckCurve pck;                                                           ///< of the joints' position errors
+  SequenceMetrics sequence;
+
+  const Aggregate& aggregate_of(std::string_view metric) const { return aggregates[metric_index(metric)]; }
+  friend bool operator==(const ExperimentResult&, const ExperimentResult&) = default;
+};
+/// Coverage, aggregates and intervals of the runs; the curve and the sequence's metrics are passed through.
+ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
+                           const BootstrapConfig& bootstrap = {});
+
+/// What must be equal for two results to be compared.
+struct Protocol {
+  int metric_definitions = 1;            ///< raised whenever a metric changes its meaning
+  std::vector<std::string> joint_order;  ///< the 22 angles
+  std::vector<std::string> metric_keys;  ///< with their units
+  std::string association;               ///< how estimates meet truths, e.g. "by time stamp, exact"
+  std::map<std::string, std::string> truth_hashes;
+
+  std::string id() const;  ///< hash of all of the above
+  friend bool operator==(const Protocol&, const Protocol&) = default;
+};
+/// The protocol of this program for these truths.
+Protocol make_protocol(std::string association, std::map<std::string, std::string> truth_hashes);
+
+/// All that a run found, and nothing that differs when the same commit runs again.
+struct RunResult {
+  Protocol protocol;
+  std::string program_version;
+  std::string commit;
+  nlohmann::json configuration = nlohmann::json::object();  ///< effective
+  std::vector<ExperimentResult> experiments;
+
+  friend bool operator==(const RunResult&, const RunResult&) = default;
+};
+/// Empty if there is no such experiment.
+const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key);
+
+}  // namespace glovebench::reports

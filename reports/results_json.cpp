@@ -1,0 +1,119 @@
+#include "reports/results_json.h"
+
+#include "core/base/file.h"
+#include "reports/json_text.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json interval_json(const std::optional<ConfidenceInterval>& interval) {
+  if (!interval) return nullptr;
+  return {
+      {"low", rounded(interval->low)}, {"high", rounded(interval->high)}, {"level", rounded(interval->level)},
+      {"seeds", interval->seeds},      {"blocks", interval->blocks},      {"block_frames", interval->block_frames},
+      {"over", interval->over}};
+}
+
+Json aggregates_json(const ExperimentResult& experiment) {
+  Json json = Json::object();
+  for (int m = 0; m < kMetricCount; ++m) {
+    const Aggregate& a = experiment.aggregates[m];
+    json[std::string(metrics()[m].key)] = {{"count", a.count},
+                                           {"mean", rounded_or_null(a.mean)},
+                                           {"median", rounded_or_null(a.median)},
+                                           {"rms", rounded_or_null(a.rms)},
+                                           {"p95", rounded_or_null(a.p95)},
+                                           {"max", rounded_or_null(a.max)},
+                                           {"interval", interval_json(experiment.intervals[m])}};
+  }
+  return json;
+}
+
+Json coverage_json(const Coverage& coverage) {
+  return {{"frames", coverage.frames},
+          {"covered", coverage.covered},
+          {"lost", coverage.lost},
+          {"false_tracked", coverage.false_tracked},
+          {"false_lost", coverage.false_lost},
+          {"share", rounded_or_null(coverage.share())}};
+}
+
+Json pck_json(const PckCurve& pck) {
+  Json thresholds = Json::array(), shares = Json::array();
+  for (const double threshold : pck.thresholds_mm) thresholds.push_back(rounded(threshold));
+  for (const double share : pck.shares) shares.push_back(rounded(share));
+  return {{"thresholds_mm", thresholds}, {"shares", shares}, {"area", rounded_or_null(pck.area)}};
+}
+
+Json runs_json(const std::vector<SeedRun>& runs) {
+  Json json = Json::array();
+  for (const SeedRun& run : runs) {
+    Json frames = Json::array();
+    for (const FrameRecord& frame : run.frames) frames.push_back(frame_row(frame));
+    json.push_back({{"seed", run.seed}, {"frames", std::move(frames)}});
+  }
+  return json;
+}
+
+Json experiment_json(const ExperimentResult& experiment) {
+  const ExperimentKey& key = experiment.key;
+  const SequenceMetrics& sequence = experiment.sequence;
+  return {{"trajectory", key.trajectory},
+          {"database", key.database},
+          {"truth", std::string(to_string(key.truth))},
+          {"subject", key.subject},
+          {"noise", {{"model", key.noise.model}, {"factor", rounded(key.noise.factor)}}},
+          {"coverage", coverage_json(experiment.coverage)},
+          {"aggregates", aggregates_json(experiment)},
+          {"joint_pck", pck_json(experiment.pck)},
+          {"sequence",
+           {{"jitter_position_mm", rounded_or_null(sequence.jitter_position_mm)},
+            {"jitter_rotation_deg", rounded_or_null(sequence.jitter_rotation_deg)},
+            {"latency_frames", rounded_or_null(sequence.latency_frames)}}},
+          {"runs", runs_json(experiment.runs)}};
+}
+
+}  // namespace
+
+std::vector<std::string> frame_columns() {
+  std::vector<std::string> columns = {"frame",      "timestamp_us", "status",    "covered",       "false_tracked",
+                                      "false_lost", "ambiguous",    "converged", "icp_iterations"};
+  for (const Metric& metric : metrics()) columns.emplace_back(metric.key);
+  return columns;
+}
+
+Json frame_row(const FrameRecord& frame) {
+  Json row = {frame.frame,     frame.timestamp_us,  std::string(to_string(frame.status)),
+              frame.covered,   frame.false_tracked, frame.false_lost,
+              frame.ambiguous, frame.converged,     frame.icp_iterations};
+  for (const Metric& metric : metrics()) row.push_back(rounded_or_null(frame.*metric.value));
+  return row;
+}
+
+std::string results_json(const RunResult& result) {
+  const Protocol& protocol = result.protocol;
+  Json experiments = Json::array();
+  for (const ExperimentResult& experiment : result.experiments) experiments.push_back(experiment_json(experiment));
+  const Json json = {{"format", kResultsFormat},
+                     {"version", kResultsVersion},
+                     {"protocol",
+                      {{"id", protocol.id()},
+                       {"metric_definitions", protocol.metric_definitions},
+                       {"joint_order", protocol.joint_order},
+                       {"metric_keys", protocol.metric_keys},
+                       {"association", protocol.association},
+                       {"truth_hashes", protocol.truth_hashes}}},
+                     {"program", {{"version", result.program_version}, {"commit", result.commit}}},
+                     {"configuration", result.configuration},
+                     {"frame_columns", frame_columns()},
+                     {"experiments", std::move(experiments)}};
+  return format_json(json);
+}
+
+void write_results(const std::string& path, const RunResult& result) {
+  write_file(path, results_json(result));
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+/// Names and values of the columns in which a frame is written, in results.json and in the CSV files.
+std::vector<std::string> frame_columns();
+nlohmann::ordered_json frame_row(const FrameRecord& frame);
+
+/// results.json, as reports/schema/results.schema.json describes it. Values are rounded to 1e-6 of their unit;
+/// equal results are equal bytes.
+std::string results_json(const RunResult& result);
+void write_results(const std::string& path, const RunResult& result);
+
+/// Reads results.json back. Throws Error for whatever write_results does not write: another format or version,
+/// missing and unknown keys, wrong kinds, a protocol id or counts that do not fit the content.
+RunResult read_results(const std::string& path);
+
+inline constexpr std::string_view kResultsFormat = "glovebench-results";
+inline constexpr int kResultsVersion = 1;
+
+}  // namespace glovebench::reports

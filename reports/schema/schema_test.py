@@ -1,0 +1,61 @@
+"""The published schema accepts what the program writes and nothing that differs from it.
+
+Usage: schema_test.py EXAMPLE_PROGRAM. Needs the Debian package python3-jsonschema.
+"""
+
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import jsonschema
+
+SCHEMA = json.loads((pathlib.Path(__file__).parent / "results.schema.json").read_text())
+
+
+class SchemaTest(unittest.TestCase):
+    program = None
+
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([cls.program, folder], check=True, stdout=subprocess.DEVNULL)
+            cls.full = json.loads(pathlib.Path(folder, "results.json").read_text())
+            cls.small = json.loads(pathlib.Path(folder, "small", "results.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(SCHEMA)
+        cls.validator = jsonschema.Draft202012Validator(SCHEMA)
+
+    def test_accepts_written_results(self):
+        for results in (self.full, self.small):
+            self.assertEqual([e.message for e in self.validator.iter_errors(results)], [])
+
+    def test_refuses_changed_results(self):
+        def frame(r):
+            return r["experiments"][0]["runs"][0]["frames"][0]
+
+        changes = {
+            "another version": lambda r: r.update(version=2),
+            "unknown key": lambda r: r.update(extra=1),
+            "missing key": lambda r: r["experiments"][0].pop("coverage"),
+            "unknown truth": lambda r: r["experiments"][0].update(truth="guessed"),
+            "unknown status": lambda r: frame(r).__setitem__(2, "fine"),
+            "text for an error": lambda r: frame(r).__setitem__(9, "3 mm"),
+            "short frame": lambda r: frame(r).pop(),
+            "long frame": lambda r: frame(r).append(1.0),
+            "share over one": lambda r: r["experiments"][0]["coverage"].update(share=1.5),
+            "missing metric": lambda r: r["experiments"][0]["aggregates"].pop("position_error_mm"),
+            "other columns": lambda r: r["frame_columns"].reverse(),
+        }
+        for name, change in changes.items():
+            with self.subTest(name):
+                results = copy.deepcopy(self.small)
+                change(results)
+                self.assertFalse(self.validator.is_valid(results))
+
+
+if __name__ == "__main__":
+    SchemaTest.program = sys.argv.pop(1)
+    unittest.main()

@@ -1,0 +1,138 @@
+#include "reports/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/base/random.h"
+
+namespace glovebench::reports {
+namespace {
+
+void check_finite(std::span<const double> values) {
+  for (const double value : values)
+    check(std::isfinite(value), "a statistic was asked of a value that is not finite");
+}
+
+double sorted_percentile(std::span<const double> sorted, double share) {
+  const double rank = share * static_cast<double>(sorted.size() - 1);
+  const size_t below = static_cast<size_t>(rank);
+  const size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (rank - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+/// Sum and count of the values in one block of one seed.
+struct BlockSum {
+  double sum = 0;
+  int count = 0;
+};
+
+std::vector<BlockSum> block_sums(const std::vector<std::optional<double>>& values, int block_frames) {
+  std::vector<BlockSum> sums((values.size() + block_frames - 1) / block_frames);
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!values[i]) continue;
+    check(std::isfinite(*values[i]), "a statistic was asked of a value that is not finite");
+    BlockSum& block = sums[i / block_frames];
+    block.sum += *values[i];
+    ++block.count;
+  }
+  return sums;
+}
+
+/// The mean of one draw of seeds and blocks; empty if it drew nothing but lost frames.
+std::optional<double> resampled_mean(const std::vector<std::vector<BlockSum>>& sums, RandomStream& random) {
+  const size_t block_count = sums.front().size();
+  std::vector<size_t> seeds(sums.size()), blocks(block_count);
+  for (size_t& seed : seeds) seed = random.index(sums.size());
+  for (size_t& block : blocks) block = random.index(block_count);
+  BlockSum total;
+  for (const size_t seed : seeds) {
+    for (const size_t block : blocks) {
+      total.sum += sums[seed][block].sum;
+      total.count += sums[seed][block].count;
+    }
+  }
+  if (total.count == 0) return std::nullopt;
+  return total.sum / total.count;
+}
+
+}  // namespace
+
+std::optional<double> mean(std::span<const double> values) {
+  check_finite(values);
+  if (values.empty()) return std::nullopt;
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+std::optional<double> rms(std::span<const double> values) {
+  check_finite(values);
+  if (values.empty()) return std::nullopt;
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+std::optional<double> percentile(std::span<const double> values, double share) {
+  check_finite(values);
+  check(share >= 0 && share <= 1, "a percentile's share lies in 0..1");
+  if (values.empty()) return std::nullopt;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  return sorted_percentile(sorted, share);
+}
+
+Aggregate aggregate(std::span<const double> values) {
+  return {static_cast<int>(values.size()), mean(values),           percentile(values, 0.5), rms(values),
+          percentile(values, 0.95),        percentile(values, 1.0)};
+}
+
+PckCurve pck_curve(std::span<const double> errors_mm, size_t keypoint_count) {
+  constexpr int kLargest_mm = 50;
+  check_finite(errors_mm);
+  check(errors_mm.size() <= keypoint_count, "there are no more errors than keypoints");
+  PckCurve curve;
+  if (keypoint_count == 0) return curve;
+  for (int threshold = 0; threshold <= kLargest_mm; ++threshold) {
+    const auto within = std::ranges::count_if(errors_mm, [&](double error) { return error <= threshold; });
+    curve.thresholds_mm.push_back(threshold);
+    curve.shares.push_back(static_cast<double>(within) / static_cast<double>(keypoint_count));
+  }
+  double area = 0;
+  for (int i = 1; i <= kLargest_mm; ++i) area += (curve.shares[i - 1] + curve.shares[i]) / 2;
+  curve.area = area / kLargest_mm;
+  return curve;
+}
+
+std::optional<ConfidenceInterval> confidence_interval(
+    const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config) {
+  check(config.block_frames >= 1 && config.resamples >= 1 && config.level > 0 && config.level < 1,
+        "a bootstrap has blocks, resamples and a level between 0 and 1");
+  std::vector<std::vector<BlockSum>> sums;
+  for (const auto& values : values_by_seed) {
+    check(values.size() == values_by_seed.front().size(), "all seeds replay the same frames");
+    sums.push_back(block_sums(values, config.block_frames));
+  }
+  if (sums.empty() || sums.front().size() < 2) return std::nullopt;
+
+  RandomStream random(config.seed, "confidence_interval", 0, "bootstrap");
+  std::vector<double> means;
+  for (int i = 0; i < config.resamples; ++i)
+    if (const auto resampled = resampled_mean(sums, random)) means.push_back(*resampled);
+  if (means.empty()) return std::nullopt;
+  std::ranges::sort(means);
+
+  ConfidenceInterval interval;
+  interval.low = sorted_percentile(means, (1 - config.level) / 2);
+  interval.high = sorted_percentile(means, (1 + config.level) / 2);
+  interval.level = config.level;
+  interval.seeds = static_cast<int>(sums.size());
+  interval.blocks = static_cast<int>(sums.front().size());
+  interval.block_frames = config.block_frames;
+  interval.over = interval.seeds > 1 ? "noise seeds and blocks of frames of this movement"
+                                     : "blocks of frames of this movement, one noise seed";
+  return interval;
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,113 @@
+#include "reports/statistics.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/base/random.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Values = std::vector<double>;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Statistics, EmptyInputHasNoValue) {
+  EXPECT_EQ(mean({}), std::nullopt);
+  EXPECT_EQ(rms({}), std::nullopt);
+  EXPECT_EQ(percentile({}, 0.5), std::nullopt);
+  EXPECT_EQ(aggregate({}), Aggregate{});
+  EXPECT_EQ(pck_curve({}, 0), PckCurve{});
+}
+
+TEST(Statistics, ASingleValueIsEveryStatistic) {
+  EXPECT_EQ(aggregate(Values{-3.5}), (Aggregate{1, -3.5, -3.5, 3.5, -3.5, -3.5}));
+}
+
+TEST(Statistics, NonFiniteInputIsRefused) {
+  for (const double bad : {kNaN, kInfinity, -kInfinity}) {
+    EXPECT_THROW(mean(Values{1, bad}), std::logic_error);
+    EXPECT_THROW(rms(Values{bad, 1}), std::logic_error);
+    EXPECT_THROW(percentile(Values{bad}, 0.5), std::logic_error);
+    EXPECT_THROW(aggregate(Values{0, bad, 2}), std::logic_error);
+    EXPECT_THROW(pck_curve(Values{bad}, 1), std::logic_error);
+    EXPECT_THROW(confidence_interval({{1.0, bad, 2.0}}, {.block_frames = 1}), std::logic_error);
+  }
+}
+
+TEST(Statistics, HandComputedValues) {
+  const Values values = {4, 1, 3, 2};
+  EXPECT_DOUBLE_EQ(*mean(values), 2.5);
+  EXPECT_DOUBLE_EQ(*rms(values), std::sqrt(7.5));
+  EXPECT_DOUBLE_EQ(*percentile(values, 0), 1);
+  EXPECT_DOUBLE_EQ(*percentile(values, 0.5), 2.5);
+  EXPECT_DOUBLE_EQ(*percentile(values, 0.95), 3.85);  // rank 2.85 between 3 and 4
+  EXPECT_DOUBLE_EQ(*percentile(values, 1), 4);
+}
+
+TEST(Statistics, PckCountsLostKeypointsInTheDenominator) {
+  const PckCurve curve = pck_curve(Values{0, 10, 60}, 4);
+  ASSERT_EQ(curve.shares.size(), 51u);
+  EXPECT_EQ(curve.thresholds_mm.back(), 50);
+  EXPECT_DOUBLE_EQ(curve.shares[0], 0.25);
+  EXPECT_DOUBLE_EQ(curve.shares[9], 0.25);
+  EXPECT_DOUBLE_EQ(curve.shares[10], 0.5);
+  EXPECT_DOUBLE_EQ(curve.shares[50], 0.5);
+  // 9 mm at 0.25, one trapezoid from 0.25 to 0.5, 40 mm at 0.5.
+  EXPECT_DOUBLE_EQ(*curve.area, (9 * 0.25 + 0.375 + 40 * 0.5) / 50);
+  EXPECT_THROW(pck_curve(Values{1, 2}, 1), std::logic_error);
+}
+
+TEST(Statistics, PerfectKeypointsFillTheCurve) {
+  EXPECT_DOUBLE_EQ(*pck_curve(Values{0, 0}, 2).area, 1);
+}
+
+std::vector<std::vector<std::optional<double>>> noisy_values(uint64_t stream, int seeds, int frames) {
+  std::vector<std::vector<std::optional<double>>> values(seeds);
+  RandomStream random(stream, "statistics_test", 0, "noise");
+  for (auto& row : values)
+    for (int i = 0; i < frames; ++i) row.push_back(5 + random.normal());
+  return values;
+}
+
+TEST(Statistics, IntervalHoldsTheTrueMeanAboutAsOftenAsItsLevelSays) {
+  constexpr int kTrials = 200;
+  int held = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto interval = confidence_interval(noisy_values(trial, 1, 300), {.block_frames = 10, .resamples = 300});
+    held += interval->low <= 5 && 5 <= interval->high;
+  }
+  // Binomial, sd 0.015 at 0.95; a percentile bootstrap of 30 blocks falls a little short of its level.
+  EXPECT_GE(held, 0.88 * kTrials);
+  EXPECT_LE(held, 0.995 * kTrials);
+}
+
+TEST(Statistics, IntervalSaysWhatItIsOver) {
+  const auto many = confidence_interval(noisy_values(1, 5, 40));
+  ASSERT_TRUE(many);
+  EXPECT_EQ(many->seeds, 5);
+  EXPECT_EQ(many->blocks, 3);  // 15 + 15 + 10 frames
+  EXPECT_EQ(many->over, "noise seeds and blocks of frames of this movement");
+  EXPECT_LT(many->low, many->high);
+  EXPECT_EQ(many, confidence_interval(noisy_values(1, 5, 40))) << "the same input gives the same interval";
+  EXPECT_EQ(confidence_interval(noisy_values(1, 1, 40))->over, "blocks of frames of this movement, one noise seed");
+}
+
+TEST(Statistics, NoIntervalOfTooLittle) {
+  EXPECT_EQ(confidence_interval({}), std::nullopt);
+  EXPECT_EQ(confidence_interval(noisy_values(1, 3, 15)), std::nullopt) << "one block";
+  EXPECT_EQ(confidence_interval({{std::nullopt, std::nullopt}}, {.block_frames = 1}), std::nullopt) << "all lost";
+}
+
+TEST(Statistics, ConstantValuesHaveAnIntervalOfNoWidth) {
+  const auto interval = confidence_interval({{2.0, std::nullopt, 2.0, 2.0}}, {.block_frames = 2});
+  ASSERT_TRUE(interval);
+  EXPECT_EQ(interval->low, 2);
+  EXPECT_EQ(interval->high, 2);
+}
+
+}  // namespace
+}  // namespace glovebench::reports

@@ -1,0 +1,115 @@
+#include "reports/summary.h"
+
+#include <fmt/format.h>
+
+#include "reports/chart.h"
+
+namespace glovebench::reports {
+namespace {
+
+std::string errors_cell(const ExperimentResult* experiment) {
+  if (!experiment) return "-";
+  std::optional<double> percent = experiment->coverage.share();
+  if (percent) *percent *= 100;
+  return fmt::format("{} / {} / {}, {}%", fixed(experiment->aggregate_of("position_error_mm").mean, 2),
+                     fixed(experiment->aggregate_of("posture_rms_deg").mean, 2),
+                     fixed(experiment->aggregate_of("rotation_error_deg").mean, 2), fixed(percent, 1));
+}
+
+std::string mean_with_interval(const ExperimentResult& experiment, std::string_view metric) {
+  const auto& interval = experiment.intervals[metric_index(metric)];
+  const std::string mean = fixed(experiment.aggregate_of(metric).mean, 2);
+  return interval ? fmt::format("{} [{:.2f}, {:.2f}]", mean, interval->low, interval->high) : mean;
+}
+
+}  // namespace
+
+std::string to_markdown(const TextTable& table) {
+  std::string text = fmt::format("| {} |\n|", fmt::join(table.heading, " | "));
+  for (size_t c = 0; c < table.heading.size(); ++c)
+    text += static_cast<int>(c) < table.name_columns ? " --- |" : " ---: |";
+  text += "\n";
+  for (const auto& row : table.rows) text += fmt::format("| {} |\n", fmt::join(row, " | "));
+  return text;
+}
+
+std::string to_html(const TextTable& table) {
+  std::string text = "<div class=\"scroll\"><table>\n<thead><tr>";
+  const auto cells = [&](const std::vector<std::string>& row, const char* tag) {
+    for (size_t c = 0; c < row.size(); ++c)
+      text += fmt::format("<{0}{1}>{2}</{0}>", tag,
+                          static_cast<int>(c) < table.name_columns ? " class=\"name\"" : "", escape_html(row[c]));
+  };
+  cells(table.heading, "th");
+  text += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    text += "<tr>";
+    cells(row, "td");
+    text += "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
+  TextTable table;
+  table.heading = {"trajectory", "database"};
+  for (const Variant& variant : figure4_variants()) table.heading.push_back(variant.title);
+  table.heading.push_back("paper");
+  for (const Figure4Row& row : figure4_rows(result, paper, noise)) {
+    table.rows.push_back({row.trajectory, row.database});
+    for (const ExperimentResult* experiment : row.variants) table.rows.back().push_back(errors_cell(experiment));
+    table.rows.back().push_back(row.paper ? fmt::format("{:.2f} / {:.2f} / {:.2f}", row.paper->position_mm,
+                                                        row.paper->posture_deg, row.paper->rotation_deg)
+                                          : "-");
+  }
+  return table;
+}
+
+TextTable detail_summary(const RunResult& result) {
+  TextTable table;
+  table.name_columns = 4;
+  table.heading = {"trajectory",  "database",       "truth",     "noise",         "position mm [95%]",
+                   "vertices mm", "fingertips mm",  "joints mm", "PCK area",      "jitter mm",
+                   "jitter deg",  "latency frames", "lost",      "false tracked", "false lost",
+                   "frames"};
+  for (const ExperimentResult& experiment : result.experiments) {
+    const ExperimentKey& key = experiment.key;
+    const Coverage& coverage = experiment.coverage;
+    table.rows.push_back({key.trajectory, key.database,
+                          fmt::format("{}{}", to_string(key.truth), key.subject == 1 ? "" : ", second subject"),
+                          fmt::format("{} x {}", key.noise.model, key.noise.factor),
+                          mean_with_interval(experiment, "position_error_mm"),
+                          fixed(experiment.aggregate_of("vertex_error_mm").mean, 2),
+                          fixed(experiment.aggregate_of("fingertip_error_mm").mean, 2),
+                          fixed(experiment.aggregate_of("joint_error_mm").mean, 2), fixed(experiment.pck.area, 3),
+                          fixed(experiment.sequence.jitter_position_mm, 2),
+                          fixed(experiment.sequence.jitter_rotation_deg, 2),
+                          fixed(experiment.sequence.latency_frames, 1), std::to_string(coverage.lost),
+                          std::to_string(coverage.false_tracked), std::to_string(coverage.false_lost),
+                          std::to_string(coverage.frames)});
+  }
+  return table;
+}
+
+std::string summary_explanation() {
+  return "Each cell holds the mean position error (mm), posture error (RMS over the 22 joint angles, degrees) and "
+         "rotation error (degrees), then the coverage: the share of all frames, lost ones included, that are "
+         "tracked "
+         "within 50 mm and 30 degrees. Recorded truth is the paper's protocol: a movement that was tracked once "
+         "became "
+         "the truth. Source truth is the movement itself. The tracker's hand model is the first subject's hand; "
+         "the "
+         "second subject's hand differs from it. The paper prints its means for two experiments only.";
+}
+
+std::string summary_markdown(const RunResult& result, const PaperNumbers& paper) {
+  return fmt::format(
+      "# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n## Figure 4\n\n{}\n\n{}\n"
+      "The paper: {}.\n\n## More metrics\n\n"
+      "Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
+      "hands.\n\n{}",
+      result.program_version, result.commit, result.protocol.id(), summary_explanation(),
+      to_markdown(figure4_summary(result, paper)), paper.source, to_markdown(detail_summary(result)));
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/tables.h"
+
+namespace glovebench::reports {
+
+/// A table of texts, for Markdown and HTML. The first `name_columns` columns are names, the others numbers.
+struct TextTable {
+  std::vector<std::string> heading;
+  std::vector<std::vector<std::string>> rows;
+  int name_columns = 2;
+};
+std::string to_markdown(const TextTable& table);
+std::string to_html(const TextTable& table);
+
+/// Figure 4: a column for each variant and one for the paper's printed means.
+TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise = {});
+/// One row an experiment, of any noise: the mean position error with its interval, the metrics that depend on no
+/// joint convention, jitter, latency, lost and false frames.
+TextTable detail_summary(const RunResult& result);
+
+/// summary.md: both tables, what they mean, and the protocol.
+std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
+/// What the cells of the tables hold, in one paragraph of plain text.
+std::string summary_explanation();
+
+}  // namespace glovebench::reports

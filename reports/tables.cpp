@@ -1,0 +1,185 @@
+#include "reports/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/json_text.h"
+#include "reports/results_json.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The errors of Figure 4 and where the paper's are.
+struct Headline {
+  std::string_view metric;
+  double PaperErrors::*paper;
+};
+constexpr std::array<Headline, 3> kHeadlines = {{{"position_error_mm", &PaperErrors::position_mm},
+                                                 {"posture_rms_deg", &PaperErrors::posture_deg},
+                                                 {"rotation_error_deg", &PaperErrors::rotation_deg}}};
+
+/// JSON values as one CSV line; texts here are names without commas or quotes.
+std::string csv_line(const Json& cells) {
+  std::string line;
+  for (const auto& cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    if (!cell.is_null()) line += cell.is_string() ? cell.get<std::string>() : cell.dump();
+  }
+  return line + "\n";
+}
+
+std::string short_name(const std::string& database) {
+  return database.starts_with("DB_") ? database.substr(3) : database;
+}
+
+/// Five columns wide whatever the size of an error.
+std::string cell(const std::optional<double>& value) {
+  return fixed(value, value && *value >= 99.995 ? 1 : 2);
+}
+
+std::string variant_cells(const ExperimentResult* experiment) {
+  if (!experiment) return fmt::format("{:>6} {:>6} {:>6} {:>5}", "-", "-", "-", "-");
+  std::optional<double> percent = experiment->coverage.share();
+  if (percent) *percent *= 100;
+  return fmt::format("{:>6} {:>6} {:>6} {:>5}", cell(experiment->aggregate_of("position_error_mm").mean),
+                     cell(experiment->aggregate_of("posture_rms_deg").mean),
+                     cell(experiment->aggregate_of("rotation_error_deg").mean), fixed(percent, 1));
+}
+
+std::string paper_cells(const PaperErrors* paper) {
+  if (!paper) return fmt::format("{:>5} {:>5} {:>5}", "-", "-", "-");
+  return fmt::format("{:>5.2f} {:>5.2f} {:>5.2f}", paper->position_mm, paper->posture_deg, paper->rotation_deg);
+}
+
+std::string table_line(std::string_view trajectory, std::string_view database,
+                       const std::array<std::string, 4>& cells) {
+  return fmt::format("{:<4} {:<16}|{:^25}|{:^25}|{:^25}|{:^18}", trajectory, database, cells[0], cells[1], cells[2],
+                     cells[3]);
+}
+
+std::string figure4_csv_line(const ExperimentResult& experiment, const PaperErrors* paper) {
+  const ExperimentKey& key = experiment.key;
+  Json cells = {key.trajectory,
+                key.database,
+                to_string(key.truth),
+                key.subject,
+                experiment.runs.size(),
+                experiment.coverage.frames,
+                rounded_or_null(experiment.coverage.share())};
+  for (const Headline& headline : kHeadlines) {
+    const auto& interval = experiment.intervals[metric_index(headline.metric)];
+    cells.push_back(rounded_or_null(experiment.aggregate_of(headline.metric).mean));
+    cells.push_back(interval ? Json(rounded(interval->low)) : nullptr);
+    cells.push_back(interval ? Json(rounded(interval->high)) : nullptr);
+    cells.push_back(paper ? Json(paper->*headline.paper) : nullptr);
+  }
+  return csv_line(cells);
+}
+
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+}  // namespace
+
+const std::array<Variant, 3>& figure4_variants() {
+  static const std::array<Variant, 3> variants = {{{"recorded truth", TruthKind::recorded, 1},
+                                                   {"source truth", TruthKind::source, 1},
+                                                   {"source, second subject", TruthKind::source, 2}}};
+  return variants;
+}
+
+std::string fixed(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper,
+                                     const NoiseSetting& noise) {
+  std::vector<Figure4Row> rows;
+  for (const ExperimentResult& experiment : result.experiments) {
+    const ExperimentKey& key = experiment.key;
+    if (key.noise != noise) continue;
+    auto row = std::ranges::find_if(
+        rows, [&](const Figure4Row& r) { return r.trajectory == key.trajectory && r.database == key.database; });
+    if (row == rows.end())
+      row = rows.insert(row, {key.trajectory, key.database, {}, paper.mean_of(key.trajectory, key.database)});
+    for (size_t v = 0; v < figure4_variants().size(); ++v)
+      if (figure4_variants()[v].truth == key.truth && figure4_variants()[v].subject == key.subject)
+        row->variants[v] = &experiment;
+  }
+  return rows;
+}
+
+std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
+  const std::string units = fmt::format("{:>6} {:>6} {:>6} {:>5}", "mm", "post.", "rot.", "cov.");
+  std::string text = fmt::format(
+      "Mean errors: position (mm), posture (RMS of 22 angles, deg), rotation (deg); coverage (%). Noise: {} x {}\n",
+      noise.model, noise.factor);
+  text += trimmed(table_line(
+      "", "", {figure4_variants()[0].title, figure4_variants()[1].title, figure4_variants()[2].title, "paper"}));
+  text += trimmed(table_line("", "database DB_",
+                             {units, units, units, fmt::format("{:>5} {:>5} {:>5}", "mm", "post.", "rot.")}));
+  std::string previous;
+  for (const Figure4Row& row : figure4_rows(result, paper, noise)) {
+    if (row.trajectory != previous) text += fmt::format("{0:-<21}+{0:-<25}+{0:-<25}+{0:-<25}+{0:-<18}\n", "");
+    text += trimmed(table_line(row.trajectory == previous ? "" : row.trajectory, short_name(row.database),
+                               {variant_cells(row.variants[0]), variant_cells(row.variants[1]),
+                                variant_cells(row.variants[2]), paper_cells(row.paper)}));
+    previous = row.trajectory;
+  }
+  return text;
+}
+
+std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
+  Json heading = {"trajectory", "database", "truth", "subject", "seeds", "frames", "coverage"};
+  for (const Headline& headline : kHeadlines)
+    for (const char* part : {"mean", "interval_low", "interval_high", "paper"})
+      heading.push_back(fmt::format("{}_{}", headline.metric, part));
+  std::string csv = csv_line(heading);
+  for (const Figure4Row& row : figure4_rows(result, paper, noise))
+    for (const ExperimentResult* experiment : row.variants)
+      if (experiment) csv += figure4_csv_line(*experiment, row.paper);
+  return csv;
+}
+
+std::string frames_csv(const ExperimentResult& experiment) {
+  std::string csv = "seed";
+  for (const std::string& column : frame_columns()) csv += "," + column;
+  csv += "\n";
+  for (const SeedRun& run : experiment.runs)
+    for (const FrameRecord& frame : run.frames) csv += fmt::format("{},{}", run.seed, csv_line(frame_row(frame)));
+  return csv;
+}
+
+std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& paper) {
+  std::string csv =
+      "seed,frame,timestamp_us,status,position_error_mm,posture_rms_deg,rotation_error_deg,"
+      "paper_position_error_mm,paper_posture_error_deg,paper_rotation_error_deg\n";
+  for (const SeedRun& run : experiment.runs) {
+    for (size_t i = 0; i < run.frames.size(); ++i) {
+      const FrameRecord& frame = run.frames[i];
+      Json cells = {run.seed,
+                    frame.frame,
+                    frame.timestamp_us,
+                    std::string(to_string(frame.status)),
+                    rounded_or_null(frame.position_error_mm),
+                    rounded_or_null(frame.posture_rms_deg),
+                    rounded_or_null(frame.rotation_error_deg)};
+      if (i < paper.frames.size()) {
+        const PaperErrors& errors = paper.frames[i];
+        for (const double value : {errors.position_mm, errors.posture_deg, errors.rotation_deg})
+          cells.push_back(value);
+      } else {
+        for (int column = 0; column < 3; ++column) cells.push_back(nullptr);
+      }
+      csv += csv_line(cells);
+    }
+  }
+  return csv;
+}
+
+}  // namespace glovebench::reports

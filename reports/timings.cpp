@@ -1,0 +1,44 @@
+#include "reports/timings.h"
+
+#include "reports/json_text.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json experiment_json(const ExperimentTiming& timing) {
+  Json stages = Json::object();
+  for (const StageTiming& stage : timing.stages) {
+    const Aggregate a = aggregate(stage.frame_ms);
+    stages[stage.stage] = {{"count", a.count},
+                           {"mean_ms", rounded_or_null(a.mean)},
+                           {"median_ms", rounded_or_null(a.median)},
+                           {"p95_ms", rounded_or_null(a.p95)},
+                           {"max_ms", rounded_or_null(a.max)}};
+  }
+  return {{"experiment", to_string(timing.key)},
+          {"wall_s", rounded(timing.wall_s)},
+          {"peak_memory_mb", rounded_or_null(timing.peak_memory_mb)},
+          {"stages", std::move(stages)}};
+}
+
+}  // namespace
+
+std::string timings_json(const Timings& timings) {
+  Json experiments = Json::array();
+  for (const ExperimentTiming& timing : timings.experiments) experiments.push_back(experiment_json(timing));
+  return format_json({{"format", "glovebench-timings"},
+                      {"version", 1},
+                      {"host", timings.host},
+                      {"processor", timings.processor},
+                      {"threads", timings.threads},
+                      {"compiler", timings.compiler},
+                      {"build_type", timings.build_type},
+                      {"commit", timings.commit},
+                      {"date", timings.date},
+                      {"wall_s", rounded(timings.wall_s)},
+                      {"experiments", std::move(experiments)}});
+}
+
+}  // namespace glovebench::reports

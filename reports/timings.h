@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+/// Times of one stage over the frames of an experiment.
+struct StageTiming {
+  std::string stage;
+  std::vector<double> frame_ms;  ///< one value a frame
+};
+
+struct ExperimentTiming {
+  ExperimentKey key;
+  double wall_s = 0;
+  std::optional<double> peak_memory_mb;  ///< of the process so far; empty where it cannot be told
+  std::vector<StageTiming> stages;
+};
+
+/// What differs from run to run, and so stands apart from the results.
+struct Timings {
+  std::string host;
+  std::string processor;
+  int threads = 1;
+  std::string compiler;
+  std::string build_type;
+  std::string commit;
+  std::string date;  ///< ISO 8601, UTC
+  double wall_s = 0;
+  std::vector<ExperimentTiming> experiments;
+};
+
+/// timings.json: of each stage count, mean, median, 95th percentile and maximum.
+std::string timings_json(const Timings& timings);
+
+}  // namespace glovebench::reports
