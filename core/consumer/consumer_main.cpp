@@ -1,15 +1,19 @@
-#include <cstdio>
-#include <span>
-#include <string>
+#include <fmt/core.h>
 
-#include "core/base/hash.h"
-#include "core/base/random.h"
-#include "core/hand/posture.h"
+#include <exception>
 
-/// Prints a fixed number of the named random stream and the hash of a text: both need the library's code.
-int main() {
-  glovebench::RandomStream stream(1, "consumer", 0, "test");
-  const std::string hash = glovebench::hash_text("glovebench");
-  std::printf("%d angles, uniform %.6f, hash %s\n", glovebench::kAngleCount, stream.uniform(), hash.c_str());
-  return hash.size() == 32 ? 0 : 1;
+#include "core/hand/hand_model.h"
+
+/// Poses the hand of the mesh file in the first argument, by the installed library alone.
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    fmt::print(stderr, "usage: consumer MESH\n");
+    return 2;
+  }
+  const auto model = glovebench::HandModel::load(argv[1]);
+  const auto hand = model.pose(glovebench::Posture::Zero());
+  fmt::print("{} vertices, {} triangles\n", hand.vertices.size(), model.triangles().size());
+} catch (const std::exception& e) {
+  fmt::print(stderr, "consumer: {}\n", e.what());
+  return 2;
 }

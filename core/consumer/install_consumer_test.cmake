@@ -1,5 +1,5 @@
 # Installs the library into a new folder, then configures, builds and runs the consumer against nothing else.
-# Arguments: BUILD_DIR, SOURCE_DIR, CONFIG, GENERATOR, COMPILER, FLAGS of the build that is tested.
+# Arguments: BUILD_DIR, SOURCE_DIR, CONFIG, GENERATOR, COMPILER, FLAGS of the build that is tested; MESH.
 set(work ${BUILD_DIR}/install-consumer)
 set(prefix ${work}/prefix)
 file(REMOVE_RECURSE ${work})
@@ -29,4 +29,4 @@ run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE_DIR}/core/consumer -B ${work}/b
   -D CMAKE_BUILD_TYPE=${CONFIG} -D CMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}"
   -D CMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${work}/build)
-run(${work}/build/consumer)
+run(${work}/build/consumer ${MESH})
