@@ -1,0 +1,200 @@
+#include "trajectories/generation/motion_script.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/angles.h"
+#include "trajectories/generation/natural_variation.h"
+#include "trajectories/json_field.h"
+#include "trajectories/posture_file.h"
+
+namespace glovebench::trajectories {
+namespace {
+
+// Drift and tremor: root mean square and band. Postures keep a few degrees around the gesture, slowly changing;
+// the pose wanders by millimetres and shakes by tenths of one.
+constexpr double kModeDrift = 1.2;  ///< degrees RMS of each variation mode
+constexpr double kWristDriftDeg = 1.0;
+constexpr double kPositionDrift = 2e-3;     ///< m
+constexpr double kPositionTremor = 0.2e-3;  ///< m
+constexpr double kRotationDriftDeg = 1.0;
+constexpr double kRotationTremorDeg = 0.1;
+constexpr double kDriftLowHz = 0.05, kDriftHighHz = 0.4;
+constexpr double kTremorLowHz = 2, kTremorHighHz = 5;
+
+Posture blend_from(const JsonField& field, const PostureSet& gestures) {
+  Posture blend = Posture::Zero();
+  double total = 0;
+  field.expect_object();
+  for (const auto& [gesture, unused] : field.value().items()) {
+    const double weight = field.member(gesture).number(0, 1);
+    blend += weight * find_posture(gestures, gesture);
+    total += weight;
+  }
+  if (std::abs(total - 1) > 1e-9) field.fail(fmt::format("weights with sum {}", total), "sum 1");
+  return blend;
+}
+
+WristAngles wrist_from(const JsonField& key) {
+  const auto angle = [&](const char* name, Angle index) {
+    const AngleInfo& info = angle_infos()[index];
+    return radians_from_degrees(key.member(name).number(info.min_deg, info.max_deg));
+  };
+  return {angle("flexion_deg", kWristFlexion), angle("abduction_deg", kWristAbduction)};
+}
+
+HandPose pose_from(const JsonField& key) {
+  HandPose pose;
+  const JsonField position = key.member("position_mm");
+  position.expect_array(3);
+  for (int i = 0; i < 3; ++i) pose.position[i] = position.element(i).number(-kMaxPositionMm, kMaxPositionMm) / 1000;
+  const auto angle = [&](const char* name) { return radians_from_degrees(key.member(name).number(-180, 180)); };
+  pose.rotation = hand_rotation(angle("yaw_deg"), angle("pitch_deg"), angle("roll_deg"));
+  return pose;
+}
+
+/// The keys of one channel; `value_from` reads the value of one.
+template <typename Value, typename ValueFrom>
+std::vector<Keyframe<Value>> keys_from(const JsonField& field, int frame_count,
+                                       std::initializer_list<std::string_view> members, ValueFrom value_from) {
+  std::vector<Keyframe<Value>> keys;
+  for (size_t i = 0; i < field.array_size(); ++i) {
+    const JsonField key = field.element(i);
+    key.expect_members(members);
+    const int first = keys.empty() ? 0 : keys.back().frame + 1;
+    const int last = keys.empty() ? 0 : frame_count - 1;
+    const auto frame = static_cast<int>(key.member("frame").integer(first, last));
+    keys.push_back({frame, value_from(key)});
+  }
+  if (keys.back().frame != frame_count - 1) {
+    field.fail(fmt::format("the last key at frame {}", keys.back().frame), fmt::format("{}", frame_count - 1));
+  }
+  return keys;
+}
+
+/// The channel's value at a frame; `mix(a, b, s)` lies the share s of the way from a to b.
+template <typename Value, typename Mix>
+Value value_at(const std::vector<Keyframe<Value>>& keys, int frame, Mix mix) {
+  size_t next = 1;
+  while (next < keys.size() && keys[next].frame < frame) ++next;
+  if (next == keys.size()) return keys.back().value;
+  const Keyframe<Value>& a = keys[next - 1];
+  const Keyframe<Value>& b = keys[next];
+  const double time = static_cast<double>(frame - a.frame) / (b.frame - a.frame);
+  return mix(a.value, b.value, minimum_jerk(time));
+}
+
+/// Everything that is laid over the keyframes.
+class Restlessness {
+ public:
+  explicit Restlessness(const MotionScript& script) : random_(script.seed, script.name, 0, "restlessness") {
+    for (size_t m = 0; m < variation_modes().size(); ++m) modes_.push_back(drift());
+  }
+
+  Posture posture_offset(double time_s) const {
+    Posture offset = Posture::Zero();
+    for (size_t m = 0; m < modes_.size(); ++m) offset += kModeDrift * modes_[m].at(time_s) * variation_modes()[m];
+    offset[kWristFlexion] = radians_from_degrees(kWristDriftDeg) * wrist_[0].at(time_s);
+    offset[kWristAbduction] = radians_from_degrees(kWristDriftDeg) * wrist_[1].at(time_s);
+    return offset;
+  }
+  Eigen::Vector3d position_offset(double time_s) const {
+    return kPositionDrift * at(position_drift_, time_s) + kPositionTremor * at(position_tremor_, time_s);
+  }
+  Eigen::Quaterniond rotation_offset(double time_s) const {
+    const Eigen::Vector3d turn_deg =
+        kRotationDriftDeg * at(rotation_drift_, time_s) + kRotationTremorDeg * at(rotation_tremor_, time_s);
+    const double angle = radians_from_degrees(turn_deg.norm());
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn_deg.normalized()));
+  }
+
+ private:
+  using Noise3 = std::array<SmoothNoise, 3>;
+  SmoothNoise drift() { return {random_, kDriftLowHz, kDriftHighHz}; }
+  SmoothNoise tremor() { return {random_, kTremorLowHz, kTremorHighHz}; }
+  static Eigen::Vector3d at(const Noise3& noise, double time_s) {
+    return {noise[0].at(time_s), noise[1].at(time_s), noise[2].at(time_s)};
+  }
+
+  RandomStream random_;
+  std::vector<SmoothNoise> modes_;
+  std::array<SmoothNoise, 2> wrist_ = {drift(), drift()};
+  Noise3 position_drift_ = {drift(), drift(), drift()};
+  Noise3 rotation_drift_ = {drift(), drift(), drift()};
+  Noise3 position_tremor_ = {tremor(), tremor(), tremor()};
+  Noise3 rotation_tremor_ = {tremor(), tremor(), tremor()};
+};
+
+Posture posture_at(const MotionScript& script, int frame) {
+  Posture posture = value_at(script.postures, frame, [](const Posture& a, const Posture& b, double s) -> Posture {
+    return a + s * (b - a);
+  });
+  const WristAngles wrist =
+      value_at(script.wrist, frame, [](const WristAngles& a, const WristAngles& b, double s) -> WristAngles {
+        return {std::lerp(a.flexion, b.flexion, s), std::lerp(a.abduction, b.abduction, s)};
+      });
+  posture[kWristFlexion] += wrist.flexion;
+  posture[kWristAbduction] += wrist.abduction;
+  return posture;
+}
+
+HandPose pose_at(const MotionScript& script, int frame) {
+  return value_at(script.poses, frame, [](const HandPose& a, const HandPose& b, double s) -> HandPose {
+    return {a.position + s * (b.position - a.position), a.rotation.slerp(s, b.rotation)};
+  });
+}
+
+}  // namespace
+
+MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where) {
+  const nlohmann::json document = JsonField::parse(text, where);
+  const JsonField root(document, where);
+  root.expect_members(
+      {"format", "version", "name", "description", "seed", "frame_count", "postures", "wrist", "poses"});
+  root.member("format").expect_text("glovebench-motion-script");
+  root.member("version").integer(1, 1);
+
+  MotionScript script;
+  script.name = root.member("name").name();
+  script.description = root.member("description").text();
+  script.seed = static_cast<uint64_t>(root.member("seed").integer(0, 1'000'000));
+  script.frame_count = static_cast<int>(root.member("frame_count").integer(2, 100'000));
+  script.postures =
+      keys_from<Posture>(root.member("postures"), script.frame_count, {"frame", "blend"},
+                         [&](const JsonField& key) { return blend_from(key.member("blend"), gestures); });
+  script.wrist = keys_from<WristAngles>(root.member("wrist"), script.frame_count,
+                                        {"frame", "flexion_deg", "abduction_deg"}, wrist_from);
+  script.poses = keys_from<HandPose>(root.member("poses"), script.frame_count,
+                                     {"frame", "position_mm", "yaw_deg", "pitch_deg", "roll_deg"}, pose_from);
+  return script;
+}
+
+double minimum_jerk(double time) {
+  return time * time * time * (10 + time * (-15 + time * 6));
+}
+
+Eigen::Quaterniond hand_rotation(double yaw, double pitch, double roll) {
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  // Fingers (hand -z) up in the image (camera -y), back of the hand (hand +y) to the camera (camera -z).
+  const AngleAxisd rest(radians_from_degrees(-90), Vector3d::UnitX());
+  return Eigen::Quaterniond(AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitX()) *
+                            AngleAxisd(roll, Vector3d::UnitY()) * rest);
+}
+
+Trajectory perform(const MotionScript& script) {
+  const Restlessness restlessness(script);
+  Trajectory trajectory{.name = script.name, .description = script.description, .provenance = {}, .frames = {}};
+  for (int f = 0; f < script.frame_count; ++f) {
+    const double time_s = f / kFrameRateHz;
+    const HandPose pose = pose_at(script, f);
+    TrajectoryFrame& frame = trajectory.frames.emplace_back();
+    frame.timestamp_us = std::llround(time_s * 1e6);
+    frame.posture = clamp_to_limits(posture_at(script, f) + restlessness.posture_offset(time_s));
+    frame.T_camera_hand.translation() = pose.position + restlessness.position_offset(time_s);
+    frame.T_camera_hand.linear() = (pose.rotation * restlessness.rotation_offset(time_s)).toRotationMatrix();
+  }
+  return trajectory;
+}
+
+}  // namespace glovebench::trajectories

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/database/database.h"
+#include "trajectories/trajectory.h"
+
+namespace glovebench::trajectories {
+
+inline constexpr double kFrameRateHz = 15;  ///< of the paper's system
+
+/// What the hand does at one frame; between two keys it moves along the minimum-jerk profile.
+template <typename Value>
+struct Keyframe {
+  int frame = 0;
+  Value value;
+};
+
+/// The two wrist angles, rad.
+struct WristAngles {
+  double flexion = 0;
+  double abduction = 0;
+};
+
+/// Position and orientation of the hand, in the camera frame (m, rad).
+struct HandPose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+/// A movement as its author thinks of it: keyframes of posture, wrist and pose, each from the first frame to the
+/// last, and the seed of the drift and tremor that are laid over them.
+struct MotionScript {
+  std::string name;
+  std::string description;
+  uint64_t seed = 0;
+  int frame_count = 0;
+  std::vector<Keyframe<Posture>> postures;
+  std::vector<Keyframe<WristAngles>> wrist;
+  std::vector<Keyframe<HandPose>> poses;
+};
+
+/// Reads the format "glovebench-motion-script" (README.md); postures are blends of `gestures`. Throws Error.
+MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where);
+
+/// The share of the way done when the share `time` of the time is over, both 0..1: the profile with the least jerk
+/// (Flash and Hogan 1985), at rest at both ends.
+double minimum_jerk(double time);
+
+/// R_camera_hand of a hand under a camera that looks down on it: at zero the fingers point up in the image and the
+/// back of the hand faces the camera; then turned about the hand's length (roll, camera y), tilted (pitch, camera
+/// x) and turned about the optical axis (yaw, camera z).
+Eigen::Quaterniond hand_rotation(double yaw, double pitch, double roll);
+
+/// Plays the script at 15 Hz.
+Trajectory perform(const MotionScript& script);
+
+}  // namespace glovebench::trajectories

@@ -1,0 +1,153 @@
+#include "trajectories/json_field.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "core/base/error.h"
+
+namespace glovebench::trajectories {
+
+using nlohmann::json;
+
+json JsonField::parse(std::string_view text, const std::string& where) {
+  // The library keeps the last of two equal keys; a file written by hand deserves to hear of it.
+  std::vector<std::set<std::string>> keys;
+  const auto notice_keys = [&](int /*depth*/, json::parse_event_t event, json& parsed) {
+    if (event == json::parse_event_t::object_start) keys.emplace_back();
+    if (event == json::parse_event_t::object_end) keys.pop_back();
+    if (event == json::parse_event_t::key) {
+      const auto key = parsed.get<std::string>();
+      if (!keys.back().insert(key).second) throw Error(where, excerpt(key), "the key twice", "each key once");
+    }
+    return true;
+  };
+  try {
+    return json::parse(text, notice_keys);
+  } catch (const json::exception& e) {
+    throw Error(where, "document", e.what(), "JSON");
+  }
+}
+
+void JsonField::expect_object() const {
+  if (!value_->is_object()) fail("an object");
+}
+
+void JsonField::expect_array() const {
+  if (!value_->is_array()) fail("an array");
+}
+
+void JsonField::expect_members(std::initializer_list<std::string_view> required,
+                               std::initializer_list<std::string_view> optional) const {
+  expect_object();
+  for (const std::string_view key : required) {
+    if (!has(key)) throw Error(where_, path_.empty() ? "document" : path_, "no key " + in_quotes(key), "the key");
+  }
+  for (const auto& [key, unused] : value_->items()) {
+    if (std::ranges::find(required, key) != required.end()) continue;
+    if (std::ranges::find(optional, key) != optional.end()) continue;
+    throw Error(where_, path_.empty() ? "document" : path_, "unknown key " + excerpt(in_quotes(key)),
+                fmt::format("{}", fmt::join(required, ", ")));
+  }
+}
+
+JsonField JsonField::member(std::string_view key) const {
+  expect_object();
+  const auto found = value_->find(key);
+  std::string path = path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+  if (found == value_->end()) throw Error(where_, path, "nothing", "a value");
+  return {*found, where_, std::move(path)};
+}
+
+size_t JsonField::array_size() const {
+  expect_array();
+  if (value_->empty()) fail("an empty array", "at least one element");
+  return value_->size();
+}
+
+void JsonField::expect_array(size_t size) const {
+  expect_array();
+  if (value_->size() != size) fail(fmt::format("{} elements", value_->size()), fmt::format("{}", size));
+}
+
+JsonField JsonField::element(size_t index) const {
+  expect_array();
+  return {value_->at(index), where_, fmt::format("{}[{}]", path_, index)};
+}
+
+double JsonField::number(double min, double max) const {
+  const std::string expected = fmt::format("a number from {} to {}", min, max);
+  if (!value_->is_number()) fail(expected);
+  const double number = value_->get<double>();
+  if (!(number >= min && number <= max)) fail(expected);
+  return number;
+}
+
+int64_t JsonField::integer(int64_t min, int64_t max) const {
+  const std::string expected = fmt::format("an integer from {} to {}", min, max);
+  if (!value_->is_number_integer()) fail(expected);
+  // An unsigned value above the signed range would turn negative.
+  if (value_->is_number_unsigned() && value_->get<uint64_t>() > static_cast<uint64_t>(INT64_MAX)) fail(expected);
+  const auto integer = value_->get<int64_t>();
+  if (integer < min || integer > max) fail(expected);
+  return integer;
+}
+
+std::string JsonField::text() const {
+  if (!value_->is_string()) fail("a text");
+  return value_->get<std::string>();
+}
+
+void JsonField::expect_text(std::string_view expected) const {
+  if (text() != expected) fail(in_quotes(expected));
+}
+
+std::string JsonField::name() const {
+  std::string name = text();
+  if (!is_name(name)) fail(kNameExpected);
+  return name;
+}
+
+void JsonField::fail(const std::string& expected) const {
+  if (value_->is_object()) fail("an object", expected);
+  if (value_->is_array()) fail("an array", expected);
+  fail(excerpt(value_->dump()), expected);
+}
+
+void JsonField::fail(const std::string& found, const std::string& expected) const {
+  throw Error(where_, path_.empty() ? "document" : path_, found, expected);
+}
+
+bool is_name(std::string_view text) {
+  constexpr size_t longest = 64;
+  const auto is_alphanumeric = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  if (text.empty() || text.size() > longest || !is_alphanumeric(text.front())) return false;
+  return std::ranges::all_of(
+      text, [&](char c) { return is_alphanumeric(c) || c == '_' || c == '-' || c == '.' || c == ' '; });
+}
+
+std::string fixed(double value, int decimals) {
+  const double scale = std::pow(10.0, decimals);
+  // Adding zero turns a negative zero into a positive one.
+  return fmt::format("{:.{}f}", std::round(value * scale) / scale + 0.0, decimals);
+}
+
+std::string in_quotes(std::string_view text) {
+  return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string excerpt(std::string_view text) {
+  constexpr size_t longest = 60;
+  std::string line(text.substr(0, longest));
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' '; }, ' ');
+  return text.size() > longest ? line + "..." : line;
+}
+
+}  // namespace glovebench::trajectories

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace glovebench::trajectories {
+
+/// A value of a JSON document that knows where it stands, so that every complaint names file and field
+/// ("frames[17].angles_deg[3]"). All members throw Error. Refers to the document: must not outlive it.
+class JsonField {
+ public:
+  /// Parses strictly: no comments, no NaN or Infinity, no number out of range, no key twice in one object.
+  static nlohmann::json parse(std::string_view text, const std::string& where);
+
+  JsonField(const nlohmann::json& value, std::string where) : JsonField(value, std::move(where), "") {}
+
+  void expect_object() const;
+  /// The value must be an object with all of `required` and nothing beyond `required` and `optional`.
+  void expect_members(std::initializer_list<std::string_view> required,
+                      std::initializer_list<std::string_view> optional = {}) const;
+  bool has(std::string_view key) const { return value_->contains(key); }
+  JsonField member(std::string_view key) const;
+
+  /// Number of elements of the array, which must have at least one.
+  size_t array_size() const;
+  /// The value must be an array of exactly this many elements.
+  void expect_array(size_t size) const;
+  JsonField element(size_t index) const;
+
+  double number(double min, double max) const;
+  int64_t integer(int64_t min, int64_t max) const;
+  std::string text() const;
+  /// A text that must equal `expected`.
+  void expect_text(std::string_view expected) const;
+  /// A name fit for a file or a table cell (see is_name).
+  std::string name() const;
+
+  const nlohmann::json& value() const { return *value_; }
+  [[noreturn]] void fail(const std::string& expected) const;
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
+
+ private:
+  JsonField(const nlohmann::json& value, std::string where, std::string path)
+      : value_(&value), where_(std::move(where)), path_(std::move(path)) {}
+  void expect_array() const;
+
+  const nlohmann::json* value_;
+  std::string where_;
+  std::string path_;
+};
+
+/// 1 to 64 letters, digits, '_', '-', '.' or spaces, beginning with a letter or digit.
+bool is_name(std::string_view text);
+inline constexpr const char* kNameExpected =
+    "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
+
+/// `value` with a fixed number of decimals; the same on every machine, never "-0.000".
+std::string fixed(double value, int decimals);
+/// The text as a JSON string, quoted and escaped.
+std::string in_quotes(std::string_view text);
+/// Text from a file in a length fit for a one-line message.
+std::string excerpt(std::string_view text);
+
+}  // namespace glovebench::trajectories

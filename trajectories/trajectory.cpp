@@ -1,0 +1,190 @@
+#include "trajectories/trajectory.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "trajectories/angle_json.h"
+#include "trajectories/json_field.h"
+
+namespace glovebench::trajectories {
+namespace {
+
+constexpr const char* kFormat = "glovebench-trajectory";
+constexpr int kVersion = 1;
+constexpr double kQuaternionStep = 1e-7;
+
+std::string_view to_string(Side side) {
+  return side == Side::right ? "right" : "left";
+}
+
+Eigen::Quaterniond quaternion_from(const JsonField& field) {
+  field.expect_array(4);
+  std::array<double, 4> wxyz;
+  for (size_t i = 0; i < 4; ++i) wxyz[i] = field.element(i).number(-2, 2);
+  const Eigen::Quaterniond quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  if (std::abs(quaternion.norm() - 1) > kQuaternionNormTolerance) {
+    field.fail(fmt::format("length {:.6f}", quaternion.norm()),
+               fmt::format("length 1 within {}", kQuaternionNormTolerance));
+  }
+  return quaternion.normalized();
+}
+
+/// The quaternion (w, x, y, z) on the grid of the file. Rounding takes it off the unit sphere, so that reading
+/// and rounding again may give a neighbor; each such step brings it nearer to the sphere, so it comes to rest.
+Eigen::Vector4d canonical_wxyz(const Eigen::Matrix3d& rotation) {
+  const Eigen::Quaterniond quaternion(rotation);
+  Eigen::Vector4d rounded(quaternion.w(), quaternion.x(), quaternion.y(), quaternion.z());
+  if (!rounded.allFinite()) return rounded;  // refused when the text is checked
+  for (Eigen::Vector4d previous = Eigen::Vector4d::Zero(); rounded != previous;) {
+    previous = rounded;
+    rounded = (rounded.normalized() / kQuaternionStep).array().round() * kQuaternionStep;
+  }
+  // q and -q are one rotation: the first component that is not zero is positive.
+  for (int i = 0; i < 4; ++i) {
+    if (rounded[i] != 0) return rounded[i] > 0 ? rounded : Eigen::Vector4d(-rounded);
+  }
+  return rounded;
+}
+
+TrajectoryFrame frame_from(const JsonField& field) {
+  field.expect_members({"timestamp_us", "angles_deg", "position_mm", "quaternion_wxyz"});
+  TrajectoryFrame frame;
+  frame.timestamp_us = field.member("timestamp_us").integer(0, kMaxTimestampUs);
+  frame.posture = angles_from(field.member("angles_deg"));
+  const JsonField position = field.member("position_mm");
+  position.expect_array(3);
+  for (int i = 0; i < 3; ++i) {
+    frame.T_camera_hand.translation()[i] = position.element(i).number(-kMaxPositionMm, kMaxPositionMm) / 1000;
+  }
+  frame.T_camera_hand.linear() = quaternion_from(field.member("quaternion_wxyz")).toRotationMatrix();
+  return frame;
+}
+
+std::vector<TrajectoryFrame> frames_from(const JsonField& field) {
+  std::vector<TrajectoryFrame> frames;
+  frames.reserve(field.array_size());
+  for (size_t i = 0; i < field.array_size(); ++i) {
+    const JsonField element = field.element(i);
+    frames.push_back(frame_from(element));
+    if (i > 0 && frames[i].timestamp_us <= frames[i - 1].timestamp_us) {
+      element.member("timestamp_us").fail(fmt::format("more than {}", frames[i - 1].timestamp_us));
+    }
+  }
+  return frames;
+}
+
+Side side_from(const JsonField& field) {
+  const std::string side = field.text();
+  if (side == to_string(Side::right)) return Side::right;
+  if (side == to_string(Side::left)) return Side::left;
+  field.fail("\"right\" or \"left\"");
+}
+
+TrajectoryKind kind_from(const JsonField& field) {
+  const std::string kind = field.text();
+  if (kind == to_string(TrajectoryKind::source)) return TrajectoryKind::source;
+  if (kind == to_string(TrajectoryKind::recorded)) return TrajectoryKind::recorded;
+  field.fail("\"source\" or \"recorded\"");
+}
+
+Provenance provenance_from(const JsonField& field) {
+  field.expect_members({"source", "source_hash", "database", "database_hash", "profile", "profile_hash"});
+  return {.source = field.member("source").name(),
+          .source_hash = field.member("source_hash").name(),
+          .database = field.member("database").name(),
+          .database_hash = field.member("database_hash").name(),
+          .profile = field.member("profile").name(),
+          .profile_hash = field.member("profile_hash").name()};
+}
+
+std::string provenance_json(const Provenance& provenance) {
+  return fmt::format(R"({{
+    "source": {}, "source_hash": {},
+    "database": {}, "database_hash": {},
+    "profile": {}, "profile_hash": {}
+  }})",
+                     in_quotes(provenance.source), in_quotes(provenance.source_hash),
+                     in_quotes(provenance.database), in_quotes(provenance.database_hash),
+                     in_quotes(provenance.profile), in_quotes(provenance.profile_hash));
+}
+
+std::string frame_json(const TrajectoryFrame& frame) {
+  const Eigen::Vector3d position_mm = frame.T_camera_hand.translation() * 1000;
+  const Eigen::Vector4d wxyz = canonical_wxyz(frame.T_camera_hand.linear());
+  return fmt::format(
+      "    {{\"timestamp_us\": {}, \"position_mm\": [{}, {}, {}], "
+      "\"quaternion_wxyz\": [{}, {}, {}, {}],\n     \"angles_deg\": {}}}",
+      frame.timestamp_us, fixed(position_mm.x(), 3), fixed(position_mm.y(), 3), fixed(position_mm.z(), 3),
+      fixed(wxyz[0], 7), fixed(wxyz[1], 7), fixed(wxyz[2], 7), fixed(wxyz[3], 7), angles_json(frame.posture));
+}
+
+std::string canonical_json(const Trajectory& trajectory) {
+  std::string json = fmt::format("{{\n  \"format\": {},\n  \"version\": {},\n  \"name\": {},\n", in_quotes(kFormat),
+                                 kVersion, in_quotes(trajectory.name));
+  json +=
+      fmt::format("  \"description\": {},\n  \"side\": {},\n  \"kind\": {},\n", in_quotes(trajectory.description),
+                  in_quotes(to_string(trajectory.side)), in_quotes(to_string(trajectory.kind)));
+  if (trajectory.provenance) {
+    json += fmt::format("  \"provenance\": {},\n", provenance_json(*trajectory.provenance));
+  }
+  json += fmt::format("  \"joint_order\": {},\n  \"frames\": [\n", joint_order_json());
+  for (size_t i = 0; i < trajectory.frames.size(); ++i) {
+    json += (i > 0 ? ",\n" : "") + frame_json(trajectory.frames[i]);
+  }
+  return json + "\n  ]\n}\n";
+}
+
+}  // namespace
+
+Trajectory parse_trajectory(std::string_view text, const std::string& where) {
+  const nlohmann::json document = JsonField::parse(text, where);
+  const JsonField root(document, where);
+  root.expect_members({"format", "version", "name", "side", "joint_order", "frames"},
+                      {"description", "kind", "provenance"});
+  root.member("format").expect_text(kFormat);
+  root.member("version").integer(kVersion, kVersion);
+  expect_joint_order(root.member("joint_order"));
+
+  Trajectory trajectory;
+  trajectory.name = root.member("name").name();
+  if (root.has("description")) trajectory.description = root.member("description").text();
+  trajectory.side = side_from(root.member("side"));
+  if (root.has("kind")) trajectory.kind = kind_from(root.member("kind"));
+  if (root.has("provenance")) trajectory.provenance = provenance_from(root.member("provenance"));
+  if (trajectory.provenance.has_value() != (trajectory.kind == TrajectoryKind::recorded)) {
+    throw Error(where, "provenance", trajectory.provenance ? "one with kind \"source\"" : "none",
+                "one if and only if kind is \"recorded\"");
+  }
+  trajectory.frames = frames_from(root.member("frames"));
+  return trajectory;
+}
+
+Trajectory load_trajectory(const std::string& path) {
+  return parse_trajectory(read_file(path), path);
+}
+
+std::string canonical_text(const Trajectory& trajectory) {
+  std::string json = canonical_json(trajectory);
+  // Whatever is wrong with a trajectory made in memory is said where it is made, not by a later reader.
+  parse_trajectory(json, "trajectory " + excerpt(in_quotes(trajectory.name)));
+  return json;
+}
+
+void write_trajectory(const Trajectory& trajectory, const std::string& path) {
+  write_file(path, canonical_text(trajectory));
+}
+
+std::string hash(const Trajectory& trajectory) {
+  return hash_text(canonical_text(trajectory));
+}
+
+std::string_view to_string(TrajectoryKind kind) {
+  return kind == TrajectoryKind::source ? "source" : "recorded";
+}
+
+}  // namespace glovebench::trajectories

@@ -1,0 +1,124 @@
+#include "trajectories/trajectory_properties.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/angles.h"
+#include "core/base/check.h"
+
+namespace glovebench::trajectories {
+namespace {
+
+constexpr int kFirstFingerAngle = kThumbCmcAbduction;
+constexpr int kFingerAngleCount = kAngleCount - kFirstFingerAngle;
+
+double rotation_between(const TrajectoryFrame& a, const TrajectoryFrame& b) {
+  return Eigen::AngleAxisd(a.T_camera_hand.linear().transpose() * b.T_camera_hand.linear()).angle();
+}
+
+double distance_between(const TrajectoryFrame& a, const TrajectoryFrame& b) {
+  return (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm();
+}
+
+void measure_pose(const std::vector<TrajectoryFrame>& frames, TrajectoryProperties& properties) {
+  for (size_t i = 0; i < frames.size(); ++i) {
+    for (size_t j = i + 1; j < frames.size(); ++j) {
+      properties.travel = std::max(properties.travel, distance_between(frames[i], frames[j]));
+      properties.rotation = std::max(properties.rotation, rotation_between(frames[i], frames[j]));
+    }
+    if (i == 0) continue;
+    const double step = distance_between(frames[i - 1], frames[i]);
+    const double step_s = static_cast<double>(frames[i].timestamp_us - frames[i - 1].timestamp_us) * 1e-6;
+    properties.path_length += step;
+    properties.peak_speed = std::max(properties.peak_speed, step / step_s);
+  }
+}
+
+double range_of(const std::vector<TrajectoryFrame>& frames, Angle angle) {
+  const auto [low, high] =
+      std::ranges::minmax(frames, {}, [angle](const TrajectoryFrame& frame) { return frame.posture[angle]; });
+  return high.posture[angle] - low.posture[angle];
+}
+
+/// Share of the way from the open hand to the grasp, by projection of the finger angles.
+double closure(const Posture& posture, const Posture& open, const Posture& grasp) {
+  const Eigen::VectorXd way = (grasp - open).tail<kFingerAngleCount>();
+  return (posture - open).tail<kFingerAngleCount>().dot(way) / way.squaredNorm();
+}
+
+std::vector<GraspTransition> find_transitions(const std::vector<double>& closures) {
+  std::vector<GraspTransition> transitions;
+  int last_open = -1, last_grasp = -1;
+  for (int f = 0; f < static_cast<int>(closures.size()); ++f) {
+    if (closures[f] < kTransitionEnd) {
+      if (last_grasp > last_open) transitions.push_back({last_grasp, f, false});
+      last_open = f;
+    } else if (closures[f] > 1 - kTransitionEnd) {
+      if (last_open > last_grasp) transitions.push_back({last_open, f, true});
+      last_grasp = f;
+    }
+  }
+  return transitions;
+}
+
+int longest_hold(const std::vector<TrajectoryFrame>& frames, const Posture& posture) {
+  int longest = 0, length = 0;
+  for (const TrajectoryFrame& frame : frames) {
+    const bool settled = finger_distance(frame.posture, posture) < radians_from_degrees(kSettledDeg);
+    length = settled ? length + 1 : 0;
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+}  // namespace
+
+double finger_distance(const Posture& a, const Posture& b) {
+  return std::sqrt((a - b).tail<kFingerAngleCount>().squaredNorm() / kFingerAngleCount);
+}
+
+TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, const Posture& grasp) {
+  const std::vector<TrajectoryFrame>& frames = trajectory.frames;
+  check(!frames.empty(), "a trajectory has frames");
+  TrajectoryProperties properties;
+  properties.frames = static_cast<int>(frames.size());
+  properties.duration_s = static_cast<double>(frames.back().timestamp_us - frames.front().timestamp_us) * 1e-6;
+  measure_pose(frames, properties);
+  properties.wrist_flexion_range = range_of(frames, kWristFlexion);
+  properties.wrist_abduction_range = range_of(frames, kWristAbduction);
+
+  std::vector<double> closures;
+  for (const TrajectoryFrame& frame : frames) {
+    closures.push_back(closure(frame.posture, open, grasp));
+    const double nearest = std::min(finger_distance(frame.posture, open), finger_distance(frame.posture, grasp));
+    if (nearest < radians_from_degrees(kSettledDeg)) ++properties.settled_frames;
+  }
+  properties.transitions = find_transitions(closures);
+  properties.longest_open_hold = longest_hold(frames, open);
+  properties.longest_grasp_hold = longest_hold(frames, grasp);
+  return properties;
+}
+
+std::string properties_table(const std::vector<Trajectory>& trajectories,
+                             const std::vector<TrajectoryProperties>& properties) {
+  check(trajectories.size() == properties.size(), "each trajectory has its properties");
+  std::string table =
+      "| | frames | travel [mm] | path [mm] | rotation [deg] | peak speed [m/s] | wrist flexion / abduction range "
+      "[deg] | open-grasp transitions [frames] | longest hold open / grasp [frames] | settled [frames] |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (size_t i = 0; i < properties.size(); ++i) {
+    const TrajectoryProperties& p = properties[i];
+    std::vector<int> transitions;
+    for (const GraspTransition& transition : p.transitions) transitions.push_back(transition.frames());
+    table += fmt::format("| {} | {} | {:.0f} | {:.0f} | {:.0f} | {:.2f} | {:.0f} / {:.0f} | {} | {} / {} | {} |\n",
+                         trajectories[i].name, p.frames, p.travel * 1000, p.path_length * 1000,
+                         degrees_from_radians(p.rotation), p.peak_speed,
+                         degrees_from_radians(p.wrist_flexion_range), degrees_from_radians(p.wrist_abduction_range),
+                         fmt::join(transitions, ", "), p.longest_open_hold, p.longest_grasp_hold, p.settled_frames);
+  }
+  return table;
+}
+
+}  // namespace glovebench::trajectories
