@@ -42,8 +42,8 @@ TEST(Cloud, HoldsGlovePixelsInTheVolumeInRowMajorOrder) {
   ASSERT_EQ(cloud.points.size(), 2u);
   // ((5 - 3) / 10 * 0.5, (1 - 2) / 20 * 0.5, 0.5) and ((1 - 3) / 10 * 0.6, (4 - 2) / 20 * 0.6, 0.6); single
   // precision.
-  EXPECT_TRUE(cloud.points[0].p_camera.isApprox(Eigen::Vector3f(0.1f, -0.025f, 0.5f), 1e-6f));
-  EXPECT_TRUE(cloud.points[1].p_camera.isApprox(Eigen::Vector3f(-0.12f, 0.06f, 0.6f), 1e-6f));
+  EXPECT_TRUE(cloud.points[0].p.isApprox(Eigen::Vector3f(0.1f, -0.025f, 0.5f), 1e-6f));
+  EXPECT_TRUE(cloud.points[1].p.isApprox(Eigen::Vector3f(-0.12f, 0.06f, 0.6f), 1e-6f));
   EXPECT_EQ(cloud.points[0].label, 3);
   EXPECT_EQ(cloud.points[1].label, 9);
   EXPECT_EQ(cloud.labeled_outside, 2);
@@ -132,7 +132,7 @@ TEST(LargestComponent, KeepsPointsLabelsAndCountsTogether) {
   cloud.labeled_outside = 3;
   const LabeledCloud kept = largest_component(cloud, kCamera, 0.05);
   ASSERT_EQ(kept.points.size(), 6u);
-  for (const LabeledPoint& point : kept.points) EXPECT_EQ(point.p_camera.z(), 0.8f);
+  for (const LabeledPoint& point : kept.points) EXPECT_EQ(point.p.z(), 0.8f);
   EXPECT_EQ(std::count(kept.labels.begin(), kept.labels.end(), 1), 6);
   EXPECT_EQ(kept.labels(0, 0), 0);
   EXPECT_EQ(kept.labels(4, 0), 1);

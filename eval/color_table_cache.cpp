@@ -1,0 +1,96 @@
+#include "eval/color_table_cache.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/base/angles.h"
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/base/random.h"
+#include "core/segmentation/color_calibration.h"
+#include "render/noise.h"
+#include "render/rgbd_renderer.h"
+
+namespace glovebench::eval {
+namespace {
+
+/// Changes whenever the same inputs would give another table.
+constexpr int kVersion = 1;
+constexpr int kViewsPerLighting = 6;
+
+/// The hand somewhere in the working volume, seen from a random side.
+Eigen::Isometry3d random_pose(RandomStream& random) {
+  const Eigen::Quaterniond q(random.normal(), random.normal(), random.normal(), random.normal());
+  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
+  T_camera_hand.linear() = q.normalized().toRotationMatrix();
+  T_camera_hand.translation() = {random.uniform(-0.15, 0.15), random.uniform(-0.1, 0.1), random.uniform(0.55, 0.85)};
+  return T_camera_hand;
+}
+
+std::string input_hash(const HandModel& model, const RgbdCalibration& calibration,
+                       const std::vector<Posture>& postures) {
+  std::string text = fmt::format("{}/{}/{}/{}", kVersion, kViewsPerLighting, model.hash(), calibration.rgb.fx);
+  for (const Posture& posture : postures) text += fmt::format("/{}", fmt::join(posture, ","));
+  for (const render::Lighting& l : calibration_lightings()) {
+    text += fmt::format("/{},{},{}", l.strength, l.temperature_k, fmt::join(l.direction_to_light, ","));
+  }
+  for (const Eigen::Vector3f& albedo : render::glove_albedos(render::Shader::first_subject)) {
+    text += fmt::format("/{}", fmt::join(albedo, ","));
+  }
+  return hash_text(text);
+}
+
+}  // namespace
+
+std::vector<render::Lighting> calibration_lightings() {
+  static const std::array<Eigen::Vector3f, 3> directions = {
+      Eigen::Vector3f(-0.3f, -0.4f, -0.87f), Eigen::Vector3f(0.5f, -0.2f, -0.84f), Eigen::Vector3f(0.1f, 0.5f, -0.86f)};
+  std::vector<render::Lighting> lightings;
+  for (const double strength : {0.7, 1.0, 1.4}) {
+    for (const double temperature : {3500.0, 4500.0, 5500.0}) {
+      render::Lighting lighting;
+      lighting.direction_to_light = directions[lightings.size() % directions.size()];
+      lighting.strength = strength;
+      lighting.temperature_k = temperature;
+      lightings.push_back(lighting);
+    }
+  }
+  return lightings;
+}
+
+ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
+                            const std::vector<Posture>& postures) {
+  render::RgbdRenderer renderer(calibration, model, render::SceneConfig{});
+  ColorCalibration colors;
+  int64_t view = 0;
+  for (const render::Lighting& lighting : calibration_lightings()) {
+    for (int i = 0; i < kViewsPerLighting; ++i, ++view) {
+      RandomStream random(1, "color calibration", view, "pose");
+      const PosedHand hand = model->pose(postures[view % postures.size()]);
+      const Eigen::Isometry3d T_camera_hand = random_pose(random);
+      const ColorImage color = renderer.render(hand, T_camera_hand, lighting).color;
+      colors.add_view(render::add_color_noise(color, {}, {1, "color calibration", view}),
+                      renderer.render_color_labels(hand, T_camera_hand));
+    }
+  }
+  return colors.build();
+}
+
+ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
+                              const RgbdCalibration& calibration, const std::vector<Posture>& postures) {
+  const std::string hash = input_hash(*model, calibration, postures);
+  const std::string path = fmt::format("{}/colors-{}.table", folder, hash.substr(0, 16));
+  if (std::filesystem::exists(path)) {
+    try {
+      return ColorTable::load(path);
+    } catch (const Error&) {
+      // Damaged: it is made anew below, from the same inputs.
+    }
+  }
+  const ColorTable table = calibrate_colors(std::move(model), calibration, postures);
+  table.save(path);
+  return table;
+}
+
+}  // namespace glovebench::eval

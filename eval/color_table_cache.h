@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/hand/hand_model.h"
+#include "core/camera/rgbd_calibration.h"
+#include "core/segmentation/color_table.h"
+#include "render/lighting.h"
+
+namespace glovebench::eval {
+
+/// The lightings under which the color table is calibrated: strength 0.7 to 1.4, 3500 to 5500 K, three directions. The
+/// tests use others, from half to double strength and from 3000 to 6500 K.
+std::vector<render::Lighting> calibration_lightings();
+
+/// Calibrates the color table from rendered, labeled views of the gloved hand in its scene (section III-A).
+ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
+                            const std::vector<Posture>& postures);
+
+/// The same, kept in `folder` under a name that holds the hash of all inputs. A damaged file is calibrated anew.
+ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
+                              const RgbdCalibration& calibration, const std::vector<Posture>& postures);
+
+}  // namespace glovebench::eval

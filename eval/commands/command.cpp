@@ -1,0 +1,60 @@
+#include "eval/commands/command.h"
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "eval/share.h"
+
+namespace glovebench::eval {
+namespace {
+
+nlohmann::json parse_json_file(const std::string& path) {
+  try {
+    return nlohmann::json::parse(read_file(path));
+  } catch (const nlohmann::json::parse_error& e) {
+    throw Error(path, "content", "byte " + std::to_string(e.byte) + " that is no JSON", "a JSON object");
+  }
+}
+
+}  // namespace
+
+void CommonFlags::add_output(CLI::App& command, const std::string& what, bool required) {
+  CLI::Option* option = command.add_option("-o,--output", output, what);
+  if (required) option->required();
+}
+
+void CommonFlags::add_tracker(CLI::App& command) {
+  command.add_option("--profile", profile, "named configuration of the tracker")->capture_default_str();
+  command.add_option("--config", config_file, "JSON file with the fields to change; `glovebench list config` shows all");
+  command.add_option("--cascade", cascade, "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3");
+}
+
+void CommonFlags::add_machine(CLI::App& command) {
+  command.add_option("--seed", seed, "of all random numbers")->capture_default_str();
+  command.add_option("--threads", threads, "0: all cores; results do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--cache", cache_folder,
+                     "folder for databases and color tables [GLOVEBENCH_CACHE or ~/.cache/glovebench]");
+  command.add_flag("-q,--quiet", quiet, "no progress, no messages");
+}
+
+TrackerConfig CommonFlags::tracker_config() const {
+  TrackerConfig config = glovebench::profile(profile);
+  if (!config_file.empty()) config = config_from_json(parse_json_file(config_file), config, config_file);
+  if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
+  return config;
+}
+
+Workbench CommonFlags::workbench() const {
+  WorkbenchConfig config;
+  config.cache_folder = cache_folder.empty() ? default_cache_folder() : cache_folder;
+  config.side = left ? Side::left : Side::right;
+  config.threads = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  config.quiet = quiet;
+  return Workbench(config);
+}
+
+}  // namespace glovebench::eval

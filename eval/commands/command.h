@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "core/tracker/tracker_config.h"
+#include "eval/workbench.h"
+
+namespace glovebench::eval {
+
+/// Flags that mean the same in every subcommand.
+struct CommonFlags {
+  std::string output;
+  std::string config_file;
+  std::string profile = "paper";
+  std::string cascade;
+  std::string cache_folder;
+  uint64_t seed = 1;
+  int threads = 0;  ///< 0: all cores
+  bool left = false;
+  bool quiet = false;
+
+  void add_output(CLI::App& command, const std::string& what, bool required = false);
+  void add_tracker(CLI::App& command);
+  void add_machine(CLI::App& command);
+
+  /// Defaults < profile < file < command line. Throws Error.
+  TrackerConfig tracker_config() const;
+  Workbench workbench() const;
+};
+
+/// Each adds one subcommand to the program.
+void add_reproduce(CLI::App& program);
+void add_run(CLI::App& program);
+void add_record(CLI::App& program);
+void add_render(CLI::App& program);
+void add_track(CLI::App& program);
+void add_explain(CLI::App& program);
+void add_db(CLI::App& program);
+void add_list(CLI::App& program);
+
+}  // namespace glovebench::eval

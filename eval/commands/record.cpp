@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include "eval/commands/command.h"
+#include "eval/record.h"
+#include "eval/share.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+struct Record {
+  CommonFlags common;
+  std::string trajectory;
+  std::string database;
+
+  void run() {
+    const trajectories::Trajectory source =
+        trajectory.ends_with(".json") ? trajectories::load_trajectory(trajectory)
+                                      : trajectories::source_trajectory(trajectory_folder(), trajectory);
+    const std::string name = !database.empty() ? database : trajectories::databases_of(trajectory).front();
+    common.left = source.side == Side::left;
+    Workbench workbench = common.workbench();
+    const trajectories::Trajectory recorded =
+        record_truth(workbench, source, name, common.tracker_config(), common.seed);
+    trajectories::write_trajectory(recorded, common.output);
+    fmt::print("{}: {} frames, recorded with {}, hash {}\n", common.output, recorded.frames.size(), name,
+               trajectories::hash(recorded));
+  }
+};
+
+}  // namespace
+
+void add_record(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "record",
+      "Make a recorded truth, the paper's protocol: a movement is tracked, and what the tracker said becomes a\n"
+      "ground truth of its own.");
+  const auto state = std::make_shared<Record>();
+  state->common.add_output(*command, "trajectory file to write (*.json)", true);
+  command->add_option("--trajectory", state->trajectory, "source: Tr1..Tr5 or a file (*.json)")->required();
+  command->add_option("--database", state->database, "recorded with; default: the one with just its grasp");
+  state->common.add_tracker(*command);
+  state->common.add_machine(*command);
+  command->callback([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval

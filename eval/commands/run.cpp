@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include "eval/commands/command.h"
+#include "eval/experiments.h"
+#include "eval/explain.h"
+#include "eval/share.h"
+#include "reports/paper_numbers.h"
+#include "reports/report.h"
+#include "reports/summary.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using trajectories::Trajectory;
+
+struct Run {
+  CommonFlags common;
+  std::vector<std::string> trajectory_names;
+  std::vector<std::string> databases;
+  std::string truth = "source";
+  std::string noise = "gradient";
+  double gain = 1;
+  int subject = 1;
+  int seed_count = 1;
+  std::string robot_folder;
+
+  void run() {
+    Plan plan{common.tracker_config(), {}};
+    for (const std::string& name : trajectory_names) {
+      const auto trajectory = std::make_shared<const Trajectory>(load(name));
+      // Everything in a run is of one side.
+      common.left = trajectory->side == Side::left;
+      for (int s = 0; s < seed_count; ++s) {
+        plan.replays.push_back({trajectory, subject, {noise, gain}, common.seed + s, databases});
+      }
+    }
+    Workbench workbench = common.workbench();
+    const Outcome outcome = run_experiments(workbench, plan, robot_folder);
+    reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
+    fmt::print("{}", reports::errors_table(outcome.result));
+    fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
+               common.output);
+  }
+
+  Trajectory load(const std::string& name) const {
+    if (name.ends_with(".json")) return trajectories::load_trajectory(name);
+    return truth == "recorded" ? trajectories::recorded_trajectory(trajectory_folder(), name)
+                               : trajectories::source_trajectory(trajectory_folder(), name);
+  }
+};
+
+}  // namespace
+
+void add_run(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "run", "Replay trajectories, also your own, through the tracker and report the errors.");
+  const auto state = std::make_shared<Run>();
+  state->common.add_output(*command, "folder of the report", true);
+  command->add_option("--trajectory", state->trajectory_names, "Tr1..Tr5, or a file (*.json; trajectories/README.md)")
+      ->required();
+  command->add_option("--database", state->databases, "posture databases to track against; `glovebench list databases`")
+      ->required();
+  command->add_option("--truth", state->truth, "which truth of Tr1..Tr5")
+      ->check(CLI::IsMember({"source", "recorded"}))
+      ->capture_default_str();
+  command->add_option("--noise", state->noise, "depth noise")
+      ->check(CLI::IsMember({"gradient", "kinect", "none"}))
+      ->capture_default_str();
+  command->add_option("--gain", state->gain, "factor on the noise's gain")->check(CLI::Range(0.0, 100.0))->capture_default_str();
+  command->add_option("--subject", state->subject, "whose hand is in front of the camera; the tracker's own is 1")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
+  command->add_option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--robot-out", state->robot_folder, "folder for the robot commands of each experiment");
+  state->common.add_tracker(*command);
+  state->common.add_machine(*command);
+  command->callback([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,204 @@
+#include "eval/experiments.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "core/base/hash.h"
+#include "core/robot/json_lines_sink.h"
+#include "eval/program_info.h"
+#include "eval/progress.h"
+#include "eval/share.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::ExperimentKey;
+using reports::TruthKind;
+using trajectories::Trajectory;
+using trajectories::TrajectoryKind;
+
+TruthKind truth_kind(const Trajectory& trajectory) {
+  return trajectory.kind == TrajectoryKind::recorded ? TruthKind::recorded : TruthKind::source;
+}
+
+ExperimentKey key_of(const Replay& replay, const std::string& database) {
+  return {replay.truth->name, database, truth_kind(*replay.truth), replay.subject, replay.noise};
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// The passes of one experiment: one a seed.
+struct Gathered {
+  ExperimentKey key;
+  std::vector<const Replay*> replays;
+  std::vector<const TrackedReplay*> passes;
+};
+
+std::vector<Gathered> gather(const Plan& plan, const std::vector<std::vector<TrackedReplay>>& outputs) {
+  std::vector<Gathered> experiments;
+  for (size_t r = 0; r < plan.replays.size(); ++r) {
+    for (const TrackedReplay& pass : outputs[r]) {
+      const ExperimentKey key = key_of(plan.replays[r], pass.database);
+      auto it = std::find_if(experiments.begin(), experiments.end(), [&](const Gathered& g) { return g.key == key; });
+      if (it == experiments.end()) it = experiments.insert(it, {key, {}, {}});
+      it->replays.push_back(&plan.replays[r]);
+      it->passes.push_back(&pass);
+    }
+  }
+  return experiments;
+}
+
+std::optional<double> mean_present(const std::vector<std::optional<double>>& values) {
+  std::vector<double> present;
+  for (const auto& value : values) {
+    if (value) present.push_back(*value);
+  }
+  return reports::mean(present);
+}
+
+/// Each seed's sequence is measured by itself; the means over the seeds stand in the report.
+reports::SequenceMetrics measure_sequences(const Gathered& experiment) {
+  std::vector<std::optional<double>> position, rotation, latency;
+  for (size_t i = 0; i < experiment.passes.size(); ++i) {
+    const reports::SequenceMetrics m =
+        measure_sequence(experiment.passes[i]->results, experiment.replays[i]->truth->frames);
+    position.push_back(m.jitter_position_mm);
+    rotation.push_back(m.jitter_rotation_deg);
+    latency.push_back(m.latency_frames);
+  }
+  return {mean_present(position), mean_present(rotation), mean_present(latency)};
+}
+
+reports::ExperimentResult evaluate(const Gathered& experiment) {
+  std::vector<reports::SeedRun> runs;
+  std::vector<double> joint_errors;
+  size_t keypoints = 0;
+  for (size_t i = 0; i < experiment.passes.size(); ++i) {
+    reports::SeedRun run{experiment.replays[i]->seed, {}};
+    for (const FrameErrors& errors : experiment.passes[i]->errors) {
+      run.frames.push_back(errors.record);
+      joint_errors.insert(joint_errors.end(), errors.joint_errors_mm.begin(), errors.joint_errors_mm.end());
+      keypoints += kForearmJoint;
+    }
+    runs.push_back(std::move(run));
+  }
+  return reports::summarize(experiment.key, std::move(runs), reports::pck_curve(joint_errors, keypoints),
+                            measure_sequences(experiment));
+}
+
+reports::ExperimentTiming timing_of(const Gathered& experiment) {
+  reports::ExperimentTiming timing{experiment.key, 0, peak_memory_mb(), {}};
+  for (const TrackedReplay* pass : experiment.passes) {
+    for (const reports::StageTiming& stage : pass->stages) {
+      auto it = std::find_if(timing.stages.begin(), timing.stages.end(),
+                             [&](const reports::StageTiming& s) { return s.stage == stage.stage; });
+      if (it == timing.stages.end()) it = timing.stages.insert(it, {stage.stage, {}});
+      it->frame_ms.insert(it->frame_ms.end(), stage.frame_ms.begin(), stage.frame_ms.end());
+      for (const double ms : stage.frame_ms) timing.wall_s += ms / 1000;
+    }
+  }
+  return timing;
+}
+
+void write_robot_commands(const std::string& folder, const Gathered& experiment) {
+  for (size_t i = 0; i < experiment.passes.size(); ++i) {
+    JsonLinesSink sink(
+        fmt::format("{}/{}_seed{}.jsonl", folder, to_string(experiment.key), experiment.replays[i]->seed));
+    RobotCommander commander(Eigen::Isometry3d::Identity());
+    for (const TrackResult& result : experiment.passes[i]->results) sink.send(commander.command(result));
+    sink.finish();
+  }
+}
+
+reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& experiments,
+                            Workbench& workbench) {
+  std::map<std::string, std::string> truth_hashes;
+  nlohmann::json databases;
+  for (const Replay& replay : plan.replays) {
+    truth_hashes[fmt::format("{}/{}", to_string(truth_kind(*replay.truth)), replay.truth->name)] =
+        trajectories::hash(*replay.truth);
+    for (const std::string& name : replay.databases) databases[name] = workbench.database(name)->hash();
+  }
+  reports::RunResult result;
+  result.protocol = reports::make_protocol("by time stamp, exact", std::move(truth_hashes));
+  result.program_version = program_info().version;
+  result.commit = program_info().commit;
+  result.configuration = {{"tracker", to_json(plan.tracker)},
+                          {"database_hashes", databases},
+                          {"model_hash", workbench.model()->hash()},
+                          {"color_table_hash", hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())))}};
+  for (const Gathered& experiment : experiments) result.experiments.push_back(evaluate(experiment));
+  return result;
+}
+
+}  // namespace
+
+Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
+  const std::string folder = trajectory_folder();
+  Plan plan{tracker, {}};
+  const auto& names = options.trajectories.empty() ? trajectories::ground_truth_names() : options.trajectories;
+  for (const reports::NoiseSetting& noise : options.noises) {
+    for (const std::string& name : names) {
+      const std::vector<std::string> databases = trajectories::databases_of(name);
+      const auto recorded = std::make_shared<const Trajectory>(trajectories::recorded_trajectory(folder, name));
+      const auto source = std::make_shared<const Trajectory>(trajectories::source_trajectory(folder, name));
+      for (const uint64_t seed : options.seeds) plan.replays.push_back({recorded, 1, noise, seed, databases});
+      for (const uint64_t seed : options.seeds) plan.replays.push_back({source, 1, noise, seed, databases});
+      for (const uint64_t seed : options.seeds) plan.replays.push_back({source, 2, noise, seed, databases});
+    }
+  }
+  return plan;
+}
+
+Outcome run_experiments(Workbench& workbench, const Plan& plan, const std::string& robot_folder) {
+  const auto start = std::chrono::steady_clock::now();
+  size_t frames = 0;
+  for (const Replay& replay : plan.replays) {
+    frames += replay.truth->frames.size();
+    // Before the threads start: building a database uses all of them itself.
+    for (const std::string& name : replay.databases) workbench.database(name);
+  }
+  workbench.color_table();
+
+  std::vector<std::vector<TrackedReplay>> outputs(plan.replays.size());
+  {
+    Progress progress("replaying", workbench.config().quiet);
+    std::atomic<size_t> done{0};
+    const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workbench.config().threads);
+    tbb::task_arena arena(workbench.config().threads);
+    arena.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<size_t>(0, plan.replays.size(), 1),
+          [&](const tbb::blocked_range<size_t>& range) {
+            for (size_t r = range.begin(); r != range.end(); ++r) {
+              outputs[r] = replay(workbench, plan.replays[r], plan.tracker, frame_done);
+            }
+          },
+          tbb::simple_partitioner());
+    });
+  }
+
+  const std::vector<Gathered> experiments = gather(plan, outputs);
+  Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads)};
+  for (const Gathered& experiment : experiments) {
+    outcome.timings.experiments.push_back(timing_of(experiment));
+    if (!robot_folder.empty()) write_robot_commands(robot_folder, experiment);
+  }
+  outcome.timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+}  // namespace glovebench::eval

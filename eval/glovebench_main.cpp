@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "core/base/error.h"
+#include "eval/commands/command.h"
+#include "eval/program_info.h"
+
+namespace {
+
+constexpr int kUsageError = 2;
+
+int run(int argc, char** argv) {
+  CLI::App program(
+      "Evaluation and benchmarking of color-glove hand tracking with an RGB-D camera (Schroeder et al. 2012).\n"
+      "Exit codes: 0 fine, 1 a gate or claim failed, 2 usage or input error, 3 incomplete or not comparable.",
+      "glovebench");
+  const auto& info = glovebench::eval::program_info();
+  program.set_version_flag("--version", fmt::format("glovebench {} ({})", info.version, info.commit));
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(34);
+
+  glovebench::eval::add_reproduce(program);
+  glovebench::eval::add_run(program);
+  glovebench::eval::add_record(program);
+  glovebench::eval::add_render(program);
+  glovebench::eval::add_track(program);
+  glovebench::eval::add_explain(program);
+  glovebench::eval::add_db(program);
+  glovebench::eval::add_list(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return program.exit(e);  // --help, --version
+  } catch (const CLI::ParseError& e) {
+    fmt::print(stderr, "glovebench: {} (see glovebench --help)\n", e.what());
+    return kUsageError;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const glovebench::Error& e) {
+    fmt::print(stderr, "glovebench: {}\n", e.what());
+    return kUsageError;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "glovebench: internal error: {}\n", e.what());
+    return kUsageError;
+  }
+}

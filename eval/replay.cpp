@@ -1,0 +1,96 @@
+#include "eval/replay.h"
+
+#include <chrono>
+
+#include "core/base/check.h"
+
+namespace glovebench::eval {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Collects the times of a tracker's stages as the tracker names them.
+class StageTimer {
+ public:
+  void begin(std::string_view stage) {
+    const Clock::time_point now = Clock::now();
+    if (current_ >= 0) {
+      stages_[current_].frame_ms.push_back(std::chrono::duration<double, std::milli>(now - start_).count());
+    }
+    current_ = stage.empty() ? -1 : index_of(stage);
+    start_ = now;
+  }
+  std::vector<reports::StageTiming> take() { return std::move(stages_); }
+
+ private:
+  int index_of(std::string_view stage) {
+    for (size_t i = 0; i < stages_.size(); ++i) {
+      if (stages_[i].stage == stage) return static_cast<int>(i);
+    }
+    stages_.push_back({std::string(stage), {}});
+    return static_cast<int>(stages_.size()) - 1;
+  }
+
+  std::vector<reports::StageTiming> stages_;
+  int current_ = -1;
+  Clock::time_point start_;
+};
+
+FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel& subject,
+                    const render::RgbdImages& images) {
+  FrameTruth truth;
+  truth.posture = frame.posture;
+  truth.T_camera_hand = frame.T_camera_hand;
+  truth.T_hand_joint = subject.pose(frame.posture).T_hand_joint;
+  truth.visible_pixels = count_patches(images.patch);
+  return truth;
+}
+
+}  // namespace
+
+render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) {
+  std::vector<render::HandFrame> frames;
+  for (const trajectories::TrajectoryFrame& frame : replay.truth->frames) {
+    frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
+  }
+  render::SyntheticKinectConfig config;
+  config.scene.shader =
+      replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
+  config.noise.depth = render::depth_noise_from_string(replay.noise.model);
+  config.noise.gain_factor = replay.noise.factor;
+  config.seed = replay.seed;
+  config.sequence = replay.truth->name;
+  return render::SyntheticKinect(workbench.calibration(), workbench.subject(replay.subject), std::move(frames),
+                                 config);
+}
+
+std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, const TrackerConfig& config,
+                                  const std::function<void()>& frame_done) {
+  std::vector<Tracker> trackers;
+  std::vector<TrackedReplay> tracked;
+  for (const std::string& database : replay.databases) {
+    trackers.push_back(workbench.make_tracker(config, database));
+    tracked.push_back({database, {}, {}, {}});
+  }
+  std::vector<StageTimer> timers(trackers.size());
+  const std::shared_ptr<const HandModel> model = workbench.model();
+  const std::shared_ptr<const HandModel> subject = workbench.subject(replay.subject);
+
+  render::SyntheticKinect kinect = make_kinect(workbench, replay);
+  for (size_t f = 0; f < replay.truth->frames.size(); ++f) {
+    const std::optional<DeviceFrame> frame = kinect.next_frame();
+    check(frame.has_value(), "the device plays every frame of the trajectory");
+    const FrameTruth truth = truth_of(replay.truth->frames[f], *subject, kinect.truth());
+    for (size_t t = 0; t < trackers.size(); ++t) {
+      const TrackResult result =
+          trackers[t].track(*frame, [&](std::string_view stage) { timers[t].begin(stage); });
+      tracked[t].errors.push_back(measure_frame(static_cast<int>(f), result, truth, *model));
+      tracked[t].results.push_back(result);
+    }
+    if (frame_done) frame_done();
+  }
+  for (size_t t = 0; t < trackers.size(); ++t) tracked[t].stages = timers[t].take();
+  return tracked;
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/tracker/tracker_config.h"
+#include "eval/metrics.h"
+#include "eval/workbench.h"
+#include "render/synthetic_kinect.h"
+#include "reports/results.h"
+#include "reports/timings.h"
+#include "trajectories/trajectory.h"
+
+namespace glovebench::eval {
+
+/// One pass over a trajectory: rendered once, tracked against each of the databases.
+struct Replay {
+  std::shared_ptr<const trajectories::Trajectory> truth;
+  int subject = 1;  ///< the hand in front of the camera
+  reports::NoiseSetting noise;
+  uint64_t seed = 1;
+  std::vector<std::string> databases;
+};
+
+/// What one tracker made of a replay.
+struct TrackedReplay {
+  std::string database;
+  std::vector<TrackResult> results;     ///< one a frame
+  std::vector<FrameErrors> errors;      ///< one a frame
+  std::vector<reports::StageTiming> stages;
+};
+
+/// The Kinect that plays a trajectory: what `replay` gives to the tracker.
+render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay);
+
+/// Replays ground truth through the whole tracker: render -> device frame -> track -> measure. The trackers see device
+/// frames and calibration only. `frame_done` is called after each frame.
+std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, const TrackerConfig& config,
+                                  const std::function<void()>& frame_done = {});
+
+}  // namespace glovebench::eval

@@ -1,0 +1,44 @@
+#include "eval/share.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/base/error.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+std::string share_folder() {
+  const std::string chosen = environment("GLOVEBENCH_SHARE");
+  std::error_code error;
+  const fs::path folder = chosen.empty() ? fs::read_symlink("/proc/self/exe", error).parent_path().parent_path() /
+                                               "share" / "glovebench"
+                                         : fs::path(chosen);
+  if (!fs::is_directory(folder, error)) {
+    throw Error(folder.string(), "data folder", "nothing",
+                "the program's data beside it (or GLOVEBENCH_SHARE set to it)");
+  }
+  return folder.string();
+}
+
+std::string hand_mesh_path() { return share_folder() + "/generic-hand-right.glb"; }
+
+std::string trajectory_folder() { return share_folder() + "/trajectories/data"; }
+
+std::string default_cache_folder() {
+  if (const std::string chosen = environment("GLOVEBENCH_CACHE"); !chosen.empty()) return chosen;
+  if (const std::string cache = environment("XDG_CACHE_HOME"); !cache.empty()) return cache + "/glovebench";
+  if (const std::string home = environment("HOME"); !home.empty()) return home + "/.cache/glovebench";
+  return "glovebench-cache";
+}
+
+}  // namespace glovebench::eval

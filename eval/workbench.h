@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/database/database.h"
+#include "core/database/database_cache.h"
+#include "core/segmentation/color_table.h"
+#include "core/tracker/tracker.h"
+
+namespace glovebench::eval {
+
+struct WorkbenchConfig {
+  std::string cache_folder;
+  Side side = Side::right;
+  int threads = 1;
+  bool quiet = false;
+  ViewConfig views;
+};
+
+/// What all experiments share and none changes: the hands, the calibration, the color table, the databases. Everything
+/// is made or loaded when it is first asked for. Thread-safe.
+class Workbench {
+ public:
+  explicit Workbench(WorkbenchConfig config);
+
+  const WorkbenchConfig& config() const { return config_; }
+  /// The tracker's hand, which is also the first subject's.
+  std::shared_ptr<const HandModel> model();
+  /// The hand in front of the camera: subject 1 or 2.
+  std::shared_ptr<const HandModel> subject(int number);
+  const RgbdCalibration& calibration() const { return calibration_; }
+  std::shared_ptr<const ColorTable> color_table();
+  /// A database by the name of its posture set, with the tiny-image sizes of the cascade.
+  std::shared_ptr<const Database> database(const std::string& name);
+  /// A database of these postures.
+  std::shared_ptr<const Database> database(const PostureSet& postures);
+
+  /// A tracker for a database.
+  Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
+
+ private:
+  WorkbenchConfig config_;
+  RgbdCalibration calibration_;
+  std::recursive_mutex mutex_;
+  std::map<int, std::shared_ptr<const HandModel>> subjects_;
+  std::map<std::string, std::shared_ptr<const Database>> databases_;
+  std::shared_ptr<const ColorTable> color_table_;
+};
+
+}  // namespace glovebench::eval
