@@ -121,11 +121,12 @@ void Framebuffer::bind(int width, int height) {
   glViewport(0, 0, width, height);
 }
 
-void Framebuffer::read(int attachment, GLenum format, GLenum type, void* pixels) const {
+void Framebuffer::read(int attachment, GLenum format, GLenum type, int left, int top, int width, int height,
+                       void* pixels) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
   glReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(attachment));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, format, type, pixels);
+  glReadPixels(left, top, width, height, format, type, pixels);
 }
 
 VertexArray::VertexArray() {
@@ -178,8 +179,14 @@ void set_pass_state() {
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
   glFrontFace(GL_CW);
+  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
   glDisable(GL_DITHER);
+}
+
+void limit_to(int left, int top, int width, int height) {
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(left, top, width, height);
 }
 
 }  // namespace glovebench::render::gl

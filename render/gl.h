@@ -55,8 +55,9 @@ class Framebuffer {
   /// Binds it for drawing; (re)makes its textures only if the size changed.
   void bind(int width, int height);
   GLuint texture(int attachment) const { return textures_[attachment]; }
-  /// Copies the pixels of one attachment, row 0 first.
-  void read(int attachment, GLenum format, GLenum type, void* pixels) const;
+  /// Copies a rectangle of pixels of one attachment, top row first.
+  void read(int attachment, GLenum format, GLenum type, int left, int top, int width, int height,
+            void* pixels) const;
 
  private:
   void release();
@@ -93,5 +94,7 @@ class VertexArray {
 
 /// Depth test, culling of back faces, no blending, no dithering: the same in every pass.
 void set_pass_state();
+/// Limits clearing and drawing to a rectangle of pixels until the next `set_pass_state`.
+void limit_to(int left, int top, int width, int height);
 
 }  // namespace glovebench::render::gl

@@ -103,7 +103,7 @@ LabelImage LabelRenderer::render_labels(const HandModel& model, const PosedHand&
   state_->context.make_current();
   state_->draw(state_->label_program, state_->label_buffer, model, hand, camera, T_camera_hand);
   LabelImage labels(camera.width, camera.height);
-  state_->label_buffer.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, labels.data());
+  state_->label_buffer.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 0, 0, camera.width, camera.height, labels.data());
   return labels;
 }
 
@@ -114,9 +114,11 @@ HandImages LabelRenderer::render_ids(const HandModel& model, const PosedHand& ha
   const int width = camera.width;
   const int height = camera.height;
   HandImages images{LabelImage(width, height), Image<uint8_t>(width, height), DepthImage(width, height)};
-  state_->id_buffer.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, images.label.data());
-  state_->id_buffer.read(1, GL_RED_INTEGER, GL_UNSIGNED_BYTE, images.patch.data());
-  state_->id_buffer.read(2, GL_RED, GL_FLOAT, images.depth.data());
+  state_->id_buffer.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 0, 0, camera.width, camera.height,
+                         images.label.data());
+  state_->id_buffer.read(1, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 0, 0, camera.width, camera.height,
+                         images.patch.data());
+  state_->id_buffer.read(2, GL_RED, GL_FLOAT, 0, 0, camera.width, camera.height, images.depth.data());
   return images;
 }
 

@@ -15,6 +15,7 @@ struct Lighting {
 
   /// All problems, one per line; empty if there are none.
   std::vector<std::string> problems() const;
+  friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
 /// Linear RGB (sRGB primaries) of a black body's light, as seen by a camera that is balanced for 5000 K, at

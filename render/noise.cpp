@@ -117,15 +117,15 @@ DepthImage add_gradient_noise(const DepthImage& depth, const NoiseConfig& config
   return noisy;
 }
 
-/// Angle between the viewing ray and the surface normal, radians.
-float incidence(const DepthImage& depth, int u, int v, const PinholeCamera& camera) {
+/// Cosine of the angle between the viewing ray and the surface normal.
+float incidence_cosine(const DepthImage& depth, int u, int v, const PinholeCamera& camera) {
   const Gradient slope = gradient(depth, u, v, surface_difference);
   const float z = depth(u, v);
   const Eigen::Vector3f ray = camera.back_project(u, v, 1.0).cast<float>();
   const Eigen::Vector3f along_u = ray * slope.du + Eigen::Vector3f(z / static_cast<float>(camera.fx), 0, 0);
   const Eigen::Vector3f along_v = ray * slope.dv + Eigen::Vector3f(0, z / static_cast<float>(camera.fy), 0);
-  const float cosine = along_u.cross(along_v).normalized().dot(ray.normalized());
-  return std::acos(std::clamp(std::abs(cosine), 0.0f, 1.0f));
+  const Eigen::Vector3f normal = along_u.cross(along_v);
+  return std::abs(normal.dot(ray)) / std::sqrt(normal.squaredNorm() * ray.squaredNorm());
 }
 
 /// 1 where the projector's light is blocked. The projector stands to the right of the camera, so a point at u is
@@ -169,6 +169,7 @@ DepthImage add_kinect_noise(const DepthImage& depth, const PinholeCamera& camera
   const auto lateral_px = static_cast<float>(config.lateral_sigma_px);
   const auto from = static_cast<float>(radians_from_degrees(config.grazing_from_deg));
   const auto to = static_cast<float>(radians_from_degrees(config.grazing_to_deg));
+  const float cosine_from = std::cos(from);
   DepthImage noisy(depth.width(), depth.height());
   for (int v = 0; v < depth.height(); ++v) {
     RowRandom random(seeds[v]);
@@ -179,7 +180,8 @@ DepthImage add_kinect_noise(const DepthImage& depth, const PinholeCamera& camera
       const double disparity_noise = config.disparity_sigma_steps * random.normal();
       const float chance = random.uniform();
       if (depth(u, v) <= 0 || shadow(u, v)) continue;
-      if (chance < (incidence(depth, u, v, camera) - from) / (to - from)) continue;
+      const float cosine = incidence_cosine(depth, u, v, camera);
+      if (cosine < cosine_from && chance < (std::acos(cosine) - from) / (to - from)) continue;
       const float z = sample(depth, static_cast<float>(u) + shift_u, static_cast<float>(v) + shift_v);
       if (z < config.min_depth || z <= 0) continue;
       const double disparity = kStepsMetre / z + disparity_noise;

@@ -86,7 +86,7 @@ std::vector<Material> make_materials(Shader shader) {
   }
   materials[kSkin] = {.albedo = {0.40f, 0.23f, 0.15f}, .gloss = 0.03f, .pattern = 0.05f, .pattern_size = 0.008f};
   materials[kTable] = {.albedo = {0.42f, 0.38f, 0.33f}, .pattern = 0.06f, .pattern_size = 0.02f};
-  materials[kFloor] = {.albedo = {0.22f, 0.22f, 0.22f}, .pattern = 0.15f, .pattern_size = 0.05f};
+  materials[kFloor] = {.albedo = {0.35f, 0.35f, 0.35f}, .pattern = 0.15f, .pattern_size = 0.05f};
   materials[kClutterRed] = {.albedo = {0.45f, 0.07f, 0.05f}, .gloss = 0.04f};
   materials[kClutterGreen] = {.albedo = {0.06f, 0.42f, 0.12f}, .gloss = 0.04f};
   materials[kClutterBlue] = {.albedo = {0.05f, 0.09f, 0.42f}, .gloss = 0.04f};
@@ -120,10 +120,6 @@ CuffEnd find_cuff_end(const HandModel& model) {
 Scene make_scene(const SceneConfig& config) {
   Scene scene{.surroundings = {}, .materials = make_materials(config.shader)};
   SurfaceMesh& mesh = scene.surroundings;
-  // Seen from the camera, normals point to -z: edge_u x edge_v = (+y) x (+x).
-  const auto z_floor = static_cast<float>(kFloorDepth);
-  add_quad(mesh, {-3, -3, z_floor}, {0, 6, 0}, {6, 0, 0}, kFloor);
-  add_quad(mesh, {-0.47f, -0.39f, static_cast<float>(kTableDepth)}, {0, 0.74f, 0}, {1.0f, 0, 0}, kTable);
   if (config.clutter) {
     add_box(mesh, {-0.34f, -0.24f}, {0.13f, 0.09f, 0.045f}, 20, kClutterRed);
     add_box(mesh, {0.36f, 0.16f}, {0.10f, 0.14f, 0.03f}, -15, kClutterYellow);
@@ -133,6 +129,9 @@ Scene make_scene(const SceneConfig& config) {
     add_ball(mesh, {-0.20f, -0.30f}, 0.020f, kClutterYellow);
   }
   if (config.clutter_in_volume) add_box(mesh, {0.27f, 0.02f}, {0.07f, 0.07f, 0.16f}, 30, kClutterGreen);
+  // Seen from the camera, normals point to -z: edge_u x edge_v = (+y) x (+x).
+  add_quad(mesh, {-0.47f, -0.39f, static_cast<float>(kTableDepth)}, {0, 0.74f, 0}, {1.0f, 0, 0}, kTable);
+  add_quad(mesh, {-3, -3, static_cast<float>(kFloorDepth)}, {0, 6, 0}, {6, 0, 0}, kFloor);
   return scene;
 }
 

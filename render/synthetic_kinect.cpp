@@ -1,0 +1,52 @@
+#include "render/synthetic_kinect.h"
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/kinect/disparity.h"
+
+namespace glovebench::render {
+namespace {
+
+void require_possible(const NoiseConfig& noise) {
+  const std::vector<std::string> problems = noise.problems();
+  if (!problems.empty()) throw Error("noise: " + problems.front());
+}
+
+}  // namespace
+
+DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
+                              const NoiseConfig& noise, const FrameKey& key) {
+  require_possible(noise);
+  const DepthImage depth = add_depth_noise(images.depth, calibration.ir, noise, key);
+  DeviceFrame frame{.raw_disparity = Image<uint16_t>(depth.width(), depth.height()),
+                    .color = add_color_noise(images.color, noise, key),
+                    .depth_timestamp_us = timestamp_us,
+                    .color_timestamp_us = timestamp_us};
+  for (size_t i = 0; i < depth.size(); ++i) frame.raw_disparity[i] = disparity_from_depth(depth[i]);
+  return frame;
+}
+
+SyntheticKinect::SyntheticKinect(const RgbdCalibration& calibration, std::shared_ptr<const HandModel> model,
+                                 std::vector<HandFrame> frames, SyntheticKinectConfig config)
+    : renderer_(calibration, model, config.scene),
+      model_(std::move(model)),
+      frames_(std::move(frames)),
+      config_(std::move(config)) {
+  require_possible(config_.noise);
+}
+
+std::optional<DeviceFrame> SyntheticKinect::next_frame() {
+  if (next_ == frames_.size()) return std::nullopt;
+  const HandFrame& frame = frames_[next_];
+  truth_ = renderer_.render(model_->pose(frame.posture), frame.T_camera_hand, config_.lighting);
+  const FrameKey key{config_.seed, config_.sequence, static_cast<int64_t>(next_)};
+  ++next_;
+  return make_device_frame(truth_, calibration(), frame.timestamp_us, config_.noise, key);
+}
+
+const RgbdImages& SyntheticKinect::truth() const {
+  check(next_ > 0, "the truth of a frame is asked for after the frame");
+  return truth_;
+}
+
+}  // namespace glovebench::render
