@@ -139,8 +139,12 @@ ExperimentResult read_experiment(const JsonReader& json) {
 }  // namespace
 
 RunResult read_results(const std::string& path) {
-  const nlohmann::json document = parse_json(read_file(path), path);
-  const JsonReader json(document, path);
+  return parse_results(read_file(path), path);
+}
+
+RunResult parse_results(const std::string& text, const std::string& where) {
+  const nlohmann::json document = parse_json(text, where);
+  const JsonReader json(document, where);
   json["format"].expect_text(kResultsFormat);
   json["version"].integer(kResultsVersion, kResultsVersion);
   json.expect_keys({"format", "version", "protocol", "program", "configuration", "frame_columns", "experiments"});

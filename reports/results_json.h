@@ -20,6 +20,8 @@ void write_results(const std::string& path, const RunResult& result);
 /// Reads results.json back. Throws Error for whatever write_results does not write: another format or version,
 /// missing and unknown keys, wrong kinds, a protocol id or counts that do not fit the content.
 RunResult read_results(const std::string& path);
+/// The same for the file's text; `where` names it in errors.
+RunResult parse_results(const std::string& text, const std::string& where);
 
 inline constexpr std::string_view kResultsFormat = "glovebench-results";
 inline constexpr int kResultsVersion = 1;

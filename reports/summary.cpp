@@ -8,12 +8,11 @@ namespace glovebench::reports {
 namespace {
 
 std::string errors_cell(const ExperimentResult* experiment) {
-  if (!experiment) return "-";
-  std::optional<double> percent = experiment->coverage.share();
-  if (percent) *percent *= 100;
-  return fmt::format("{} / {} / {}, {}%", fixed(experiment->aggregate_of("position_error_mm").mean, 2),
+  if (!experiment || experiment->coverage.frames == 0) return "-";
+  return fmt::format("{} / {} / {}, {:.1f}%", fixed(experiment->aggregate_of("position_error_mm").mean, 2),
                      fixed(experiment->aggregate_of("posture_rms_deg").mean, 2),
-                     fixed(experiment->aggregate_of("rotation_error_deg").mean, 2), fixed(percent, 1));
+                     fixed(experiment->aggregate_of("rotation_error_deg").mean, 2),
+                     100 * *experiment->coverage.share());
 }
 
 std::string mean_with_interval(const ExperimentResult& experiment, std::string_view metric) {

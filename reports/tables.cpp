@@ -35,9 +35,9 @@ std::string short_name(const std::string& database) {
   return database.starts_with("DB_") ? database.substr(3) : database;
 }
 
-/// Five columns wide whatever the size of an error.
+/// At most six columns wide, up to an error of a kilometre.
 std::string cell(const std::optional<double>& value) {
-  return fixed(value, value && *value >= 99.995 ? 1 : 2);
+  return fixed(value, !value || *value < 99.995 ? 2 : *value < 9999.95 ? 1 : 0);
 }
 
 std::string variant_cells(const ExperimentResult* experiment) {

@@ -1,0 +1,95 @@
+#include "reports/report.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "reports/example_result.h"
+#include "reports/results_json.h"
+
+namespace glovebench::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string fresh_folder(const std::string& name) {
+  const std::string folder = testing::TempDir() + "/report_test_" + name;
+  fs::remove_all(folder);
+  return folder;
+}
+
+Timings example_timings() {
+  Timings timings;
+  timings.host = "bench";
+  timings.date = "2026-01-01T00:00:00Z";
+  timings.wall_s = 1.5;
+  timings.experiments = {{small_result().experiments[0].key, 1.25, 512.0, {{"align", {1, 2, 3}}, {"look_up", {}}}}};
+  return timings;
+}
+
+TEST(Report, WritesEveryFile) {
+  const std::string folder = fresh_folder("files");
+  const std::vector<std::string> names = write_report(folder, small_result(), example_timings());
+  EXPECT_THAT(names, testing::ElementsAre("results.json", "config.json", "summary.md", "index.html", "timings.json",
+                                          "tables/figure4.csv", "tables/figure5.csv",
+                                          "tables/frames_Tr4_DB_open_power_recorded_subject1_gradient_1.csv",
+                                          "tables/frames_Tr4_DB_open_power_source_subject2_gradient_1.csv",
+                                          "tables/frames_Tr1_DB_20_postures_source_subject1_gradient_1.csv",
+                                          "tables/frames_Tr4_DB_open_power_recorded_subject1_kinect_0.5.csv"));
+  for (const std::string& name : names) EXPECT_GT(fs::file_size(folder + "/" + name), 0u) << name;
+  EXPECT_EQ(results_json(read_results(folder + "/results.json")), results_json(small_result()));
+  EXPECT_EQ(nlohmann::json::parse(read_file(folder + "/config.json")), small_result().configuration);
+}
+
+TEST(Report, OnlyTimingsDifferBetweenRuns) {
+  Timings slower = example_timings();
+  slower.wall_s = 99;
+  const std::string first = fresh_folder("first"), second = fresh_folder("second");
+  const std::vector<std::string> names = write_report(first, full_result(), example_timings());
+  ASSERT_EQ(write_report(second, full_result(), slower), names);
+  for (const std::string& name : names)
+    EXPECT_EQ(read_file(first + "/" + name) == read_file(second + "/" + name), name != "timings.json") << name;
+}
+
+TEST(Report, FolderThatCannotBeWrittenIsAnError) {
+  const std::string blocked = fresh_folder("blocked");
+  write_file(blocked, "a file, not a folder");
+  EXPECT_THROW(write_report(blocked, small_result(), {}), Error);
+}
+
+TEST(Timings, StagesWithoutFramesAreNull) {
+  const nlohmann::json json = nlohmann::json::parse(timings_json(example_timings()));
+  const nlohmann::json& experiment = json["experiments"][0];
+  EXPECT_EQ(experiment["experiment"], "Tr4_DB_open_power_recorded_subject1_gradient_1");
+  EXPECT_EQ(experiment["peak_memory_mb"], 512);
+  EXPECT_EQ(experiment["stages"]["align"]["median_ms"], 2);
+  EXPECT_DOUBLE_EQ(experiment["stages"]["align"]["p95_ms"].get<double>(), 2.9);
+  EXPECT_EQ(experiment["stages"]["look_up"]["count"], 0);
+  EXPECT_TRUE(experiment["stages"]["look_up"]["mean_ms"].is_null());
+}
+
+TEST(Page, ShowsTablesCurvesAndPictures) {
+  const std::string page = html_page(full_result(), paper_numbers(), {{"Frame 60 <estimate>", "\x89PNG"}});
+  EXPECT_THAT(page, HasSubstr("<td>3.88 / 2.60 / 2.70</td>"));
+  EXPECT_THAT(page, HasSubstr("Figure 5: Tr4 with DB_open_power"));
+  EXPECT_THAT(page, HasSubstr("Figure 6: Tr1 with DB_20_postures"));
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64,iVBORw==\"/>"));
+  EXPECT_THAT(page, HasSubstr("<figcaption>Frame 60 &lt;estimate&gt;</figcaption>"));
+  EXPECT_THAT(page, Not(HasSubstr("http"))) << "the page needs no other file";
+}
+
+TEST(Page, LeavesOutCurvesThatWereNotRun) {
+  RunResult result = small_result();
+  result.experiments.erase(result.experiments.begin());
+  EXPECT_THAT(html_page(result, paper_numbers()), Not(HasSubstr("<svg")));
+  result.experiments.clear();
+  EXPECT_THAT(html_page(result, paper_numbers()), HasSubstr("</html>"));
+}
+
+}  // namespace
+}  // namespace glovebench::reports

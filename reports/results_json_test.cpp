@@ -1,0 +1,137 @@
+#include "reports/results_json.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "reports/example_result.h"
+#include "reports/json_text.h"
+
+namespace glovebench::reports {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// The message of the Error that reading gives.
+std::string error_of(const std::string& text) {
+  try {
+    parse_results(text, "results.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string error_of_change(const std::function<void(json&)>& change) {
+  json results = json::parse(results_json(small_result()));
+  change(results);
+  return error_of(results.dump());
+}
+
+TEST(ResultsJson, RoundTrip) {
+  const std::string path = testing::TempDir() + "/results_json_test.json";
+  const RunResult result = small_result();
+  write_results(path, result);
+  const RunResult read = read_results(path);
+  EXPECT_EQ(results_json(read), results_json(result));
+  EXPECT_EQ(read.protocol, result.protocol);
+  EXPECT_EQ(read.configuration, result.configuration);
+  // These hold short decimals only, which no rounding changes.
+  EXPECT_EQ(read.experiments[0].runs, result.experiments[0].runs);
+  EXPECT_EQ(read.experiments[0].sequence, result.experiments[0].sequence);
+  EXPECT_EQ(read.experiments[1], result.experiments[1]);
+  EXPECT_EQ(read.experiments[2], result.experiments[2]);
+}
+
+TEST(ResultsJson, EqualResultsAreEqualBytes) {
+  EXPECT_EQ(results_json(full_result()), results_json(full_result()));
+}
+
+TEST(ResultsJson, NoValueIsNull) {
+  const json results = json::parse(results_json(small_result()));
+  const json& lost = results["experiments"][1];
+  EXPECT_TRUE(lost["aggregates"]["position_error_mm"]["mean"].is_null());
+  EXPECT_EQ(lost["aggregates"]["position_error_mm"]["count"], 0);
+  EXPECT_TRUE(lost["runs"][0]["frames"][0][9].is_null());
+  EXPECT_EQ(lost["coverage"]["share"], 0);
+  EXPECT_TRUE(results["experiments"][2]["coverage"]["share"].is_null());
+}
+
+TEST(ResultsJson, NothingThatIsNotFiniteIsWritten) {
+  RunResult result = small_result();
+  result.experiments[0].runs[0].frames[0].position_error_mm = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(results_json(result), std::logic_error);
+}
+
+TEST(ResultsJson, NumbersAreRoundedOnce) {
+  EXPECT_EQ(format_json({rounded(1.0 / 3), rounded(-1e-9), rounded(4)}), "[0.333333,0.0,4.0]\n");
+  EXPECT_EQ(format_json({{"a", {1, 2}}, {"b", {{"c", nullptr}}}}),
+            "{\n \"a\": [1,2],\n \"b\": {\n  \"c\": null\n }\n}\n");
+}
+
+TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
+  EXPECT_THAT(error_of("{\"format\": "), HasSubstr("results.json: byte"));
+  EXPECT_THAT(error_of("[]"), HasSubstr("top level: found 0 items, expected an object"));
+  EXPECT_THAT(error_of("{}"), HasSubstr("format: found nothing"));
+  EXPECT_THAT(error_of_change([](json& r) { r["version"] = 2; }), HasSubstr("version: found 2, expected"));
+  EXPECT_THAT(error_of_change([](json& r) { r["protocol"]["association"] = "nearest"; }), HasSubstr("protocol.id"));
+  EXPECT_THAT(error_of_change([](json& r) { r["mood"] = "good"; }), HasSubstr("unknown key \"mood\""));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0].erase("runs"); }),
+              HasSubstr("experiments[0].runs: found nothing"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][1]["frames"][0][2] = "lucky"; }),
+              HasSubstr("experiments[0].runs[1].frames[0][2]: found \"lucky\", expected a frame's status"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"][0].erase(22); }),
+              HasSubstr("frames[0]: found 22 items"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["coverage"]["lost"] = 0; }),
+              HasSubstr("experiments[0].coverage"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"].erase(1); }),
+              HasSubstr("experiments[0].runs[1].frames: found 2 items, expected 1 items"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["aggregates"].erase("position_error_mm"); }),
+              HasSubstr("experiments[0].aggregates"));
+}
+
+TEST(ResultsJson, MissingFileIsAnError) {
+  EXPECT_THROW(read_results(testing::TempDir() + "/no_such_results.json"), Error);
+}
+
+/// Overwrites, removes or doubles a few bytes, or cuts the end off.
+std::string damaged(std::string text, RandomStream& random) {
+  const size_t place = random.index(text.size());
+  const size_t length = 1 + random.index(40);
+  switch (random.index(4)) {
+    case 0:
+      text[place] = static_cast<char>(random.index(256));
+      break;
+    case 1:
+      text.erase(place, length);
+      break;
+    case 2:
+      text.insert(place, text.substr(place, length));
+      break;
+    default:
+      text.resize(place);
+  }
+  return text;
+}
+
+TEST(ResultsJson, DamageGivesAnErrorOrAReadableResultButNothingElse) {
+  const std::string text = results_json(small_result());
+  int refused = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    RandomStream random(20, "results_json_test", trial, "damage");
+    try {
+      // What is accepted (another digit in an error, say) is a whole result: it can be written again.
+      EXPECT_FALSE(results_json(parse_results(damaged(text, random), "results.json")).empty());
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 350) << "most damage breaks the syntax, a key or a count";
+}
+
+}  // namespace
+}  // namespace glovebench::reports

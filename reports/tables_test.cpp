@@ -1,0 +1,99 @@
+#include "reports/tables.h"
+
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "reports/example_result.h"
+#include "reports/summary.h"
+
+namespace glovebench::reports {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Figure4Table, Golden) {
+  EXPECT_EQ(figure4_table(small_result(), paper_numbers()), R"(
+Mean errors: position (mm), posture (RMS of 22 angles, deg), rotation (deg); coverage (%). Noise: gradient x 1
+                     |     recorded truth      |      source truth       | source, second subject  |      paper
+     database DB_    |    mm  post.   rot.  cov.|    mm  post.   rot.  cov.|    mm  post.   rot.  cov.|   mm post.  rot.
+---------------------+-------------------------+-------------------------+-------------------------+------------------
+Tr4  open_power      |  4.00   3.00   2.00  75.0|     -      -      -     -|     -      -      -   0.0| 3.88  2.60  2.70
+---------------------+-------------------------+-------------------------+-------------------------+------------------
+Tr1  20_postures     |     -      -      -     -|     -      -      -     -|     -      -      -     -| 7.33 18.01 11.68
+)" + 1);
+}
+
+TEST(Figure4Table, FitsA120ColumnTerminal) {
+  RunResult result = full_result();
+  result.experiments[0].aggregates[metric_index("position_error_mm")].mean = 12345.678;
+  for (const std::string& line : lines_of(figure4_table(result, paper_numbers())))
+    EXPECT_LE(line.size(), 120u) << line;
+}
+
+TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
+  const std::string table = figure4_table(small_result(), paper_numbers(), {"kinect", 0.5});
+  EXPECT_THAT(table, HasSubstr("Noise: kinect x 0.5"));
+  EXPECT_THAT(table, HasSubstr("400.0"));
+  EXPECT_THAT(table, testing::Not(HasSubstr("Tr1")));
+}
+
+TEST(Figure4Csv, OneLineAnExperiment) {
+  const std::vector<std::string> lines = lines_of(figure4_csv(small_result(), paper_numbers()));
+  ASSERT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines[0],
+            "trajectory,database,truth,subject,seeds,frames,coverage,"
+            "position_error_mm_mean,position_error_mm_interval_low,position_error_mm_interval_high,"
+            "position_error_mm_paper,"
+            "posture_rms_deg_mean,posture_rms_deg_interval_low,posture_rms_deg_interval_high,posture_rms_deg_paper,"
+            "rotation_error_deg_mean,rotation_error_deg_interval_low,rotation_error_deg_interval_high,"
+            "rotation_error_deg_paper");
+  EXPECT_THAT(lines[1], testing::StartsWith("Tr4,DB_open_power,recorded,1,2,4,0.75,4.0,"));
+  EXPECT_THAT(lines[1], HasSubstr(",3.8814,3.0,"));
+  EXPECT_EQ(lines[2], "Tr4,DB_open_power,source,2,1,2,0.0,,,,3.8814,,,,2.6012,,,,2.6955");
+  EXPECT_EQ(lines[3], "Tr1,DB_20_postures,source,1,0,0,,,,,7.3316,,,,18.0114,,,,11.6754");
+}
+
+TEST(FramesCsv, LostFramesHaveEmptyCells) {
+  const std::vector<std::string> lines = lines_of(frames_csv(small_result().experiments[0]));
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_THAT(lines[0], testing::StartsWith("seed,frame,timestamp_us,status,covered,"));
+  EXPECT_EQ(lines[1],
+            "1,0,0,tracked,true,false,false,false,true,20,3.0,1.0,2.0,1.0,1.0,1.0,1.0,,1.0,3.75,4.5,3.75,1.0,1.0");
+  EXPECT_EQ(lines[2], "1,1,66666,poor_match,false,false,true,false,false,0,,,,,,,,,,,,,,");
+  for (const std::string& line : lines) EXPECT_EQ(std::ranges::count(line, ','), 23) << line;
+}
+
+TEST(CurveCsv, StandsBesideThePapersCurve) {
+  PaperCurve paper = paper_numbers().figure_5;
+  paper.frames.resize(1);
+  const std::vector<std::string> lines = lines_of(curve_csv(small_result().experiments[0], paper));
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_EQ(lines[1], "1,0,0,tracked,3.0,2.0,1.0,3.48071,1.47e-13,4.35094");
+  EXPECT_EQ(lines[2], "1,1,66666,poor_match,,,,,,") << "lost, and the paper's curve has ended";
+}
+
+TEST(Summary, TablesInMarkdown) {
+  const std::string markdown = summary_markdown(small_result(), paper_numbers());
+  EXPECT_THAT(markdown, HasSubstr("| Tr4 | DB_open_power | 4.00 / 3.00 / 2.00, 75.0% | - | - / - / -, 0.0% | "
+                                  "3.88 / 2.60 / 2.70 |\n"));
+  EXPECT_THAT(markdown, HasSubstr("| Tr1 | DB_20_postures | - | - | - | 7.33 / 18.01 / 11.68 |\n"));
+  EXPECT_THAT(markdown, HasSubstr(small_result().protocol.id()));
+  EXPECT_THAT(markdown, HasSubstr("| kinect x 0.5 | 400.00 |"));
+}
+
+TEST(Summary, TextInHtmlIsEscaped) {
+  EXPECT_THAT(to_html({{"a<b", "c"}, {{"x&y", "1"}}, 1}),
+              HasSubstr("<th class=\"name\">a&lt;b</th><th>c</th></tr></thead>\n<tbody>\n"
+                        "<tr><td class=\"name\">x&amp;y</td><td>1</td></tr>"));
+}
+
+}  // namespace
+}  // namespace glovebench::reports
