@@ -23,13 +23,13 @@ PostureSet example() {
 
 std::string headings() {
   std::string line = "name";
-  for (const AngleInfo& info : angle_infos()) line += "," + std::string(info.name);
+  for (const AngleInfo& info : angle_infos()) line.append(",").append(info.name);
   return line + "\n";
 }
 
 std::string row(const std::string& name, const std::string& first_cell = "0") {
   std::string line = name + "," + first_cell;
-  for (int a = 1; a < kAngleCount; ++a) line += "," + std::to_string(a);
+  for (int a = 1; a < kAngleCount; ++a) line.append(",").append(std::to_string(a));
   return line + "\n";
 }
 
@@ -51,7 +51,7 @@ std::string csv_complaint(const std::string& text) {
   return complaint([&] { parse_postures_csv(text, "my", "my.csv"); });
 }
 
-TEST(PostureFile, JsonIsAFixedPoint) {
+TEST(PostureFile, json_is_a_fixed_point) {
   const std::string text = canonical_text(example());
   const PostureSet parsed = parse_postures_json(text, "memory");
   EXPECT_EQ(parsed.name, "mine");
@@ -60,7 +60,7 @@ TEST(PostureFile, JsonIsAFixedPoint) {
   EXPECT_EQ(canonical_text(parsed), text);
 }
 
-TEST(PostureFile, LoadsByEnding) {
+TEST(PostureFile, loads_by_ending) {
   const std::string folder = ::testing::TempDir();
   write_posture_set(example(), folder + "set.json");
   EXPECT_EQ(load_posture_set(folder + "set.json").postures, example().postures);
@@ -72,7 +72,7 @@ TEST(PostureFile, LoadsByEnding) {
   EXPECT_THROW(load_posture_set(folder + "missing.json"), Error);
 }
 
-TEST(PostureFile, CsvHoldsDegreesInTheOrderOfTheAngles) {
+TEST(PostureFile, csv_holds_degrees_in_the_order_of_the_angles) {
   const PostureSet set =
       parse_postures_csv("\xEF\xBB\xBF" + headings() + row("a", " -12.5 ") + "\r\n", "s", "my.csv");
   ASSERT_EQ(set.postures.size(), 1u);
@@ -80,7 +80,7 @@ TEST(PostureFile, CsvHoldsDegreesInTheOrderOfTheAngles) {
   EXPECT_DOUBLE_EQ(set.postures[0][21], radians_from_degrees(21));
 }
 
-TEST(PostureFile, RefusesBadCsv) {
+TEST(PostureFile, refuses_bad_csv) {
   EXPECT_THAT(csv_complaint(""), HasSubstr("line 1: found 1 columns, expected 23"));
   EXPECT_THAT(csv_complaint(headings()), HasSubstr("postures: found none"));
   std::string wrong = headings();
@@ -96,7 +96,7 @@ TEST(PostureFile, RefusesBadCsv) {
   }
 }
 
-TEST(PostureFile, RefusesBadJson) {
+TEST(PostureFile, refuses_bad_json) {
   const json good = json::parse(canonical_text(example()));
   EXPECT_EQ(json_complaint(good), "no complaint");
   json bad = good;
@@ -113,7 +113,7 @@ TEST(PostureFile, RefusesBadJson) {
   EXPECT_THAT(json_complaint(bad), HasSubstr("format: found"));
 }
 
-TEST(PostureFile, FindsPosturesByName) {
+TEST(PostureFile, finds_postures_by_name) {
   EXPECT_EQ(find_posture(example(), "bent"), example().postures[1]);
   EXPECT_THROW(find_posture(example(), "fist"), Error);
 }

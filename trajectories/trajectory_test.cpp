@@ -50,7 +50,7 @@ std::string complaint(const json& document) {
   return complaint(document.dump());
 }
 
-TEST(Trajectory, KeepsItsValuesToTheRoundingOfTheFile) {
+TEST(Trajectory, keeps_its_values_to_the_rounding_of_the_file) {
   const Trajectory before = example(50);
   const Trajectory after = parse_trajectory(canonical_text(before), "memory");
   EXPECT_EQ(after.name, before.name);
@@ -67,7 +67,7 @@ TEST(Trajectory, KeepsItsValuesToTheRoundingOfTheFile) {
   }
 }
 
-TEST(Trajectory, CanonicalTextIsAFixedPoint) {
+TEST(Trajectory, canonical_text_is_a_fixed_point) {
   const std::string text = canonical_text(example(400));
   const Trajectory parsed = parse_trajectory(text, "memory");
   EXPECT_EQ(canonical_text(parsed), text);
@@ -75,7 +75,7 @@ TEST(Trajectory, CanonicalTextIsAFixedPoint) {
   EXPECT_EQ(hash(parsed).size(), 32u);
 }
 
-TEST(Trajectory, HashSeesEveryPart) {
+TEST(Trajectory, hash_sees_every_part) {
   const std::string before = hash(example());
   Trajectory changed = example();
   changed.frames[1].posture[3] += radians_from_degrees(0.002);
@@ -88,7 +88,7 @@ TEST(Trajectory, HashSeesEveryPart) {
   EXPECT_NE(hash(changed), before);
 }
 
-TEST(Trajectory, WritesAndLoadsAFile) {
+TEST(Trajectory, writes_and_loads_a_file) {
   Trajectory recorded = example();
   recorded.kind = TrajectoryKind::recorded;
   recorded.provenance = Provenance{"Tr1", "00ff", "DB_open_pinch", "11ee", "paper", "22dd"};
@@ -100,20 +100,20 @@ TEST(Trajectory, WritesAndLoadsAFile) {
   EXPECT_EQ(canonical_text(loaded), read_file(path));
 }
 
-TEST(Trajectory, OppositeQuaternionsAreOneRotation) {
+TEST(Trajectory, opposite_quaternions_are_one_rotation) {
   json document = example_json();
   const std::string before = hash(parse_trajectory(document.dump(), "memory"));
   for (json& component : document["frames"][1]["quaternion_wxyz"]) component = -component.get<double>();
   EXPECT_EQ(hash(parse_trajectory(document.dump(), "memory")), before);
 }
 
-TEST(Trajectory, NamesFileFieldFoundAndExpected) {
+TEST(Trajectory, names_file_field_found_and_expected) {
   json document = example_json();
   document["frames"][2]["angles_deg"][3] = 200;
   EXPECT_EQ(complaint(document), "my.json: frames[2].angles_deg[3]: found 200, expected a number from -35 to 60");
 }
 
-TEST(Trajectory, RefusesWhatIsNotJson) {
+TEST(Trajectory, refuses_what_is_not_json) {
   EXPECT_THAT(complaint(std::string("")), HasSubstr("expected JSON"));
   EXPECT_THAT(complaint(std::string("{\"format\": ")), HasSubstr("expected JSON"));
   std::string text = canonical_text(example());
@@ -122,7 +122,7 @@ TEST(Trajectory, RefusesWhatIsNotJson) {
   EXPECT_THAT(complaint(std::string("[]")), HasSubstr("document: found an array, expected an object"));
 }
 
-TEST(Trajectory, RefusesNumbersThatAreNotFinite) {
+TEST(Trajectory, refuses_numbers_that_are_not_finite) {
   const std::string text = canonical_text(example());
   const size_t at = text.find("[", text.find("position_mm")) + 1;
   const size_t length = text.find(",", at) - at;
@@ -133,7 +133,7 @@ TEST(Trajectory, RefusesNumbersThatAreNotFinite) {
             "my.json: frames[0].position_mm[0]: found null, expected a number from -10000 to 10000");
 }
 
-TEST(Trajectory, RefusesUnknownMissingAndRepeatedKeys) {
+TEST(Trajectory, refuses_unknown_missing_and_repeated_keys) {
   json document = example_json();
   document["frames"][1]["speed"] = 1;
   EXPECT_THAT(complaint(document), AllOf(HasSubstr("frames[1]"), HasSubstr("unknown key \"speed\"")));
@@ -145,7 +145,7 @@ TEST(Trajectory, RefusesUnknownMissingAndRepeatedKeys) {
   EXPECT_THAT(complaint(text), HasSubstr("side: found the key twice"));
 }
 
-TEST(Trajectory, RefusesOtherFormatsAndVersions) {
+TEST(Trajectory, refuses_other_formats_and_versions) {
   json document = example_json();
   document["version"] = 2;
   EXPECT_THAT(complaint(document), HasSubstr("version: found 2"));
@@ -160,7 +160,7 @@ TEST(Trajectory, RefusesOtherFormatsAndVersions) {
   EXPECT_THAT(complaint(document), HasSubstr("name: found \"../escape\""));
 }
 
-TEST(Trajectory, RefusesOtherJoints) {
+TEST(Trajectory, refuses_other_joints) {
   json document = example_json();
   document["joint_order"][4] = "elbow";
   EXPECT_EQ(complaint(document), "my.json: joint_order[4]: found \"elbow\", expected \"thumb_mcp_flexion\"");
@@ -169,7 +169,7 @@ TEST(Trajectory, RefusesOtherJoints) {
   EXPECT_EQ(complaint(document), "my.json: frames[0].angles_deg: found 21 elements, expected 22");
 }
 
-TEST(Trajectory, RefusesTimeThatStandsStillOrRunsBack) {
+TEST(Trajectory, refuses_time_that_stands_still_or_runs_back) {
   json document = example_json();
   document["frames"][2]["timestamp_us"] = document["frames"][1]["timestamp_us"];
   EXPECT_EQ(complaint(document), "my.json: frames[2].timestamp_us: found 66667, expected more than 66667");
@@ -181,7 +181,7 @@ TEST(Trajectory, RefusesTimeThatStandsStillOrRunsBack) {
   EXPECT_THAT(complaint(document), HasSubstr("expected an integer"));
 }
 
-TEST(Trajectory, RefusesQuaternionsThatAreNotUnit) {
+TEST(Trajectory, refuses_quaternions_that_are_not_unit) {
   json document = example_json();
   document["frames"][1]["quaternion_wxyz"] = {0.9, 0, 0, 0};
   EXPECT_THAT(complaint(document), HasSubstr("frames[1].quaternion_wxyz: found length 0.900000"));
@@ -191,7 +191,7 @@ TEST(Trajectory, RefusesQuaternionsThatAreNotUnit) {
   EXPECT_EQ(complaint(document), "no complaint");
 }
 
-TEST(Trajectory, RefusesNoFramesAndUnfitProvenance) {
+TEST(Trajectory, refuses_no_frames_and_unfit_provenance) {
   json document = example_json();
   document["frames"] = json::array();
   EXPECT_EQ(complaint(document), "my.json: frames: found an empty array, expected at least one element");
@@ -200,7 +200,7 @@ TEST(Trajectory, RefusesNoFramesAndUnfitProvenance) {
   EXPECT_THAT(complaint(document), HasSubstr("provenance: found none"));
 }
 
-TEST(Trajectory, IsNotWrittenWhenItWouldBeRefused) {
+TEST(Trajectory, is_not_written_when_it_would_be_refused) {
   Trajectory trajectory = example();
   trajectory.frames[1].posture[5] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(canonical_text(trajectory), Error);

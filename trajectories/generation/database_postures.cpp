@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 
 #include "core/base/random.h"
 #include "trajectories/generation/low_dispersion.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr uint64_t kSeed = 1;
 constexpr int kPoolSize = 2000;
 constexpr int kBlendedGestures = 3;
-constexpr double kModeDeviation = 2.5;  ///< degrees RMS of each mode
+constexpr double kModeDeviation = 1.8;  ///< degrees RMS of each mode
 
 /// Three random gestures with weights that favor one of them.
 Posture random_blend(const PostureSet& gestures, RandomStream& random) {
@@ -28,6 +28,15 @@ Posture random_blend(const PostureSet& gestures, RandomStream& random) {
     total += weight;
   }
   return blend / total;
+}
+
+/// Fingers do not bend backwards at the middle joint, and the end joint follows it.
+Posture with_natural_fingers(Posture posture) {
+  for (int pip = kIndexPipFlexion; pip < kAngleCount; pip += 4) {
+    posture[pip] = std::max(posture[pip], 0.0);
+    posture[pip + 1] = posture[pip] * kEndJointShare;
+  }
+  return clamp_to_limits(posture);
 }
 
 PostureSet subset(const PostureSet& gestures, const std::string& name, const std::vector<std::string>& members) {
@@ -44,7 +53,7 @@ std::vector<Posture> movement_posture_pool(const PostureSet& gestures) {
     RandomStream random(kSeed, "database", i, "movement posture");
     Posture posture = random_blend(gestures, random);
     for (const Posture& mode : variation_modes()) posture += kModeDeviation * random.normal() * mode;
-    pool.push_back(clamp_to_limits(posture));
+    pool.push_back(with_natural_fingers(posture));
   }
   return pool;
 }

@@ -9,7 +9,6 @@ namespace glovebench::trajectories {
 namespace {
 
 constexpr int kFingerCount = 4;  ///< index to little
-constexpr double kEndJointShare = 2.0 / 3.0;
 
 /// The four angles of a finger follow each other: abduction, MCP, PIP, DIP.
 int first_angle(int finger) {

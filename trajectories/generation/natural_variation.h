@@ -8,9 +8,12 @@
 
 namespace glovebench::trajectories {
 
+/// The end joint of a finger bends this share of its middle joint: one tendon moves both.
+inline constexpr double kEndJointShare = 2.0 / 3.0;
+
 /// The ways in which a hand departs from a gesture: fingers bend together, spread, trade knuckle for middle joint,
 /// or one finger moves with its neighbors following. Each mode has a root mean square of one degree over the 22
-/// angles; the end joint of a finger bends two thirds as far as its middle joint; the wrist keeps still.
+/// angles; end joints follow by kEndJointShare; the wrist keeps still.
 const std::vector<Posture>& variation_modes();
 
 /// A smooth random function of time: a few sinusoids with frequencies between `low_hz` and `high_hz`; mean 0, root
