@@ -3,15 +3,15 @@
 #include <memory>
 #include <string>
 
-#include "core/hand/hand_model.h"
 #include "core/camera/rgbd_calibration.h"
+#include "core/hand/hand_model.h"
 #include "core/segmentation/color_table.h"
 #include "render/lighting.h"
 
 namespace glovebench::eval {
 
-/// The lightings under which the color table is calibrated: strength 0.7 to 1.4, 3500 to 5500 K, three directions. The
-/// tests use others, from half to double strength and from 3000 to 6500 K.
+/// The lightings under which the color table is calibrated: strength 0.7 to 1.4, 3500 to 5500 K, three directions.
+/// The tests use others, from half to double strength and from 3000 to 6500 K.
 std::vector<render::Lighting> calibration_lightings();
 
 /// Calibrates the color table from rendered, labeled views of the gloved hand in its scene (section III-A).

@@ -51,7 +51,8 @@ std::vector<Gathered> gather(const Plan& plan, const std::vector<std::vector<Tra
   for (size_t r = 0; r < plan.replays.size(); ++r) {
     for (const TrackedReplay& pass : outputs[r]) {
       const ExperimentKey key = key_of(plan.replays[r], pass.database);
-      auto it = std::find_if(experiments.begin(), experiments.end(), [&](const Gathered& g) { return g.key == key; });
+      auto it =
+          std::find_if(experiments.begin(), experiments.end(), [&](const Gathered& g) { return g.key == key; });
       if (it == experiments.end()) it = experiments.insert(it, {key, {}, {}});
       it->replays.push_back(&plan.replays[r]);
       it->passes.push_back(&pass);
@@ -122,8 +123,7 @@ void write_robot_commands(const std::string& folder, const Gathered& experiment)
   }
 }
 
-reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& experiments,
-                            Workbench& workbench) {
+reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& experiments, Workbench& workbench) {
   std::map<std::string, std::string> truth_hashes;
   nlohmann::json databases;
   for (const Replay& replay : plan.replays) {
@@ -135,10 +135,11 @@ reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& exper
   result.protocol = reports::make_protocol("by time stamp, exact", std::move(truth_hashes));
   result.program_version = program_info().version;
   result.commit = program_info().commit;
-  result.configuration = {{"tracker", to_json(plan.tracker)},
-                          {"database_hashes", databases},
-                          {"model_hash", workbench.model()->hash()},
-                          {"color_table_hash", hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())))}};
+  result.configuration = {
+      {"tracker", to_json(plan.tracker)},
+      {"database_hashes", databases},
+      {"model_hash", workbench.model()->hash()},
+      {"color_table_hash", hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())))}};
   for (const Gathered& experiment : experiments) result.experiments.push_back(evaluate(experiment));
   return result;
 }

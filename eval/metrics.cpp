@@ -8,10 +8,10 @@ namespace {
 
 using reports::FrameRecord;
 
-constexpr double kRestPosition = 0.001;                      // m a frame
-constexpr double kRestAngle = radians_from_degrees(0.5);     // a frame
+constexpr double kRestPosition = 0.001;                   // m a frame
+constexpr double kRestAngle = radians_from_degrees(0.5);  // a frame
 constexpr int kMinRestSteps = 10;
-constexpr int kMaxLatency = 10;                              // frames
+constexpr int kMaxLatency = 10;  // frames
 constexpr double kMovingPosture = radians_from_degrees(10);
 
 using Chosen = std::array<bool, kAngleCount>;
@@ -94,7 +94,8 @@ double mean_vertex_error_mm(const HandModel& model, const TrackResult& estimate,
   return 1000 * sum / static_cast<double>(estimated.vertices.size());
 }
 
-std::vector<double> joint_errors_mm(const TrackResult& estimate, const PosedHand& estimated, const FrameTruth& truth) {
+std::vector<double> joint_errors_mm(const TrackResult& estimate, const PosedHand& estimated,
+                                    const FrameTruth& truth) {
   std::vector<double> errors;
   for (int j = 0; j < kForearmJoint; ++j) {
     const Eigen::Vector3d a = estimate.T_camera_hand * estimated.T_hand_joint[j].translation();
@@ -111,15 +112,14 @@ double mean_of(const std::vector<double>& values) {
 }
 
 bool at_rest(const trajectories::TrajectoryFrame& a, const trajectories::TrajectoryFrame& b) {
-  const double turn =
-      radians_from_degrees(rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()));
+  const double turn = radians_from_degrees(rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()));
   return (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm() < kRestPosition &&
          turn < kRestAngle && posture_distance(a.posture, b.posture) < kRestAngle;
 }
 
 /// Mean distance of the estimated posture from the truth `delay` frames earlier.
-double delayed_distance(std::span<const TrackResult> estimates, std::span<const trajectories::TrajectoryFrame> truth,
-                        int delay) {
+double delayed_distance(std::span<const TrackResult> estimates,
+                        std::span<const trajectories::TrajectoryFrame> truth, int delay) {
   double sum = 0;
   for (size_t i = kMaxLatency; i < truth.size(); ++i) {
     sum += posture_distance(estimates[i].posture, truth[i - delay].posture);
@@ -169,7 +169,8 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
   if (!estimate.matches.empty()) record.matching_error_px = estimate.matches[0].error;
   if (estimate.status != TrackStatus::tracked) {
     // The trajectories keep the hand in view, so a lost frame is lost wrongly if anything of it was to be seen.
-    for (const int pixels : truth.visible_pixels) record.false_lost = record.false_lost || pixels >= kObservedPixels;
+    for (const int pixels : truth.visible_pixels)
+      record.false_lost = record.false_lost || pixels >= kObservedPixels;
     return errors;
   }
   record.icp_residual_mm = 1000 * estimate.icp_residual;

@@ -20,8 +20,8 @@ inline constexpr int kObservedPixels = 30;
 struct FrameTruth {
   Posture posture = Posture::Zero();
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
-  JointPoses T_hand_joint;                          ///< of the hand that was rendered
-  std::array<int, kPatchCount> visible_pixels{};    ///< of each patch, in the IR camera
+  JointPoses T_hand_joint;                        ///< of the hand that was rendered
+  std::array<int, kPatchCount> visible_pixels{};  ///< of each patch, in the IR camera
 };
 
 /// Visible pixels of each patch, from an image of patch + 1.
@@ -35,13 +35,15 @@ struct FrameErrors {
   std::vector<double> joint_errors_mm;  ///< one a joint but the forearm; empty for a lost frame
 };
 
-/// One estimate against the truth. The vertex error poses the tracker's own mesh twice, so that it measures posture and
-/// pose, not the size of the hand; fingertips and joints are those of the hand that was rendered.
-FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth, const HandModel& tracker_model);
+/// One estimate against the truth. The vertex error poses the tracker's own mesh twice, so that it measures posture
+/// and pose, not the size of the hand; fingertips and joints are those of the hand that was rendered.
+FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth,
+                          const HandModel& tracker_model);
 
-/// Jitter: root mean square change, from one frame to the next, of the position and rotation error while the truth is at
-/// rest (under 1 mm, 0.5 degrees and 0.5 degrees of posture a frame). Latency: the delay of the posture, in frames,
-/// for which it agrees best with the truth (0..10, parabola through the best three); only if the truth's posture moves.
+/// Jitter: root mean square change, from one frame to the next, of the position and rotation error while the truth
+/// is at rest (under 1 mm, 0.5 degrees and 0.5 degrees of posture a frame). Latency: the delay of the posture, in
+/// frames, for which it agrees best with the truth (0..10, parabola through the best three); only if the truth's
+/// posture moves.
 reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates,
                                           std::span<const trajectories::TrajectoryFrame> truth);
 

@@ -42,8 +42,8 @@ reports::Timings host_timings(int threads) {
 #endif
   timings.build_type = GLOVEBENCH_BUILD_TYPE;
   timings.commit = program_info().commit;
-  timings.date =
-      fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+  timings.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                             fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
   return timings;
 }
 

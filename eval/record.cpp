@@ -25,13 +25,11 @@ trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::
 
   trajectories::Trajectory recorded = source;
   recorded.kind = trajectories::TrajectoryKind::recorded;
-  recorded.description = fmt::format("{} as the {} profile tracked it with {}", source.name, config.profile, database);
-  recorded.provenance = trajectories::Provenance{source.name,
-                                                 trajectories::hash(source),
-                                                 database,
-                                                 workbench.database(database)->hash(),
-                                                 config.profile,
-                                                 hash_text(to_json(config).dump())};
+  recorded.description =
+      fmt::format("{} as the {} profile tracked it with {}", source.name, config.profile, database);
+  recorded.provenance = trajectories::Provenance{source.name,    trajectories::hash(source),
+                                                 database,       workbench.database(database)->hash(),
+                                                 config.profile, hash_text(to_json(config).dump())};
   for (size_t f = 0; f < recorded.frames.size(); ++f) {
     const TrackResult& result = tracked.results[f];
     if (result.status != TrackStatus::tracked) {

@@ -54,8 +54,7 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) 
     frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
   }
   render::SyntheticKinectConfig config;
-  config.scene.shader =
-      replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
+  config.scene.shader = replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
   config.noise.depth = render::depth_noise_from_string(replay.noise.model);
   config.noise.gain_factor = replay.noise.factor;
   config.seed = replay.seed;
@@ -82,8 +81,7 @@ std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, co
     check(frame.has_value(), "the device plays every frame of the trajectory");
     const FrameTruth truth = truth_of(replay.truth->frames[f], *subject, kinect.truth());
     for (size_t t = 0; t < trackers.size(); ++t) {
-      const TrackResult result =
-          trackers[t].track(*frame, [&](std::string_view stage) { timers[t].begin(stage); });
+      const TrackResult result = trackers[t].track(*frame, [&](std::string_view stage) { timers[t].begin(stage); });
       tracked[t].errors.push_back(measure_frame(static_cast<int>(f), result, truth, *model));
       tracked[t].results.push_back(result);
     }

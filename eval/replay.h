@@ -27,16 +27,16 @@ struct Replay {
 /// What one tracker made of a replay.
 struct TrackedReplay {
   std::string database;
-  std::vector<TrackResult> results;     ///< one a frame
-  std::vector<FrameErrors> errors;      ///< one a frame
+  std::vector<TrackResult> results;  ///< one a frame
+  std::vector<FrameErrors> errors;   ///< one a frame
   std::vector<reports::StageTiming> stages;
 };
 
 /// The Kinect that plays a trajectory: what `replay` gives to the tracker.
 render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay);
 
-/// Replays ground truth through the whole tracker: render -> device frame -> track -> measure. The trackers see device
-/// frames and calibration only. `frame_done` is called after each frame.
+/// Replays ground truth through the whole tracker: render -> device frame -> track -> measure. The trackers see
+/// device frames and calibration only. `frame_done` is called after each frame.
 std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, const TrackerConfig& config,
                                   const std::function<void()>& frame_done = {});
 

@@ -30,9 +30,13 @@ std::string share_folder() {
   return folder.string();
 }
 
-std::string hand_mesh_path() { return share_folder() + "/generic-hand-right.glb"; }
+std::string hand_mesh_path() {
+  return share_folder() + "/generic-hand-right.glb";
+}
 
-std::string trajectory_folder() { return share_folder() + "/trajectories/data"; }
+std::string trajectory_folder() {
+  return share_folder() + "/trajectories/data";
+}
 
 std::string default_cache_folder() {
   if (const std::string chosen = environment("GLOVEBENCH_CACHE"); !chosen.empty()) return chosen;

@@ -11,10 +11,11 @@
 
 namespace glovebench::eval {
 
-Workbench::Workbench(WorkbenchConfig config)
-    : config_(std::move(config)), calibration_(synthetic_calibration()) {}
+Workbench::Workbench(WorkbenchConfig config) : config_(std::move(config)), calibration_(synthetic_calibration()) {}
 
-std::shared_ptr<const HandModel> Workbench::model() { return subject(1); }
+std::shared_ptr<const HandModel> Workbench::model() {
+  return subject(1);
+}
 
 std::shared_ptr<const HandModel> Workbench::subject(int number) {
   if (number != 1 && number != 2) throw Error("subject", "number", std::to_string(number), "1 or 2");

@@ -20,8 +20,8 @@ struct WorkbenchConfig {
   ViewConfig views;
 };
 
-/// What all experiments share and none changes: the hands, the calibration, the color table, the databases. Everything
-/// is made or loaded when it is first asked for. Thread-safe.
+/// What all experiments share and none changes: the hands, the calibration, the color table, the databases.
+/// Everything is made or loaded when it is first asked for. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);

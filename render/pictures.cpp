@@ -63,7 +63,7 @@ ColorImage side_by_side(const std::vector<ColorImage>& images) {
   return picture;
 }
 
-void write_png(const std::string& path, const ColorImage& image) {
+std::string encode_png(const ColorImage& image) {
   cv::Mat bgr(image.height(), image.width(), CV_8UC3);
   for (int v = 0; v < image.height(); ++v) {
     for (int u = 0; u < image.width(); ++u) {
@@ -72,8 +72,10 @@ void write_png(const std::string& path, const ColorImage& image) {
     }
   }
   std::vector<uint8_t> bytes;
-  if (!cv::imencode(".png", bgr, bytes)) throw Error(path, "image", "one that does not encode", "a PNG image");
-  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  check(cv::imencode(".png", bgr, bytes), "an image encodes as PNG");
+  return {bytes.begin(), bytes.end()};
 }
+
+void write_png(const std::string& path, const ColorImage& image) { write_file(path, encode_png(image)); }
 
 }  // namespace glovebench::render

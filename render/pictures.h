@@ -16,6 +16,8 @@ ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels);
 /// Images side by side, all of one height.
 ColorImage side_by_side(const std::vector<ColorImage>& images);
 
+/// The bytes of a PNG file.
+std::string encode_png(const ColorImage& image);
 /// Writes a PNG, whole or not at all. Throws Error if the file cannot be written.
 void write_png(const std::string& path, const ColorImage& image);
 

@@ -27,7 +27,8 @@ void CommonFlags::add_output(CLI::App& command, const std::string& what, bool re
 
 void CommonFlags::add_tracker(CLI::App& command) {
   command.add_option("--profile", profile, "named configuration of the tracker")->capture_default_str();
-  command.add_option("--config", config_file, "JSON file with the fields to change; `glovebench list config` shows all");
+  command.add_option("--config", config_file,
+                     "JSON file with the fields to change; `glovebench list config` shows all");
   command.add_option("--cascade", cascade, "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3");
 }
 

@@ -14,9 +14,9 @@ struct Record {
   std::string database;
 
   void run() {
-    const trajectories::Trajectory source =
-        trajectory.ends_with(".json") ? trajectories::load_trajectory(trajectory)
-                                      : trajectories::source_trajectory(trajectory_folder(), trajectory);
+    const trajectories::Trajectory source = trajectory.ends_with(".json")
+                                                ? trajectories::load_trajectory(trajectory)
+                                                : trajectories::source_trajectory(trajectory_folder(), trajectory);
     const std::string name = !database.empty() ? database : trajectories::databases_of(trajectory).front();
     common.left = source.side == Side::left;
     Workbench workbench = common.workbench();

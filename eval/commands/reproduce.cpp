@@ -36,18 +36,20 @@ struct Reproduce {
       if (all_gains) fmt::print("Depth noise: {} x{}\n", noise.model, noise.factor);
       fmt::print("{}\n", reports::figure4_table(outcome.result, reports::paper_numbers(), noise));
     }
-    fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads, folder);
+    fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
+               folder);
   }
 };
 
 }  // namespace
 
 void add_reproduce(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
-      "reproduce",
-      "Run the paper's experiments (figures 4 to 6) and write the report.\n"
-      "Five trajectories x the databases that hold their grasp = 15 experiments, each against the recorded truth, the\n"
-      "source truth, and the source with a second subject's hand in front of the camera.");
+  CLI::App* command =
+      program.add_subcommand("reproduce",
+                             "Run the paper's experiments (figures 4 to 6) and write the report.\n"
+                             "Five trajectories x the databases that hold their grasp = 15 experiments, each "
+                             "against the recorded truth, the\n"
+                             "source truth, and the source with a second subject's hand in front of the camera.");
   const auto state = std::make_shared<Reproduce>();
   state->figure4.seeds.clear();
   state->common.add_output(*command, "folder of the report [out]");

@@ -38,7 +38,7 @@ struct Run {
     Workbench workbench = common.workbench();
     const Outcome outcome = run_experiments(workbench, plan, robot_folder);
     reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
-    fmt::print("{}", reports::errors_table(outcome.result));
+    fmt::print("{}", reports::to_markdown(reports::detail_summary(outcome.result)));
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
   }
@@ -57,9 +57,12 @@ void add_run(CLI::App& program) {
       "run", "Replay trajectories, also your own, through the tracker and report the errors.");
   const auto state = std::make_shared<Run>();
   state->common.add_output(*command, "folder of the report", true);
-  command->add_option("--trajectory", state->trajectory_names, "Tr1..Tr5, or a file (*.json; trajectories/README.md)")
+  command
+      ->add_option("--trajectory", state->trajectory_names, "Tr1..Tr5, or a file (*.json; trajectories/README.md)")
       ->required();
-  command->add_option("--database", state->databases, "posture databases to track against; `glovebench list databases`")
+  command
+      ->add_option("--database", state->databases,
+                   "posture databases to track against; `glovebench list databases`")
       ->required();
   command->add_option("--truth", state->truth, "which truth of Tr1..Tr5")
       ->check(CLI::IsMember({"source", "recorded"}))
@@ -67,7 +70,9 @@ void add_run(CLI::App& program) {
   command->add_option("--noise", state->noise, "depth noise")
       ->check(CLI::IsMember({"gradient", "kinect", "none"}))
       ->capture_default_str();
-  command->add_option("--gain", state->gain, "factor on the noise's gain")->check(CLI::Range(0.0, 100.0))->capture_default_str();
+  command->add_option("--gain", state->gain, "factor on the noise's gain")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
   command->add_option("--subject", state->subject, "whose hand is in front of the camera; the tracker's own is 1")
       ->check(CLI::Range(1, 2))
       ->capture_default_str();

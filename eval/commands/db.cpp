@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "eval/commands/command.h"
+#include "eval/progress.h"
+#include "eval/share.h"
+#include "render/label_renderer.h"
+#include "trajectories/catalog.h"
+#include "trajectories/posture_file.h"
+
+namespace glovebench::eval {
+namespace {
+
+struct Build {
+  CommonFlags common;
+  std::string postures;
+
+  void run() {
+    const bool is_file = postures.ends_with(".csv") || postures.ends_with(".json");
+    const PostureSet set = is_file ? trajectories::load_posture_set(postures)
+                                   : trajectories::posture_set(trajectory_folder(), postures);
+    Workbench workbench = common.workbench();
+    Progress progress("building " + set.name, common.quiet);
+    const Database database =
+        Database::build(set, *workbench.model(), workbench.config().views, render::label_renderer_factory(),
+                        workbench.config().threads, [&](double share) { progress.show(share); });
+    database.save(common.output);
+    fmt::print("{}: {} postures x {} views = {} entries, hash {}\n", common.output, set.postures.size(), kViewCount,
+               database.entry_count(), database.hash());
+  }
+};
+
+void show(const std::string& path) {
+  const Database database = Database::load(path, {});
+  fmt::print("{}: {}, {} hand, {} entries, hash {}\n", path, database.posture_set().name,
+             database.side() == Side::right ? "right" : "left", database.entry_count(), database.hash());
+  for (const std::string& name : database.posture_set().posture_names) fmt::print("  {}\n", name);
+}
+
+}  // namespace
+
+void add_db(CLI::App& program) {
+  CLI::App* db = program.add_subcommand("db", "Build and look into databases of tiny images.");
+  db->require_subcommand(1);
+
+  const auto state = std::make_shared<Build>();
+  CLI::App* build =
+      db->add_subcommand("build", "Render the 756 views of each posture and store their tiny images.");
+  build
+      ->add_option("--postures", state->postures,
+                   "file (*.csv, *.json; trajectories/README.md) or the name of a posture set")
+      ->required();
+  state->common.add_output(*build, "database file to write (*.glovedb)", true);
+  build->add_flag("--left", state->common.left, "a left hand");
+  state->common.add_machine(*build);
+  build->callback([state] { state->run(); });
+
+  const auto path = std::make_shared<std::string>();
+  CLI::App* info = db->add_subcommand("info", "Print what a database file holds.");
+  info->add_option("file", *path, "database file")->required();
+  info->callback([path] { show(*path); });
+}
+
+}  // namespace glovebench::eval

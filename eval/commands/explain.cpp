@@ -1,0 +1,91 @@
+#include "eval/explain.h"
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "eval/commands/command.h"
+#include "eval/share.h"
+#include "render/pictures.h"
+#include "reports/results_json.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::ExperimentResult;
+using trajectories::Trajectory;
+
+struct Explain {
+  CommonFlags common;
+  std::string run_folder;
+  int frame = 0;
+  std::string experiment_name;
+  std::string trajectory_file;
+
+  void run() {
+    const std::string results_path = run_folder + "/results.json";
+    const reports::RunResult results = reports::read_results(results_path);
+    const ExperimentResult& experiment = find(results, results_path);
+    const auto truth = std::make_shared<const Trajectory>(load_truth(experiment.key));
+    check_truth(results, experiment.key, *truth, results_path);
+    common.left = truth->side == Side::left;
+    Workbench workbench = common.workbench();
+    const TrackerConfig config =
+        config_from_json(results.configuration.at("tracker"), glovebench::profile("paper"), results_path);
+    const Replay replay{truth,
+                        experiment.key.subject,
+                        experiment.key.noise,
+                        experiment.runs.front().seed,
+                        {experiment.key.database}};
+    const std::string path = common.output.empty()
+                                 ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(experiment.key), frame)
+                                 : common.output;
+    render::write_png(path, explain_frame(workbench, replay, config, frame));
+    fmt::print("{}\n", path);
+  }
+
+  const ExperimentResult& find(const reports::RunResult& results, const std::string& path) const {
+    std::vector<std::string> names;
+    for (const ExperimentResult& experiment : results.experiments) {
+      names.push_back(to_string(experiment.key));
+      if (experiment_name.empty() || experiment_name == names.back()) return experiment;
+    }
+    throw Error(path, "experiment", experiment_name.empty() ? "none" : experiment_name,
+                fmt::format("one of {}", fmt::join(names, ", ")));
+  }
+
+  Trajectory load_truth(const reports::ExperimentKey& key) const {
+    if (!trajectory_file.empty()) return trajectories::load_trajectory(trajectory_file);
+    return key.truth == reports::TruthKind::recorded
+               ? trajectories::recorded_trajectory(trajectory_folder(), key.trajectory)
+               : trajectories::source_trajectory(trajectory_folder(), key.trajectory);
+  }
+
+  static void check_truth(const reports::RunResult& results, const reports::ExperimentKey& key,
+                          const Trajectory& truth, const std::string& path) {
+    const std::string name = fmt::format("{}/{}", to_string(key.truth), key.trajectory);
+    const auto it = results.protocol.truth_hashes.find(name);
+    const std::string expected = it == results.protocol.truth_hashes.end() ? "nothing" : it->second;
+    const std::string found = trajectories::hash(truth);
+    if (found != expected) throw Error(path, "hash of " + name, found, expected + " (the truth of the run)");
+  }
+};
+
+}  // namespace
+
+void add_explain(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "explain", "Show every stage of one frame of a run as a picture: images, labels, matches, alignment.");
+  const auto state = std::make_shared<Explain>();
+  command->add_option("run", state->run_folder, "folder of a report")->required()->check(CLI::ExistingDirectory);
+  command->add_option("frame", state->frame, "number of the frame, from 0")->required();
+  command->add_option("--experiment", state->experiment_name,
+                      "e.g. Tr4_DB_open_power_recorded_subject1_gradient_1 [the first of the run]");
+  command->add_option("--trajectory", state->trajectory_file, "file of the truth, if it is none of Tr1..Tr5")
+      ->check(CLI::ExistingFile);
+  state->common.add_output(*command, "picture to write (*.png) [in the run's folder]");
+  state->common.add_machine(*command);
+  command->callback([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "eval/commands/command.h"
+#include "eval/share.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+void list_trajectories() {
+  for (const auto& listing : trajectories::list_trajectories(trajectory_folder())) {
+    const trajectories::Trajectory t = trajectories::load_trajectory(listing.path);
+    fmt::print("{:<5}{:<10}{:>4} frames  {}  {}\n", t.name, to_string(t.kind), t.frames.size(),
+               trajectories::hash(t), t.description);
+  }
+}
+
+void list_databases() {
+  for (const std::string& name : trajectories::posture_set_names()) {
+    const PostureSet set = trajectories::posture_set(trajectory_folder(), name);
+    fmt::print("{}: {}\n", name, fmt::join(set.posture_names, ", "));
+  }
+}
+
+void list_angles() {
+  for (const AngleInfo& info : angle_infos())
+    fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
+}
+
+}  // namespace
+
+void add_list(CLI::App& program) {
+  CLI::App* list = program.add_subcommand("list", "Print what the program knows.");
+  list->require_subcommand(1);
+  list->add_subcommand("trajectories", "The ground truths, with their hashes.")->callback(list_trajectories);
+  list->add_subcommand("databases", "The posture databases.")->callback(list_databases);
+  list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
+  const auto common = std::make_shared<CommonFlags>();
+  CLI::App* config = list->add_subcommand("config", "The tracker's configuration as JSON, as --config takes it.");
+  common->add_tracker(*config);
+  config->callback([common] { fmt::print("{}\n", to_json(common->tracker_config()).dump(2)); });
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/kinect/disparity.h"
+#include "core/kinect/recording.h"
+#include "eval/commands/command.h"
+#include "eval/progress.h"
+#include "eval/replay.h"
+#include "eval/share.h"
+#include "render/exr.h"
+#include "render/label_renderer.h"
+#include "render/pictures.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using trajectories::Trajectory;
+
+struct Render {
+  CommonFlags common;
+  std::string trajectory;
+  std::string truth = "source";
+  std::string format = "png";
+  std::string noise = "gradient";
+  std::string database;
+  int subject = 1;
+
+  void run() {
+    const auto movement = std::make_shared<const Trajectory>(load());
+    common.left = movement->side == Side::left;
+    Workbench workbench = common.workbench();
+    const Replay replay{movement, subject, {noise, 1}, common.seed, {}};
+    render::SyntheticKinect kinect = make_kinect(workbench, replay);
+    std::optional<RecordingWriter> recording;
+    if (format == "fakenect") recording.emplace(common.output, workbench.calibration());
+    std::optional<Tracker> tracker;
+    if (!database.empty()) tracker.emplace(workbench.make_tracker(common.tracker_config(), database));
+
+    Progress progress("rendering", common.quiet);
+    const int count = static_cast<int>(movement->frames.size());
+    for (int f = 0; f < count; ++f) {
+      const DeviceFrame frame = *kinect.next_frame();
+      if (recording) recording->write(frame);
+      if (format == "png") write_pngs(frame, f);
+      if (format == "exr") write_layers(workbench, kinect, tracker, frame, f);
+      progress.show(static_cast<double>(f + 1) / count);
+    }
+    if (recording) recording->finish();
+    fmt::print("{}: {} frames of {}\n", common.output, count, movement->name);
+  }
+
+  Trajectory load() const {
+    if (trajectory.ends_with(".json")) return trajectories::load_trajectory(trajectory);
+    return truth == "recorded" ? trajectories::recorded_trajectory(trajectory_folder(), trajectory)
+                               : trajectories::source_trajectory(trajectory_folder(), trajectory);
+  }
+
+  void write_pngs(const DeviceFrame& frame, int f) const {
+    render::write_png(fmt::format("{}/color_{:04}.png", common.output, f), frame.color);
+    render::write_png(fmt::format("{}/depth_{:04}.png", common.output, f),
+                      render::picture_of_depth(depth_from_disparity(frame.raw_disparity), 0.4, 1.8));
+  }
+
+  void write_layers(Workbench& workbench, const render::SyntheticKinect& kinect, std::optional<Tracker>& tracker,
+                    const DeviceFrame& frame, int f) const {
+    render::FrameLayers layers{frame.color, kinect.truth().depth, kinect.truth().label, {}, {}};
+    if (tracker) {
+      const TrackResult result = tracker->track(frame);
+      if (result.status == TrackStatus::tracked) {
+        const HandModel& model = *workbench.model();
+        render::LabelRenderer renderer;
+        const render::HandImages estimate = renderer.render_ids(model, model.pose(result.posture),
+                                                                workbench.calibration().ir, result.T_camera_hand);
+        layers.tracker_depth = estimate.depth;
+        layers.tracker_label = estimate.label;
+      }
+    }
+    render::write_exr(fmt::format("{}/frame_{:04}.exr", common.output, f), layers);
+  }
+};
+
+}  // namespace
+
+void add_render(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("render", "Write the synthetic Kinect frames of a trajectory.");
+  const auto state = std::make_shared<Render>();
+  state->common.add_output(*command, "folder to write to", true);
+  command->add_option("--trajectory", state->trajectory, "Tr1..Tr5 or a file (*.json)")->required();
+  command->add_option("--truth", state->truth, "which truth of Tr1..Tr5")
+      ->check(CLI::IsMember({"source", "recorded"}))
+      ->capture_default_str();
+  command
+      ->add_option("--format", state->format,
+                   "png: color and depth pictures; exr: color, z, label, and with --database the tracker's view;\n"
+                   "fakenect: a recording that libfreenect's fakenect and `glovebench track` play")
+      ->check(CLI::IsMember({"png", "exr", "fakenect"}))
+      ->capture_default_str();
+  command->add_option("--noise", state->noise, "depth noise")
+      ->check(CLI::IsMember({"gradient", "kinect", "none"}))
+      ->capture_default_str();
+  command->add_option("--subject", state->subject, "whose hand")->check(CLI::Range(1, 2))->capture_default_str();
+  command->add_option("--database", state->database, "exr: track with this database and add the tracker's view");
+  state->common.add_tracker(*command);
+  state->common.add_machine(*command);
+  command->callback([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval

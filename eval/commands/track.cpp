@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/kinect/recording.h"
+#include "core/robot/json_lines_sink.h"
+#include "eval/commands/command.h"
+#include "eval/estimate_lines.h"
+#include "eval/progress.h"
+
+namespace glovebench::eval {
+namespace {
+
+constexpr std::string_view kRecordingPrefix = "fakenect:";
+
+struct Track {
+  CommonFlags common;
+  std::string source;
+  std::string database;
+  std::string robot_out;
+
+  void run() {
+    if (!source.starts_with(kRecordingPrefix)) {
+      throw Error("--source", "kind", source, "fakenect:FOLDER");
+    }
+    RecordingDevice device(source.substr(kRecordingPrefix.size()));
+    Workbench workbench = common.workbench();
+    Tracker tracker(common.tracker_config(), device.calibration(), workbench.model(), load_database(workbench),
+                    workbench.color_table());
+    std::optional<JsonLinesSink> robot;
+    if (!robot_out.empty()) robot.emplace(robot_out);
+    RobotCommander commander(Eigen::Isometry3d::Identity());
+
+    Progress progress("tracking", common.quiet);
+    std::string lines;
+    int frames = 0, tracked = 0;
+    while (const std::optional<DeviceFrame> frame = device.next_frame()) {
+      const TrackResult result = tracker.track(*frame);
+      lines += estimate_line(frames++, result) + "\n";
+      tracked += result.status == TrackStatus::tracked;
+      if (robot) robot->send(commander.command(result));
+      progress.show(static_cast<double>(frames) / device.frame_count());
+    }
+    write_file(common.output, lines);
+    if (robot) robot->finish();
+    fmt::print("{}: {} of {} frames tracked\n", common.output, tracked, frames);
+  }
+
+  std::shared_ptr<const Database> load_database(Workbench& workbench) const {
+    if (database.ends_with(".glovedb")) return std::make_shared<const Database>(Database::load(database));
+    return workbench.database(database);
+  }
+};
+
+}  // namespace
+
+void add_track(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("track", "Track the hand in a recording and write the estimates.");
+  const auto state = std::make_shared<Track>();
+  command->add_option("--source", state->source, "fakenect:FOLDER, a recording with calibration.json beside it")
+      ->required();
+  command->add_option("--database", state->database, "name (`glovebench list databases`) or file (*.glovedb)")
+      ->required();
+  state->common.add_output(*command, "estimates to write, one line of JSON a frame (*.jsonl)", true);
+  command->add_option("--robot-out", state->robot_out, "robot commands to write (*.jsonl)");
+  command->add_flag("--left", state->common.left, "a left hand");
+  state->common.add_tracker(*command);
+  state->common.add_machine(*command);
+  command->callback([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval
