@@ -48,8 +48,7 @@ std::vector<int> component_roots(const LabeledCloud& cloud, double depth_step) {
       const int point = next++;
       current[u + 1] = point;
       for (int neighbor : {current[u], above[u], above[u + 1], above[u + 2]})
-        if (neighbor >= 0 &&
-            std::abs(cloud.points[neighbor].p.z() - cloud.points[point].p.z()) <= depth_step)
+        if (neighbor >= 0 && std::abs(cloud.points[neighbor].p.z() - cloud.points[point].p.z()) <= depth_step)
           sets.unite(neighbor, point);
     }
   }
