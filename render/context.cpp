@@ -50,13 +50,17 @@ Context::Context() : state_(std::make_unique<State>()) {
 }
 
 Context::~Context() {
+  release();
   OSMesaDestroyContext(state_->context);
 }
 
 void Context::make_current() const {
-  if (OSMesaGetCurrentContext() == state_->context) return;
   check(OSMesaMakeCurrent(state_->context, state_->buffer.data(), 0x1401 /* GL_UNSIGNED_BYTE */, 4, 4),
         "an OSMesa context can be made current");
+}
+
+void Context::release() const {
+  OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
 }
 
 }  // namespace glovebench::render

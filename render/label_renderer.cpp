@@ -92,7 +92,9 @@ struct LabelRenderer::State {
   }
 };
 
-LabelRenderer::LabelRenderer() : state_(std::make_unique<State>()) {}
+LabelRenderer::LabelRenderer() : state_(std::make_unique<State>()) {
+  state_->context.release();
+}
 
 LabelRenderer::~LabelRenderer() {
   state_->context.make_current();
@@ -100,7 +102,7 @@ LabelRenderer::~LabelRenderer() {
 
 LabelImage LabelRenderer::render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                         const Eigen::Isometry3d& T_camera_hand) {
-  state_->context.make_current();
+  const CurrentContext current(state_->context);
   state_->draw(state_->label_program, state_->label_buffer, model, hand, camera, T_camera_hand);
   LabelImage labels(camera.width, camera.height);
   state_->label_buffer.read(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 0, 0, camera.width, camera.height, labels.data());
@@ -109,7 +111,7 @@ LabelImage LabelRenderer::render_labels(const HandModel& model, const PosedHand&
 
 HandImages LabelRenderer::render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                      const Eigen::Isometry3d& T_camera_hand) {
-  state_->context.make_current();
+  const CurrentContext current(state_->context);
   state_->draw(state_->id_program, state_->id_buffer, model, hand, camera, T_camera_hand);
   const int width = camera.width;
   const int height = camera.height;

@@ -15,7 +15,7 @@ struct HandImages {
 };
 
 /// Draws the hand's labels with OpenGL. Surfaces between 0.05 and 10 m are drawn, back faces are not. An object
-/// belongs to the thread that made it.
+/// serves one thread at a time.
 class LabelRenderer : public ViewRenderer {
  public:
   /// Throws Error if no OpenGL context can be had.

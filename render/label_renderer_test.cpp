@@ -153,5 +153,19 @@ TEST(LabelRenderer, ThreadsDrawBitForBitAsOne) {
   EXPECT_NE(serial[0], serial[1]);
 }
 
+TEST(LabelRenderer, MayBeMadeUsedAndDestroyedByDifferentThreads) {
+  const PosedHand hand = test_hand().pose(test_posture());
+  const Eigen::Isometry3d T_camera_hand = test_pose({0.01, 0.02, 0.45});
+  LabelRenderer mine;
+  const LabelImage expected = mine.render_labels(test_hand(), hand, kSmall, T_camera_hand);
+  std::unique_ptr<LabelRenderer> traveler;
+  LabelImage found;
+  std::thread([&] { traveler = std::make_unique<LabelRenderer>(); }).join();
+  std::thread([&] { found = traveler->render_labels(test_hand(), hand, kSmall, T_camera_hand); }).join();
+  traveler.reset();
+  EXPECT_EQ(found, expected);
+  EXPECT_EQ(mine.render_labels(test_hand(), hand, kSmall, T_camera_hand), expected);
+}
+
 }  // namespace
 }  // namespace glovebench::render

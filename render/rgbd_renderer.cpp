@@ -273,7 +273,9 @@ struct RgbdRenderer::State {
 
 RgbdRenderer::RgbdRenderer(const RgbdCalibration& calibration, std::shared_ptr<const HandModel> model,
                            const SceneConfig& scene)
-    : calibration_(calibration), state_(std::make_unique<State>(std::move(model), scene)) {}
+    : calibration_(calibration), state_(std::make_unique<State>(std::move(model), scene)) {
+  state_->context.release();
+}
 
 RgbdRenderer::~RgbdRenderer() {
   state_->context.make_current();
@@ -283,7 +285,7 @@ RgbdImages RgbdRenderer::render(const PosedHand& hand, const Eigen::Isometry3d& 
                                 const Lighting& lighting) {
   const std::vector<std::string> problems = lighting.problems();
   if (!problems.empty()) throw Error("lighting: " + problems.front());
-  state_->context.make_current();
+  const CurrentContext current(state_->context);
   state_->load(hand, T_camera_hand);
   State::Truth truth = state_->draw_ir(calibration_.ir);
   return {state_->draw_color(calibration_, lighting), std::move(truth.depth), std::move(truth.label),
@@ -291,7 +293,7 @@ RgbdImages RgbdRenderer::render(const PosedHand& hand, const Eigen::Isometry3d& 
 }
 
 LabelImage RgbdRenderer::render_color_labels(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand) {
-  state_->context.make_current();
+  const CurrentContext current(state_->context);
   state_->load(hand, T_camera_hand);
   return state_->draw_labels(calibration_.rgb, calibration_.T_rgb_ir);
 }

@@ -20,8 +20,8 @@ struct RgbdImages {
 
 /// Draws one subject's hand in a scene, from the two cameras of a Kinect. Light is added up in linear RGB: diffuse
 /// (Lambert) and a highlight (Blinn-Phong), no shadows; then the mean of 2x2 samples a pixel is taken and
-/// sRGB-coded to 8 bits (values over 1 are cut off). Depth and truth have one sample a pixel. An object belongs to
-/// the thread that made it; the images do not depend on the thread.
+/// sRGB-coded to 8 bits (values over 1 are cut off). Depth and truth have one sample a pixel. An object serves one
+/// thread at a time; the images do not depend on the thread.
 class RgbdRenderer {
  public:
   /// Throws Error if no OpenGL context can be had.

@@ -30,7 +30,7 @@ DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& c
                               const NoiseConfig& noise, const FrameKey& key);
 
 /// A Kinect in front of a rendered hand. The tracker gets its device frames; the truth stays on the evaluator's
-/// side. Belongs to the thread that made it; its frames depend on nothing but its arguments.
+/// side. Serves one thread at a time; its frames depend on nothing but its arguments.
 class SyntheticKinect : public Device {
  public:
   /// Throws Error if no OpenGL context can be had or the configuration is impossible.

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     using namespace glovebench::reports;
     write_report(argv[1], full_result(), {});
     write_report(std::string(argv[1]) + "/small", small_result(), {});
-    std::fputs(figure4_table(full_result(), paper_numbers()).c_str(), stdout);
+    std::fputs(figure4_table(full_result(), paper_numbers(), {}).c_str(), stdout);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

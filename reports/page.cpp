@@ -61,7 +61,7 @@ std::string picture_section(const std::vector<Picture>& pictures) {
 }  // namespace
 
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const std::vector<Picture>& pictures) {
-  const NoiseSetting noise;
+  const NoiseSetting noise = headline_noise(result);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>glovebench "
          "results</title>\n"
@@ -69,8 +69,10 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
          embedded_page_style() + "</style>\n</head>\n<body>\n<main>\n<h1>glovebench results</h1>\n" +
          fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
                      escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
-         "<h2>Figure 4: mean errors</h2>\n<p>" + escape_html(summary_explanation()) + "</p>\n" +
-         to_html(figure4_summary(result, paper, noise)) + curve_section(result, noise, "Figure 5", paper.figure_5) +
+         "<h2>Figure 4: mean errors</h2>\n<p>" +
+         escape_html(fmt::format("{} Noise: {} x {}.", summary_explanation(), noise.model, noise.factor)) +
+         "</p>\n" + to_html(figure4_summary(result, paper, noise)) +
+         curve_section(result, noise, "Figure 5", paper.figure_5) +
          curve_section(result, noise, "Figure 6", paper.figure_6) + picture_section(pictures) +
          "<h2>More metrics</h2>\n<p>Intervals are over blocks of frames and, where there are several, noise seeds; "
          "not over movements or hands.</p>\n" +

@@ -10,6 +10,7 @@ namespace glovebench::reports {
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const std::vector<Picture>& pictures) {
   const PaperNumbers& paper = paper_numbers();
+  const NoiseSetting noise = headline_noise(result);
   std::vector<std::string> names;
   const auto write = [&](const std::string& name, const std::string& content) {
     write_file(folder + "/" + name, content);
@@ -20,9 +21,9 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
   write("summary.md", summary_markdown(result, paper));
   write("index.html", html_page(result, paper, pictures));
   write("timings.json", timings_json(timings));
-  write("tables/figure4.csv", figure4_csv(result, paper));
+  write("tables/figure4.csv", figure4_csv(result, paper, noise));
   const auto write_curve = [&](const std::string& name, const PaperCurve& curve) {
-    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, {}};
+    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
     if (const ExperimentResult* experiment = find_experiment(result, key))
       write(name, curve_csv(*experiment, curve));
   };

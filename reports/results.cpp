@@ -104,6 +104,13 @@ Protocol make_protocol(std::string association, std::map<std::string, std::strin
   return protocol;
 }
 
+NoiseSetting headline_noise(const RunResult& result) {
+  const NoiseSetting paper;
+  const bool has_paper =
+      std::ranges::any_of(result.experiments, [&](const auto& e) { return e.key.noise == paper; });
+  return has_paper || result.experiments.empty() ? paper : result.experiments.front().key.noise;
+}
+
 const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key) {
   const auto found = std::ranges::find(result.experiments, key, &ExperimentResult::key);
   return found == result.experiments.end() ? nullptr : &*found;

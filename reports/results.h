@@ -150,7 +150,9 @@ struct RunResult {
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };
-/// Empty if there is no such experiment.
+/// The noise whose rows are Figure 4: the paper's (gradient x 1) if any experiment has it, else the first one's.
+NoiseSetting headline_noise(const RunResult& result);
+/// Null if there is no such experiment.
 const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key);
 
 }  // namespace glovebench::reports

@@ -57,6 +57,15 @@ TEST(Results, KeysNameExperimentsApart) {
   EXPECT_THROW(metric_index("posture_error"), std::logic_error);
 }
 
+TEST(Results, HeadlineNoiseIsThePapersWhereThatWasRun) {
+  RunResult result = small_result();
+  EXPECT_EQ(headline_noise(result), (NoiseSetting{"gradient", 1}));
+  result.experiments.erase(result.experiments.begin(), result.experiments.begin() + 3);
+  EXPECT_EQ(headline_noise(result), (NoiseSetting{"kinect", 0.5}));
+  result.experiments.clear();
+  EXPECT_EQ(headline_noise(result), NoiseSetting{});
+}
+
 TEST(Results, ProtocolIdChangesWithWhateverItCovers) {
   const Protocol protocol = make_protocol("by time stamp, exact", {{"Tr1", "00"}});
   EXPECT_EQ(protocol.joint_order.size(), 22u);

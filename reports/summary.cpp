@@ -93,22 +93,21 @@ TextTable detail_summary(const RunResult& result) {
 std::string summary_explanation() {
   return "Each cell holds the mean position error (mm), posture error (RMS over the 22 joint angles, degrees) and "
          "rotation error (degrees), then the coverage: the share of all frames, lost ones included, that are "
-         "tracked "
-         "within 50 mm and 30 degrees. Recorded truth is the paper's protocol: a movement that was tracked once "
-         "became "
-         "the truth. Source truth is the movement itself. The tracker's hand model is the first subject's hand; "
-         "the "
-         "second subject's hand differs from it. The paper prints its means for two experiments only.";
+         "tracked within 50 mm and 30 degrees. Recorded truth is the paper's protocol: a movement that was "
+         "tracked once became the truth. Source truth is the movement itself. The tracker's hand model is the "
+         "first subject's hand; the second subject's hand differs from it. The paper prints its means for two "
+         "experiments only.";
 }
 
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper) {
+  const NoiseSetting noise = headline_noise(result);
   return fmt::format(
-      "# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n## Figure 4\n\n{}\n\n{}\n"
+      "# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n## Figure 4\n\n{} Noise: {} x {}.\n\n{}\n"
       "The paper: {}.\n\n## More metrics\n\n"
       "Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
       "hands.\n\n{}",
-      result.program_version, result.commit, result.protocol.id(), summary_explanation(),
-      to_markdown(figure4_summary(result, paper)), paper.source, to_markdown(detail_summary(result)));
+      result.program_version, result.commit, result.protocol.id(), summary_explanation(), noise.model, noise.factor,
+      to_markdown(figure4_summary(result, paper, noise)), paper.source, to_markdown(detail_summary(result)));
 }
 
 }  // namespace glovebench::reports

@@ -17,7 +17,7 @@ std::string to_markdown(const TextTable& table);
 std::string to_html(const TextTable& table);
 
 /// Figure 4: a column for each variant and one for the paper's printed means.
-TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise = {});
+TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 /// One row an experiment, of any noise: the mean position error with its interval, the metrics that depend on no
 /// joint convention, jitter, latency, lost and false frames.
 TextTable detail_summary(const RunResult& result);

@@ -27,15 +27,14 @@ struct Figure4Row {
   const PaperErrors* paper = nullptr;
 };
 /// The rows of the experiments with that noise, in the order in which they were run. They refer to both arguments.
-std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper,
-                                     const NoiseSetting& noise = {});
+std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
 /// Figure 4 as aligned text of at most 120 columns: for each variant mean position error, posture error (RMS) and
 /// rotation error with coverage, beside the paper's printed means. "-" where there is no value.
-std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise = {});
+std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
 /// The same rows, one line an experiment, with the intervals of the means and the paper's numbers.
-std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise = {});
+std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
 /// Every frame of an experiment, seed after seed: the columns of frame_columns() after the seed's. Empty cells are
 /// values that a frame does not have.

@@ -20,7 +20,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 TEST(Figure4Table, Golden) {
-  EXPECT_EQ(figure4_table(small_result(), paper_numbers()), R"(
+  EXPECT_EQ(figure4_table(small_result(), paper_numbers(), {}), R"(
 Mean errors: position (mm), posture (RMS of 22 angles, deg), rotation (deg); coverage (%). Noise: gradient x 1
                      |     recorded truth      |      source truth       | source, second subject  |      paper
      database DB_    |    mm  post.   rot.  cov.|    mm  post.   rot.  cov.|    mm  post.   rot.  cov.|   mm post.  rot.
@@ -34,7 +34,7 @@ Tr1  20_postures     |     -      -      -     -|     -      -      -     -|    
 TEST(Figure4Table, FitsA120ColumnTerminal) {
   RunResult result = full_result();
   result.experiments[0].aggregates[metric_index("position_error_mm")].mean = 12345.678;
-  for (const std::string& line : lines_of(figure4_table(result, paper_numbers())))
+  for (const std::string& line : lines_of(figure4_table(result, paper_numbers(), {})))
     EXPECT_LE(line.size(), 120u) << line;
 }
 
@@ -46,7 +46,7 @@ TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
 }
 
 TEST(Figure4Csv, OneLineAnExperiment) {
-  const std::vector<std::string> lines = lines_of(figure4_csv(small_result(), paper_numbers()));
+  const std::vector<std::string> lines = lines_of(figure4_csv(small_result(), paper_numbers(), {}));
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
             "trajectory,database,truth,subject,seeds,frames,coverage,"
@@ -85,6 +85,7 @@ TEST(Summary, TablesInMarkdown) {
   EXPECT_THAT(markdown, HasSubstr("| Tr4 | DB_open_power | 4.00 / 3.00 / 2.00, 75.0% | - | - / - / -, 0.0% | "
                                   "3.88 / 2.60 / 2.70 |\n"));
   EXPECT_THAT(markdown, HasSubstr("| Tr1 | DB_20_postures | - | - | - | 7.33 / 18.01 / 11.68 |\n"));
+  EXPECT_THAT(markdown, HasSubstr("Noise: gradient x 1."));
   EXPECT_THAT(markdown, HasSubstr(small_result().protocol.id()));
   EXPECT_THAT(markdown, HasSubstr("| kinect x 0.5 | 400.00 |"));
 }

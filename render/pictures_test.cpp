@@ -1,0 +1,61 @@
+#include "render/pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/base/error.h"
+#include "render/glove_colors.h"
+
+namespace glovebench::render {
+namespace {
+
+TEST(Pictures, OutlineRunsAlongBorders) {
+  LabelImage labels(8, 6);
+  for (int v = 2; v < 4; ++v) {
+    for (int u = 3; u < 6; ++u) labels(u, v) = 4;
+  }
+  const ColorImage picture = overlay_outline(ColorImage(8, 6, Rgb{10, 20, 30}), labels);
+  const Rgb white{255, 255, 255};
+  EXPECT_EQ(picture(2, 2), white);
+  EXPECT_EQ(picture(5, 3), white);
+  EXPECT_EQ(picture(4, 1), white);
+  EXPECT_EQ(picture(4, 2), (Rgb{10, 20, 30}));
+  EXPECT_EQ(picture(0, 0), (Rgb{10, 20, 30}));
+}
+
+TEST(Pictures, DepthWithoutValueIsBlackAndNearDiffersFromFar) {
+  DepthImage depth(3, 1);
+  depth(1, 0) = 0.5f;
+  depth(2, 0) = 1.0f;
+  const ColorImage picture = picture_of_depth(depth, 0.5, 1.0);
+  EXPECT_EQ(picture(0, 0), (Rgb{0, 0, 0}));
+  EXPECT_GT(picture(1, 0)[0], picture(1, 0)[2]);  // near is red
+  EXPECT_LT(picture(2, 0)[0], picture(2, 0)[2]);  // far is blue
+}
+
+TEST(Pictures, PaletteTellsLabelsApart) {
+  LabelImage labels(kColorCount + 1, 1);
+  for (int i = 0; i <= kColorCount; ++i) labels(i, 0) = static_cast<uint8_t>(i);
+  const ColorImage picture = picture_of_labels(labels);
+  for (int a = 0; a <= kColorCount; ++a) {
+    for (int b = a + 1; b <= kColorCount; ++b) EXPECT_NE(picture(a, 0), picture(b, 0));
+  }
+}
+
+TEST(Pictures, PngReadsBackEqual) {
+  const std::string path = (std::filesystem::temp_directory_path() / "glovebench_pictures_test.png").string();
+  const ColorImage left(4, 3, Rgb{1, 2, 3});
+  const ColorImage right(2, 3, Rgb{200, 100, 50});
+  write_png(path, side_by_side({left, right}));
+  const cv::Mat read = cv::imread(path, cv::IMREAD_COLOR);
+  std::filesystem::remove(path);
+  ASSERT_EQ(read.size(), cv::Size(6, 3));
+  EXPECT_EQ(read.at<cv::Vec3b>(2, 3), cv::Vec3b(3, 2, 1));
+  EXPECT_EQ(read.at<cv::Vec3b>(0, 4), cv::Vec3b(50, 100, 200));
+  EXPECT_THROW(write_png("/proc/no/such/folder/x.png", left), Error);
+}
+
+}  // namespace
+}  // namespace glovebench::render
