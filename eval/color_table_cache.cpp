@@ -24,8 +24,8 @@ Eigen::Isometry3d random_pose(RandomStream& random) {
   const Eigen::Quaterniond q(random.normal(), random.normal(), random.normal(), random.normal());
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
   T_camera_hand.linear() = q.normalized().toRotationMatrix();
-  T_camera_hand.translation() = Eigen::Vector3d{random.uniform(-0.15, 0.15), random.uniform(-0.1, 0.1),
-                                 random.uniform(0.55, 0.85)};
+  const double x = random.uniform(-0.15, 0.15), y = random.uniform(-0.1, 0.1), z = random.uniform(0.55, 0.85);
+  T_camera_hand.translation() = Eigen::Vector3d(x, y, z);
   return T_camera_hand;
 }
 
@@ -45,9 +45,8 @@ std::string input_hash(const HandModel& model, const RgbdCalibration& calibratio
 }  // namespace
 
 std::vector<render::Lighting> calibration_lightings() {
-  static const std::array<Eigen::Vector3d, 3> directions = {Eigen::Vector3d(-0.3, -0.4, -0.87),
-                                                            Eigen::Vector3d(0.5, -0.2, -0.84),
-                                                            Eigen::Vector3d(0.1, 0.5, -0.86)};
+  static const std::array<Eigen::Vector3d, 3> directions = {
+      Eigen::Vector3d(-0.3, -0.4, -0.87), Eigen::Vector3d(0.5, -0.2, -0.84), Eigen::Vector3d(0.1, 0.5, -0.86)};
   std::vector<render::Lighting> lightings;
   for (const double strength : {0.7, 1.0, 1.4}) {
     for (const double temperature : {3500.0, 4500.0, 5500.0}) {
