@@ -11,7 +11,7 @@ namespace glovebench {
 /// Depth range in which the hand is looked for (equation 1).
 struct WorkingVolume {
   double z_min = 0.40;  ///< m, > 0
-  double z_max = 1.00;  ///< m, > z_min
+  double z_max = 0.95;  ///< m, > z_min; the table of the synthetic scene lies at 1.06
 };
 
 struct LabeledPoint {
