@@ -15,6 +15,7 @@ trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::
                                       const std::string& database, const TrackerConfig& config, uint64_t seed) {
   Replay pass;
   pass.truth = std::make_shared<const trajectories::Trajectory>(source);
+  pass.noise = {"kinect", 1};  // the paper recorded with a real Kinect
   pass.seed = seed;
   pass.databases = {database};
   Progress progress("recording " + source.name, workbench.config().quiet);

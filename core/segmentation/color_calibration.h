@@ -8,7 +8,7 @@ namespace glovebench {
 struct ColorModel {
   double strength_factor = 2.5;           ///< light weaker and stronger by up to this factor, >= 1
   double temperature_shift_mired = 50.0;  ///< warmer and colder light by up to this, >= 0
-  double not_glove_prior = 0.5;           ///< share of pixels that are not glove, (0, 1)
+  double not_glove_prior = 0.95;          ///< share of pixels that are not glove, (0, 1)
   double kept_share = 0.995;              ///< of a color's pixels; rarer shades are left unlabeled, (0, 1]
   double min_posterior = 0.7;             ///< of the label given the cell, [0, 1)
   int min_luma = 28;                      ///< darker cells tell no color, 0..255

@@ -39,6 +39,10 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("segmentation", "largest_component", c.segmentation.largest_component, Range{});
   visit("volume", "z_min_m", c.volume.z_min, kPositive);
   visit("volume", "z_max_m", c.volume.z_max, kPositive);
+  visit("database", "view_distance_m", c.views.distance, Range{0.3, 10});
+  visit("database", "field_of_view_deg", c.views.field_of_view_deg, Range{1, 120});
+  visit("database", "image_size_px", c.views.image_size, Range{64, 2048});
+  visit("database", "field_cap_share", c.views.field_cap_share, kShare);
   visit("detection", "min_pixels", c.detection.min_pixels, Range{3, 307200});
   visit("detection", "second_hand_share", c.detection.second_hand_share, kShare);
   visit("detection", "component_depth_step_m", c.detection.component_depth_step, kPositive);

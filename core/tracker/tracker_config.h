@@ -42,6 +42,7 @@ struct TrackerConfig {
   RegistrationConfig registration;
   SegmentationConfig segmentation;
   WorkingVolume volume;
+  ViewConfig views;  ///< of the databases
   DetectionConfig detection;
   LookupConfig lookup;
   IcpConfig icp;

@@ -44,6 +44,7 @@ void CommonFlags::add_machine(CLI::App& command) {
 
 TrackerConfig CommonFlags::tracker_config() const {
   TrackerConfig config = glovebench::profile(profile);
+  if (!config_json.is_null()) config = config_from_json(config_json, config, "configuration of the run");
   if (!config_file.empty()) config = config_from_json(parse_json_file(config_file), config, config_file);
   if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
   return config;
@@ -55,6 +56,7 @@ Workbench CommonFlags::workbench() const {
   config.side = left ? Side::left : Side::right;
   config.threads = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   config.quiet = quiet;
+  config.views = tracker_config().views;
   return Workbench(config);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/tracker/tracker_config.h"
@@ -12,6 +13,7 @@ namespace glovebench::eval {
 struct CommonFlags {
   std::string output;
   std::string config_file;
+  nlohmann::json config_json;  ///< instead of a file: the configuration of an earlier run
   std::string profile = "paper";
   std::string cascade;
   std::string cache_folder;

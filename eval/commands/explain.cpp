@@ -29,9 +29,8 @@ struct Explain {
     const auto truth = std::make_shared<const Trajectory>(load_truth(experiment.key));
     check_truth(results, experiment.key, *truth, results_path);
     common.left = truth->side == Side::left;
+    common.config_json = results.configuration.at("tracker");
     Workbench workbench = common.workbench();
-    const TrackerConfig config =
-        config_from_json(results.configuration.at("tracker"), glovebench::profile("paper"), results_path);
     const Replay replay{truth,
                         experiment.key.subject,
                         experiment.key.noise,
@@ -40,7 +39,7 @@ struct Explain {
     const std::string path = common.output.empty()
                                  ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(experiment.key), frame)
                                  : common.output;
-    render::write_png(path, explain_frame(workbench, replay, config, frame));
+    render::write_png(path, explain_frame(workbench, replay, common.tracker_config(), frame));
     fmt::print("{}\n", path);
   }
 
