@@ -76,6 +76,8 @@ std::string encode_png(const ColorImage& image) {
   return {bytes.begin(), bytes.end()};
 }
 
-void write_png(const std::string& path, const ColorImage& image) { write_file(path, encode_png(image)); }
+void write_png(const std::string& path, const ColorImage& image) {
+  write_file(path, encode_png(image));
+}
 
 }  // namespace glovebench::render
