@@ -4,6 +4,15 @@
 
 namespace glovebench {
 
+Eigen::Isometry3d default_T_base_camera() {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.linear() << 0, -1, 0,  // image rows run towards the arm
+      -1, 0, 0,                        // image columns run to its right
+      0, 0, -1;
+  T_base_camera.translation() << 0.9, 0, 1.2;
+  return T_base_camera;
+}
+
 RobotCommander::RobotCommander(const Eigen::Isometry3d& T_base_camera) : T_base_camera_(T_base_camera) {
   const Eigen::Matrix3d R = T_base_camera.linear();
   // 1e-6 admits a matrix that was written with seven digits.

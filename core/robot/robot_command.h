@@ -24,12 +24,16 @@ struct RobotCommand {
   std::optional<RobotTargets> targets;  ///< empty until a first frame was tracked
 };
 
+/// The camera of the synthetic setup in the arm's base frame (x ahead, y left, z up): 1.2 m above the base plane,
+/// 0.9 m ahead of the shoulder, looking straight down, the top of its image away from the arm.
+Eigen::Isometry3d default_T_base_camera();
+
 /// Turns the tracker's answers into commands, in time order. A lost frame repeats the last targets and says so.
 class RobotCommander {
  public:
   /// `T_base_camera` is the tracker's frame in the arm's base frame. Throws Error unless it is a finite rigid
   /// transform.
-  explicit RobotCommander(const Eigen::Isometry3d& T_base_camera);
+  explicit RobotCommander(const Eigen::Isometry3d& T_base_camera = default_T_base_camera());
   /// Throws Error if a tracked posture or pose is not finite.
   RobotCommand command(const TrackResult& result);
 

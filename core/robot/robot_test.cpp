@@ -143,6 +143,13 @@ TEST(RobotCommander, TurnsThePoseIntoTheBaseFrame) {
   EXPECT_TRUE(command.targets->T_base_hand.linear().isApprox(T_base_camera.linear(), kRounding));
 }
 
+TEST(RobotCommander, LooksDownOnTheWorkByDefault) {
+  // 0.7 m below the camera, 10 cm to the right and 20 cm down in the image: nearer to the arm, on its right.
+  const Eigen::Vector3d p_base = default_T_base_camera() * Eigen::Vector3d(0.1, 0.2, 0.7);
+  EXPECT_TRUE(p_base.isApprox(Eigen::Vector3d(0.7, -0.1, 0.5), 1e-12));
+  EXPECT_NEAR(default_T_base_camera().linear().determinant(), 1, 1e-12);
+}
+
 TEST(RobotCommander, HoldsTheLastTargetsOfALostFrame) {
   RobotCommander commander(Eigen::Isometry3d::Identity());
   TrackResult lost;
