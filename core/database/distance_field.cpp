@@ -6,8 +6,51 @@
 #include "core/base/check.h"
 
 namespace glovebench {
+namespace {
 
-void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field) {
+constexpr int kStraight = 3;
+constexpr int kDiagonal = 4;
+
+/// min(x + step, 255) in bytes, as operations that SSE2 has.
+inline uint8_t plus(uint8_t x, uint8_t step) {
+  return static_cast<uint8_t>(std::min<uint8_t>(x, static_cast<uint8_t>(255 - step)) + step);
+}
+
+/// Rows of bytes between margins that hold the cap: neighbors outside the image are never nearer.
+class PaddedRows {
+ public:
+  static constexpr int kMaxStep = 64;  ///< pixels that a horizontal step reaches beyond a row
+
+  PaddedRows(int width, int height, uint8_t cap)
+      : width_(width),
+        stride_(width + 2 * kMaxStep),
+        bytes_(static_cast<size_t>(stride_) * static_cast<size_t>(height), cap) {}
+  int width() const { return width_; }
+  uint8_t* operator[](int v) { return bytes_.data() + static_cast<ptrdiff_t>(v) * stride_ + kMaxStep; }
+
+ private:
+  int width_;
+  int stride_;
+  std::vector<uint8_t> bytes_;
+};
+
+/// Takes over what is nearer by way of the row above (or below).
+void relax_vertically(uint8_t* __restrict row, const uint8_t* __restrict neighbor, int width) {
+  for (int u = 0; u < width; ++u) {
+    const uint8_t diagonal = plus(std::min(neighbor[u - 1], neighbor[u + 1]), kDiagonal);
+    row[u] = std::min({row[u], plus(neighbor[u], kStraight), diagonal});
+  }
+}
+
+/// Takes over what is nearer `step` pixels to the left or right.
+void relax_horizontally(uint8_t* __restrict result, const uint8_t* __restrict row, int width, int step) {
+  const auto cost = static_cast<uint8_t>(kStraight * step);
+  for (int u = 0; u < width; ++u) result[u] = std::min(row[u], plus(std::min(row[u - step], row[u + step]), cost));
+}
+
+}  // namespace
+
+void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field) {
   check(field.size() == labels.size(), "a field has the size of its image");
   const int w = labels.width(), h = labels.height(), stride = w + 2;
   // One border pixel around the image saves the tests for it.
@@ -48,6 +91,34 @@ void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::sp
     for (int u = 0; u < w; ++u) {
       field[static_cast<size_t>(v) * w + u] = static_cast<uint8_t>(d[(v + 1) * stride + u + 1]);
     }
+  }
+}
+
+void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field) {
+  check(field.size() == labels.size(), "a field has the size of its image");
+  const int w = labels.width(), h = labels.height();
+  if (std::find(labels.begin(), labels.end(), color) == labels.end()) {
+    std::fill(field.begin(), field.end(), cap);
+    return;
+  }
+  PaddedRows rows(w, h, cap);
+  for (int v = 0; v < h; ++v) {
+    const uint8_t* const label = labels.data() + static_cast<ptrdiff_t>(v) * w;
+    for (int u = 0; u < w; ++u) rows[v][u] = label[u] == color ? 0 : cap;
+  }
+  for (int v = 1; v < h; ++v) relax_vertically(rows[v], rows[v - 1], w);
+  for (int v = h - 2; v >= 0; --v) relax_vertically(rows[v], rows[v + 1], w);
+
+  // Steps of 1, 2, 4, ... pixels add up to every distance. None needs to cost as much as the cap.
+  PaddedRows spare(w, 1, cap);
+  for (int v = 0; v < h; ++v) {
+    uint8_t* row = rows[v];
+    uint8_t* other = spare[0];
+    for (int step = 1; step <= PaddedRows::kMaxStep && step < w && kStraight * step < cap; step *= 2) {
+      relax_horizontally(other, row, w, step);
+      std::swap(row, other);
+    }
+    std::copy_n(row, w, field.data() + static_cast<ptrdiff_t>(v) * w);
   }
 }
 

@@ -13,7 +13,11 @@ inline constexpr int kFieldScale = 3;
 
 /// The distance field of one color by chamfering (section III-B): for each pixel the distance to the nearest pixel
 /// of that color, capped; `cap` everywhere if the color is absent. Units: 1/kFieldScale px. `field` has the image's
-/// size.
+/// size. Two passes over the image, as chamfering is described.
+void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
+
+/// The same field, faster: a shortest path runs diagonally or vertically first and horizontally last, so that whole
+/// rows can be relaxed at once.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 
 }  // namespace glovebench

@@ -24,7 +24,11 @@ Square bounding_square(const LabelImage& labels);
 Eigen::Vector3d square_ray(const Square& square, const PinholeCamera& camera);
 
 /// The square scaled to size x size: each cell takes the label that the most pixels under it have (0 counts;
-/// ties go to the glove, then to the smaller label).
+/// ties go to the glove, then to the smaller label). A cell covers the pixels from floor to ceil of its edges: at
+/// least one, also where the square is smaller than the tiny image. Pixel after pixel.
+LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square, int size);
+
+/// The same image, faster: a row of cells counts the votes of its pixel columns, and each cell adds up its columns.
 LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int size);
 
 }  // namespace glovebench

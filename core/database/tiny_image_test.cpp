@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/random.h"
+
 namespace glovebench {
 namespace {
 
@@ -50,6 +52,63 @@ TEST(TinyImage, does_not_depend_on_where_the_hand_is) {
   for (const int size : kTinySizes) {
     EXPECT_EQ(make_tiny_image(a, bounding_square(a), size), make_tiny_image(b, bounding_square(b), size));
   }
+}
+
+/// Blobs of every label, with single pixels among them.
+LabelImage random_labels(RandomStream& random, int width, int height) {
+  LabelImage labels(width, height);
+  const auto below = [&](int end) { return static_cast<int>(random.uniform(0, end)); };
+  for (int blob = 0; blob < 12; ++blob) {
+    const int left = below(width), top = below(height), right = left + 1 + below(width / 3),
+              bottom = top + 1 + below(height / 3);
+    const auto label = static_cast<uint8_t>(below(kColorCount + 1));
+    for (int v = top; v < std::min(bottom, height); ++v) {
+      for (int u = left; u < std::min(right, width); ++u) {
+        labels(u, v) = random.uniform(0, 1) < 0.9 ? label : static_cast<uint8_t>(below(kColorCount + 1));
+      }
+    }
+  }
+  return labels;
+}
+
+TEST(TinyImage, bounding_square_holds_every_labeled_pixel_and_touches_the_outermost) {
+  for (int i = 0; i < 200; ++i) {
+    RandomStream random(1, "tiny image test", i, "square");
+    LabelImage labels(3 + i % 41, 2 + i % 23);
+    for (int pixel = 0; pixel < 1 + i % 7; ++pixel) {
+      labels[static_cast<size_t>(random.uniform(0, static_cast<double>(labels.size())))] = 10;
+    }
+    int left = labels.width(), right = -1, top = labels.height(), bottom = -1;
+    for (int v = 0; v < labels.height(); ++v) {
+      for (int u = 0; u < labels.width(); ++u) {
+        if (labels(u, v) == 0) continue;
+        left = std::min(left, u), right = std::max(right, u), top = std::min(top, v), bottom = std::max(bottom, v);
+      }
+    }
+    const Square square = bounding_square(labels);
+    EXPECT_EQ(square.side, std::max(right - left, bottom - top) + 1);
+    EXPECT_EQ(square.left, left - (square.side - (right - left + 1)) / 2);
+    EXPECT_EQ(square.top, top - (square.side - (bottom - top + 1)) / 2);
+  }
+}
+
+TEST(TinyImage, fast_equals_plain) {
+  for (int i = 0; i < 100; ++i) {
+    RandomStream random(1, "tiny image test", i, "labels");
+    const LabelImage labels = random_labels(random, 40 + i, 140 - i);
+    // Around the hand, then smaller than the tiny images, then over each border and far outside.
+    for (const Square& square : {bounding_square(labels), Square{7, 5, 1 + i % 6}, Square{-30, -20, 71},
+                                 Square{20, 30, 200}, Square{500, 3, 40}, Square{-90, 3, 40}, Square{0, 0, 0}}) {
+      for (const int size : kTinySizes) {
+        ASSERT_EQ(make_tiny_image(labels, square, size), make_tiny_image_plain(labels, square, size)) << i;
+      }
+    }
+  }
+}
+
+TEST(TinyImage, fast_equals_plain_where_a_cell_has_more_pixels_than_sixteen_bits_count) {
+  const LabelImage labels(2100, 2100, 4);
+  EXPECT_EQ(make_tiny_image(labels, {0, 0, 2100}, 8), LabelImage(8, 8, 4));
 }
 
 }  // namespace
