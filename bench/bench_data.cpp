@@ -1,0 +1,115 @@
+#include "bench/bench_data.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <optional>
+#include <thread>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/database/database_cache.h"
+#include "core/segmentation/color_calibration.h"
+#include "render/label_renderer.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::bench {
+namespace {
+
+constexpr int kFrameStep = 19;  // of Tr4's 117 frames: seven, in the open hand, the grasp and between
+
+const std::string kShareFolder = GLOVEBENCH_SHARE_DIR;
+const std::string kTrajectoryFolder = kShareFolder + "/trajectories/data";
+
+std::optional<BenchData>& storage() {
+  static std::optional<BenchData> stored;
+  return stored;
+}
+
+std::vector<render::HandFrame> hand_frames() {
+  const trajectories::Trajectory trajectory = trajectories::source_trajectory(kTrajectoryFolder, "Tr4");
+  std::vector<render::HandFrame> frames;
+  for (size_t f = 0; f < trajectory.frames.size(); f += kFrameStep) {
+    const trajectories::TrajectoryFrame& frame = trajectory.frames[f];
+    frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
+  }
+  return frames;
+}
+
+/// A color table for the light of these frames alone.
+ColorTable calibrate(const BenchData& data, const std::vector<render::HandFrame>& frames) {
+  render::RgbdRenderer renderer(data.calibration, data.model, render::SceneConfig{});
+  ColorCalibration colors;
+  for (size_t f = 0; f < frames.size(); ++f) {
+    const PosedHand hand = data.model->pose(frames[f].posture);
+    const ColorImage color = renderer.render(hand, frames[f].T_camera_hand, {}).color;
+    colors.add_view(render::add_color_noise(color, {}, {1, "color calibration", static_cast<int64_t>(f)}),
+                    renderer.render_color_labels(hand, frames[f].T_camera_hand));
+  }
+  return colors.build();
+}
+
+std::vector<BenchFrame> track_frames(const BenchData& data, const std::vector<render::HandFrame>& hands) {
+  render::SyntheticKinectConfig config;
+  config.sequence = "Tr4";
+  render::SyntheticKinect kinect(data.calibration, data.model, hands, config);
+  Tracker tracker(data.config, data.calibration, data.model, data.database, data.table);
+  std::vector<BenchFrame> frames;
+  for (const render::HandFrame& hand : hands) {
+    BenchFrame frame;
+    frame.hand = hand;
+    frame.device = *kinect.next_frame();
+    frame.images = kinect.truth();
+    frame.result = tracker.track(frame.device, {}, &frame.trace);
+    check(frame.result.status == TrackStatus::tracked, "the tracker follows the benchmark's frames");
+    frame.square = bounding_square(frame.trace.cloud.labels);
+    frame.tiny = make_tiny_images(frame.trace.cloud.labels, frame.square, data.config.lookup.cascade);
+    frame.posed = data.model->pose(frame.result.posture_unfiltered);
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+}  // namespace
+
+DatabaseCache BenchData::cache() const {
+  DatabaseCache result;
+  result.folder = settings.cache_folder;
+  result.renderers = render::label_renderer_factory();
+  result.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  result.message = [](const std::string& text) { fmt::print(stderr, "glovebench_bench: {}\n", text); };
+  return result;
+}
+
+void prepare(const Settings& settings) {
+  BenchData data;
+  data.settings = settings;
+  data.calibration = synthetic_calibration();
+  data.config = profile("paper");
+  data.model = std::make_shared<HandModel>(HandModel::load(kShareFolder + "/generic-hand-right.glb"));
+  data.postures = trajectories::posture_set(kTrajectoryFolder, settings.database);
+  data.database =
+      std::make_shared<Database>(data.cache().get(data.postures, *data.model, data.config.views, kTinySizes));
+  const std::vector<render::HandFrame> hands = hand_frames();
+  data.table = std::make_shared<ColorTable>(calibrate(data, hands));
+  data.frames = track_frames(data, hands);
+  storage() = std::move(data);
+}
+
+const BenchData& data() {
+  check(storage().has_value(), "the data is prepared before the benchmarks run");
+  return *storage();
+}
+
+void set_time_each(benchmark::State& state, const std::string& name, size_t count) {
+  state.counters[name] = benchmark::Counter(
+      static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+}  // namespace glovebench::bench

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/database/database_cache.h"
+#include "core/hand/hand_model.h"
+#include "core/segmentation/color_table.h"
+#include "core/tracker/tracker.h"
+#include "render/synthetic_kinect.h"
+
+namespace glovebench::bench {
+
+struct Settings {
+  std::string cache_folder;
+  std::string database = "DB_open_power";
+};
+
+/// One frame of source trajectory Tr4 and what each stage of the tracker made of it.
+struct BenchFrame {
+  render::HandFrame hand;     ///< the truth
+  render::RgbdImages images;  ///< without noise
+  DeviceFrame device;
+  FrameTrace trace;
+  Square square;    ///< around the glove's labels
+  TinyImages tiny;  ///< of the default cascade
+  PosedHand posed;  ///< in the looked-up posture
+  TrackResult result;
+};
+
+/// What all benchmarks share.
+struct BenchData {
+  Settings settings;
+  RgbdCalibration calibration;
+  TrackerConfig config;
+  std::shared_ptr<const HandModel> model;
+  PostureSet postures;
+  std::shared_ptr<const Database> database;
+  std::shared_ptr<const ColorTable> table;
+  std::vector<BenchFrame> frames;
+
+  DatabaseCache cache() const;
+};
+
+/// Renders the frames, tracks them and loads (or builds) the database, once, before any benchmark. Throws Error.
+void prepare(const Settings& settings);
+/// What `prepare` made.
+const BenchData& data();
+
+/// Says that each iteration did something with all `count` of these: adds the time for one as a counter.
+void set_time_each(benchmark::State& state, const std::string& name, size_t count);
+
+/// The peak of the process's resident memory so far, bytes.
+double peak_memory();
+
+}  // namespace glovebench::bench
