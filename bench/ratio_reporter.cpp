@@ -1,10 +1,13 @@
 #include "bench/ratio_reporter.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "bench/bench_data.h"
 
 namespace glovebench::bench {
+
+RatioReporter::RatioReporter() : ConsoleReporter(isatty(STDOUT_FILENO) != 0 ? OO_ColorTabular : OO_Tabular) {}
 
 void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
   for (const Run& run : runs) {

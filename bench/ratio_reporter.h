@@ -11,6 +11,9 @@ namespace glovebench::bench {
 /// both timed in this process: of the medians if there were repetitions.
 class RatioReporter : public benchmark::ConsoleReporter {
  public:
+  /// Colors go to a terminal only.
+  RatioReporter();
+
   void ReportRuns(const std::vector<Run>& runs) override;
   void Finalize() override;
 

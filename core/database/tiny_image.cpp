@@ -1,13 +1,14 @@
 #include "core/database/tiny_image.h"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 namespace glovebench {
 namespace {
 
 /// Pixels of each label; padded to the width of vector registers.
-using Votes = std::array<uint16_t, 16>;
+using Votes = Eigen::Array<uint16_t, 16, 1>;
 /// Cells up to this wide have no more pixels than a vote can count.
 constexpr int kMaxCell = 250;  // px
 
@@ -19,29 +20,51 @@ CellRange cell_range(int cell, int side, int size) {
   return {cell * side / size, ((cell + 1) * side + size - 1) / size};
 }
 
-/// The label with the most votes, if 0 has no more.
+/// The label with the most votes, if no more pixels have none.
 template <typename Counts>
-uint8_t winner(const Counts& votes) {
-  const auto best = std::max_element(votes.begin() + 1, votes.begin() + kColorCount + 1);
-  return *best > 0 && *best >= votes[0] ? static_cast<uint8_t>(best - votes.begin()) : uint8_t{0};
+uint8_t winner(const Counts& votes, int unlabeled) {
+  int best = 1;
+  for (int label = 2; label <= kColorCount; ++label) {
+    if (votes[label] > votes[best]) best = label;
+  }
+  return votes[best] > 0 && votes[best] >= unlabeled ? static_cast<uint8_t>(best) : uint8_t{0};
 }
 
-/// Counts the votes of each pixel column of the square over some of its rows; what lies outside the image is 0.
-void count_columns(const LabelImage& labels, const Square& square, const CellRange& rows,
-                   std::vector<Votes>& columns) {
+/// What lies in each pixel column of a square, over some of its rows.
+struct Columns {
+  explicit Columns(int side) : votes(side), labeled(side), labeled_before(side + 1) {}
+  std::vector<Votes> votes;         ///< of the labels 1..; that of 0 means nothing
+  std::vector<uint16_t> labeled;    ///< pixels with any label
+  std::vector<int> labeled_before;  ///< in all columns before this one
+};
+
+void count_row(const uint8_t* pixels, int left, int right, Columns& columns) {
+  for (int c = left; c < right; ++c)
+    columns.labeled[c] = static_cast<uint16_t>(columns.labeled[c] + (pixels[c] != 0));
+  int c = left;
+  for (; c + 8 <= right; c += 8) {
+    uint64_t eight = 0;
+    std::memcpy(&eight, pixels + c, sizeof eight);
+    if (eight == 0) continue;
+    for (int i = 0; i < 8; ++i) ++columns.votes[c + i][pixels[c + i]];
+  }
+  for (; c < right; ++c) ++columns.votes[c][pixels[c]];
+}
+
+/// Counts anew; what lies outside the image has no label.
+void count_columns(const LabelImage& labels, const Square& square, const CellRange& rows, Columns& columns) {
   const int left = std::clamp(-square.left, 0, square.side);
   const int right = std::clamp(labels.width() - square.left, left, square.side);
   const int top = std::clamp(square.top + rows.first, 0, labels.height());
   const int bottom = std::clamp(square.top + rows.last, top, labels.height());
-  const int height = rows.last - rows.first;
-  for (int column = 0; column < square.side; ++column) {
-    const bool inside = column >= left && column < right;
-    columns[column] = {static_cast<uint16_t>(inside ? height - (bottom - top) : height)};
-  }
+  std::fill(columns.votes.begin(), columns.votes.end(), Votes::Zero());
+  std::fill(columns.labeled.begin(), columns.labeled.end(), uint16_t{0});
   for (int v = top; v < bottom; ++v) {
-    const uint8_t* const pixels = labels.data() + static_cast<ptrdiff_t>(v) * labels.width() + square.left;
-    for (int column = left; column < right; ++column) ++columns[column][pixels[column]];
+    const ptrdiff_t start = static_cast<ptrdiff_t>(v) * labels.width() + square.left;
+    count_row(labels.data() + start, left, right, columns);
   }
+  for (int c = 0; c < square.side; ++c)
+    columns.labeled_before[c + 1] = columns.labeled_before[c] + columns.labeled[c];
 }
 
 }  // namespace
@@ -85,7 +108,7 @@ LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square,
           ++votes[labels.contains(u, v) ? labels(u, v) : 0];
         }
       }
-      tiny(cu, cv) = winner(votes);
+      tiny(cu, cv) = winner(votes, votes[0]);
     }
   }
   return tiny;
@@ -95,18 +118,18 @@ LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int s
   if (square.side > kMaxCell * size) return make_tiny_image_plain(labels, square, size);
   LabelImage tiny(size, size);
   if (square.side == 0) return tiny;
-  std::vector<Votes> columns(square.side);
+  Columns columns(square.side);
   for (int cv = 0; cv < size; ++cv) {
-    count_columns(labels, square, cell_range(cv, square.side, size), columns);
+    const CellRange rows = cell_range(cv, square.side, size);
+    count_columns(labels, square, rows, columns);
     for (int cu = 0; cu < size; ++cu) {
       const CellRange range = cell_range(cu, square.side, size);
-      Votes votes{};
-      for (int column = range.first; column < range.last; ++column) {
-        for (size_t label = 0; label < votes.size(); ++label) {
-          votes[label] = static_cast<uint16_t>(votes[label] + columns[column][label]);
-        }
-      }
-      tiny(cu, cv) = winner(votes);
+      const int labeled = columns.labeled_before[range.last] - columns.labeled_before[range.first];
+      const int unlabeled = (rows.last - rows.first) * (range.last - range.first) - labeled;
+      if (labeled < unlabeled) continue;
+      Votes votes = Votes::Zero();
+      for (int c = range.first; c < range.last; ++c) votes += columns.votes[c];
+      tiny(cu, cv) = winner(votes, unlabeled);
     }
   }
   return tiny;

@@ -10,6 +10,17 @@ namespace {
 // Single-precision rounding at hand size: far below any distance that matters, far above an ulp at 0.2 m (1.5e-8).
 constexpr float kSlack = 1e-6f;
 
+/// Neighboring faces that the search passes over together.
+constexpr int kBlock = 16;
+
+/// Halves a block again and again: pairs of values, not a chain of them, so that registers of four are used.
+float smallest_of_block(const float* values) {
+  std::array<float, kBlock / 2> smaller;
+  for (int i = 0; i < kBlock / 2; ++i) smaller[i] = std::min(values[i], values[i + kBlock / 2]);
+  for (int i = 0; i < kBlock / 4; ++i) smaller[i] = std::min(smaller[i], smaller[i + kBlock / 4]);
+  return std::min(std::min(smaller[0], smaller[1]), std::min(smaller[2], smaller[3]));
+}
+
 struct Best {
   Eigen::Vector3f p = Eigen::Vector3f::Zero();
   float squared = std::numeric_limits<float>::infinity();
@@ -126,7 +137,9 @@ ClosestPoint ClosestPointSearch::search(const LabeledPoint& point, Memory& memor
   const Surface::Color& color = surface_.colors_[point.label];
   const int count = static_cast<int>(color.faces.size());
   const Eigen::Vector3f& p = point.p;
-  gap_.resize(count);
+  // Distances to the faces' bounding spheres; whole blocks at a time, with nothing behind the last face.
+  const int blocks = (count + kBlock - 1) / kBlock;
+  gap_.assign(static_cast<size_t>(blocks) * kBlock, std::numeric_limits<float>::infinity());
   for (int f = 0; f < count; ++f) {
     const float dx = color.x[f] - p.x(), dy = color.y[f] - p.y(), dz = color.z[f] - p.z();
     gap_[f] = std::sqrt(dx * dx + dy * dy + dz * dz) - color.radius[f];
@@ -145,14 +158,23 @@ ClosestPoint ClosestPointSearch::search(const LabeledPoint& point, Memory& memor
     }
   };
   if (memory.face >= 0) try_face(memory.face);
-  for (int f = 0; f < count; ++f) {
-    if (f == memory.face) continue;
+  for (int block = 0; block < blocks; ++block) {
     // A face that cannot be nearest still bounds how far the point may move before it is looked at again.
-    if (gap_[f] > nearest + kSlack) {
-      second = std::min(second, gap_[f]);
+    const float* const gap = &gap_[static_cast<size_t>(block) * kBlock];
+    const float smallest = smallest_of_block(gap);
+    if (smallest > nearest + kSlack) {
+      second = std::min(second, smallest);
       continue;
     }
-    try_face(f);
+    for (int i = 0; i < kBlock; ++i) {
+      const int f = block * kBlock + i;
+      if (f == memory.face || f >= count) continue;
+      if (gap[i] > nearest + kSlack) {
+        second = std::min(second, gap[i]);
+      } else {
+        try_face(f);
+      }
+    }
   }
   memory = {p, best.face, second - kSlack};
   return best.result();

@@ -21,7 +21,7 @@ Field fast(const LabelImage& labels, uint8_t color, uint8_t cap) {
   return field;
 }
 
-TEST(DistanceField, counts_three_a_straight_step_and_four_a_diagonal_one_up_to_the_cap) {
+TEST(ChamferField, counts_three_a_straight_step_and_four_a_diagonal_one_up_to_the_cap) {
   LabelImage labels(5, 3);
   labels(0, 1) = 2;
   const Field expected = {3, 4, 7, 10, 11,  //
@@ -31,13 +31,13 @@ TEST(DistanceField, counts_three_a_straight_step_and_four_a_diagonal_one_up_to_t
   EXPECT_EQ(fast(labels, 2, 11), expected);
 }
 
-TEST(DistanceField, is_the_cap_everywhere_for_an_absent_color) {
+TEST(ChamferField, is_the_cap_everywhere_for_an_absent_color) {
   const LabelImage labels(4, 3, 5);
   EXPECT_EQ(plain(labels, 6, 9), Field(12, 9));
   EXPECT_EQ(fast(labels, 6, 9), Field(12, 9));
 }
 
-TEST(DistanceField, fast_equals_plain) {
+TEST(ChamferField, fast_equals_plain) {
   for (int i = 0; i < 400; ++i) {
     RandomStream random(1, "distance field test", i, "labels");
     // Tiny images of every size, then odd ones, then wider than the largest cap reaches.
