@@ -31,7 +31,9 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
     if (!in_) throw Error(path, "file", std::strerror(errno), "a database file");
-    size_ = std::filesystem::file_size(path);
+    std::error_code error;  // a folder opens, too
+    size_ = std::filesystem::file_size(path, error);
+    if (error) throw Error(path, "file", error.message(), "a database file");
   }
   void fill(void* target, uint64_t count, const std::string& what) {
     in_.read(static_cast<char*>(target), static_cast<std::streamsize>(count));
