@@ -49,7 +49,8 @@ void check_stage(const CascadeStage& stage, const Cascade& before) {
     throw Error("cascade", name, fmt::format("size {}", stage.size), "8, 16, 32 or 64");
   }
   if (stage.keep < 1 || stage.keep > kMaxKeep) {
-    throw Error("cascade", name, fmt::format("keep {}", stage.keep), "1 or more");
+    throw Error("cascade", name, fmt::format("keep {}", stage.keep),
+                fmt::format("at least 1 and at most {}", kMaxKeep));
   }
   if (!before.empty() && stage.keep > before.back().keep) {
     throw Error("cascade", name, fmt::format("keep {}", stage.keep),
