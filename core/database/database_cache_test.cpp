@@ -1,0 +1,167 @@
+#include "core/database/database_cache.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/test_folder.h"
+#include "render/test_hand.h"
+
+namespace glovebench {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::ThrowsMessage;
+
+/// One colored square, the same in every view.
+class SquareRenderer : public ViewRenderer {
+ public:
+  LabelImage render_labels(const HandModel&, const PosedHand&, const PinholeCamera& camera,
+                           const Eigen::Isometry3d&) override {
+    LabelImage image(camera.width, camera.height);
+    for (int v = 10; v < 40; ++v) {
+      for (int u = 10; u < 40; ++u) image(u, v) = static_cast<uint8_t>(1 + u / 8);
+    }
+    return image;
+  }
+};
+
+class DatabaseCacheTest : public testing::Test {
+ protected:
+  DatabaseCacheTest() {
+    cache_.folder = folder_ / "cache";
+    cache_.renderers = [this] {
+      ++renderers_made_;
+      return std::make_unique<SquareRenderer>();
+    };
+    cache_.message = [this](const std::string& text) { messages_.push_back(text); };
+  }
+  Database get() const { return cache_.get(postures_, render::test_hand(), views_, sizes_); }
+  /// The one database file in the cache.
+  std::string file() const {
+    std::string found;
+    for (const auto& entry : std::filesystem::directory_iterator(cache_.folder)) {
+      if (entry.path().extension() != ".glovedb") continue;
+      EXPECT_EQ(found, "") << "more than one";
+      found = entry.path();
+    }
+    return found;
+  }
+  int database_count() const {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(cache_.folder)) {
+      count += entry.path().extension() == ".glovedb";
+    }
+    return count;
+  }
+
+  const TestFolder folder_;
+  int renderers_made_ = 0;
+  std::vector<std::string> messages_;
+  DatabaseCache cache_;
+  PostureSet postures_ = {"DB_cache", {"open"}, {Posture::Zero()}};
+  ViewConfig views_ = {.image_size = 64};
+  std::vector<int> sizes_ = {8, 16};
+};
+
+TEST_F(DatabaseCacheTest, builds_once_and_loads_afterwards) {
+  const Database built = get();
+  EXPECT_EQ(renderers_made_, 1);
+  const std::string hash = hash_file(file());
+  const Database loaded = get();
+  EXPECT_EQ(renderers_made_, 1);
+  EXPECT_EQ(loaded.hash(), built.hash());
+  EXPECT_TRUE(
+      std::equal(built.fields(16, 0), built.fields(16, 0) + 756 * 16 * 16 * kColorCount, loaded.fields(16, 0)));
+  EXPECT_EQ(hash_file(file()), hash);
+  EXPECT_THAT(messages_, IsEmpty());
+}
+
+TEST_F(DatabaseCacheTest, names_a_damaged_file_and_rebuilds_it) {
+  get();
+  const std::string path = file(), good = read_file(path);
+  for (const std::string& damaged : {good.substr(0, good.size() / 2), std::string("garbage"), std::string()}) {
+    messages_.clear();
+    renderers_made_ = 0;
+    write_file(path, damaged);
+    EXPECT_EQ(get().entry_count(), kViewCount);
+    EXPECT_THAT(messages_, ElementsAre(HasSubstr(path)));
+    EXPECT_EQ(renderers_made_, 1);
+    EXPECT_EQ(hash_file(path), hash_text(good));
+  }
+}
+
+TEST_F(DatabaseCacheTest, a_file_of_other_inputs_under_this_name_is_rebuilt) {
+  get();
+  const std::string first = file(), content = read_file(first);
+  std::filesystem::remove(first);
+  views_.distance = 0.8;
+  get();
+  const std::string second = file();
+  write_file(second, content);  // intact, but of the first inputs
+  renderers_made_ = 0;
+  get();
+  EXPECT_EQ(renderers_made_, 1);
+  EXPECT_THAT(messages_, ElementsAre(HasSubstr("other inputs")));
+}
+
+TEST_F(DatabaseCacheTest, a_changed_input_makes_another_file) {
+  get();
+  views_.field_of_view_deg = 25;
+  get();
+  EXPECT_EQ(database_count(), 2);
+  postures_.postures[0][kIndexPipFlexion] = 0.1;
+  get();
+  EXPECT_EQ(database_count(), 3);
+  EXPECT_EQ(renderers_made_, 3);
+}
+
+TEST_F(DatabaseCacheTest, a_folder_that_cannot_be_made_is_an_error) {
+  write_file(folder_ / "file", "x");
+  cache_.folder = folder_ / "file/cache";
+  EXPECT_THAT([&] { get(); }, ThrowsMessage<Error>(HasSubstr(cache_.folder)));
+}
+
+TEST_F(DatabaseCacheTest, a_folder_in_the_databases_place_is_an_error_that_names_it) {
+  get();
+  const std::string path = file();
+  std::filesystem::remove(path);
+  std::filesystem::create_directories(path + "/inside");
+  EXPECT_THAT([&] { get(); }, ThrowsMessage<Error>(HasSubstr(path)));
+}
+
+TEST_F(DatabaseCacheTest, two_processes_that_want_the_same_one_build_it_once) {
+  // Each child says by its exit code whether it built (1) or loaded (0), and leaves what it got.
+  std::vector<pid_t> children;
+  for (int c = 0; c < 2; ++c) {
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      get().save(folder_ / ("got_by_" + std::to_string(c)));
+      _exit(messages_.empty() ? renderers_made_ : 9);
+    }
+    children.push_back(child);
+  }
+  int built = 0;
+  for (const pid_t child : children) {
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    built += WEXITSTATUS(status);
+  }
+  EXPECT_EQ(built, 1);
+  const Database a = Database::load(folder_ / "got_by_0", sizes_), b = Database::load(folder_ / "got_by_1", sizes_);
+  EXPECT_EQ(a.hash(), b.hash());
+  for (const int size : sizes_) {
+    const size_t bytes = size_t{756} * size * size;
+    EXPECT_TRUE(std::equal(a.labels(size, 0), a.labels(size, 0) + bytes, b.labels(size, 0)));
+    EXPECT_TRUE(std::equal(a.fields(size, 0), a.fields(size, 0) + bytes * kColorCount, b.fields(size, 0)));
+  }
+}
+
+}  // namespace
+}  // namespace glovebench

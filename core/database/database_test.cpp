@@ -1,0 +1,221 @@
+#include "core/database/database.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/random.h"
+#include "core/database/test_database.h"
+
+namespace glovebench {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Paints colored blocks that follow from the view alone: quick, for tests of everything but the pictures.
+class BlockRenderer : public ViewRenderer {
+ public:
+  LabelImage render_labels(const HandModel&, const PosedHand&, const PinholeCamera& camera,
+                           const Eigen::Isometry3d& T_camera_hand) override {
+    LabelImage image(camera.width, camera.height);
+    const Eigen::Vector3d axis = T_camera_hand.linear().col(0);
+    const int left = static_cast<int>(20 + 15 * axis.x()), top = static_cast<int>(20 + 15 * axis.y());
+    for (int v = top; v < top + 24; ++v) {
+      for (int u = left; u < left + 18; ++u) {
+        image(u, v) = static_cast<uint8_t>(1 + (u / 6 + v / 6 + static_cast<int>(4 + 4 * axis.z())) % kColorCount);
+      }
+    }
+    return image;
+  }
+};
+
+constexpr ViewConfig kSmallViews{.image_size = 64};
+
+PostureSet one_posture() {
+  return {"DB_one", {"open"}, {Posture::Zero()}};
+}
+
+Database small_database() {
+  return Database::build(
+      one_posture(), render::test_hand(), kSmallViews, [] { return std::make_unique<BlockRenderer>(); }, 1);
+}
+
+void expect_equal(const Database& a, const Database& b, std::span<const int> sizes = kTinySizes) {
+  EXPECT_EQ(a.hash(), b.hash());
+  EXPECT_EQ(a.side(), b.side());
+  EXPECT_EQ(a.posture_set().name, b.posture_set().name);
+  EXPECT_EQ(a.posture_set().posture_names, b.posture_set().posture_names);
+  EXPECT_EQ(a.posture_set().postures, b.posture_set().postures);
+  ASSERT_EQ(a.entry_count(), b.entry_count());
+  for (int entry = 0; entry < a.entry_count(); ++entry) {
+    ASSERT_EQ(a.box_ray(entry), b.box_ray(entry)) << "entry " << entry;
+    for (const int size : sizes) {
+      const size_t pixels = static_cast<size_t>(size) * size;
+      ASSERT_TRUE(std::equal(a.labels(size, entry), a.labels(size, entry) + pixels, b.labels(size, entry)))
+          << size << " px, entry " << entry;
+      ASSERT_TRUE(
+          std::equal(a.fields(size, entry), a.fields(size, entry) + pixels * kColorCount, b.fields(size, entry)))
+          << size << " px, entry " << entry;
+    }
+  }
+}
+
+TEST(Database, does_not_depend_on_the_number_of_threads) {
+  const PostureSet postures = one_posture();
+  const ViewConfig views{.image_size = 96};
+  const auto build = [&](int threads) {
+    return Database::build(postures, render::test_hand(), views, render::label_renderer_factory(), threads);
+  };
+  expect_equal(build(1), build(2));
+}
+
+TEST(Database, holds_the_view_of_each_entry) {
+  const Database& database = test_database();
+  ASSERT_EQ(database.entry_count(), 2 * 756);
+  render::LabelRenderer renderer;
+  const double f = 96 / std::tan(0.5 * 24 * M_PI / 180);  // 192 px see 24 degrees
+  const PinholeCamera camera{192, 192, f, f, 95.5, 95.5};
+  for (const int entry : {0, 17, 400, 755, 756, 1200, 1511}) {
+    Eigen::Isometry3d T_view_hand = Eigen::Isometry3d::Identity();
+    T_view_hand.linear() = view_rotations()[entry % 756];
+    T_view_hand.translation().z() = 0.75;
+    const PosedHand hand = render::test_hand().pose(entry < 756 ? Posture(Posture::Zero()) : power_posture());
+    const LabelImage image = renderer.render_labels(render::test_hand(), hand, camera, T_view_hand);
+    const Square square = bounding_square(image);
+    for (const int size : kTinySizes) {
+      EXPECT_EQ(entry_image(database, size, entry), make_tiny_image(image, square, size)) << entry;
+    }
+    EXPECT_NEAR((database.box_ray(entry) - square_ray(square, camera)).norm(), 0, 1e-12) << entry;
+  }
+}
+
+TEST(Database, no_view_of_the_hand_is_cut_off) {
+  // The whole hand is in every view: nothing of it touches the image border.
+  render::LabelRenderer renderer;
+  const double f = 96 / std::tan(0.5 * 24 * M_PI / 180);
+  const PinholeCamera camera{192, 192, f, f, 95.5, 95.5};
+  const PosedHand hand = render::test_hand().pose(Posture::Zero());
+  for (int view = 0; view < kViewCount; view += 5) {
+    Eigen::Isometry3d T_view_hand = Eigen::Isometry3d::Identity();
+    T_view_hand.linear() = view_rotations()[view];
+    T_view_hand.translation().z() = 0.75;
+    const LabelImage image = renderer.render_labels(render::test_hand(), hand, camera, T_view_hand);
+    for (int i = 0; i < 192; ++i) {
+      ASSERT_EQ(image(i, 0) + image(i, 191) + image(0, i) + image(191, i), 0) << "view " << view;
+    }
+  }
+}
+
+TEST(Database, comes_back_from_its_file) {
+  const TestFolder folder;
+  const Database database = small_database();
+  database.save(folder / "db");
+  expect_equal(Database::load(folder / "db"), database);
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(Database, loads_only_the_sizes_asked_for) {
+  const TestFolder folder;
+  const Database database = small_database();
+  database.save(folder / "db");
+  const std::array<int, 2> wanted = {16, 64};
+  const Database loaded = Database::load(folder / "db", wanted);
+  expect_equal(loaded, database, wanted);
+  EXPECT_FALSE(loaded.has_size(8));
+  EXPECT_THAT([&] { loaded.fields(8, 0); }, ThrowsMessage<Error>(AllOf(HasSubstr("DB_one"), HasSubstr("8 px"))));
+}
+
+TEST(Database, the_input_hash_knows_every_input) {
+  const PostureSet set = one_posture();
+  const HandModel& model = render::test_hand();
+  std::set<std::string> hashes = {Database::input_hash(set, model, {})};
+  PostureSet other = set;
+  other.name = "DB_two";
+  hashes.insert(Database::input_hash(other, model, {}));
+  other = set;
+  other.posture_names[0] = "flat";
+  hashes.insert(Database::input_hash(other, model, {}));
+  other = set;
+  other.postures[0][kLittleDipFlexion] += 1e-15;
+  hashes.insert(Database::input_hash(other, model, {}));
+  hashes.insert(Database::input_hash(test_postures(), model, {}));
+  hashes.insert(Database::input_hash(set, HandModel::load(GLOVEBENCH_HAND_MESH, Side::left), {}));
+  for (const ViewConfig& views : {ViewConfig{.distance = 0.76}, ViewConfig{.field_of_view_deg = 25},
+                                  ViewConfig{.image_size = 193}, ViewConfig{.field_cap_share = 0.51}}) {
+    hashes.insert(Database::input_hash(set, model, views));
+  }
+  EXPECT_EQ(hashes.size(), 10u);
+}
+
+TEST(Database, no_postures_is_an_error) {
+  EXPECT_THAT(
+      [] {
+        Database::build(
+            {"DB_none", {}, {}}, render::test_hand(), kSmallViews, [] { return std::make_unique<BlockRenderer>(); },
+            1);
+      },
+      ThrowsMessage<Error>(HasSubstr("DB_none")));
+}
+
+/// A good file's content, and what `load` says about another content under the same name.
+class DatabaseFile : public testing::Test {
+ protected:
+  DatabaseFile() {
+    small_database().save(path_);
+    good_ = read_file(path_);
+  }
+  void expect_refused(const std::string& content, const std::string& what) {
+    write_file(path_, content);
+    try {
+      Database::load(path_);
+      ADD_FAILURE() << what << ": loaded";
+    } catch (const Error& e) {
+      EXPECT_THAT(e.what(), AllOf(HasSubstr(path_ + ": "), HasSubstr("expected "))) << what;
+    }
+  }
+
+  const TestFolder folder_;
+  const std::string path_ = folder_ / "damaged.glovedb";
+  std::string good_;
+};
+
+TEST_F(DatabaseFile, truncated_anywhere_is_an_error) {
+  std::vector<size_t> lengths = {0, 1, 21, 22, 23, 29, 30, 31, 61, 62, 63, 100, good_.size() - 1};
+  RandomStream random(1, "database file", 0, "lengths");
+  for (int i = 0; i < 20; ++i) lengths.push_back(random.index(good_.size()));
+  for (const size_t length : lengths) expect_refused(good_.substr(0, length), std::to_string(length) + " bytes");
+}
+
+TEST_F(DatabaseFile, a_flipped_bit_anywhere_is_an_error) {
+  std::vector<size_t> places = {good_.size() - 1};
+  for (size_t i = 0; i < 70; ++i) places.push_back(i);  // magic, length, checksum, the header's begin
+  RandomStream random(1, "database file", 0, "places");
+  for (int i = 0; i < 20; ++i) places.push_back(random.index(good_.size()));
+  for (const size_t place : places) {
+    std::string flipped = good_;
+    flipped[place] = static_cast<char>(flipped[place] ^ (1 << random.index(8)));
+    expect_refused(flipped, "byte " + std::to_string(place));
+  }
+}
+
+TEST_F(DatabaseFile, another_format_and_trailing_bytes_are_errors_that_say_so) {
+  expect_refused(good_ + '\0', "one byte more");
+  expect_refused("PNG\n" + good_, "something in front");
+  std::string newer = good_;
+  newer[newer.find("-1\n") + 1] = '2';
+  write_file(path_, newer);
+  EXPECT_THAT([&] { Database::load(path_); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("magic"), HasSubstr("glovebench-database-1"))));
+}
+
+TEST_F(DatabaseFile, a_missing_file_and_a_folder_are_errors) {
+  EXPECT_THAT([&] { Database::load(folder_ / "none"); }, ThrowsMessage<Error>(HasSubstr(folder_ / "none")));
+  EXPECT_THAT([&] { Database::load(folder_.path()); }, ThrowsMessage<Error>(HasSubstr(folder_.path())));
+}
+
+}  // namespace
+}  // namespace glovebench

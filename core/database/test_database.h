@@ -1,0 +1,47 @@
+#pragma once
+
+// The hand and the database that the tests of this module look up.
+
+#include "core/database/database_cache.h"
+#include "core/test_folder.h"
+#include "render/label_renderer.h"
+#include "render/test_hand.h"
+
+namespace glovebench {
+
+inline Posture power_posture() {
+  Posture posture = Posture::Zero();
+  for (const int finger : {kIndexMcpFlexion, kMiddleMcpFlexion, kRingMcpFlexion, kLittleMcpFlexion}) {
+    posture[finger] = 1.0;
+    posture[finger + 1] = 1.2;
+    posture[finger + 2] = 0.7;
+  }
+  posture[kThumbCmcFlexion] = 0.5;
+  posture[kThumbMcpFlexion] = 0.6;
+  return posture;
+}
+
+inline PostureSet test_postures() {
+  return {"DB_test", {"open", "power"}, {Posture::Zero(), power_posture()}};
+}
+
+/// The database of these postures; built by the first test process that asks.
+inline const Database& test_database() {
+  static const Database database = [] {
+    DatabaseCache cache;
+    cache.folder = shared_test_folder();
+    cache.renderers = render::label_renderer_factory();
+    cache.threads = 2;
+    return cache.get(test_postures(), render::test_hand(), ViewConfig{}, kTinySizes);
+  }();
+  return database;
+}
+
+/// Labels of an entry as an image, as if it were a query.
+inline LabelImage entry_image(const Database& database, int size, int entry) {
+  LabelImage image(size, size);
+  std::copy_n(database.labels(size, entry), image.size(), image.begin());
+  return image;
+}
+
+}  // namespace glovebench
