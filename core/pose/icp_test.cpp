@@ -1,0 +1,208 @@
+#include "core/pose/icp.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "core/base/angles.h"
+#include "core/base/random.h"
+#include "core/pose/closest_point.h"
+#include "render/label_renderer.h"
+#include "render/test_hand.h"
+
+namespace glovebench {
+namespace {
+
+using render::test_hand;
+using render::test_pose;
+
+constexpr PinholeCamera kKinect{640, 480, 575.816, 575.816, 319.5, 239.5};
+
+PosedHand posed() {
+  return test_hand().pose(render::test_posture());
+}
+
+/// The cloud that an ideal camera sees of the hand.
+std::vector<LabeledPoint> true_cloud(const Eigen::Isometry3d& T_camera_hand) {
+  render::LabelRenderer renderer;
+  const render::HandImages images = renderer.render_ids(test_hand(), posed(), kKinect, T_camera_hand);
+  return build_cloud(images.depth, images.label, kKinect, WorkingVolume{}).points;
+}
+
+double distance_mm(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return 1000 * (a.translation() - b.translation()).norm();
+}
+double angle_deg(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  return degrees_from_radians(Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear())));
+}
+
+Eigen::Vector3d random_direction(RandomStream& random) {
+  return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+}
+
+/// Turned about the hand's own origin by up to 20 degrees and moved by up to 30 mm.
+Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T_camera_hand, int number) {
+  RandomStream random(1, "icp", number, "start");
+  const Eigen::AngleAxisd turn(radians_from_degrees(random.uniform(0, 20)), random_direction(random));
+  Eigen::Isometry3d start = T_camera_hand;
+  start.linear() = turn * T_camera_hand.linear();
+  start.translation() += random.uniform(0, 0.030) * random_direction(random);
+  return start;
+}
+
+/// Mean distance of the cloud from the faces that look at the camera of `T_culled`, the hand being at `T`.
+double mean_distance(std::span<const LabeledPoint> cloud, const Eigen::Isometry3d& T,
+                     const Eigen::Isometry3d& T_culled) {
+  const Surface surface(test_hand(), posed(), T_culled.inverse().translation().cast<float>());
+  std::vector<LabeledPoint> points(cloud.begin(), cloud.end());
+  for (LabeledPoint& point : points) point.p = T.inverse().cast<float>() * point.p;
+  double sum = 0;
+  for (const ClosestPoint& closest : closest_points_plain(points, surface)) sum += closest.distance;
+  return sum / static_cast<double>(points.size());
+}
+
+TEST(Icp, stays_at_the_truth) {
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const Alignment alignment = align(test_hand(), posed(), true_cloud(truth), truth, {});
+  EXPECT_EQ(alignment.status, AlignmentStatus::converged);
+  // OpenGL's vertices snap to 1/256 px and its depth is single precision: micrometres.
+  EXPECT_LT(distance_mm(alignment.T_camera_hand, truth), 0.05);
+  EXPECT_LT(angle_deg(alignment.T_camera_hand, truth), 0.05);
+  EXPECT_LT(alignment.residual, 2e-5);
+}
+
+struct Recovery {
+  int recovered = 0;  ///< within 2 mm and 2 degrees of the truth
+  int converged = 0;
+};
+
+/// 100 starts: 25 around each of four poses.
+Recovery recover(const IcpConfig& config) {
+  Recovery result;
+  for (int number = 0; number < 100; ++number) {
+    RandomStream random(1, "icp", number / 25, "pose");
+    const Eigen::Vector3d turn = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)};
+    const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7}, turn);
+    static std::map<int, std::vector<LabeledPoint>> clouds;
+    if (!clouds.contains(number / 25)) clouds[number / 25] = true_cloud(truth);
+    const Alignment alignment = align(test_hand(), posed(), clouds[number / 25], perturbed(truth, number), config);
+    EXPECT_GE(alignment.residual, 0);
+    EXPECT_LE(alignment.points, 1000);
+    result.converged += alignment.status == AlignmentStatus::converged;
+    result.recovered +=
+        distance_mm(alignment.T_camera_hand, truth) < 2 && angle_deg(alignment.T_camera_hand, truth) < 2;
+  }
+  return result;
+}
+
+TEST(Icp, recovers_the_pose_from_perturbed_starts) {
+  // Measured: 97 of 100. The others end 2 to 6 mm away, also with a finer stop: the faces that the start hid stay
+  // culled, and their points pull to others.
+  const Recovery papers = recover({});
+  RecordProperty("recovered_of_100", papers.recovered);
+  EXPECT_GE(papers.recovered, 95);
+  // Without noise the mean distance falls by more than 0.1% a step until it is zero: many run to the last
+  // iteration.
+  EXPECT_GE(papers.converged, 30);
+}
+
+TEST(IcpLong, recovers_every_pose_if_it_culls_in_each_iteration) {
+  EXPECT_EQ(recover({.cull_each_iteration = true}).recovered, 100);
+}
+
+TEST(Icp, fewer_than_three_points_are_too_few) {
+  const Eigen::Isometry3d start = test_pose({0, 0, 0.7});
+  std::vector<LabeledPoint> cloud = true_cloud(start);
+  for (const size_t count : {0, 1, 2}) {
+    const Alignment alignment = align(test_hand(), posed(), std::span(cloud).first(count), start, {});
+    EXPECT_EQ(alignment.status, AlignmentStatus::too_few_points);
+    EXPECT_EQ(alignment.points, static_cast<int>(count));
+    EXPECT_EQ(alignment.T_camera_hand.matrix(), start.matrix());
+    EXPECT_EQ(alignment.residual, 0);
+  }
+}
+
+TEST(Icp, points_on_one_line_are_degenerate) {
+  const Eigen::Isometry3d start = test_pose({0, 0, 0.7});
+  std::vector<LabeledPoint> line, spot;
+  for (int i = 0; i < 50; ++i) {
+    line.push_back({{-0.05f + 0.002f * i, 0.001f * i, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
+    spot.push_back({{0.01f, 0.02f, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
+  }
+  EXPECT_EQ(align(test_hand(), posed(), line, start, {}).status, AlignmentStatus::degenerate_cloud);
+  EXPECT_EQ(align(test_hand(), posed(), spot, start, {}).status, AlignmentStatus::degenerate_cloud);
+}
+
+TEST(Icp, a_cloud_of_colors_that_face_away_shares_none) {
+  // A camera inside the palm of the open hand sees no face of color 7.
+  const PosedHand open = test_hand().pose(Posture::Zero());
+  Eigen::Isometry3d inside = Eigen::Isometry3d::Identity();
+  inside.translation() = -Eigen::Vector3d(0.0003, -0.0091, 0.0078);
+  std::vector<LabeledPoint> cloud;
+  for (int i = 0; i < 50; ++i) cloud.push_back({{0.01f * (i % 7), 0.01f * (i % 5), 0.6f}, 7});
+  const Alignment alignment = align(test_hand(), open, cloud, inside, {});
+  EXPECT_EQ(alignment.status, AlignmentStatus::no_shared_color);
+  EXPECT_EQ(alignment.T_camera_hand.matrix(), inside.matrix());
+  for (int i = 0; i < 3; ++i) cloud[i].label = 1;  // three points of a color that is seen
+  EXPECT_NE(align(test_hand(), open, cloud, inside, {}).status, AlignmentStatus::no_shared_color);
+}
+
+TEST(Icp, says_when_it_has_not_converged) {
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  const Eigen::Isometry3d start = perturbed(truth, 3);
+  const Alignment one = align(test_hand(), posed(), cloud, start, {.max_iterations = 1});
+  EXPECT_EQ(one.status, AlignmentStatus::not_converged);
+  EXPECT_EQ(one.iterations, 1);
+  EXPECT_LT(one.residual, mean_distance(subsample(cloud, 1000), start, start));
+  EXPECT_LT(distance_mm(one.T_camera_hand, truth), distance_mm(start, truth));
+}
+
+TEST(Icp, the_residual_is_the_mean_distance_at_the_end_to_the_faces_that_were_not_culled) {
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const std::vector<LabeledPoint> cloud = true_cloud(truth), points = subsample(cloud, 1000);
+  const Eigen::Isometry3d start = perturbed(truth, 1);
+  const Alignment once = align(test_hand(), posed(), cloud, start, {});
+  EXPECT_NEAR(once.residual, mean_distance(points, once.T_camera_hand, start), 1e-9);
+  const Alignment each = align(test_hand(), posed(), cloud, start, {.cull_each_iteration = true});
+  EXPECT_NEAR(each.residual, mean_distance(points, each.T_camera_hand, each.T_camera_hand), 1e-9);
+  EXPECT_NE(once.residual, each.residual);
+}
+
+TEST(Icp, culling_in_each_iteration_forgives_a_start_that_hides_what_is_seen) {
+  // Turned by 50 degrees: half of what the camera sees was culled at the start.
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  Eigen::Isometry3d start = truth;
+  start.linear() =
+      Eigen::AngleAxisd(radians_from_degrees(50), Eigen::Vector3d(1, 1, 0).normalized()) * truth.linear();
+  const Alignment once = align(test_hand(), posed(), cloud, start, {});
+  const Alignment each = align(test_hand(), posed(), cloud, start, {.cull_each_iteration = true});
+  // Measured: 2.9 mm against 0.07 mm.
+  EXPECT_LT(distance_mm(each.T_camera_hand, truth), 0.5);
+  EXPECT_GT(distance_mm(once.T_camera_hand, truth), 1.5);
+}
+
+TEST(Subsample, takes_every_nth_point_and_at_most_the_limit) {
+  std::vector<LabeledPoint> points(2500);
+  for (int i = 0; i < 2500; ++i) points[i].p.x() = static_cast<float>(i);
+  const std::vector<LabeledPoint> some = subsample(points, 1000);
+  ASSERT_EQ(some.size(), 834u);  // every third
+  for (size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i].p.x(), static_cast<float>(3 * i));
+  EXPECT_EQ(subsample(points, 2500).size(), 2500u);
+  EXPECT_EQ(subsample(points, 2499).size(), 1250u);
+  EXPECT_EQ(subsample(points, 3).size(), 3u);
+  EXPECT_TRUE(subsample({}, 1000).empty());
+}
+
+TEST(CoarsePose, puts_the_visible_center_on_the_clouds) {
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  const Eigen::Isometry3d coarse = coarse_pose(test_hand(), posed(), truth.linear(), cloud);
+  EXPECT_EQ(coarse.linear(), truth.linear());
+  // Faces hidden behind others count in the model's center, not in the cloud's.
+  EXPECT_LT(distance_mm(coarse, truth), 15);
+}
+
+}  // namespace
+}  // namespace glovebench
