@@ -163,7 +163,11 @@ TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const s
   TrackerConfig config = base;
   if (j.contains("profile")) {
     if (!j["profile"].is_string()) wrong_type(where, "profile", j["profile"], "a name");
-    config = profile(j["profile"]);
+    try {
+      config = profile(j["profile"]);
+    } catch (const Error& e) {
+      throw Error(where + ": " + e.what());
+    }
   }
   visit_fields(config, [&](const char* section, const char* key, auto& value, const Range&) {
     if (!j.contains(section) || !j[section].contains(key)) return;
