@@ -80,6 +80,7 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
       if (label == 0 || !(z > 0)) continue;
       if (z < volume.z_min || z > volume.z_max) {
         ++cloud.labeled_outside;
+        cloud.labeled_cut_off += z > volume.z_min - kCutOffMargin && z < volume.z_max + kCutOffMargin;
         continue;
       }
       cloud.labels(u, v) = label;
@@ -104,6 +105,7 @@ LabeledCloud largest_component(const LabeledCloud& cloud, const PinholeCamera&, 
   LabeledCloud kept;
   kept.labels = cloud.labels;
   kept.labeled_outside = cloud.labeled_outside;
+  kept.labeled_cut_off = cloud.labeled_cut_off;
   size_t point = 0;
   for (uint8_t& label : kept.labels) {
     if (label == 0) continue;

@@ -14,6 +14,9 @@ struct WorkingVolume {
   double z_max = 0.95;  ///< m, > z_min; the table of the synthetic scene lies at 1.06
 };
 
+/// How far beyond the working volume glove pixels count as parts of a hand that reaches out of it, m.
+inline constexpr double kCutOffMargin = 0.05;
+
 struct LabeledPoint {
   Eigen::Vector3f p;  ///< m; camera frame in a cloud
   uint8_t label = 0;  ///< 1..kColorCount
@@ -25,6 +28,7 @@ struct LabeledCloud {
   std::vector<LabeledPoint> points;
   LabelImage labels;        ///< L masked by C: labels of the points in the cloud, 0 elsewhere
   int labeled_outside = 0;  ///< glove pixels with depth outside the working volume
+  int labeled_cut_off = 0;  ///< those of them within kCutOffMargin of it
 };
 
 /// Equation (1): glove pixels with a depth in the working volume.

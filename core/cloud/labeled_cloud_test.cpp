@@ -139,5 +139,19 @@ TEST(LargestComponent, KeepsPointsLabelsAndCountsTogether) {
   EXPECT_EQ(kept.labeled_outside, 3);
 }
 
+TEST(LabeledCloud, CountsWhatReachesOutOfTheVolume) {
+  const WorkingVolume volume{0.4, 0.9};
+  DepthImage depth(6, 1);
+  LabelImage labels(6, 1, 3);
+  const float z[] = {0.30f, 0.36f, 0.41f, 0.89f, 0.94f, 1.20f};
+  std::copy(std::begin(z), std::end(z), depth.begin());
+  const PinholeCamera camera{6, 1, 100, 100, 2.5, 0};
+  const LabeledCloud cloud = build_cloud(depth, labels, camera, volume);
+  EXPECT_EQ(cloud.points.size(), 2u);
+  EXPECT_EQ(cloud.labeled_outside, 4);
+  EXPECT_EQ(cloud.labeled_cut_off, 2);  // within 50 mm of an end
+  EXPECT_EQ(largest_component(cloud, camera, 0.05).labeled_cut_off, 2);
+}
+
 }  // namespace
 }  // namespace glovebench

@@ -15,7 +15,7 @@ namespace glovebench {
 enum class TrackStatus {
   tracked,
   no_hand,           ///< too few glove pixels in view
-  outside_volume,    ///< the glove is seen, but nearer or farther than the working volume
+  outside_volume,    ///< the glove or a third of it is nearer or farther than the working volume
   cut_by_border,     ///< the glove touches the image border over a long stretch: the box is not the hand's
   several_hands,     ///< more than one large glove-colored object
   too_few_points,    ///< fewer than three usable points

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
 #include "core/pose/interpolate.h"
@@ -22,7 +24,11 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
   if (static_cast<int>(cloud.points.size()) < config.min_pixels) {
     return cloud.labeled_outside >= config.min_pixels ? TrackStatus::outside_volume : TrackStatus::no_hand;
   }
-  if (border_pixels(cloud.labels) > config.max_border_pixels) return TrackStatus::cut_by_border;
+  // A third of the glove is missing: what is left would be matched as if it were all.
+  if (2 * cloud.labeled_cut_off > static_cast<int>(cloud.points.size())) return TrackStatus::outside_volume;
+  const double size_px = std::sqrt(static_cast<double>(cloud.points.size()));
+  const double most = std::min<double>(config.max_border_pixels, config.max_border_share * size_px);
+  if (border_pixels(cloud.labels) > most) return TrackStatus::cut_by_border;
   const std::vector<int> sizes = component_sizes(cloud, config.component_depth_step);
   if (sizes.size() > 1 && sizes[1] > config.second_hand_share * sizes[0]) return TrackStatus::several_hands;
   return TrackStatus::tracked;

@@ -47,6 +47,7 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("detection", "second_hand_share", c.detection.second_hand_share, kShare);
   visit("detection", "component_depth_step_m", c.detection.component_depth_step, kPositive);
   visit("detection", "max_border_pixels", c.detection.max_border_pixels, Range{0, 307200});
+  visit("detection", "max_border_share", c.detection.max_border_share, kPositive);
   visit("lookup", "cascade", c.lookup.cascade, Range{});
   visit("lookup", "interpolation_epsilon_px", c.lookup.interpolation_epsilon, kPositive);
   visit("lookup", "max_matching_error_share", c.lookup.max_matching_error, kPositive);

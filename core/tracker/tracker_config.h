@@ -34,6 +34,8 @@ struct DetectionConfig {
   double second_hand_share = 0.3;  ///< a second component above this share of the largest: several hands, (0, 1]
   double component_depth_step = 0.05;  ///< neighbors farther apart in depth are not connected, m, > 0
   int max_border_pixels = 40;          ///< more glove pixels than this on the image border: cut by it, >= 0
+  double max_border_share = 0.35;  ///< the same, as a share of the square root of all glove pixels: a single finger
+                                   ///< that reaches into the image touches its border with few pixels, > 0
 };
 
 /// A named, complete configuration ("profile") of the tracker. `paper` does what the paper says.

@@ -1,0 +1,180 @@
+#include "core/tracker/tracker_config.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::ThrowsMessage;
+
+TrackerConfig read(const json& j) {
+  return config_from_json(j, {}, "config.json");
+}
+
+void expect_refused(const json& j, const std::vector<std::string>& said) {
+  try {
+    read(j);
+    ADD_FAILURE() << j << " was taken";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("config.json"));
+    for (const std::string& part : said) EXPECT_THAT(e.what(), HasSubstr(part)) << j;
+  }
+}
+
+/// Another value of the same type that is in range whatever the field.
+json changed(const json& value) {
+  if (value.is_boolean()) return !value.get<bool>();
+  if (value.is_string()) return "32:7";
+  if (value.is_number_integer()) return value.get<int>() + 1;
+  return value.get<double>() + 1e-3;
+}
+
+TEST(TrackerConfig, the_defaults_are_the_paper_profile_and_have_no_problems) {
+  EXPECT_THAT(TrackerConfig{}.problems(), IsEmpty());
+  EXPECT_EQ(to_json(profile("paper")), to_json(TrackerConfig{}));
+  EXPECT_EQ(TrackerConfig{}.profile, "paper");
+  EXPECT_THAT([] { profile("fast"); }, ThrowsMessage<Error>(AllOf(HasSubstr("fast"), HasSubstr("paper"))));
+}
+
+TEST(TrackerConfig, comes_back_from_json) {
+  TrackerConfig config;
+  config.volume.z_min = 0.123456789012345678;
+  config.lookup.cascade = {{8, 700}, {32, 5}};
+  config.segmentation.majority_filter = true;
+  config.icp.max_iterations = 7;
+  const json written = to_json(config);
+  const TrackerConfig back = read(json::parse(written.dump()));
+  EXPECT_EQ(to_json(back), written);
+  EXPECT_EQ(back.volume.z_min, config.volume.z_min);
+  EXPECT_EQ(back.lookup.cascade, config.lookup.cascade);
+  EXPECT_TRUE(back.segmentation.majority_filter);
+  EXPECT_EQ(back.icp.max_iterations, 7);
+}
+
+TEST(TrackerConfig, each_key_changes_its_field_alone) {
+  const json defaults = to_json(TrackerConfig{});
+  int fields = 0;
+  for (const auto& [section, content] : defaults.items()) {
+    if (section == "profile") continue;
+    for (const auto& [key, value] : content.items()) {
+      json expected = defaults;
+      expected[section][key] = changed(value);
+      const json only = {{section, {{key, changed(value)}}}};
+      EXPECT_EQ(to_json(read(only)), expected) << section << "." << key;
+      ++fields;
+    }
+  }
+  EXPECT_EQ(fields, 25);
+}
+
+TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
+  const TrackerConfig config = read(json::parse(R"({
+    "registration": {"occlusion_tolerance_m": 0.02},
+    "segmentation": {"majority_filter": true, "largest_component": true},
+    "volume": {"z_min_m": 0.5, "z_max_m": 0.8},
+    "database": {"view_distance_m": 0.6, "field_of_view_deg": 30, "image_size_px": 128, "field_cap_share": 0.4},
+    "detection": {"min_pixels": 99, "second_hand_share": 0.2, "component_depth_step_m": 0.03, "max_border_pixels": 3,
+                  "max_border_share": 0.6},
+    "lookup": {"cascade": "8:9", "interpolation_epsilon_px": 0.1, "max_matching_error_share": 0.2},
+    "icp": {"max_points": 500, "max_iterations": 50, "convergence_share": 0.01, "cull_each_iteration": true,
+            "max_residual_m": 0.01},
+    "smoothing": {"posture_keep": 0.5, "pose_keep": 0.25, "forget_after_frames": 4}})"));
+  EXPECT_EQ(config.registration.occlusion_tolerance, 0.02);
+  EXPECT_TRUE(config.segmentation.majority_filter);
+  EXPECT_TRUE(config.segmentation.largest_component);
+  EXPECT_EQ(config.volume.z_min, 0.5);
+  EXPECT_EQ(config.volume.z_max, 0.8);
+  EXPECT_EQ(config.views.distance, 0.6);
+  EXPECT_EQ(config.views.field_of_view_deg, 30);
+  EXPECT_EQ(config.views.image_size, 128);
+  EXPECT_EQ(config.views.field_cap_share, 0.4);
+  EXPECT_EQ(config.detection.min_pixels, 99);
+  EXPECT_EQ(config.detection.second_hand_share, 0.2);
+  EXPECT_EQ(config.detection.component_depth_step, 0.03);
+  EXPECT_EQ(config.detection.max_border_pixels, 3);
+  EXPECT_EQ(config.detection.max_border_share, 0.6);
+  EXPECT_EQ(config.lookup.cascade, (Cascade{{8, 9}}));
+  EXPECT_EQ(config.lookup.interpolation_epsilon, 0.1);
+  EXPECT_EQ(config.lookup.max_matching_error, 0.2);
+  EXPECT_EQ(config.icp.max_points, 500);
+  EXPECT_EQ(config.icp.max_iterations, 50);
+  EXPECT_EQ(config.icp.convergence_share, 0.01);
+  EXPECT_TRUE(config.icp.cull_each_iteration);
+  EXPECT_EQ(config.max_residual, 0.01);
+  EXPECT_EQ(config.smoothing.posture_keep, 0.5);
+  EXPECT_EQ(config.smoothing.pose_keep, 0.25);
+  EXPECT_EQ(config.smoothing.forget_after, 4);
+}
+
+TEST(TrackerConfig, overrides_the_base_where_it_says_something) {
+  TrackerConfig base;
+  base.icp.max_points = 77;
+  base.volume.z_max = 0.9;
+  const TrackerConfig config = config_from_json(json{{"volume", {{"z_max_m", 0.8}}}}, base, "here");
+  EXPECT_EQ(config.icp.max_points, 77);
+  EXPECT_EQ(config.volume.z_max, 0.8);
+  EXPECT_EQ(to_json(config_from_json(json::object(), base, "here")), to_json(base));
+}
+
+TEST(TrackerConfig, refuses_unknown_keys_and_lists_the_known_ones) {
+  expect_refused({{"icpp", json::object()}}, {"icpp", "unknown key", "icp", "profile"});
+  expect_refused({{"icp", {{"max_point", 3}}}}, {"icp.max_point", "unknown key", "icp.max_points"});
+  // A key of another section does not count.
+  expect_refused({{"volume", {{"max_points", 3}}}}, {"volume.max_points", "unknown key"});
+  expect_refused({{"profile", "fast"}}, {"fast", "paper"});
+}
+
+TEST(TrackerConfig, refuses_wrong_types) {
+  expect_refused(json::array(), {"an object"});
+  expect_refused(3, {"an object"});
+  expect_refused({{"icp", 3}}, {"icp", "an object"});
+  expect_refused({{"profile", 3}}, {"profile", "a name"});
+  expect_refused({{"icp", {{"max_points", 3.5}}}}, {"icp.max_points", "3.5", "a whole number"});
+  expect_refused({{"icp", {{"max_points", "3"}}}}, {"icp.max_points", "a whole number"});
+  expect_refused({{"icp", {{"max_points", 3'000'000'000}}}}, {"icp.max_points", "3000000000"});
+  expect_refused({{"icp", {{"max_points", 18'446'744'073'709'551'615u}}}}, {"icp.max_points"});
+  expect_refused({{"icp", {{"cull_each_iteration", 1}}}}, {"icp.cull_each_iteration", "true or false"});
+  expect_refused({{"volume", {{"z_min_m", nullptr}}}}, {"volume.z_min_m", "null", "a number"});
+  expect_refused({{"lookup", {{"cascade", 64}}}}, {"lookup.cascade", "16:500,64:3"});
+  expect_refused({{"lookup", {{"cascade", "16:3,64:500"}}}}, {"lookup.cascade", "64:500"});
+  expect_refused({{"lookup", {{"cascade", ""}}}}, {"lookup.cascade"});
+}
+
+TEST(TrackerConfig, each_number_has_a_range) {
+  const json defaults = to_json(TrackerConfig{});
+  int numbers = 0;
+  for (const auto& [section, content] : defaults.items()) {
+    if (section == "profile") continue;
+    for (const auto& [key, value] : content.items()) {
+      if (!value.is_number()) continue;
+      expect_refused({{section, {{key, -1}}}}, {section + "." + key, "found -1"});
+      ++numbers;
+    }
+  }
+  EXPECT_EQ(numbers, 21);
+  expect_refused({{"smoothing", {{"posture_keep", 1.0}}}}, {"smoothing.posture_keep", "0.999"});
+  expect_refused({{"icp", {{"max_points", 2}}}}, {"icp.max_points", "[3, 307200]"});
+  expect_refused({{"volume", {{"z_min_m", 0}}}}, {"volume.z_min_m", "above 0"});
+  expect_refused({{"detection", {{"second_hand_share", 1.01}}}}, {"detection.second_hand_share", "(0, 1]"});
+}
+
+TEST(TrackerConfig, lists_all_problems_at_once) {
+  expect_refused({{"volume", {{"z_min_m", 0.9}, {"z_max_m", 0.5}}}, {"icp", {{"max_iterations", 0}}}},
+                 {"volume.z_min_m: found 0.9", "less than z_max_m = 0.5", "icp.max_iterations: found 0"});
+  TrackerConfig config;
+  config.volume = {0.7, 0.7};
+  config.icp.convergence_share = std::numeric_limits<double>::quiet_NaN();
+  config.lookup.cascade.clear();
+  EXPECT_EQ(config.problems().size(), 3u);
+}
+
+}  // namespace
+}  // namespace glovebench
