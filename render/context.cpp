@@ -11,10 +11,16 @@
 namespace glovebench::render {
 namespace {
 
-/// The one place where Mesa is configured. It reads the variable when the first context is made.
+/// The one place where Mesa is configured. It reads the variables when the first context is made. What a user's
+/// desktop needs must not reach it: another driver would draw other pixels, and one that is not there, or another
+/// version of GLSL, crashes OSMesa.
 void configure_mesa() {
   static std::once_flag once;
-  std::call_once(once, [] { setenv("LP_NUM_THREADS", "0", 1); });
+  std::call_once(once, [] {
+    setenv("LP_NUM_THREADS", "0", 1);
+    setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+    unsetenv("MESA_GLSL_VERSION_OVERRIDE");
+  });
 }
 
 }  // namespace
