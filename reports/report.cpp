@@ -1,5 +1,7 @@
 #include "reports/report.h"
 
+#include <memory>
+
 #include "core/base/file.h"
 #include "reports/json_text.h"
 #include "reports/results_json.h"
@@ -12,8 +14,10 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
   const PaperNumbers& paper = paper_numbers();
   const NoiseSetting noise = headline_noise(result);
   std::vector<std::string> names;
+  std::vector<std::unique_ptr<WholeFile>> files;
   const auto write = [&](const std::string& name, const std::string& content) {
-    write_file(folder + "/" + name, content);
+    files.push_back(std::make_unique<WholeFile>(folder + "/" + name));
+    files.back()->append(content);
     names.push_back(name);
   };
   write("results.json", results_json(result));
@@ -31,6 +35,8 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
   write_curve("tables/figure6.csv", paper.figure_6);
   for (const ExperimentResult& experiment : result.experiments)
     write("tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment));
+  // Only now that there was room for all of them.
+  for (const std::unique_ptr<WholeFile>& file : files) file->commit();
   return names;
 }
 

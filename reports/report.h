@@ -16,7 +16,7 @@ namespace glovebench::reports {
 ///   index.html     tables, curves, pictures; one file that needs no other
 ///   timings.json   what differs from run to run; all other files depend on the results alone
 ///   tables/        figure4.csv; figure5.csv and figure6.csv if those experiments were run; frames_*.csv for each
-/// Throws Error if the folder cannot be written.
+/// Throws Error if the folder cannot be written; an older report then stays as it was.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const std::vector<Picture>& pictures = {});
 
