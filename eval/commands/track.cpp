@@ -6,8 +6,8 @@
 #include "core/base/file.h"
 #include "core/kinect/recording.h"
 #include "core/robot/json_lines_sink.h"
+#include "core/tracker/estimate_line.h"
 #include "eval/commands/command.h"
-#include "eval/estimate_lines.h"
 #include "eval/progress.h"
 
 namespace glovebench::eval {

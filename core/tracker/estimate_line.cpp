@@ -1,10 +1,11 @@
-#include "eval/estimate_lines.h"
+#include "core/tracker/estimate_line.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/base/angles.h"
 
-namespace glovebench::eval {
+namespace glovebench {
 namespace {
 
 double rounded(double value) {
@@ -35,4 +36,4 @@ std::string estimate_line(int frame, const TrackResult& result) {
   return line.dump();
 }
 
-}  // namespace glovebench::eval
+}  // namespace glovebench
