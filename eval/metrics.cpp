@@ -105,6 +105,13 @@ std::vector<double> joint_errors_mm(const TrackResult& estimate, const PosedHand
   return errors;
 }
 
+void check_finite(const TrackResult& estimate, const FrameTruth& truth) {
+  check(estimate.posture.allFinite() && estimate.posture_unfiltered.allFinite() &&
+            estimate.T_camera_hand.matrix().allFinite() && std::isfinite(estimate.icp_residual),
+        "a tracked frame's posture, pose and residual are finite");
+  check(truth.posture.allFinite() && truth.T_camera_hand.matrix().allFinite(), "a truth is finite");
+}
+
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
   for (const double v : values) sum += v;
@@ -117,19 +124,25 @@ bool at_rest(const trajectories::TrajectoryFrame& a, const trajectories::Traject
          turn < kRestAngle && posture_distance(a.posture, b.posture) < kRestAngle;
 }
 
-/// Mean distance of the estimated posture from the truth `delay` frames earlier.
+/// Sum over the tracked frames of the distance of the estimated posture from the truth `delay` frames earlier.
 double delayed_distance(std::span<const TrackResult> estimates,
                         std::span<const trajectories::TrajectoryFrame> truth, int delay) {
   double sum = 0;
   for (size_t i = kMaxLatency; i < truth.size(); ++i) {
+    if (estimates[i].status != TrackStatus::tracked) continue;  // its posture is an older frame's
     sum += posture_distance(estimates[i].posture, truth[i - delay].posture);
   }
-  return sum / static_cast<double>(truth.size() - kMaxLatency);
+  return sum;
+}
+
+int tracked_count(std::span<const TrackResult> estimates) {
+  return static_cast<int>(std::count_if(estimates.begin(), estimates.end(),
+                                        [](const TrackResult& r) { return r.status == TrackStatus::tracked; }));
 }
 
 std::optional<double> latency_frames(std::span<const TrackResult> estimates,
                                      std::span<const trajectories::TrajectoryFrame> truth) {
-  if (truth.size() < 3 * kMaxLatency) return {};
+  if (truth.size() < 3 * kMaxLatency || tracked_count(estimates.subspan(kMaxLatency)) < kMaxLatency) return {};
   double moved = 0;
   for (const auto& frame : truth) moved = std::max(moved, posture_distance(frame.posture, truth[0].posture));
   if (moved < kMovingPosture) return {};
@@ -173,6 +186,7 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
       record.false_lost = record.false_lost || pixels >= kObservedPixels;
     return errors;
   }
+  check_finite(estimate, truth);
   record.icp_residual_mm = 1000 * estimate.icp_residual;
   record.position_error_mm =
       1000 * (estimate.T_camera_hand.translation() - truth.T_camera_hand.translation()).norm();

@@ -36,14 +36,15 @@ struct FrameErrors {
 };
 
 /// One estimate against the truth. The vertex error poses the tracker's own mesh twice, so that it measures posture
-/// and pose, not the size of the hand; fingertips and joints are those of the hand that was rendered.
+/// and pose, not the size of the hand; fingertips and joints are those of the hand that was rendered. A tracked
+/// estimate or a truth that is not finite is a broken invariant.
 FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth,
                           const HandModel& tracker_model);
 
 /// Jitter: root mean square change, from one frame to the next, of the position and rotation error while the truth
 /// is at rest (under 1 mm, 0.5 degrees and 0.5 degrees of posture a frame). Latency: the delay of the posture, in
 /// frames, for which it agrees best with the truth (0..10, parabola through the best three); only if the truth's
-/// posture moves.
+/// posture moves, over at least 30 frames. Lost frames are in neither.
 reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates,
                                           std::span<const trajectories::TrajectoryFrame> truth);
 
