@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -11,6 +12,15 @@
 namespace {
 
 constexpr int kUsageError = 2;
+
+/// What is wrong with the command line. CLI11 tells a missing subcommand or option before an unknown one, which
+/// hides the misspelling that it comes from.
+std::string describe(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = program.remaining(true);
+  const bool missing = error.get_name() == "RequiredError";
+  return missing && !unknown.empty() ? fmt::format("{}: unknown argument or subcommand", unknown.front())
+                                     : error.what();
+}
 
 int run(int argc, char** argv) {
   CLI::App program(
@@ -35,7 +45,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return program.exit(e);  // --help, --version
   } catch (const CLI::ParseError& e) {
-    fmt::print(stderr, "glovebench: {} (see glovebench --help)\n", e.what());
+    fmt::print(stderr, "glovebench: {} (see glovebench --help)\n", describe(program, e));
     return kUsageError;
   }
   return 0;
@@ -44,6 +54,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is an Error like a full disk
   try {
     return run(argc, argv);
   } catch (const glovebench::Error& e) {

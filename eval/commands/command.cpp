@@ -33,7 +33,7 @@ void CommonFlags::add_tracker(CLI::App& command) {
 }
 
 void CommonFlags::add_machine(CLI::App& command) {
-  command.add_option("--seed", seed, "of all random numbers")->capture_default_str();
+  command.add_option("--seed", seed, "of all random numbers")->check(CLI::NonNegativeNumber)->capture_default_str();
   command.add_option("--threads", threads, "0: all cores; results do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -58,6 +58,10 @@ Workbench CommonFlags::workbench() const {
   config.quiet = quiet;
   config.views = tracker_config().views;
   return Workbench(config);
+}
+
+void CommonFlags::check_output_folder() const {
+  const WholeFile probe(output + "/results.json");  // never committed: nothing stays
 }
 
 }  // namespace glovebench::eval

@@ -29,6 +29,8 @@ struct CommonFlags {
   /// Defaults < profile < file < command line. Throws Error.
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
+  /// Throws Error if no file can be written to the output folder: before the work, not after it. Makes the folder.
+  void check_output_folder() const;
 };
 
 /// Each adds one subcommand to the program.

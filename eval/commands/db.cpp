@@ -31,7 +31,7 @@ struct Build {
 };
 
 void show(const std::string& path) {
-  const Database database = Database::load(path, {});
+  const Database database = Database::load(path);  // all of it, so that damage is found
   fmt::print("{}: {}, {} hand, {} entries, hash {}\n", path, database.posture_set().name,
              database.side() == Side::right ? "right" : "left", database.entry_count(), database.hash());
   for (const std::string& name : database.posture_set().posture_names) fmt::print("  {}\n", name);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/share.h"
@@ -55,6 +57,11 @@ struct Explain {
 
   Trajectory load_truth(const reports::ExperimentKey& key) const {
     if (!trajectory_file.empty()) return trajectories::load_trajectory(trajectory_file);
+    const std::vector<std::string>& known = trajectories::ground_truth_names();
+    if (std::find(known.begin(), known.end(), key.trajectory) == known.end()) {
+      throw Error("--trajectory", "file", "none",
+                  "the one of " + key.trajectory + ", which the run was given as a file");
+    }
     return key.truth == reports::TruthKind::recorded
                ? trajectories::recorded_trajectory(trajectory_folder(), key.trajectory)
                : trajectories::source_trajectory(trajectory_folder(), key.trajectory);

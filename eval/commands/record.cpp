@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/record.h"
 #include "eval/share.h"
@@ -14,9 +15,11 @@ struct Record {
   std::string database;
 
   void run() {
-    const trajectories::Trajectory source = trajectory.ends_with(".json")
+    const bool is_file = trajectory.ends_with(".json");
+    const trajectories::Trajectory source = is_file
                                                 ? trajectories::load_trajectory(trajectory)
                                                 : trajectories::source_trajectory(trajectory_folder(), trajectory);
+    if (is_file && database.empty()) throw Error("--database", "name", "none", "one, to record a file with");
     const std::string name = !database.empty() ? database : trajectories::databases_of(trajectory).front();
     common.left = source.side == Side::left;
     Workbench workbench = common.workbench();
@@ -38,7 +41,7 @@ void add_record(CLI::App& program) {
   const auto state = std::make_shared<Record>();
   state->common.add_output(*command, "trajectory file to write (*.json)", true);
   command->add_option("--trajectory", state->trajectory, "source: Tr1..Tr5 or a file (*.json)")->required();
-  command->add_option("--database", state->database, "recorded with; default: the one with just its grasp");
+  command->add_option("--database", state->database, "recorded with [of Tr1..Tr5: the one with just its grasp]");
   state->common.add_tracker(*command);
   state->common.add_machine(*command);
   command->callback([state] { state->run(); });

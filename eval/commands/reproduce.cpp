@@ -23,6 +23,8 @@ struct Reproduce {
 
   void run() {
     common.tracker_config();  // a wrong configuration is named before anything is built
+    if (common.output.empty()) common.output = "out";
+    common.check_output_folder();
     for (int s = 0; s < seed_count; ++s) figure4.seeds.push_back(common.seed + s);
     figure4.noises = {{"gradient", 1}};
     if (all_gains) figure4.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
@@ -30,14 +32,13 @@ struct Reproduce {
     Workbench workbench = common.workbench();
     const Plan plan = plan_figure4(common.tracker_config(), figure4);
     const Outcome outcome = run_experiments(workbench, plan, robot_folder);
-    const std::string folder = common.output.empty() ? "out" : common.output;
-    reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan));
+    reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
     for (const reports::NoiseSetting& noise : figure4.noises) {
       if (all_gains) fmt::print("Depth noise: {} x{}\n", noise.model, noise.factor);
       fmt::print("{}\n", reports::figure4_table(outcome.result, reports::paper_numbers(), noise));
     }
     fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
-               folder);
+               common.output);
   }
 };
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/experiments.h"
 #include "eval/explain.h"
@@ -26,15 +29,20 @@ struct Run {
   std::string robot_folder;
 
   void run() {
+    // A range check lets it pass.
+    if (std::isnan(gain)) throw Error("--gain", "value", "nan", "a number from 0 to 100");
     Plan plan{common.tracker_config(), {}};
     for (const std::string& name : trajectory_names) {
       const auto trajectory = std::make_shared<const Trajectory>(load(name));
-      // Everything in a run is of one side.
       common.left = trajectory->side == Side::left;
+      if (!plan.replays.empty() && plan.replays.front().truth->side != trajectory->side) {
+        throw Error(name, "side", common.left ? "left" : "right", "that of the run's other trajectories");
+      }
       for (int s = 0; s < seed_count; ++s) {
         plan.replays.push_back({trajectory, subject, {noise, gain}, common.seed + s, databases});
       }
     }
+    common.check_output_folder();
     Workbench workbench = common.workbench();
     const Outcome outcome = run_experiments(workbench, plan, robot_folder);
     reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
