@@ -1,0 +1,81 @@
+// The recorded truths are frozen: their hashes are part of the protocol, and recording one again gives it again.
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "core/base/angles.h"
+#include "core/base/error.h"
+#include "eval/metrics.h"
+#include "eval/record.h"
+#include "eval/share.h"
+#include "eval/test_program.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using trajectories::Trajectory;
+
+/// The lines "NAME HASH" of hashes.txt.
+std::map<std::string, std::string> frozen_hashes() {
+  std::istringstream lines(read_file(trajectory_folder() + "/recorded/hashes.txt"));
+  std::map<std::string, std::string> hashes;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line.starts_with("#")) continue;
+    hashes[line.substr(0, line.find(' '))] = line.substr(line.find(' ') + 1);
+  }
+  return hashes;
+}
+
+TEST(RecordedTruths, AreTheFrozenOnes) {
+  std::map<std::string, std::string> found;
+  for (const std::string& name : trajectories::ground_truth_names()) {
+    found[name] = trajectories::hash(trajectories::recorded_trajectory(trajectory_folder(), name));
+  }
+  EXPECT_EQ(found, frozen_hashes());
+}
+
+TEST(RecordedTruths, ComeFromTheSourcesThatThereAre) {
+  for (const std::string& name : trajectories::ground_truth_names()) {
+    const Trajectory recorded = trajectories::recorded_trajectory(trajectory_folder(), name);
+    const Trajectory source = trajectories::source_trajectory(trajectory_folder(), name);
+    EXPECT_EQ(recorded.provenance->source_hash, trajectories::hash(source)) << name;
+    EXPECT_EQ(recorded.provenance->database, trajectories::databases_of(name).front()) << name;
+    EXPECT_EQ(recorded.frames.size(), source.frames.size()) << name;
+  }
+}
+
+TEST(RecordTruthLong, RecordsTr4Again) {
+  const Trajectory frozen = trajectories::recorded_trajectory(trajectory_folder(), "Tr4");
+  const Trajectory source = trajectories::source_trajectory(trajectory_folder(), "Tr4");
+  Workbench workbench(test_workbench());
+  const Trajectory again = record_truth(workbench, source, frozen.provenance->database, profile("paper"), 1);
+
+  EXPECT_EQ(again.provenance, frozen.provenance);
+  ASSERT_EQ(again.frames.size(), frozen.frames.size());
+  for (size_t f = 0; f < frozen.frames.size(); ++f) {
+    const auto &a = again.frames[f], &b = frozen.frames[f];
+    ASSERT_EQ(a.timestamp_us, b.timestamp_us);
+    // The project's promise between machines: 0.01 mm and 0.01 degrees. (The file itself is rounded to a tenth.)
+    const double position_mm = 1000 * (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm();
+    EXPECT_LT(position_mm, 0.01) << "frame " << f;
+    EXPECT_LT(rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()), 0.01) << "frame " << f;
+    EXPECT_LT(degrees_from_radians((a.posture - b.posture).cwiseAbs().maxCoeff()), 0.01) << "frame " << f;
+  }
+}
+
+TEST(RecordTruthLong, ATruthHasNoGaps) {
+  trajectories::Trajectory source = trajectories::parse_trajectory(make_trajectory_json("away", 3).dump(), "test");
+  source.frames[1].T_camera_hand.translation() = Eigen::Vector3d(2, 0, 0.7);  // out of view
+  Workbench workbench(test_workbench());
+  try {
+    record_truth(workbench, source, "DB_open_power", profile("paper"), 1);
+    FAIL() << "a lost frame became truth";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), testing::StartsWith("away: frame 1: found "));
+    EXPECT_THAT(e.what(), testing::EndsWith("expected a tracked frame: a truth has no gaps"));
+  }
+}
+
+}  // namespace
+}  // namespace glovebench::eval
