@@ -1,0 +1,246 @@
+// Bad input, as a user would give it: one clear line on stderr, exit code 2, and earlier results untouched.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/hand/posture.h"
+#include "eval/test_program.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// The one line of a refusal; a test failure if the program did anything else.
+std::string refusal(const std::vector<std::string>& arguments, const ProgramSetting& setting = {}) {
+  const ProgramRun run = run_glovebench(arguments, setting);
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, testing::StartsWith("glovebench: "));
+  EXPECT_THAT(run.err, testing::EndsWith("\n"));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_THAT(run.err, testing::Not(HasSubstr("internal error")));
+  return run.err;
+}
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = make_test_folder();
+    output_ = path("out");
+    write_file(output_ + "/results.json", "earlier");
+  }
+  void TearDown() override {
+    EXPECT_EQ(read_folder(output_), (std::map<std::string, std::string>{{"results.json", "earlier"}}))
+        << "earlier results are untouched";
+    fs::remove_all(folder_);
+  }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string write(const std::string& name, const json& content) const {
+    write_file(path(name), content.dump());
+    return path(name);
+  }
+  /// `run` of a trajectory file, with more arguments.
+  std::vector<std::string> run_of(const std::string& trajectory, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"run",           "--trajectory", trajectory, "--database",
+                                          "DB_open_power", "--output",     output_,    "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  std::string good_trajectory() const { return write("good.json", make_trajectory_json("good", 2)); }
+  std::string refused_configuration(const json& configuration) const {
+    return refusal(run_of(good_trajectory(), {"--config", write("config.json", configuration)}));
+  }
+
+  std::string folder_;
+  std::string output_;
+};
+
+TEST_F(CommandLine, MissingOrUnknownWords) {
+  EXPECT_THAT(refusal(std::vector<std::string>{}), HasSubstr("subcommand is required"));
+  EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
+  EXPECT_THAT(refusal({"bogus"}), HasSubstr("bogus"));
+  EXPECT_THAT(refusal({"run", "--bogus"}), HasSubstr("--bogus"));
+  EXPECT_THAT(refusal({"list", "bogus"}), HasSubstr("bogus"));
+  EXPECT_THAT(refusal({"db"}), HasSubstr("subcommand is required"));
+  EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_open_power"}), HasSubstr("--output"));
+}
+
+TEST_F(CommandLine, FlagsOutOfRange) {
+  const std::string trajectory = good_trajectory();
+  EXPECT_THAT(refusal(run_of(trajectory, {"--seed", "-1"})), HasSubstr("--seed"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--threads", "5000"})), HasSubstr("--threads"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--subject", "3"})), HasSubstr("--subject"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--noise", "loud"})), HasSubstr("--noise"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--gain", "-1"})), HasSubstr("--gain"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--gain", "nan"})), HasSubstr("--gain"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--seeds", "0"})), HasSubstr("--seeds"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--profile", "none"})), AllOf(HasSubstr("none"), HasSubstr("paper")));
+  EXPECT_THAT(refusal({"reproduce", "-o", output_, "--trajectory", "Tr9"}), HasSubstr("Tr9"));
+}
+
+TEST_F(CommandLine, NamesThatDoNotExist) {
+  EXPECT_THAT(refusal(run_of("Tr9")), AllOf(HasSubstr("Tr9"), HasSubstr("Tr5")));
+  EXPECT_THAT(refusal({"run", "--trajectory", good_trajectory(), "--database", "DB_none", "-o", output_}),
+              AllOf(HasSubstr("DB_none"), HasSubstr("DB_open_power")));
+  EXPECT_THAT(refusal({"explain", path("nothing"), "3"}), HasSubstr("nothing"));
+  EXPECT_THAT(refusal({"explain", folder_, "3"}), HasSubstr("results.json"));
+  EXPECT_THAT(refusal({"db", "info", path("none.glovedb")}), HasSubstr("none.glovedb"));
+  EXPECT_THAT(refusal({"db", "build", "--postures", path("none.csv"), "-o", path("x.glovedb")}),
+              HasSubstr("none.csv"));
+  EXPECT_THAT(refusal({"track", "--source", "live", "--database", "DB_open_power", "-o", path("x")}),
+              HasSubstr("fakenect:FOLDER"));
+  EXPECT_THAT(
+      refusal({"track", "--source", "fakenect:" + path("none"), "--database", "DB_open_power", "-o", path("x")}),
+      HasSubstr("none"));
+  EXPECT_THAT(refusal({"record", "--trajectory", good_trajectory(), "-o", path("x")}), HasSubstr("--database"));
+}
+
+TEST_F(CommandLine, MissingTrajectoryFile) {
+  EXPECT_THAT(refusal(run_of(path("none.json"))), AllOf(HasSubstr("none.json"), HasSubstr("No such file")));
+}
+
+TEST_F(CommandLine, TrajectoriesThatCannotBe) {
+  const auto refused = [&](const auto& damage) {
+    json trajectory = make_trajectory_json("bad", 4);
+    damage(trajectory["frames"][2]);
+    const std::string line = refusal(run_of(write("bad.json", trajectory)));
+    EXPECT_THAT(line, HasSubstr("bad.json: frames[2]."));
+    return line;
+  };
+  EXPECT_THAT(refused([](json& f) { f["angles_deg"][7] = std::nan(""); }), HasSubstr("angles_deg[7]"));
+  EXPECT_THAT(refused([](json& f) { f["angles_deg"].erase(0); }),
+              AllOf(HasSubstr("angles_deg"), HasSubstr("21"), HasSubstr("22")));
+  EXPECT_THAT(refused([](json& f) { f["angles_deg"][7] = 300; }),
+              AllOf(HasSubstr("angles_deg[7]"), HasSubstr("300"), HasSubstr("-45 to 100")));
+  EXPECT_THAT(refused([](json& f) { f["timestamp_us"] = 66667; }), HasSubstr("timestamp_us: found 66667"));
+  EXPECT_THAT(refused([](json& f) { f["timestamp_us"] = 5; }), HasSubstr("timestamp_us: found 5"));
+  EXPECT_THAT(refused([](json& f) {
+                f["quaternion_wxyz"] = {1, 1, 0, 0};
+              }),
+              AllOf(HasSubstr("quaternion_wxyz"), HasSubstr("length 1")));
+  EXPECT_THAT(refused([](json& f) { f["position_mm"] = "here"; }), HasSubstr("position_mm"));
+}
+
+TEST_F(CommandLine, TrajectoryThatIsNoJson) {
+  std::string text = make_trajectory_json("bad", 2).dump();
+  text.replace(text.find("700"), 3, "NaN");
+  write_file(path("nan.json"), text);
+  EXPECT_THAT(refusal(run_of(path("nan.json"))), AllOf(HasSubstr("nan.json"), HasSubstr("expected JSON")));
+}
+
+TEST_F(CommandLine, ConfigurationsThatCannotBe) {
+  EXPECT_THAT(refused_configuration({{"bogus", 1}}), AllOf(HasSubstr("config.json"), HasSubstr("bogus")));
+  EXPECT_THAT(refused_configuration({{"volume", {{"z_near_m", 1}}}}),
+              AllOf(HasSubstr("config.json"), HasSubstr("z_near_m")));
+  EXPECT_THAT(refused_configuration({{"volume", {{"z_min_m", 2}}}}),
+              AllOf(HasSubstr("config.json"), HasSubstr("z_min_m"), HasSubstr("z_max_m")));
+  EXPECT_THAT(refused_configuration({{"lookup", {{"cascade", "16:3,64:500"}}}}),
+              AllOf(HasSubstr("config.json"), HasSubstr("64:500")));
+  EXPECT_THAT(refused_configuration({{"icp", {{"max_points", "many"}}}}), HasSubstr("max_points"));
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--cascade", "16:3,64:500"})), HasSubstr("64:500"));
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--cascade", "some"})), HasSubstr("SIZE:KEEP"));
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--config", path("none.json")})), HasSubstr("none.json"));
+  write_file(path("broken.json"), "{\"volume\":");
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--config", path("broken.json")})), HasSubstr("broken.json"));
+}
+
+TEST_F(CommandLine, MissingOrAlteredMesh) {
+  const fs::path share = fs::path(GLOVEBENCH_PROGRAM).parent_path().parent_path() / "share" / "glovebench";
+  const std::string copy = path("share");
+  fs::create_directories(copy);
+  fs::create_directory_symlink(fs::canonical(share / "trajectories"), copy + "/trajectories");
+  const ProgramSetting setting{.environment = {{"GLOVEBENCH_SHARE", copy}}};
+  EXPECT_THAT(refusal(run_of(good_trajectory()), setting), HasSubstr("generic-hand-right.glb"));
+
+  std::string mesh = read_file((share / "generic-hand-right.glb").string());
+  mesh[mesh.size() / 2] ^= 1;
+  write_file(copy + "/generic-hand-right.glb", mesh);
+  EXPECT_THAT(refusal(run_of(good_trajectory()), setting),
+              AllOf(HasSubstr("generic-hand-right.glb"), HasSubstr("expected")));
+
+  const ProgramSetting nowhere{.environment = {{"GLOVEBENCH_SHARE", path("nowhere")}}};
+  EXPECT_THAT(refusal(run_of(good_trajectory()), nowhere), HasSubstr("nowhere"));
+}
+
+TEST_F(CommandLine, OutputFolderWithAFileInTheWay) {
+  write_file(path("taken"), "a file");
+  const std::string line = refusal({"run", "--trajectory", good_trajectory(), "--database", "DB_open_power",
+                                    "--output", path("taken"), "--cache", path("cache")});
+  EXPECT_THAT(line, HasSubstr("taken"));
+  EXPECT_EQ(read_file(path("taken")), "a file");
+  EXPECT_FALSE(fs::exists(path("cache"))) << "told before any work";
+  EXPECT_THAT(refusal({"reproduce", "-o", path("taken"), "--cache", path("cache")}), HasSubstr("taken"));
+}
+
+TEST_F(CommandLine, OpenGLContextRefused) {
+  const ProgramSetting old_mesa{.environment = {{"MESA_GL_VERSION_OVERRIDE", "1.1"}}};
+  EXPECT_THAT(refusal({"render", "--trajectory", good_trajectory(), "-o", path("frames")}, old_mesa),
+              HasSubstr("OpenGL context"));
+  EXPECT_FALSE(fs::exists(path("frames")));
+}
+
+TEST_F(CommandLine, DesktopSettingsDoNotReachTheRenderer) {
+  const auto frame = [&](const std::map<std::string, std::string>& environment) {
+    const ProgramRun run = run_glovebench({"render", "--trajectory", good_trajectory(), "-o", path("frames")},
+                                          ProgramSetting{.environment = environment});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read_file(path("frames/color_0001.png"));
+  };
+  const std::string expected = frame({});
+  for (const char* driver : {"zink", "softpipe", "none"})
+    EXPECT_TRUE(frame({{"GALLIUM_DRIVER", driver}}) == expected);
+  EXPECT_TRUE(frame({{"MESA_GLSL_VERSION_OVERRIDE", "110"}}) == expected);
+}
+
+TEST_F(CommandLine, TrajectoriesOfBothSides) {
+  json left = make_trajectory_json("left", 2);
+  left["side"] = "left";
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--trajectory", write("left.json", left)})),
+              AllOf(HasSubstr("left.json"), HasSubstr("side")));
+}
+
+TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
+  const std::vector<std::string> tracker = {"--profile", "--config", "--cascade"};
+  const std::vector<std::string> machine = {"--seed", "--threads", "--cache", "--quiet"};
+  const auto expect_flags = [](std::vector<std::string> command, const std::vector<std::vector<std::string>>& all) {
+    command.push_back("--help");
+    const ProgramRun run = run_glovebench(command);
+    EXPECT_EQ(run.exit_code, 0) << command[0];
+    EXPECT_EQ(run.err, "");
+    for (const auto& flags : all) {
+      for (const std::string& flag : flags) EXPECT_THAT(run.out, HasSubstr(flag)) << command[0];
+    }
+  };
+  expect_flags({}, {{"reproduce", "run", "record", "render", "track", "explain", "db", "list", "--version"}});
+  expect_flags({"reproduce"}, {tracker, machine, {"--output", "--trajectory", "--seeds", "--robot-out"}});
+  expect_flags({"run"}, {tracker,
+                         machine,
+                         {"--output", "--trajectory", "--database", "--truth", "--noise", "--gain", "--subject",
+                          "--seeds", "--robot-out"}});
+  expect_flags({"record"}, {tracker, machine, {"--output", "--trajectory", "--database"}});
+  expect_flags({"render"}, {tracker, machine, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
+  expect_flags({"track"}, {tracker, machine, {"--source", "fakenect:", "--database", "--output", "--left"}});
+  expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
+  expect_flags({"db"}, {{"build", "info"}});
+  expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});
+  expect_flags({"list"}, {{"trajectories", "databases", "angles", "config"}});
+}
+
+TEST_F(CommandLine, ListsWhatItKnows) {
+  EXPECT_THAT(run_glovebench({"list", "trajectories"}).out, AllOf(HasSubstr("Tr1"), HasSubstr("recorded")));
+  EXPECT_THAT(run_glovebench({"list", "databases"}).out, HasSubstr("DB_20_postures"));
+  EXPECT_THAT(run_glovebench({"list", "angles"}).out, HasSubstr("little_dip_flexion"));
+  const ProgramRun config = run_glovebench({"list", "config", "--cascade", "8:9"});
+  EXPECT_EQ(json::parse(config.out).at("lookup").at("cascade"), "8:9");
+  write_file(path("again.json"), config.out);
+  EXPECT_EQ(run_glovebench({"list", "config", "--config", path("again.json")}).out, config.out);
+}
+
+}  // namespace
+}  // namespace glovebench::eval

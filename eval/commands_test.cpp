@@ -1,0 +1,216 @@
+// The commands at work on short trajectories, from the command line to the files.
+#include <gmock/gmock.h>
+
+#include "eval/test_program.h"
+#include "render/exr.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr int kFrames = 4;
+
+class CommandsLong : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = make_test_folder();
+    write_file(path("good.json"), make_trajectory_json("good", kFrames).dump());
+    json left = make_trajectory_json("left", kFrames);
+    left["side"] = "left";
+    write_file(path("left.json"), left.dump());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  static void expect_fine(const ProgramRun& run) {
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_EQ(run.err, "") << "not even a message: stderr is no terminal";
+  }
+  static std::string refusal(const ProgramRun& run) {
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, StartsWith("glovebench: "));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    return run.err;
+  }
+  /// Runs a trajectory with open and power and gives back its results.
+  json run_trajectory(const std::string& trajectory, const std::string& output,
+                      const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"run",           "--trajectory", path(trajectory), "--database",
+                                          "DB_open_power", "-o",           path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_fine(run_glovebench(arguments));
+    return json::parse(read_file(path(output) + "/results.json"));
+  }
+  ProgramRun track(const std::string& recording, const std::string& database, const std::string& output,
+                   const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {
+        "track", "--source", "fakenect:" + path(recording), "--database", database, "-o", path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  }
+  void render_recording(const std::string& trajectory, const std::string& output) const {
+    expect_fine(
+        run_glovebench({"render", "--trajectory", path(trajectory), "--format", "fakenect", "-o", path(output)}));
+  }
+
+  std::string folder_;
+};
+
+TEST_F(CommandsLong, TrackOfADumpEqualsTheRun) {
+  run_trajectory("good.json", "out", {"--robot-out", path("robot")});
+  render_recording("good.json", "dump");
+  const ProgramRun tracked =
+      track("dump", "DB_open_power", "estimates.jsonl", {"--robot-out", path("tracked_robot.jsonl")});
+  expect_fine(tracked);
+  EXPECT_THAT(tracked.out, HasSubstr("4 of 4 frames tracked"));
+  const std::string lines = read_file(path("estimates.jsonl"));
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), kFrames);
+  const std::map<std::string, std::string> robot = read_folder(path("robot"));
+  ASSERT_EQ(robot.size(), 1U);
+  EXPECT_EQ(read_file(path("tracked_robot.jsonl")), robot.begin()->second)
+      << "the robot commands hold the posture and the pose of each frame";
+}
+
+TEST_F(CommandsLong, LeftHandRunsFromEndToEnd) {
+  const json results = run_trajectory("left.json", "out");
+  const json& experiment = results.at("experiments").at(0);
+  EXPECT_EQ(experiment.at("coverage").at("covered"), kFrames) << experiment.at("coverage");
+}
+
+TEST_F(CommandsLong, LeftHandWithARightDatabase) {
+  expect_fine(run_glovebench({"db", "build", "--postures", "DB_open_power", "-o", path("right.glovedb")}));
+  expect_fine(run_glovebench({"db", "build", "--postures", "DB_open_power", "--left", "-o", path("left.glovedb")}));
+  EXPECT_THAT(run_glovebench({"db", "info", path("left.glovedb")}).out, HasSubstr("left hand"));
+  render_recording("left.json", "dump");
+  EXPECT_THAT(refusal(track("dump", path("right.glovedb"), "x.jsonl", {"--left"})),
+              AllOf(HasSubstr("DB_open_power"), HasSubstr("right"), HasSubstr("left")));
+  EXPECT_FALSE(fs::exists(path("x.jsonl")));
+  const ProgramRun tracked = track("dump", path("left.glovedb"), "x.jsonl", {"--left"});
+  expect_fine(tracked);
+  EXPECT_THAT(tracked.out, HasSubstr("4 of 4 frames tracked"));
+}
+
+TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
+  write_file(path("gestures.csv"), read_file(fs::path(GLOVEBENCH_PROGRAM).parent_path().parent_path() /
+                                             "share/glovebench/trajectories/data/gestures.csv"));
+  std::string csv = read_file(path("gestures.csv"));
+  const size_t third_line = csv.find('\n', csv.find('\n', csv.find("name,")) + 1) + 1;
+  write_file(path("mine.csv"), csv.substr(0, third_line));
+  const ProgramRun built =
+      run_glovebench({"db", "build", "--postures", path("mine.csv"), "-o", path("mine.glovedb")});
+  expect_fine(built);
+  EXPECT_THAT(built.out, AllOf(HasSubstr("1 postures"), HasSubstr("756 entries")));
+  const ProgramRun info = run_glovebench({"db", "info", path("mine.glovedb")});
+  expect_fine(info);
+  EXPECT_THAT(info.out, AllOf(HasSubstr("mine, right hand, 756 entries"), HasSubstr("\n  ")));
+
+  std::string damaged = read_file(path("mine.glovedb"));
+  damaged[damaged.size() / 2] ^= 1;
+  write_file(path("damaged.glovedb"), damaged);
+  write_file(path("short.glovedb"), damaged.substr(0, damaged.size() / 3));
+  render_recording("good.json", "dump");
+  for (const std::string name : {"damaged.glovedb", "short.glovedb"}) {
+    EXPECT_THAT(refusal(track("dump", path(name), "x.jsonl")), HasSubstr(name));
+    EXPECT_THAT(refusal(run_glovebench({"db", "info", path(name)})), HasSubstr(name));
+  }
+}
+
+TEST_F(CommandsLong, ExplainsAFrame) {
+  run_trajectory("good.json", "out");
+  const auto explain = [&](const std::string& frame, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"explain", path("out"), frame, "--trajectory", path("good.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  };
+  expect_fine(explain("2", {"-o", path("frame.png")}));
+  EXPECT_THAT(read_file(path("frame.png")), StartsWith("\x89PNG"));
+  expect_fine(explain("2"));
+  EXPECT_TRUE(fs::exists(path("out/explain_good_DB_open_power_source_subject1_gradient_1_2.png")));
+  EXPECT_THAT(refusal(explain("4")), HasSubstr("0 to 3"));
+  EXPECT_THAT(refusal(explain("-1")), HasSubstr("0 to 3"));
+  EXPECT_THAT(refusal(explain("2", {"--experiment", "other"})), HasSubstr("good_DB_open_power"));
+  EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2", "--trajectory", path("left.json")})),
+              HasSubstr("hash"))
+      << "not the truth of that run";
+  EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2"})), HasSubstr("--trajectory"));
+}
+
+TEST_F(CommandsLong, RendersPicturesAndLayers) {
+  expect_fine(run_glovebench({"render", "--trajectory", path("good.json"), "--format", "png", "-o", path("png")}));
+  EXPECT_EQ(read_folder(path("png")).size(), 2U * kFrames) << "color and depth";
+  EXPECT_THAT(read_file(path("png/color_0003.png")), StartsWith("\x89PNG"));
+
+  expect_fine(run_glovebench({"render", "--trajectory", path("good.json"), "--format", "exr", "--database",
+                              "DB_open_power", "-o", path("exr")}));
+  EXPECT_EQ(read_folder(path("exr")).size(), static_cast<size_t>(kFrames));
+  const render::FrameLayers layers = render::read_exr(path("exr/frame_0003.exr"));
+  EXPECT_EQ(layers.color.width(), 640);
+  const auto glove = [](const LabelImage& labels) {
+    return std::count_if(labels.begin(), labels.end(), [](uint8_t label) { return label != 0; });
+  };
+  EXPECT_GT(glove(layers.label), 1000);
+  // The tracker's hand beside the true one, a few percent of pixels larger or smaller at most.
+  EXPECT_NEAR(glove(layers.tracker_label), glove(layers.label), 0.1 * glove(layers.label));
+}
+
+TEST_F(CommandsLong, RecordedTruthRuns) {
+  expect_fine(run_glovebench(
+      {"record", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o", path("again.json")}));
+  const json results = run_trajectory("again.json", "out");
+  EXPECT_EQ(results.at("experiments").at(0).at("truth"), "recorded");
+}
+
+TEST_F(CommandsLong, FullDiskLeavesTheOldReport) {
+  run_trajectory("good.json", "out");
+  const std::map<std::string, std::string> before = read_folder(path("out"));
+  // Room for results.json and more, but not for the page with its pictures.
+  ProgramSetting full;
+  full.max_file_bytes = before.at("index.html").size() / 2;
+  ASSERT_LT(before.at("results.json").size(), full.max_file_bytes);
+  const std::string line = refusal(run_glovebench(
+      {"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o", path("out"), "--seed", "7"},
+      full));
+  EXPECT_THAT(line, AllOf(HasSubstr("index.html"), HasSubstr("room")));
+  EXPECT_EQ(read_folder(path("out")), before) << "and nothing beside it";
+}
+
+TEST_F(CommandsLong, DamagedColorTableIsMadeAnew) {
+  const std::string cache = path("cache");
+  const json before = run_trajectory("good.json", "out", {"--cache", cache});
+  for (const auto& entry : fs::directory_iterator(cache)) {
+    const std::string file = entry.path().string();
+    if (!file.ends_with(".table")) continue;
+    std::string content = read_file(file);
+    content[content.size() / 2] ^= 1;
+    write_file(file, content);
+    EXPECT_EQ(run_trajectory("good.json", "out", {"--cache", cache}), before);
+    EXPECT_NE(read_file(file), content) << "and kept";
+    return;
+  }
+  FAIL() << "no color table in the cache";
+}
+
+TEST_F(CommandsLong, DamagedCachedDatabaseIsMadeAnew) {
+  const std::string cache = path("cache");
+  const json before = run_trajectory("good.json", "out", {"--cache", cache});
+  for (const auto& entry : fs::directory_iterator(cache)) {
+    const std::string file = entry.path().string();
+    if (!file.ends_with(".glovedb")) continue;
+    fs::resize_file(file, fs::file_size(file) / 2);
+    const ProgramRun run = run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power",
+                                           "-o", path("out"), "--cache", cache});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.err, HasSubstr(entry.path().filename().string())) << "said, since it costs time";
+    EXPECT_EQ(json::parse(read_file(path("out/results.json"))), before);
+    return;
+  }
+  FAIL() << "no database in the cache";
+}
+
+}  // namespace
+}  // namespace glovebench::eval

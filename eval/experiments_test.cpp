@@ -1,0 +1,92 @@
+// The same plan twice, and on one thread and two: every file that hangs on the results is equal byte for byte.
+#include "eval/experiments.h"
+
+#include <gmock/gmock.h>
+
+#include "eval/explain.h"
+#include "eval/test_program.h"
+#include "reports/report.h"
+
+namespace glovebench::eval {
+namespace {
+
+/// Six frames, two databases, two noise seeds.
+Plan make_plan() {
+  const auto trajectory = std::make_shared<const trajectories::Trajectory>(
+      trajectories::parse_trajectory(make_trajectory_json("six", 6).dump(), "test"));
+  Plan plan{profile("paper"), {}};
+  Replay replay;
+  replay.truth = trajectory;
+  replay.databases = {"DB_open_pinch", "DB_open_power"};
+  for (const uint64_t seed : {1, 2}) {
+    replay.seed = seed;
+    plan.replays.push_back(replay);
+  }
+  return plan;
+}
+
+struct PlanRun {
+  reports::RunResult result;
+  std::map<std::string, std::string> files;  ///< report and robot commands, without timings.json
+};
+PlanRun run_plan(const std::string& folder, int threads) {
+  Workbench workbench(test_workbench(threads));
+  const Plan plan = make_plan();
+  const Outcome outcome = run_experiments(workbench, plan, folder + "/robot");
+  reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan));
+  PlanRun run{outcome.result, read_folder(folder)};
+  EXPECT_EQ(run.files.erase("timings.json"), 1U);
+  return run;
+}
+
+TEST(ExperimentsLong, ReportsDependOnNeitherThreadsNorTheDay) {
+  const std::string folder = make_test_folder();
+  const PlanRun one = run_plan(folder + "/one", 1);
+  const PlanRun two = run_plan(folder + "/two", 2);
+  const PlanRun again = run_plan(folder + "/again", 2);
+  EXPECT_EQ(one.result, two.result);
+  for (const PlanRun* other : {&two, &again}) {
+    ASSERT_EQ(one.files.size(), other->files.size());
+    for (const auto& [name, content] : one.files) {
+      ASSERT_TRUE(other->files.contains(name)) << name;
+      EXPECT_TRUE(content == other->files.at(name)) << name;
+    }
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(ExperimentsLong, HoldWhatWasPlanned) {
+  const std::string folder = make_test_folder();
+  const PlanRun run = run_plan(folder, 2);
+  ASSERT_EQ(run.result.experiments.size(), 2U) << "one a database; the seeds are runs of it";
+  for (const reports::ExperimentResult& experiment : run.result.experiments) {
+    EXPECT_EQ(experiment.key.trajectory, "six");
+    EXPECT_EQ(experiment.coverage.frames, 12);
+    EXPECT_EQ(experiment.coverage.covered, 12) << experiment.key.database;
+    ASSERT_EQ(experiment.runs.size(), 2U);
+    EXPECT_EQ(experiment.runs[0].seed, 1U);
+    EXPECT_EQ(experiment.runs[1].seed, 2U);
+    EXPECT_NE(experiment.runs[0].frames, experiment.runs[1].frames) << "other seed, other noise";
+    EXPECT_EQ(run.files.count("tables/frames_" + to_string(experiment.key) + ".csv"), 1U);
+    for (const char* seed : {"1", "2"}) {
+      const std::string robot = "robot/" + to_string(experiment.key) + "_seed" + seed + ".jsonl";
+      ASSERT_EQ(run.files.count(robot), 1U) << robot;
+      EXPECT_EQ(std::count(run.files.at(robot).begin(), run.files.at(robot).end(), '\n'), 6) << "one a frame";
+    }
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(PlanFigure4, Holds15ExperimentsAgainstEachTruthAndSubject) {
+  const Plan plan = plan_figure4(profile("paper"), {});
+  std::map<std::pair<trajectories::TrajectoryKind, int>, size_t> experiments;
+  for (const Replay& replay : plan.replays)
+    experiments[{replay.truth->kind, replay.subject}] += replay.databases.size();
+  using enum trajectories::TrajectoryKind;
+  const std::map<std::pair<trajectories::TrajectoryKind, int>, size_t> expected = {
+      {{recorded, 1}, 15}, {{source, 1}, 15}, {{source, 2}, 15}};
+  EXPECT_EQ(experiments, expected);
+}
+
+}  // namespace
+}  // namespace glovebench::eval

@@ -1,0 +1,56 @@
+// "A test runs the tracker on dumped frames in a process that can read no trajectory, and gets identical
+// estimates."
+#include <gmock/gmock.h>
+
+#include "core/kinect/recording.h"
+#include "core/tracker/estimate_line.h"
+#include "eval/replay.h"
+#include "eval/share.h"
+#include "eval/test_program.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+constexpr int kFrames = 20;
+
+/// The first frames of Tr4, as the command replays them.
+Replay make_replay() {
+  trajectories::Trajectory truth = trajectories::source_trajectory(trajectory_folder(), "Tr4");
+  truth.frames.resize(kFrames);
+  Replay replay;
+  replay.truth = std::make_shared<const trajectories::Trajectory>(std::move(truth));
+  replay.databases = {"DB_open_power"};
+  return replay;
+}
+
+TEST(TrackerIsolationLong, EqualsTheReplay) {
+  const std::string folder = make_test_folder();
+  Workbench workbench(test_workbench());
+  const Replay pass = make_replay();
+  std::string expected;
+  int tracked = 0;
+  const std::vector<TrackedReplay> replayed = replay(workbench, pass, profile("paper"));
+  for (const TrackResult& result : replayed.front().results) {
+    expected += estimate_line(tracked, result) + "\n";
+    tracked += result.status == TrackStatus::tracked;
+  }
+  ASSERT_EQ(tracked, kFrames) << "nothing is shown by lost frames";
+
+  workbench.database("DB_open_power")->save(folder + "/open_power.glovedb");
+  workbench.color_table()->save(folder + "/colors.table");
+  RecordingWriter recording(folder + "/recording", workbench.calibration());
+  render::SyntheticKinect kinect = make_kinect(workbench, pass);
+  while (const std::optional<DeviceFrame> frame = kinect.next_frame()) recording.write(*frame);
+  recording.finish();
+
+  const ProgramRun run = run_program({TRACKER_ISOLATION, hand_mesh_path(), folder + "/open_power.glovedb",
+                                      folder + "/colors.table", folder + "/recording"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_TRUE(run.out == expected) << run.out.substr(0, 600) << "...\n" << expected.substr(0, 600) << "...";
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace glovebench::eval

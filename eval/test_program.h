@@ -1,0 +1,126 @@
+#pragma once
+
+// Runs programs as a user would, for the tests of this module.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/file.h"
+#include "core/hand/posture.h"
+#include "eval/workbench.h"
+
+namespace glovebench::eval {
+
+/// A folder of the running test, empty at its start.
+inline std::string make_test_folder() {
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  const std::string folder = testing::TempDir() + "glovebench-eval-" + test.test_suite_name() + "." + test.name() +
+                             "-" + std::to_string(getpid());
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+/// Databases and color tables, kept from test to test: their names hold the hashes of what they are made of.
+inline std::string test_cache_folder() {
+  return testing::TempDir() + "glovebench-test-cache-" + std::to_string(getuid());
+}
+
+/// For a workbench of this process.
+inline WorkbenchConfig test_workbench(int threads = 2) {
+  WorkbenchConfig config;
+  config.cache_folder = test_cache_folder();
+  config.threads = threads;
+  config.quiet = true;
+  return config;
+}
+
+/// What a program said.
+struct ProgramRun {
+  int exit_code = -1;  ///< -1: ended by a signal
+  std::string out;
+  std::string err;
+};
+struct ProgramSetting {
+  std::map<std::string, std::string> environment;  ///< beside what there is
+  rlim_t max_file_bytes = RLIM_INFINITY;           ///< what a full disk is like
+};
+
+/// In the child: becomes the program, or ends with 127.
+[[noreturn]] inline void become(const std::vector<std::string>& command, const ProgramSetting& setting,
+                                const std::string& out, const std::string& err) {
+  for (const auto& [name, value] : setting.environment) setenv(name.c_str(), value.c_str(), 1);
+  dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+  dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  const rlimit limit{setting.max_file_bytes, setting.max_file_bytes};
+  if (setting.max_file_bytes != RLIM_INFINITY) setrlimit(RLIMIT_FSIZE, &limit);
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
+  arguments.push_back(nullptr);
+  execv(arguments[0], arguments.data());
+  _exit(127);
+}
+
+/// Runs a program to its end. `command` begins with its path.
+inline ProgramRun run_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
+  const std::string base = testing::TempDir() + "glovebench-program-" + std::to_string(getpid());
+  const std::string out = base + ".out", err = base + ".err";
+  const pid_t child = fork();
+  if (child == 0) become(command, setting, out, err);
+  int status = 0;
+  waitpid(child, &status, 0);
+  const ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+  std::filesystem::remove(out);
+  std::filesystem::remove(err);
+  return run;
+}
+
+/// Runs the glovebench command with the tests' cache.
+inline ProgramRun run_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
+  arguments.insert(arguments.begin(), GLOVEBENCH_PROGRAM);
+  setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());
+  return run_program(arguments, setting);
+}
+
+/// The content of each file under a folder, by its path in there.
+inline std::map<std::string, std::string> read_folder(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    files[std::filesystem::relative(entry.path(), folder).string()] = read_file(entry.path().string());
+  }
+  return files;
+}
+
+/// A trajectory as one writes it by hand: an open hand that moves and begins to close.
+inline nlohmann::json make_trajectory_json(const std::string& name, int frame_count) {
+  nlohmann::json names = nlohmann::json::array(), frames = nlohmann::json::array();
+  for (const AngleInfo& info : angle_infos()) names.push_back(info.name);
+  for (int i = 0; i < frame_count; ++i) {
+    const double bend = 4 * i;
+    frames.push_back({{"timestamp_us", 66667 * i},
+                      {"position_mm", {5 * i, 20, 700}},
+                      {"quaternion_wxyz", {0.7071, -0.7071, 0, 0}},
+                      {"angles_deg", {0, 0, 5, 0,  5,        3,        4, 5 + bend, 6 + bend, 4,        0,
+                                      4, 6, 4, -5, 4 + bend, 6 + bend, 4, -12,      3 + bend, 7 + bend, 5}}});
+  }
+  return {{"format", "glovebench-trajectory"},
+          {"version", 1},
+          {"name", name},
+          {"side", "right"},
+          {"kind", "source"},
+          {"joint_order", names},
+          {"frames", frames}};
+}
+
+}  // namespace glovebench::eval

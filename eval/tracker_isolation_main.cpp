@@ -1,0 +1,58 @@
+// Shows that the tracker needs no truth: this program links the core alone, in which there is no reader of
+// trajectories, loads a recording, forbids itself to open any more files, and tracks.
+//
+//     tracker_isolation MESH DATABASE COLOR_TABLE RECORDING
+//
+// Prints one line an estimate (core/tracker/estimate_line.h).
+
+#include <fcntl.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "core/kinect/recording.h"
+#include "core/tracker/estimate_line.h"
+#include "core/tracker/tracker.h"
+
+namespace {
+
+using namespace glovebench;
+
+/// From here on no file can be opened, and nothing can lift that.
+void forbid_files(const char* some_file) {
+  const rlimit none{0, 0};
+  if (setrlimit(RLIMIT_NOFILE, &none) != 0) throw std::runtime_error("files cannot be forbidden");
+  if (open(some_file, O_RDONLY | O_CLOEXEC) >= 0) throw std::runtime_error("files can still be opened");
+}
+
+void track_recording(char** arguments) {
+  const auto model = std::make_shared<const HandModel>(HandModel::load(arguments[1]));
+  const auto database = std::make_shared<const Database>(Database::load(arguments[2]));
+  const auto table = std::make_shared<const ColorTable>(ColorTable::load(arguments[3]));
+  RecordingDevice device(arguments[4]);
+  std::vector<DeviceFrame> frames;
+  while (std::optional<DeviceFrame> frame = device.next_frame()) frames.push_back(std::move(*frame));
+  forbid_files(arguments[1]);
+
+  Tracker tracker(profile("paper"), device.calibration(), model, database, table);
+  for (size_t f = 0; f < frames.size(); ++f) {
+    std::printf("%s\n", estimate_line(static_cast<int>(f), tracker.track(frames[f])).c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (argc != 5) throw std::runtime_error("usage: tracker_isolation MESH DATABASE COLOR_TABLE RECORDING");
+    track_recording(argv);
+    return 0;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "tracker_isolation: %s\n", e.what());
+    return 2;
+  }
+}
