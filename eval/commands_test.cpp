@@ -179,6 +179,18 @@ TEST_F(CommandsLong, FullDiskLeavesTheOldReport) {
   EXPECT_EQ(read_folder(path("out")), before) << "and nothing beside it";
 }
 
+TEST_F(CommandsLong, FullDiskLeavesTheOldDatabase) {
+  const std::string database = path("open_power.glovedb");
+  write_file(database, "an older one");
+  ProgramSetting full;
+  full.max_file_bytes = 1'000'000;
+  EXPECT_THAT(
+      refusal(run_glovebench({"db", "build", "--postures", "DB_open_power", "-o", database, "--quiet"}, full)),
+      AllOf(HasSubstr("open_power.glovedb"), HasSubstr("room")));
+  EXPECT_EQ(read_file(database), "an older one");
+  EXPECT_EQ(read_folder(folder_).size(), 3U) << "the two trajectories and the database";
+}
+
 TEST_F(CommandsLong, DamagedColorTableIsMadeAnew) {
   const std::string cache = path("cache");
   const json before = run_trajectory("good.json", "out", {"--cache", cache});

@@ -53,15 +53,19 @@ TEST(RecordTruthLong, RecordsTr4Again) {
 
   EXPECT_EQ(again.provenance, frozen.provenance);
   ASSERT_EQ(again.frames.size(), frozen.frames.size());
+  double position_mm = 0, rotation_deg = 0, angle_deg = 0;  // the worst of any frame
   for (size_t f = 0; f < frozen.frames.size(); ++f) {
     const auto &a = again.frames[f], &b = frozen.frames[f];
     ASSERT_EQ(a.timestamp_us, b.timestamp_us);
-    // The project's promise between machines: 0.01 mm and 0.01 degrees. (The file itself is rounded to a tenth.)
-    const double position_mm = 1000 * (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm();
-    EXPECT_LT(position_mm, 0.01) << "frame " << f;
-    EXPECT_LT(rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()), 0.01) << "frame " << f;
-    EXPECT_LT(degrees_from_radians((a.posture - b.posture).cwiseAbs().maxCoeff()), 0.01) << "frame " << f;
+    position_mm =
+        std::max(position_mm, 1000 * (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm());
+    rotation_deg = std::max(rotation_deg, rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()));
+    angle_deg = std::max(angle_deg, degrees_from_radians((a.posture - b.posture).cwiseAbs().maxCoeff()));
   }
+  // What the project promises between machines; the file itself is rounded to a tenth of it.
+  EXPECT_LT(position_mm, 0.01);
+  EXPECT_LT(rotation_deg, 0.01);
+  EXPECT_LT(angle_deg, 0.01);
 }
 
 TEST(RecordTruthLong, ATruthHasNoGaps) {

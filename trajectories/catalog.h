@@ -14,6 +14,7 @@ namespace glovebench::trajectories {
 //   scripts/Tr1.json        keyframes of a source trajectory (written by hand)
 //   sources/Tr1.json        source trajectories (generated)
 //   recorded/Tr1.json       recorded trajectories (frozen outputs of the tracker)
+//   recorded/hashes.txt     their hashes
 //   postures/DB_*.json      posture sets of the databases (generated)
 
 /// The five ground truths of section IV: "Tr1" .. "Tr5".
