@@ -113,11 +113,11 @@ reports::ExperimentTiming timing_of(const Gathered& experiment) {
   return timing;
 }
 
-void write_robot_commands(const std::string& folder, const Gathered& experiment) {
+void write_robot_commands(const RobotOutput& robot, const Gathered& experiment) {
   for (size_t i = 0; i < experiment.passes.size(); ++i) {
     JsonLinesSink sink(
-        fmt::format("{}/{}_seed{}.jsonl", folder, to_string(experiment.key), experiment.replays[i]->seed));
-    RobotCommander commander(Eigen::Isometry3d::Identity());
+        fmt::format("{}/{}_seed{}.jsonl", robot.folder, to_string(experiment.key), experiment.replays[i]->seed));
+    RobotCommander commander(robot.T_base_camera);
     for (const TrackResult& result : experiment.passes[i]->results) sink.send(commander.command(result));
     sink.finish();
   }
@@ -163,7 +163,7 @@ Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
   return plan;
 }
 
-Outcome run_experiments(Workbench& workbench, const Plan& plan, const std::string& robot_folder) {
+Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot) {
   const auto start = std::chrono::steady_clock::now();
   size_t frames = 0;
   for (const Replay& replay : plan.replays) {
@@ -196,7 +196,7 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const std::strin
   Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads)};
   for (const Gathered& experiment : experiments) {
     outcome.timings.experiments.push_back(timing_of(experiment));
-    if (!robot_folder.empty()) write_robot_commands(robot_folder, experiment);
+    if (!robot.folder.empty()) write_robot_commands(robot, experiment);
   }
   outcome.timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/robot/robot_command.h"
 #include "eval/replay.h"
 
 namespace glovebench::eval {
@@ -26,8 +27,14 @@ struct Outcome {
   reports::RunResult result;
   reports::Timings timings;
 };
-/// Runs a plan on the workbench's threads. The result does not depend on their number. With `robot_folder`, the
+/// Where the robot commands of each experiment are written; an empty folder: nowhere.
+struct RobotOutput {
+  std::string folder;
+  Eigen::Isometry3d T_base_camera = default_T_base_camera();
+};
+
+/// Runs a plan on the workbench's threads. The result does not depend on their number. With a robot folder, the
 /// robot commands of each experiment are written there as JSON Lines.
-Outcome run_experiments(Workbench& workbench, const Plan& plan, const std::string& robot_folder = "");
+Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot = {});
 
 }  // namespace glovebench::eval

@@ -1,10 +1,13 @@
 #include "eval/commands/command.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/robot/robot_command.h"
 #include "eval/share.h"
 
 namespace glovebench::eval {
@@ -58,6 +61,23 @@ Workbench CommonFlags::workbench() const {
   config.quiet = quiet;
   config.views = tracker_config().views;
   return Workbench(config);
+}
+
+void RobotFlags::add(CLI::App& command, const std::string& what) {
+  command.add_option("--robot-out", output, what);
+  command
+      .add_option("--base-camera", base_camera,
+                  "the camera in the arm's base frame: X Y Z (m) QW QX QY QZ [above the work, looking down]")
+      ->expected(7);
+}
+
+Eigen::Isometry3d RobotFlags::T_base_camera() const {
+  if (base_camera.empty()) return default_T_base_camera();
+  const Eigen::Quaterniond q(base_camera[3], base_camera[4], base_camera[5], base_camera[6]);
+  if (!(std::abs(q.norm() - 1) < 1e-3)) {
+    throw Error("--base-camera", "length of the quaternion", fmt::format("{}", q.norm()), "1");
+  }
+  return Eigen::Translation3d(base_camera[0], base_camera[1], base_camera[2]) * q.normalized();
 }
 
 void CommonFlags::check_output_folder() const {

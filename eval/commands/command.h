@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/tracker/tracker_config.h"
+#include "eval/experiments.h"
 #include "eval/workbench.h"
 
 namespace glovebench::eval {
@@ -31,6 +32,16 @@ struct CommonFlags {
   Workbench workbench() const;
   /// Throws Error if no file can be written to the output folder: before the work, not after it. Makes the folder.
   void check_output_folder() const;
+};
+
+/// Where robot commands go.
+struct RobotFlags {
+  std::string output;
+  std::vector<double> base_camera;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
+
+  void add(CLI::App& command, const std::string& what);
+  /// Throws Error unless the quaternion has unit length.
+  Eigen::Isometry3d T_base_camera() const;
 };
 
 /// Each adds one subcommand to the program.

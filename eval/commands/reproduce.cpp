@@ -19,7 +19,7 @@ struct Reproduce {
   Figure4Options figure4;
   int seed_count = 1;
   bool all_gains = false;
-  std::string robot_folder;
+  RobotFlags robot;
 
   void run() {
     common.tracker_config();  // a wrong configuration is named before anything is built
@@ -31,7 +31,7 @@ struct Reproduce {
 
     Workbench workbench = common.workbench();
     const Plan plan = plan_figure4(common.tracker_config(), figure4);
-    const Outcome outcome = run_experiments(workbench, plan, robot_folder);
+    const Outcome outcome = run_experiments(workbench, plan, {robot.output, robot.T_base_camera()});
     reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
     for (const reports::NoiseSetting& noise : figure4.noises) {
       if (all_gains) fmt::print("Depth noise: {} x{}\n", noise.model, noise.factor);
@@ -62,7 +62,7 @@ void add_reproduce(CLI::App& program) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--all-noise", state->all_gains, "also half and double noise gain, and the kinect noise model");
-  command->add_option("--robot-out", state->robot_folder, "folder for the robot commands of each experiment");
+  state->robot.add(*command, "folder for the robot commands of each experiment");
   command->callback([state] { state->run(); });
 }
 

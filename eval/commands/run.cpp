@@ -26,7 +26,7 @@ struct Run {
   double gain = 1;
   int subject = 1;
   int seed_count = 1;
-  std::string robot_folder;
+  RobotFlags robot;
 
   void run() {
     // A range check lets it pass.
@@ -38,13 +38,17 @@ struct Run {
       if (!plan.replays.empty() && plan.replays.front().truth->side != trajectory->side) {
         throw Error(name, "side", common.left ? "left" : "right", "that of the run's other trajectories");
       }
+      for (const Replay& other : plan.replays) {
+        if (other.truth->name == trajectory->name)
+          throw Error(name, "name", trajectory->name, "one not yet in the run");
+      }
       for (int s = 0; s < seed_count; ++s) {
         plan.replays.push_back({trajectory, subject, {noise, gain}, common.seed + s, databases});
       }
     }
     common.check_output_folder();
     Workbench workbench = common.workbench();
-    const Outcome outcome = run_experiments(workbench, plan, robot_folder);
+    const Outcome outcome = run_experiments(workbench, plan, {robot.output, robot.T_base_camera()});
     reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
     fmt::print("{}", reports::to_markdown(reports::detail_summary(outcome.result)));
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
@@ -87,7 +91,7 @@ void add_run(CLI::App& program) {
   command->add_option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--robot-out", state->robot_folder, "folder for the robot commands of each experiment");
+  state->robot.add(*command, "folder for the robot commands of each experiment");
   state->common.add_tracker(*command);
   state->common.add_machine(*command);
   command->callback([state] { state->run(); });

@@ -19,7 +19,7 @@ struct Track {
   CommonFlags common;
   std::string source;
   std::string database;
-  std::string robot_out;
+  RobotFlags robot;
 
   void run() {
     if (!source.starts_with(kRecordingPrefix)) {
@@ -29,9 +29,9 @@ struct Track {
     Workbench workbench = common.workbench();
     Tracker tracker(common.tracker_config(), device.calibration(), workbench.model(), load_database(workbench),
                     workbench.color_table());
-    std::optional<JsonLinesSink> robot;
-    if (!robot_out.empty()) robot.emplace(robot_out);
-    RobotCommander commander(Eigen::Isometry3d::Identity());
+    std::optional<JsonLinesSink> sink;
+    if (!robot.output.empty()) sink.emplace(robot.output);
+    RobotCommander commander(robot.T_base_camera());
 
     Progress progress("tracking", common.quiet);
     std::string lines;
@@ -40,11 +40,11 @@ struct Track {
       const TrackResult result = tracker.track(*frame);
       lines += estimate_line(frames++, result) + "\n";
       tracked += result.status == TrackStatus::tracked;
-      if (robot) robot->send(commander.command(result));
+      if (sink) sink->send(commander.command(result));
       progress.show(static_cast<double>(frames) / device.frame_count());
     }
     write_file(common.output, lines);
-    if (robot) robot->finish();
+    if (sink) sink->finish();
     fmt::print("{}: {} of {} frames tracked\n", common.output, tracked, frames);
   }
 
@@ -64,7 +64,7 @@ void add_track(CLI::App& program) {
   command->add_option("--database", state->database, "name (`glovebench list databases`) or file (*.glovedb)")
       ->required();
   state->common.add_output(*command, "estimates to write, one line of JSON a frame (*.jsonl)", true);
-  command->add_option("--robot-out", state->robot_out, "robot commands to write (*.jsonl)");
+  state->robot.add(*command, "robot commands to write (*.jsonl)");
   command->add_flag("--left", state->common.left, "a left hand");
   state->common.add_tracker(*command);
   state->common.add_machine(*command);
