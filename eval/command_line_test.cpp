@@ -198,6 +198,21 @@ TEST_F(CommandLine, DesktopSettingsDoNotReachTheRenderer) {
   EXPECT_TRUE(frame({{"MESA_GLSL_VERSION_OVERRIDE", "110"}}) == expected);
 }
 
+TEST_F(CommandLine, NothingCountsTwice) {
+  // One run counted as two would narrow its interval.
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--trajectory", good_trajectory()})),
+              HasSubstr("not yet in the run"));
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--database", "DB_open_power"})), HasSubstr("not yet in the run"));
+  EXPECT_THAT(refusal({"reproduce", "--trajectory", "Tr4", "--trajectory", "Tr4", "-o", path("twice")}),
+              HasSubstr("each once"));
+}
+
+TEST_F(CommandLine, NumbersBeyondDoubleInAConfiguration) {
+  write_file(path("huge.json"), R"({"detection": {"min_pixels": 1e400}})");
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--config", path("huge.json")})),
+              AllOf(HasSubstr("huge.json"), HasSubstr("range")));
+}
+
 TEST_F(CommandLine, TrajectoriesOfBothSides) {
   json left = make_trajectory_json("left", 2);
   left["side"] = "left";
@@ -207,7 +222,8 @@ TEST_F(CommandLine, TrajectoriesOfBothSides) {
 
 TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   const std::vector<std::string> tracker = {"--profile", "--config", "--cascade"};
-  const std::vector<std::string> machine = {"--seed", "--threads", "--cache", "--quiet"};
+  const std::vector<std::string> machine = {"--threads", "--cache", "--quiet"};
+  const std::vector<std::string> random = {"--seed"};
   const auto expect_flags = [](std::vector<std::string> command, const std::vector<std::vector<std::string>>& all) {
     command.push_back("--help");
     const ProgramRun run = run_glovebench(command);
@@ -218,13 +234,15 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
     }
   };
   expect_flags({}, {{"reproduce", "run", "record", "render", "track", "explain", "db", "list", "--version"}});
-  expect_flags({"reproduce"}, {tracker, machine, {"--output", "--trajectory", "--seeds", "--robot-out"}});
+  expect_flags({"reproduce"}, {tracker, machine, random, {"--output", "--trajectory", "--seeds", "--robot-out"}});
   expect_flags({"run"}, {tracker,
                          machine,
+                         random,
                          {"--output", "--trajectory", "--database", "--truth", "--noise", "--gain", "--subject",
                           "--seeds", "--robot-out"}});
-  expect_flags({"record"}, {tracker, machine, {"--output", "--trajectory", "--database"}});
-  expect_flags({"render"}, {tracker, machine, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
+  expect_flags({"record"}, {tracker, machine, random, {"--output", "--trajectory", "--database"}});
+  expect_flags({"render"},
+               {tracker, machine, random, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
   expect_flags({"track"}, {tracker, machine, {"--source", "fakenect:", "--database", "--output", "--left"}});
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});

@@ -109,11 +109,24 @@ TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
   expect_fine(info);
   EXPECT_THAT(info.out, AllOf(HasSubstr("mine, right hand, 756 entries"), HasSubstr("\n  ")));
 
+  // The same postures as a file and as a built database give the same results; other views are not what was built.
+  const auto run_with = [&](const std::string& database, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"run",          "--trajectory", path("good.json"),      "--database",
+                                          path(database), "-o",           path("own-" + database)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  };
+  render_recording("good.json", "dump");
+  expect_fine(run_with("mine.csv"));
+  expect_fine(run_with("mine.glovedb"));
+  EXPECT_EQ(read_file(path("own-mine.csv/results.json")), read_file(path("own-mine.glovedb/results.json")));
+  write_file(path("views.json"), R"({"database": {"view_distance_m": 1.5}})");
+  EXPECT_THAT(refusal(run_with("mine.glovedb", {"--config", path("views.json")})), HasSubstr("mine.glovedb: hash"));
+
   std::string damaged = read_file(path("mine.glovedb"));
   damaged[damaged.size() / 2] ^= 1;
   write_file(path("damaged.glovedb"), damaged);
   write_file(path("short.glovedb"), damaged.substr(0, damaged.size() / 3));
-  render_recording("good.json", "dump");
   for (const std::string name : {"damaged.glovedb", "short.glovedb"}) {
     EXPECT_THAT(refusal(track("dump", path(name), "x.jsonl")), HasSubstr(name));
     EXPECT_THAT(refusal(run_glovebench({"db", "info", path(name)})), HasSubstr(name));

@@ -10,6 +10,7 @@
 
 #include <fstream>
 
+#include "core/base/check.h"
 #include "core/base/hash.h"
 #include "core/robot/json_lines_sink.h"
 #include "eval/program_info.h"
@@ -54,6 +55,7 @@ std::vector<Gathered> gather(const Plan& plan, const std::vector<std::vector<Tra
       auto it =
           std::find_if(experiments.begin(), experiments.end(), [&](const Gathered& g) { return g.key == key; });
       if (it == experiments.end()) it = experiments.insert(it, {key, {}, {}});
+      for (const Replay* other : it->replays) check(other->seed != plan.replays[r].seed, "a seed counts once");
       it->replays.push_back(&plan.replays[r]);
       it->passes.push_back(&pass);
     }
@@ -100,7 +102,7 @@ reports::ExperimentResult evaluate(const Gathered& experiment) {
 }
 
 reports::ExperimentTiming timing_of(const Gathered& experiment) {
-  reports::ExperimentTiming timing{experiment.key, 0, peak_memory_mb(), {}};
+  reports::ExperimentTiming timing{experiment.key, 0, {}};
   for (const TrackedReplay* pass : experiment.passes) {
     for (const reports::StageTiming& stage : pass->stages) {
       auto it = std::find_if(timing.stages.begin(), timing.stages.end(),
@@ -198,6 +200,7 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
     outcome.timings.experiments.push_back(timing_of(experiment));
     if (!robot.folder.empty()) write_robot_commands(robot, experiment);
   }
+  outcome.timings.peak_memory_mb = peak_memory_mb();
   outcome.timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return outcome;
 }

@@ -181,9 +181,7 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
   record.icp_iterations = estimate.icp_iterations;
   if (!estimate.matches.empty()) record.matching_error_px = estimate.matches[0].error;
   if (estimate.status != TrackStatus::tracked) {
-    // The trajectories keep the hand in view, so a lost frame is lost wrongly if anything of it was to be seen.
-    for (const int pixels : truth.visible_pixels)
-      record.false_lost = record.false_lost || pixels >= kObservedPixels;
+    record.false_lost = truth.trackable;
     return errors;
   }
   check_finite(estimate, truth);

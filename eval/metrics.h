@@ -10,7 +10,7 @@
 
 namespace glovebench::eval {
 
-/// A frame counts as covered below these errors (DESIGN: coverage).
+/// A frame counts as covered below these errors.
 inline constexpr double kCoveredPosition_mm = 50;
 inline constexpr double kCoveredRotation_deg = 30;
 /// A joint angle counts as observed when at least this many pixels of what it moves are visible.
@@ -22,6 +22,7 @@ struct FrameTruth {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
   JointPoses T_hand_joint;                        ///< of the hand that was rendered
   std::array<int, kPatchCount> visible_pixels{};  ///< of each patch, in the IR camera
+  bool trackable = false;  ///< enough of the glove is visible within the working volume, and no border cuts it
 };
 
 /// Visible pixels of each patch, from an image of patch + 1.

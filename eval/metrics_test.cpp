@@ -40,6 +40,7 @@ Eigen::Isometry3d some_pose() {
 FrameTruth make_truth() {
   FrameTruth truth{some_posture(), some_pose(), hand().pose(some_posture()).T_hand_joint, {}};
   truth.visible_pixels.fill(1000);
+  truth.trackable = true;
   return truth;
 }
 
@@ -190,7 +191,7 @@ TEST(MeasureFrame, LostFrameHasNoErrors) {
     EXPECT_EQ(has_value, metric.key == "matching_error_px") << metric.key;
   }
   FrameTruth out_of_view = make_truth();
-  out_of_view.visible_pixels.fill(0);
+  out_of_view.trackable = false;
   EXPECT_FALSE(measure(estimate, out_of_view).false_lost);
 }
 

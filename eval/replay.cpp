@@ -36,13 +36,29 @@ class StageTimer {
   Clock::time_point start_;
 };
 
+/// Could a tracker be asked for this frame? Most of the visible glove lies within the working volume, is enough to
+/// be a hand, and does not reach the image border.
+bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config) {
+  int within = 0, beyond = 0;
+  for (int v = 0; v < images.label.height(); ++v) {
+    for (int u = 0; u < images.label.width(); ++u) {
+      if (images.label(u, v) == 0) continue;
+      if (u == 0 || v == 0 || u + 1 == images.label.width() || v + 1 == images.label.height()) return false;
+      const float z = images.depth(u, v);
+      (z >= config.volume.z_min && z <= config.volume.z_max ? within : beyond) += 1;
+    }
+  }
+  return within >= config.detection.min_pixels && within > 2 * beyond;
+}
+
 FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel& subject,
-                    const render::RgbdImages& images) {
+                    const render::RgbdImages& images, const TrackerConfig& config) {
   FrameTruth truth;
   truth.posture = frame.posture;
   truth.T_camera_hand = frame.T_camera_hand;
   truth.T_hand_joint = subject.pose(frame.posture).T_hand_joint;
   truth.visible_pixels = count_patches(images.patch);
+  truth.trackable = is_trackable(images, config);
   return truth;
 }
 
@@ -79,7 +95,7 @@ std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, co
   for (size_t f = 0; f < replay.truth->frames.size(); ++f) {
     const std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
-    const FrameTruth truth = truth_of(replay.truth->frames[f], *subject, kinect.truth());
+    const FrameTruth truth = truth_of(replay.truth->frames[f], *subject, kinect.truth(), config);
     for (size_t t = 0; t < trackers.size(); ++t) {
       const TrackResult result = trackers[t].track(*frame, [&](std::string_view stage) { timers[t].begin(stage); });
       tracked[t].errors.push_back(measure_frame(static_cast<int>(f), result, truth, *model));

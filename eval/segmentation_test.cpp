@@ -143,9 +143,9 @@ Summary summarize(int subject, const std::vector<Count>& counts) {
   return s;
 }
 
-/// A wrong label pulls the alignment to a wrong place; in a prototype 2% of them cost 5 mm, so that is the mean's
-/// bound, and the worst case stays near it. A missed pixel costs only a point, of which there are ten times as
-/// many as the alignment takes; most are the edges between patches. Light as weak and warm as the worst case's
+/// A wrong label pulls the alignment to a wrong place; two in a hundred cost millimetres (README), so that is the
+/// mean's bound, and the worst case stays near it. A missed pixel costs only a point, of which there are ten times
+/// as many as the alignment takes; most are the edges between patches. Light as weak and warm as the worst case's
 /// may take a third.
 void expect_usable(const Summary& s) {
   EXPECT_LT(s.mean_wrong, 0.02);

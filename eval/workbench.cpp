@@ -8,6 +8,7 @@
 #include "eval/share.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
+#include "trajectories/posture_file.h"
 
 namespace glovebench::eval {
 
@@ -39,6 +40,8 @@ std::shared_ptr<const ColorTable> Workbench::color_table() {
 }
 
 std::shared_ptr<const Database> Workbench::database(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  if (const auto it = databases_.find(name); it != databases_.end()) return it->second;
   return database(trajectories::posture_set(trajectory_folder(), name));
 }
 
@@ -56,6 +59,34 @@ std::shared_ptr<const Database> Workbench::database(const PostureSet& postures) 
     database = std::make_shared<Database>(cache.get(postures, *model(), config_.views, kTinySizes));
   }
   return database;
+}
+
+std::string Workbench::add_database(const std::string& name_or_file) {
+  const bool is_built = name_or_file.ends_with(".glovedb");
+  if (!is_built && !name_or_file.ends_with(".csv") && !name_or_file.ends_with(".json")) return name_or_file;
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const Database> built;
+  PostureSet postures;
+  if (is_built) {
+    built = std::make_shared<const Database>(Database::load(name_or_file));
+    postures = built->posture_set();
+    // A database of the other side is for the tracker to refuse.
+    const std::string expected = Database::input_hash(postures, *model(), config_.views);
+    if (built->side() == config_.side && built->hash() != expected) {
+      throw Error(name_or_file, "hash of its inputs", built->hash(), expected + " (this hand and these views)");
+    }
+  } else {
+    postures = trajectories::load_posture_set(name_or_file);
+  }
+  const auto& known = trajectories::posture_set_names();
+  if (!is_built && std::find(known.begin(), known.end(), postures.name) != known.end()) {
+    throw Error(name_or_file, "name", postures.name, "one that is not a built-in posture set's");
+  }
+  if (databases_.contains(postures.name))
+    throw Error(name_or_file, "name", postures.name, "one not yet in the run");
+  if (is_built) databases_[postures.name] = built;
+  if (!is_built) database(postures);
+  return postures.name;
 }
 
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {

@@ -37,6 +37,11 @@ class Workbench {
   std::shared_ptr<const Database> database(const std::string& name);
   /// A database of these postures.
   std::shared_ptr<const Database> database(const PostureSet& postures);
+  /// Makes a database of a file known under its name, which is returned: a built one (*.glovedb) or postures
+  /// (*.csv,
+  /// *.json). Any other text is the name of a posture set and is returned as it is. Throws Error if a built one was
+  /// made for another hand or with other views, or if the name is taken.
+  std::string add_database(const std::string& name_or_file);
 
   /// A tracker for a database.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);

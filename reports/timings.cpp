@@ -17,10 +17,7 @@ Json experiment_json(const ExperimentTiming& timing) {
                            {"p95_ms", rounded_or_null(a.p95)},
                            {"max_ms", rounded_or_null(a.max)}};
   }
-  return {{"experiment", to_string(timing.key)},
-          {"wall_s", rounded(timing.wall_s)},
-          {"peak_memory_mb", rounded_or_null(timing.peak_memory_mb)},
-          {"stages", std::move(stages)}};
+  return {{"experiment", to_string(timing.key)}, {"wall_s", rounded(timing.wall_s)}, {"stages", std::move(stages)}};
 }
 
 }  // namespace
@@ -38,6 +35,7 @@ std::string timings_json(const Timings& timings) {
                       {"commit", timings.commit},
                       {"date", timings.date},
                       {"wall_s", rounded(timings.wall_s)},
+                      {"peak_memory_mb", rounded_or_null(timings.peak_memory_mb)},
                       {"experiments", std::move(experiments)}});
 }
 

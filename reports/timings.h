@@ -17,7 +17,6 @@ struct StageTiming {
 struct ExperimentTiming {
   ExperimentKey key;
   double wall_s = 0;
-  std::optional<double> peak_memory_mb;  ///< of the process so far; empty where it cannot be told
   std::vector<StageTiming> stages;
 };
 
@@ -31,6 +30,9 @@ struct Timings {
   std::string commit;
   std::string date;  ///< ISO 8601, UTC
   double wall_s = 0;
+  /// Of the process; its experiments run side by side and share the databases, so none has a peak of its own. Empty
+  /// where it cannot be told.
+  std::optional<double> peak_memory_mb;
   std::vector<ExperimentTiming> experiments;
 };
 

@@ -97,7 +97,7 @@ std::vector<int> component_sizes(const LabeledCloud& cloud, double depth_step) {
   return sizes;
 }
 
-LabeledCloud largest_component(const LabeledCloud& cloud, const PinholeCamera&, double depth_step) {
+LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step) {
   const std::vector<int> roots = component_roots(cloud, depth_step);
   const std::vector<int> sizes = sizes_by_root(roots);
   const int largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());

@@ -39,6 +39,6 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
 /// glove pixels, largest first, as pixel counts.
 std::vector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
 /// Keeps the largest connected component only (a configuration, not in the paper).
-LabeledCloud largest_component(const LabeledCloud& cloud, const PinholeCamera& camera, double depth_step);
+LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step);
 
 }  // namespace glovebench

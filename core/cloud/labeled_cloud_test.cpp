@@ -81,7 +81,7 @@ TEST(Components, BreakAtDepthSteps) {
 TEST(Components, OfAnEmptyCloudAreNone) {
   const LabeledCloud empty = cloud_of({"....", "...."});
   EXPECT_THAT(component_sizes(empty, 0.05), IsEmpty());
-  EXPECT_TRUE(largest_component(empty, kCamera, 0.05).points.empty());
+  EXPECT_TRUE(largest_component(empty, 0.05).points.empty());
 }
 
 /// Sizes by flood fill, the plain way.
@@ -130,7 +130,7 @@ TEST(LargestComponent, KeepsPointsLabelsAndCountsTogether) {
   LabeledCloud cloud = cloud_of({"nn..fff",  //
                                  "nn..fff"});
   cloud.labeled_outside = 3;
-  const LabeledCloud kept = largest_component(cloud, kCamera, 0.05);
+  const LabeledCloud kept = largest_component(cloud, 0.05);
   ASSERT_EQ(kept.points.size(), 6u);
   for (const LabeledPoint& point : kept.points) EXPECT_EQ(point.p.z(), 0.8f);
   EXPECT_EQ(std::count(kept.labels.begin(), kept.labels.end(), 1), 6);
@@ -150,7 +150,7 @@ TEST(LabeledCloud, CountsWhatReachesOutOfTheVolume) {
   EXPECT_EQ(cloud.points.size(), 2u);
   EXPECT_EQ(cloud.labeled_outside, 4);
   EXPECT_EQ(cloud.labeled_cut_off, 2);  // within 50 mm of an end
-  EXPECT_EQ(largest_component(cloud, camera, 0.05).labeled_cut_off, 2);
+  EXPECT_EQ(largest_component(cloud, 0.05).labeled_cut_off, 2);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
   observe("cloud");
   LabeledCloud cloud = build_cloud(depth, labels, calibration_.ir, config_.volume);
   if (config_.segmentation.largest_component) {
-    cloud = largest_component(cloud, calibration_.ir, config_.detection.component_depth_step);
+    cloud = largest_component(cloud, config_.detection.component_depth_step);
   }
   result.cloud_points = static_cast<int>(cloud.points.size());
   result.status = detect(cloud, config_.detection);

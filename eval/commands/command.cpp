@@ -18,6 +18,8 @@ nlohmann::json parse_json_file(const std::string& path) {
     return nlohmann::json::parse(read_file(path));
   } catch (const nlohmann::json::parse_error& e) {
     throw Error(path, "content", "byte " + std::to_string(e.byte) + " that is no JSON", "a JSON object");
+  } catch (const nlohmann::json::out_of_range&) {
+    throw Error(path, "content", "a number beyond the range of double", "a JSON object");
   }
 }
 
@@ -35,8 +37,11 @@ void CommonFlags::add_tracker(CLI::App& command) {
   command.add_option("--cascade", cascade, "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3");
 }
 
-void CommonFlags::add_machine(CLI::App& command) {
+void CommonFlags::add_seed(CLI::App& command) {
   command.add_option("--seed", seed, "of all random numbers")->check(CLI::NonNegativeNumber)->capture_default_str();
+}
+
+void CommonFlags::add_machine(CLI::App& command) {
   command.add_option("--threads", threads, "0: all cores; results do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -25,6 +25,7 @@ struct CommonFlags {
 
   void add_output(CLI::App& command, const std::string& what, bool required = false);
   void add_tracker(CLI::App& command);
+  void add_seed(CLI::App& command);
   void add_machine(CLI::App& command);
 
   /// Defaults < profile < file < command line. Throws Error.

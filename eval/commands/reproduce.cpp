@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
+#include <set>
 
+#include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/experiments.h"
 #include "eval/explain.h"
@@ -22,6 +23,10 @@ struct Reproduce {
   RobotFlags robot;
 
   void run() {
+    std::set<std::string> once(figure4.trajectories.begin(), figure4.trajectories.end());
+    if (once.size() != figure4.trajectories.size()) {
+      throw Error("--trajectory", "names", "one of them twice", "each once");
+    }
     common.tracker_config();  // a wrong configuration is named before anything is built
     if (common.output.empty()) common.output = "out";
     common.check_output_folder();
@@ -55,6 +60,7 @@ void add_reproduce(CLI::App& program) {
   state->figure4.seeds.clear();
   state->common.add_output(*command, "folder of the report [out]");
   state->common.add_tracker(*command);
+  state->common.add_seed(*command);
   state->common.add_machine(*command);
   command->add_option("--trajectory", state->figure4.trajectories, "only these, e.g. Tr4")
       ->check(CLI::IsMember(trajectories::ground_truth_names()));

@@ -43,11 +43,19 @@ struct Run {
           throw Error(name, "name", trajectory->name, "one not yet in the run");
       }
       for (int s = 0; s < seed_count; ++s) {
-        plan.replays.push_back({trajectory, subject, {noise, gain}, common.seed + s, databases});
+        plan.replays.push_back({trajectory, subject, {noise, gain}, common.seed + s, {}});
       }
     }
     common.check_output_folder();
     Workbench workbench = common.workbench();
+    std::vector<std::string> names;
+    for (const std::string& database : databases) {
+      names.push_back(workbench.add_database(database));
+      if (std::count(names.begin(), names.end(), names.back()) > 1) {
+        throw Error("--database", "name", names.back(), "one not yet in the run");
+      }
+    }
+    for (Replay& replay : plan.replays) replay.databases = names;
     const Outcome outcome = run_experiments(workbench, plan, {robot.output, robot.T_base_camera()});
     reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
     fmt::print("{}", reports::to_markdown(reports::detail_summary(outcome.result)));
@@ -74,7 +82,7 @@ void add_run(CLI::App& program) {
       ->required();
   command
       ->add_option("--database", state->databases,
-                   "posture databases to track against; `glovebench list databases`")
+                   "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)")
       ->required();
   command->add_option("--truth", state->truth, "which truth of Tr1..Tr5")
       ->check(CLI::IsMember({"source", "recorded"}))
@@ -93,6 +101,7 @@ void add_run(CLI::App& program) {
       ->capture_default_str();
   state->robot.add(*command, "folder for the robot commands of each experiment");
   state->common.add_tracker(*command);
+  state->common.add_seed(*command);
   state->common.add_machine(*command);
   command->callback([state] { state->run(); });
 }

@@ -27,7 +27,8 @@ struct Track {
     }
     RecordingDevice device(source.substr(kRecordingPrefix.size()));
     Workbench workbench = common.workbench();
-    Tracker tracker(common.tracker_config(), device.calibration(), workbench.model(), load_database(workbench),
+    const std::string name = workbench.add_database(database);
+    Tracker tracker(common.tracker_config(), device.calibration(), workbench.model(), workbench.database(name),
                     workbench.color_table());
     std::optional<JsonLinesSink> sink;
     if (!robot.output.empty()) sink.emplace(robot.output);
@@ -47,11 +48,6 @@ struct Track {
     if (sink) sink->finish();
     fmt::print("{}: {} of {} frames tracked\n", common.output, tracked, frames);
   }
-
-  std::shared_ptr<const Database> load_database(Workbench& workbench) const {
-    if (database.ends_with(".glovedb")) return std::make_shared<const Database>(Database::load(database));
-    return workbench.database(database);
-  }
 };
 
 }  // namespace
@@ -61,7 +57,9 @@ void add_track(CLI::App& program) {
   const auto state = std::make_shared<Track>();
   command->add_option("--source", state->source, "fakenect:FOLDER, a recording with calibration.json beside it")
       ->required();
-  command->add_option("--database", state->database, "name (`glovebench list databases`) or file (*.glovedb)")
+  command
+      ->add_option("--database", state->database,
+                   "name (`glovebench list databases`) or file (*.glovedb, *.csv, *.json)")
       ->required();
   state->common.add_output(*command, "estimates to write, one line of JSON a frame (*.jsonl)", true);
   state->robot.add(*command, "robot commands to write (*.jsonl)");
