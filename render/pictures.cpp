@@ -46,23 +46,6 @@ ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels) {
   return picture;
 }
 
-ColorImage side_by_side(const std::vector<ColorImage>& images) {
-  int width = 0;
-  for (const ColorImage& image : images) {
-    check(image.height() == images.front().height(), "images side by side have one height");
-    width += image.width();
-  }
-  ColorImage picture(width, images.empty() ? 0 : images.front().height());
-  int left = 0;
-  for (const ColorImage& image : images) {
-    for (int v = 0; v < image.height(); ++v) {
-      for (int u = 0; u < image.width(); ++u) picture(left + u, v) = image(u, v);
-    }
-    left += image.width();
-  }
-  return picture;
-}
-
 std::string encode_png(const ColorImage& image) {
   cv::Mat bgr(image.height(), image.width(), CV_8UC3);
   for (int v = 0; v < image.height(); ++v) {

@@ -13,9 +13,6 @@ ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far
 /// The color image with a white line along the borders of the labeled areas (outer and between colors), e.g. those
 /// of the estimated hand. Both images have one size.
 ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels);
-/// Images side by side, all of one height.
-ColorImage side_by_side(const std::vector<ColorImage>& images);
-
 /// The bytes of a PNG file.
 std::string encode_png(const ColorImage& image);
 /// Writes a PNG, whole or not at all. Throws Error if the file cannot be written.
