@@ -76,7 +76,7 @@ reports::SequenceMetrics measure_sequences(const Gathered& experiment) {
   std::vector<std::optional<double>> position, rotation, latency;
   for (size_t i = 0; i < experiment.passes.size(); ++i) {
     const reports::SequenceMetrics m =
-        measure_sequence(experiment.passes[i]->results, experiment.replays[i]->truth->frames);
+        measure_sequence(experiment.passes[i]->results, frames_of(*experiment.replays[i]));
     position.push_back(m.jitter_position_mm);
     rotation.push_back(m.jitter_rotation_deg);
     latency.push_back(m.latency_frames);
@@ -126,22 +126,20 @@ void write_robot_commands(const RobotOutput& robot, const Gathered& experiment) 
 }
 
 reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& experiments, Workbench& workbench) {
-  std::map<std::string, std::string> truth_hashes;
-  nlohmann::json databases;
-  for (const Replay& replay : plan.replays) {
-    truth_hashes[fmt::format("{}/{}", to_string(truth_kind(*replay.truth)), replay.truth->name)] =
-        trajectories::hash(*replay.truth);
-    for (const std::string& name : replay.databases) databases[name] = workbench.database(name)->hash();
-  }
   reports::RunResult result;
-  result.protocol = reports::make_protocol("by time stamp, exact", std::move(truth_hashes));
+  result.protocol = reports::make_protocol("by time stamp, exact");
+  for (const Replay& replay : plan.replays) {
+    for (const std::string& name : replay.databases) {
+      result.inputs.truths[truth_name(key_of(replay, name))] = trajectories::hash(*replay.truth);
+      result.inputs.databases[name] = workbench.database(name)->hash();
+    }
+  }
+  result.inputs.hand_model = workbench.model()->hash();
+  result.inputs.color_table = hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())));
+  result.suite = plan.suite;
   result.program_version = program_info().version;
   result.commit = program_info().commit;
-  result.configuration = {
-      {"tracker", to_json(plan.tracker)},
-      {"database_hashes", databases},
-      {"model_hash", workbench.model()->hash()},
-      {"color_table_hash", hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())))}};
+  result.configuration = {{"tracker", to_json(plan.tracker)}};
   for (const Gathered& experiment : experiments) result.experiments.push_back(evaluate(experiment));
   return result;
 }
@@ -169,7 +167,7 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
   const auto start = std::chrono::steady_clock::now();
   size_t frames = 0;
   for (const Replay& replay : plan.replays) {
-    frames += replay.truth->frames.size();
+    frames += frames_of(replay).size();
     // Before the threads start: building a database uses all of them itself.
     for (const std::string& name : replay.databases) workbench.database(name);
   }

@@ -12,6 +12,7 @@ namespace glovebench::eval {
 struct Plan {
   TrackerConfig tracker;
   std::vector<Replay> replays;
+  std::string suite = {};  ///< the name of the suite that this is; empty if it is none
 };
 
 struct Figure4Options {

@@ -12,16 +12,14 @@ namespace {
 
 constexpr int kMargin = 20;  // px around the hand
 
-/// The replay cut down to one frame. The noise of a frame hangs on its number, so the frames before it are dropped
-/// by the device, not by the trajectory.
 struct OneFrame {
   DeviceFrame frame;
   render::RgbdImages truth;
 };
-OneFrame take_frame(Workbench& workbench, const Replay& replay, int frame) {
+OneFrame take_frame(Workbench& workbench, Replay replay, int frame) {
+  replay.range = {frame, 1};
   render::SyntheticKinect kinect = make_kinect(workbench, replay);
-  std::optional<DeviceFrame> taken;
-  for (int f = 0; f <= frame; ++f) taken = kinect.next_frame();
+  const std::optional<DeviceFrame> taken = kinect.next_frame();
   return {*taken, kinect.truth()};
 }
 
@@ -96,7 +94,7 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, const Track
 std::vector<reports::Picture> sample_pictures(Workbench& workbench, const Plan& plan) {
   std::vector<reports::Picture> pictures;
   for (const Replay* replay : {&plan.replays.front(), &plan.replays.back()}) {
-    const int frame = static_cast<int>(replay->truth->frames.size()) / 2;
+    const int frame = replay->range.first + static_cast<int>(frames_of(*replay).size()) / 2;
     pictures.push_back({fmt::format("{} ({}), subject {}, frame {}, tracked with {}: every stage of the tracker",
                                     replay->truth->name, to_string(replay->truth->kind), replay->subject, frame,
                                     replay->databases.front()),

@@ -1,8 +1,11 @@
 #include "eval/replay.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
 #include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench::eval {
 namespace {
@@ -64,9 +67,21 @@ FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel&
 
 }  // namespace
 
+std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay) {
+  const std::span<const trajectories::TrajectoryFrame> all = replay.truth->frames;
+  const FrameRange& range = replay.range;
+  const auto have = static_cast<int>(all.size());
+  const int count = range.count.value_or(have - range.first);
+  if (range.first < 0 || count < 1 || range.first > have - count) {
+    throw Error(replay.truth->name, "frames", fmt::format("{} from {} on", count, range.first),
+                fmt::format("some of 0 to {}", have - 1));
+  }
+  return all.subspan(range.first, count);
+}
+
 render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) {
   std::vector<render::HandFrame> frames;
-  for (const trajectories::TrajectoryFrame& frame : replay.truth->frames) {
+  for (const trajectories::TrajectoryFrame& frame : frames_of(replay)) {
     frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
   }
   render::SyntheticKinectConfig config;
@@ -75,6 +90,7 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) 
   config.noise.gain_factor = replay.noise.factor;
   config.seed = replay.seed;
   config.sequence = replay.truth->name;
+  config.first_frame = replay.range.first;
   return render::SyntheticKinect(workbench.calibration(), workbench.subject(replay.subject), std::move(frames),
                                  config);
 }
@@ -92,15 +108,17 @@ std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, co
   const std::shared_ptr<const HandModel> subject = workbench.subject(replay.subject);
 
   render::SyntheticKinect kinect = make_kinect(workbench, replay);
-  for (size_t f = 0; f < replay.truth->frames.size(); ++f) {
+  int number = replay.range.first;
+  for (const trajectories::TrajectoryFrame& true_frame : frames_of(replay)) {
     const std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
-    const FrameTruth truth = truth_of(replay.truth->frames[f], *subject, kinect.truth(), config);
+    const FrameTruth truth = truth_of(true_frame, *subject, kinect.truth(), config);
     for (size_t t = 0; t < trackers.size(); ++t) {
       const TrackResult result = trackers[t].track(*frame, [&](std::string_view stage) { timers[t].begin(stage); });
-      tracked[t].errors.push_back(measure_frame(static_cast<int>(f), result, truth, *model));
+      tracked[t].errors.push_back(measure_frame(number, result, truth, *model));
       tracked[t].results.push_back(result);
     }
+    ++number;
     if (frame_done) frame_done();
   }
   for (size_t t = 0; t < trackers.size(); ++t) tracked[t].stages = timers[t].take();

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,12 @@
 
 namespace glovebench::eval {
 
+/// Consecutive frames of a trajectory.
+struct FrameRange {
+  int first = 0;             ///< >= 0
+  std::optional<int> count;  ///< >= 1; empty: all that follow
+};
+
 /// One pass over a trajectory: rendered once, tracked against each of the databases.
 struct Replay {
   std::shared_ptr<const trajectories::Trajectory> truth;
@@ -22,7 +30,10 @@ struct Replay {
   reports::NoiseSetting noise;
   uint64_t seed = 1;
   std::vector<std::string> databases;
+  FrameRange range = {};
 };
+/// The frames of the truth that are replayed. Throws Error if the trajectory does not have them.
+std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay);
 
 /// What one tracker made of a replay.
 struct TrackedReplay {

@@ -39,7 +39,7 @@ std::optional<DeviceFrame> SyntheticKinect::next_frame() {
   if (next_ == frames_.size()) return std::nullopt;
   const HandFrame& frame = frames_[next_];
   truth_ = renderer_.render(model_->pose(frame.posture), frame.T_camera_hand, config_.lighting);
-  const FrameKey key{config_.seed, config_.sequence, static_cast<int64_t>(next_)};
+  const FrameKey key{config_.seed, config_.sequence, config_.first_frame + static_cast<int64_t>(next_)};
   ++next_;
   return make_device_frame(truth_, calibration(), frame.timestamp_us, config_.noise, key);
 }

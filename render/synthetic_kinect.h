@@ -22,6 +22,7 @@ struct SyntheticKinectConfig {
   NoiseConfig noise;
   uint64_t seed = 1;     ///< of all noise
   std::string sequence;  ///< names the noise streams, e.g. the trajectory's name
+  int first_frame = 0;   ///< number of the first frame in that sequence: the noise of a frame hangs on its number
 };
 
 /// The sensor's part: color noise, depth noise and, always, 11-bit disparity. Frames that differ in noise only can

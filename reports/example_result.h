@@ -43,7 +43,11 @@ inline FrameRecord example_lost_frame(int index) {
 /// one without frames, and one of another noise.
 inline RunResult small_result() {
   RunResult result;
-  result.protocol = make_protocol("by time stamp, exact", {{"Tr1", "00ff"}, {"Tr4", "ff00"}});
+  result.protocol = make_protocol("by time stamp, exact");
+  result.inputs = {{{"source/Tr1", "00ff"}, {"recorded/Tr4", "ff00"}, {"source/Tr4", "f0f0"}},
+                   {{"DB_open_power", "0a"}, {"DB_20_postures", "0b"}},
+                   "0c",
+                   "0d"};
   result.program_version = "0.1.0";
   result.commit = "0123456789";
   result.configuration = {{"profile", "paper"}, {"icp", {{"max_points", 1000}}}};

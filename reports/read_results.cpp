@@ -33,15 +33,26 @@ std::vector<double> read_numbers(const JsonReader& json) {
 }
 
 Protocol read_protocol(const JsonReader& json) {
-  json.expect_keys({"id", "metric_definitions", "joint_order", "metric_keys", "association", "truth_hashes"});
+  json.expect_keys({"id", "metric_definitions", "joint_order", "metric_keys", "association"});
   Protocol protocol;
   protocol.metric_definitions = json["metric_definitions"].count();
   protocol.joint_order = read_texts(json["joint_order"]);
   protocol.metric_keys = read_texts(json["metric_keys"]);
   protocol.association = json["association"].text();
-  for (const auto& [truth, hash] : json["truth_hashes"].members()) protocol.truth_hashes[truth] = hash.text();
   json["id"].expect_text(protocol.id());
   return protocol;
+}
+
+std::map<std::string, std::string> read_hashes(const JsonReader& json) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& [name, hash] : json.members()) hashes[name] = hash.text();
+  return hashes;
+}
+
+InputHashes read_inputs(const JsonReader& json) {
+  json.expect_keys({"truths", "databases", "hand_model", "color_table"});
+  return {read_hashes(json["truths"]), read_hashes(json["databases"]), json["hand_model"].text(),
+          json["color_table"].text()};
 }
 
 FrameRecord read_frame(const JsonReader& json) {
@@ -147,11 +158,15 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   const JsonReader json(document, where);
   json["format"].expect_text(kResultsFormat);
   json["version"].integer(kResultsVersion, kResultsVersion);
-  json.expect_keys({"format", "version", "protocol", "program", "configuration", "frame_columns", "experiments"});
+  json.expect_keys({"format", "version", "protocol", "inputs", "suite", "program", "configuration", "frame_columns",
+                    "experiments"});
   json["program"].expect_keys({"version", "commit"});
-  if (read_texts(json["frame_columns"]) != frame_columns()) json["frame_columns"].fail("the columns of version 1");
+  if (read_texts(json["frame_columns"]) != frame_columns())
+    json["frame_columns"].fail("the columns of this version");
   RunResult result;
   result.protocol = read_protocol(json["protocol"]);
+  result.inputs = read_inputs(json["inputs"]);
+  if (!json["suite"].is_null()) result.suite = json["suite"].text();
   result.program_version = json["program"]["version"].text();
   result.commit = json["program"]["commit"].text();
   result.configuration = json["configuration"].object();

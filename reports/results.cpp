@@ -91,17 +91,20 @@ ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurv
 }
 
 std::string Protocol::id() const {
-  const nlohmann::json content = {metric_definitions, joint_order, metric_keys, association, truth_hashes};
+  const nlohmann::json content = {metric_definitions, joint_order, metric_keys, association};
   return hash_text(content.dump());
 }
 
-Protocol make_protocol(std::string association, std::map<std::string, std::string> truth_hashes) {
+Protocol make_protocol(std::string association) {
   Protocol protocol;
   for (const AngleInfo& info : angle_infos()) protocol.joint_order.emplace_back(info.name);
   for (const Metric& metric : metrics()) protocol.metric_keys.emplace_back(metric.key);
   protocol.association = std::move(association);
-  protocol.truth_hashes = std::move(truth_hashes);
   return protocol;
+}
+
+std::string truth_name(const ExperimentKey& key) {
+  return fmt::format("{}/{}", to_string(key.truth), key.trajectory);
 }
 
 NoiseSetting headline_noise(const RunResult& result) {

@@ -78,7 +78,7 @@ struct ExperimentKey {
 /// Names files: "Tr4_DB_open_power_recorded_subject1_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
-/// The frames of one noise seed, all of the trajectory's in order.
+/// The frames of one noise seed, consecutive ones of the trajectory.
 struct SeedRun {
   uint64_t seed = 0;
   std::vector<FrameRecord> frames;
@@ -126,23 +126,38 @@ struct ExperimentResult {
 ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
                            const BootstrapConfig& bootstrap = {});
 
-/// What must be equal for two results to be compared.
+/// How the numbers of a result are to be understood: results of different protocols are never compared.
 struct Protocol {
   int metric_definitions = 1;            ///< raised whenever a metric changes its meaning
   std::vector<std::string> joint_order;  ///< the 22 angles
   std::vector<std::string> metric_keys;  ///< with their units
   std::string association;               ///< how estimates meet truths, e.g. "by time stamp, exact"
-  std::map<std::string, std::string> truth_hashes;
 
   std::string id() const;  ///< hash of all of the above
   friend bool operator==(const Protocol&, const Protocol&) = default;
 };
-/// The protocol of this program for these truths.
-Protocol make_protocol(std::string association, std::map<std::string, std::string> truth_hashes);
+/// The protocol of this program.
+Protocol make_protocol(std::string association);
+
+/// Content hashes of what the experiments were made of. They stand beside the protocol, not in it, so that a part
+/// of a run can be compared with the whole: experiments are comparable when their own truth and database are the
+/// same.
+struct InputHashes {
+  std::map<std::string, std::string> truths;     ///< by truth_name
+  std::map<std::string, std::string> databases;  ///< by the database's name
+  std::string hand_model;                        ///< the tracker's
+  std::string color_table;
+
+  friend bool operator==(const InputHashes&, const InputHashes&) = default;
+};
+/// Names a truth among the inputs: "source/Tr4".
+std::string truth_name(const ExperimentKey& key);
 
 /// All that a run found, and nothing that differs when the same commit runs again.
 struct RunResult {
   Protocol protocol;
+  InputHashes inputs;
+  std::string suite;  ///< the suite's name; empty if the run was of none
   std::string program_version;
   std::string commit;
   nlohmann::json configuration = nlohmann::json::object();  ///< effective

@@ -24,6 +24,6 @@ RunResult read_results(const std::string& path);
 RunResult parse_results(const std::string& text, const std::string& where);
 
 inline constexpr std::string_view kResultsFormat = "glovebench-results";
-inline constexpr int kResultsVersion = 1;
+inline constexpr int kResultsVersion = 2;
 
 }  // namespace glovebench::reports

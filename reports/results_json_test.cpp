@@ -77,7 +77,7 @@ TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
   EXPECT_THAT(error_of("{\"format\": "), HasSubstr("results.json: byte"));
   EXPECT_THAT(error_of("[]"), HasSubstr("top level: found 0 items, expected an object"));
   EXPECT_THAT(error_of("{}"), HasSubstr("format: found nothing"));
-  EXPECT_THAT(error_of_change([](json& r) { r["version"] = 2; }), HasSubstr("version: found 2, expected"));
+  EXPECT_THAT(error_of_change([](json& r) { r["version"] = 1; }), HasSubstr("version: found 1, expected"));
   EXPECT_THAT(error_of_change([](json& r) { r["protocol"]["association"] = "nearest"; }), HasSubstr("protocol.id"));
   EXPECT_THAT(error_of_change([](json& r) { r["mood"] = "good"; }), HasSubstr("unknown key \"mood\""));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0].erase("runs"); }),

@@ -69,9 +69,9 @@ struct Explain {
 
   static void check_truth(const reports::RunResult& results, const reports::ExperimentKey& key,
                           const Trajectory& truth, const std::string& path) {
-    const std::string name = fmt::format("{}/{}", to_string(key.truth), key.trajectory);
-    const auto it = results.protocol.truth_hashes.find(name);
-    const std::string expected = it == results.protocol.truth_hashes.end() ? "nothing" : it->second;
+    const std::string name = truth_name(key);
+    const auto it = results.inputs.truths.find(name);
+    const std::string expected = it == results.inputs.truths.end() ? "nothing" : it->second;
     const std::string found = trajectories::hash(truth);
     if (found != expected) throw Error(path, "hash of " + name, found, expected + " (the truth of the run)");
   }

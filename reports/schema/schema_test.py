@@ -37,9 +37,10 @@ class SchemaTest(unittest.TestCase):
             return r["experiments"][0]["runs"][0]["frames"][0]
 
         changes = {
-            "another version": lambda r: r.update(version=2),
+            "another version": lambda r: r.update(version=1),
             "unknown key": lambda r: r.update(extra=1),
             "missing key": lambda r: r["experiments"][0].pop("coverage"),
+            "text for the hashes": lambda r: r.update(inputs="0a"),
             "unknown truth": lambda r: r["experiments"][0].update(truth="guessed"),
             "unknown status": lambda r: frame(r).__setitem__(2, "fine"),
             "text for an error": lambda r: frame(r).__setitem__(9, "3 mm"),

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/comparison/comparison.h"
+#include "reports/comparison/gate.h"
+#include "reports/page.h"
+
+namespace glovebench::reports {
+
+/// A comparison with what belongs to its report.
+struct ComparisonReport {
+  Comparison comparison;
+  std::vector<SpeedRow> speed;    ///< empty where none was measured
+  std::vector<Picture> pictures;  ///< of the worst frames
+};
+
+/// For a terminal: at most 120 columns. Rows that are neither "same" nor unchanged, or all of them; then a line
+/// that counts the verdicts.
+std::string comparison_table(const ComparisonReport& report, bool all_rows);
+/// For a job summary or a pull request's comment: the verdict first.
+std::string comparison_markdown(const ComparisonReport& report);
+std::string comparison_json(const ComparisonReport& report);  ///< reports/schema/comparison.schema.json
+std::string comparison_csv(const ComparisonReport& report);
+std::string comparison_latex(const ComparisonReport& report);  ///< a tabular (booktabs), to \input
+/// JUnit XML: a test suite for each experiment, a case for each quantity, one for each speed ratio. A case fails if
+/// it stops the change (gate.h), and is skipped where there is not enough data.
+std::string comparison_junit(const ComparisonReport& report);
+/// The same for results that could not be compared: one case with an error.
+std::string incomparable_junit(const std::string& message);
+std::string comparison_page(const ComparisonReport& report);
+
+/// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html, each file whole, all or none, and returns
+/// their names. Throws Error if the folder cannot be written.
+std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report);
+
+}  // namespace glovebench::reports

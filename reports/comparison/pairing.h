@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+/// Two results that say nothing about each other: of another protocol, truth, database, or other frames. The
+/// message is that of an Error. The command line ends with exit code 3.
+class Incomparable : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A result and what it is called in messages: its file or folder.
+struct NamedResult {
+  std::string name;
+  RunResult result;
+};
+
+struct PairingOptions {
+  /// The candidate was run with other noise seeds, as many: they are paired in their order. Otherwise the seeds
+  /// must be the same.
+  bool other_seeds = false;
+  /// Compare the experiments that both have. Otherwise the candidate must have all of the baseline's.
+  bool partial = false;
+};
+
+/// The experiments that both results have, of the same frames: run i of one belongs to run i of the other, frame j
+/// to frame j. The pointers refer to the results.
+struct Pairing {
+  std::vector<std::pair<const ExperimentResult*, const ExperimentResult*>> experiments;  ///< baseline, candidate
+  std::vector<std::string> only_in_baseline;                                             ///< names of experiments
+  std::vector<std::string> only_in_candidate;
+};
+
+/// Throws Incomparable naming the first field that differs: protocol (which member of it), the hash of a shared
+/// truth or database, seeds, frame numbers and time stamps (a frame that left the result, lost or not, is one that
+/// differs), or an experiment that the candidate lacks; also if there is nothing to compare.
+Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
+
+}  // namespace glovebench::reports

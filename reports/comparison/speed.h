@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace glovebench::reports {
+
+/// How many times faster than the plain implementation, both timed in one process: what of a speed can be compared
+/// between machines.
+struct SpeedRatio {
+  std::string name;  ///< of the benchmark, without /plain and /fast
+  double ratio = 0;  ///< plain / fast, of the medians of CPU times
+  double low = 0;    ///< smallest and largest ratio of a pair of repetitions
+  double high = 0;
+
+  friend bool operator==(const SpeedRatio&, const SpeedRatio&) = default;
+};
+
+/// From a JSON file of glovebench_bench (Google Benchmark's --benchmark_out), in which every pair NAME/plain,
+/// NAME/fast has at least three repetitions. Throws Error, also if there is no pair.
+std::vector<SpeedRatio> read_speed_ratios(const std::string& path);
+
+/// One ratio against the baseline's.
+struct SpeedRow {
+  std::string name;
+  double baseline = 0;
+  double candidate = 0;
+  double limit = 0;  ///< below it the fast implementation has become slower: kSpeedShare of the baseline's
+  bool slower = false;
+};
+inline constexpr double kSpeedShare = 0.7;
+/// Throws Incomparable if the candidate lacks a ratio of the baseline's.
+std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,
+                                    const std::vector<SpeedRatio>& candidate, const std::string& candidate_name);
+
+}  // namespace glovebench::reports

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/tracker/track_result.h"
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+/// What the tracker said about one frame, smoothed as always.
+struct Estimate {
+  uint64_t seed = 0;
+  int frame = 0;
+  int64_t timestamp_us = 0;
+  TrackStatus status = TrackStatus::no_hand;
+  Posture posture = Posture::Zero();                                ///< rad
+  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m
+};
+
+/// Of one experiment: every frame, seed after seed.
+struct ExperimentEstimates {
+  ExperimentKey key;
+  std::vector<Estimate> estimates;
+};
+
+/// "estimates/EXPERIMENT.csv" in a run's folder.
+std::string estimates_file(const ExperimentKey& key);
+/// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, the 22 angles (deg);
+/// numbers rounded to 1e-6. Empty cells for a lost frame.
+std::string estimates_csv(const ExperimentEstimates& estimates);
+/// Throws Error naming file, line and column for whatever estimates_csv does not write.
+std::vector<Estimate> read_estimates(const std::string& path);
+
+}  // namespace glovebench::reports
