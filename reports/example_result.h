@@ -87,9 +87,13 @@ inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t
 inline RunResult full_result() {
   RunResult result = small_result();
   result.experiments.clear();
+  result.inputs.databases = {
+      {"DB_open_pinch", "0a"}, {"DB_open_power", "0b"}, {"DB_open_pinch_power", "0c"}, {"DB_20_postures", "0d"}};
   for (int t = 1; t <= 5; ++t) {
     const std::string trajectory = "Tr" + std::to_string(t);
     const int frames = t == 1 ? 137 : 117;
+    result.inputs.truths["recorded/" + trajectory] = "ff00";
+    result.inputs.truths["source/" + trajectory] = "f0f0";
     double level = 2;
     for (const char* database :
          {t <= 2 ? "DB_open_pinch" : "DB_open_power", "DB_open_pinch_power", "DB_20_postures"}) {

@@ -38,7 +38,8 @@ struct NoiseFloor {
 /// of Student's t that holds the family error over all entries, times the spread of a difference of two means of
 /// `seeds_per_result` seeds; never below the quantity's tolerance, and for a share never below two frames.
 /// `detectable` comes from comparing draws of disjoint seeds by the very procedure of compare_results, with the
-/// same amount added to every frame of one of them.
+/// same amount added to every frame of one of them. A row without values, or too short for an interval, has no
+/// entry. All experiments have the same seeds, else Error. The date is the caller's to fill in.
 NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error = 0.01);
 
 std::string noise_floor_json(const NoiseFloor& floor);

@@ -39,8 +39,9 @@ struct Pairing {
 };
 
 /// Throws Incomparable naming the first field that differs: protocol (which member of it), the hash of a shared
-/// truth or database, seeds, frame numbers and time stamps (a frame that left the result, lost or not, is one that
-/// differs), or an experiment that the candidate lacks; also if there is nothing to compare.
+/// truth or database (also if a file does not say it), an experiment that is there twice, seeds, frame numbers and
+/// time stamps (a frame that left the result, lost or not, is one that differs), or an experiment that the
+/// candidate lacks; also if there is nothing to compare.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 
 }  // namespace glovebench::reports

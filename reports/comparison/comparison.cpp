@@ -1,0 +1,122 @@
+#include "reports/comparison/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/comparison/comparison_rows.h"
+#include "reports/comparison/worst_frames.h"
+
+namespace glovebench::reports {
+namespace {
+
+using nlohmann::json;
+
+ComparedResult compared(const NamedResult& named) {
+  const RunResult& result = named.result;
+  return {named.name, result.program_version, result.commit, result.suite};
+}
+
+bool have_other_seeds(const Pairing& pairing) {
+  for (const auto& [baseline, candidate] : pairing.experiments)
+    if (!std::ranges::equal(baseline->runs, candidate->runs, {}, &SeedRun::seed, &SeedRun::seed)) return true;
+  return false;
+}
+
+FrameDifferences frame_differences(const ExperimentResult& baseline, const ExperimentResult& candidate) {
+  FrameDifferences result;
+  result.experiment = to_string(baseline.key);
+  if (baseline.runs.empty() || baseline.runs.front().frames.empty()) return result;
+  result.first_frame = baseline.runs.front().frames.front().frame;
+  for (int q = 0; q < kQuantityCount; ++q) {
+    const auto by_seed = paired_differences(quantities()[q], baseline.runs, candidate.runs).by_seed;
+    for (size_t f = 0; f < by_seed.front().size(); ++f) {
+      std::vector<double> values;
+      for (const auto& row : by_seed)
+        if (row[f]) values.push_back(*row[f]);
+      result.differences[q].push_back(mean(values));
+    }
+  }
+  return result;
+}
+
+/// "icp.max_iterations": the way to each value of the tracker's configuration.
+std::map<std::string, std::string> flat_configuration(const RunResult& result) {
+  std::map<std::string, std::string> fields;
+  const auto tracker = result.configuration.find("tracker");
+  if (tracker == result.configuration.end() || !tracker->is_object()) return fields;
+  for (const auto& [pointer, value] : tracker->flatten().items()) {
+    std::string field = pointer.substr(std::min<size_t>(1, pointer.size()));
+    std::ranges::replace(field, '/', '.');
+    fields[field] = value.dump(-1, ' ', true, json::error_handler_t::replace);
+  }
+  return fields;
+}
+
+std::vector<ConfigurationChange> configuration_changes(const RunResult& baseline, const RunResult& candidate) {
+  std::map<std::string, ConfigurationChange> fields;
+  for (const auto& [field, value] : flat_configuration(baseline)) fields[field].baseline = value;
+  for (const auto& [field, value] : flat_configuration(candidate)) fields[field].candidate = value;
+  std::vector<ConfigurationChange> changes;
+  for (auto& [field, change] : fields)
+    if (change.baseline != change.candidate) changes.push_back({field, change.baseline, change.candidate});
+  return changes;
+}
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::better:
+      return "better";
+    case Verdict::worse:
+      return "worse";
+    case Verdict::same:
+      return "same";
+    case Verdict::not_enough_data:
+      break;
+  }
+  return "not enough data";
+}
+
+Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
+                           const PairingOptions& pairing_options, const CompareConfig& config) {
+  const Pairing pairing = pair_results(baseline, candidate, pairing_options);
+  Draws draws(config.seed, config.resamples);
+  Comparison comparison;
+  comparison.baseline = compared(baseline);
+  comparison.candidate = compared(candidate);
+  comparison.config = config;
+  comparison.other_seeds = have_other_seeds(pairing);
+  comparison.has_noise_floor = floor != nullptr;
+  comparison.rows = comparison_rows(pairing, floor, config, draws);
+  for (const auto& [before, after] : pairing.experiments) {
+    comparison.seeds = std::max(comparison.seeds, static_cast<int>(before->runs.size()));
+    comparison.frames.push_back(frame_differences(*before, *after));
+  }
+  comparison.worst = worst_frames(pairing);
+  comparison.configuration = configuration_changes(baseline.result, candidate.result);
+  comparison.only_in_baseline = pairing.only_in_baseline;
+  comparison.only_in_candidate = pairing.only_in_candidate;
+  return comparison;
+}
+
+std::string comparison_explanation(const Comparison& comparison) {
+  const CompareConfig& config = comparison.config;
+  const std::string noise =
+      comparison.other_seeds
+          ? "The two were run with other noise seeds, so their frames share the movement but not the noise. "
+          : "";
+  return fmt::format(
+      "Differences are candidate minus baseline, frame by frame and seed by seed, over the frames that have the "
+      "value in both; above zero is worse. For these trajectories: intervals are Student's t times the standard "
+      "error of a paired bootstrap over blocks of at least {} successive frames and over noise seeds ({}), and all "
+      "{} of them hold together with {:g}% probability; they say nothing about other movements or hands. {}Better "
+      "or worse: the interval excludes zero and the difference is at least the minimum effect ({}). Same: the "
+      "whole interval lies within the minimum effect. Not enough data: neither.",
+      config.block_frames, comparison.seeds, comparison.rows.size(), 100 * (1 - config.family_error), noise,
+      comparison.has_noise_floor ? "measured over other noise seeds" : "a default: no noise floor was measured");
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,155 @@
+#include "reports/comparison/comparison_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+
+namespace glovebench::reports {
+namespace {
+
+/// A row of one experiment and what the row over all experiments needs of it.
+struct ResampledRow {
+  ComparisonRow row;
+  std::string trajectory;
+  Eigen::VectorXd means;  ///< of the resamples; none where there are fewer than two blocks
+};
+
+void set_interval(ComparisonRow& row, const Eigen::VectorXd& means, double tail_error, int degrees_of_freedom) {
+  const std::optional<double> error = standard_error(means);
+  if (!error) return;
+  const double half_width = student_t_above(tail_error, degrees_of_freedom) * *error;
+  row.low = *row.difference - half_width;
+  row.high = *row.difference + half_width;
+}
+
+ResampledRow experiment_row(int quantity, const ExperimentResult& baseline, const ExperimentResult& candidate,
+                            const CompareConfig& config, Draws& draws) {
+  const PairedDifferences differences = paired_differences(quantities()[quantity], baseline.runs, candidate.runs);
+  ResampledRow result = {{}, baseline.key.trajectory, {}};
+  ComparisonRow& row = result.row;
+  row.experiment = to_string(baseline.key);
+  row.quantity = quantity;
+  row.pairs = differences.pairs;
+  row.frames = differences.frames;
+  row.baseline = differences.baseline_mean;
+  row.candidate = differences.candidate_mean;
+  row.difference = differences.mean;
+  const BlockSums sums = block_sums(differences, config.block_frames);
+  row.blocks = static_cast<int>(sums.sums.rows());
+  if (row.blocks >= 2) result.means = resampled_means(sums, result.trajectory, draws);
+  return result;
+}
+
+/// Those that a row over all experiments can say something about: with an interval of their own, or, if there is
+/// none, with a difference.
+std::vector<const ResampledRow*> members_of_all(const std::vector<ResampledRow>& experiments) {
+  std::vector<const ResampledRow*> members, with_difference;
+  for (const ResampledRow& experiment : experiments) {
+    if (experiment.means.size() > 0) members.push_back(&experiment);
+    if (experiment.row.difference) with_difference.push_back(&experiment);
+  }
+  return members.empty() ? with_difference : members;
+}
+
+/// Experiments on one trajectory repeat its blocks, which are counted once.
+std::map<std::string, int> blocks_by_trajectory(const std::vector<const ResampledRow*>& members) {
+  std::map<std::string, int> blocks;
+  for (const ResampledRow* member : members) {
+    int& fewest = blocks.try_emplace(member->trajectory, member->row.blocks).first->second;
+    fewest = std::min(fewest, member->row.blocks);
+  }
+  return blocks;
+}
+
+ComparisonRow all_row(int quantity, const std::vector<ResampledRow>& experiments, double tail_error) {
+  ComparisonRow row;
+  row.experiment = kAllExperiments;
+  row.quantity = quantity;
+  const std::vector<const ResampledRow*> members = members_of_all(experiments);
+  if (members.empty()) {
+    for (const ResampledRow& experiment : experiments) row.frames += experiment.row.frames;
+    return row;
+  }
+  const auto count = static_cast<double>(members.size());
+  double baseline = 0, candidate = 0, difference = 0;
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(members.front()->means.size());
+  for (const ResampledRow* member : members) {
+    row.pairs += member->row.pairs;
+    row.frames += member->row.frames;
+    baseline += *member->row.baseline;
+    candidate += *member->row.candidate;
+    difference += *member->row.difference;
+    means += member->means;
+  }
+  row.baseline = baseline / count;
+  row.candidate = candidate / count;
+  row.difference = difference / count;
+  int degrees_of_freedom = 0;
+  for (const auto& [trajectory, blocks] : blocks_by_trajectory(members)) {
+    row.blocks += blocks;
+    degrees_of_freedom += blocks - 1;
+  }
+  if (means.size() > 0) set_interval(row, means / count, tail_error, degrees_of_freedom);
+  return row;
+}
+
+void check_config(const CompareConfig& config) {
+  check(config.family_error > 0 && config.family_error < 1, "the family error is a probability");
+  check(config.block_frames >= 16 && config.resamples >= 100, "a bootstrap has blocks and resamples");
+}
+
+}  // namespace
+
+bool reaches(double difference, double minimum_effect) {
+  return difference >= minimum_effect - kNegligible;
+}
+
+Verdict verdict_of(const ComparisonRow& row) {
+  if (!row.difference || !row.low || !row.high) return Verdict::not_enough_data;
+  if (*row.low > kNegligible && reaches(*row.difference, row.minimum_effect)) return Verdict::worse;
+  if (*row.high < -kNegligible && reaches(-*row.difference, row.minimum_effect)) return Verdict::better;
+  const double farthest = std::max(-*row.low, *row.high);
+  return farthest < row.minimum_effect - kNegligible ? Verdict::same : Verdict::not_enough_data;
+}
+
+double least_effect(const Quantity& quantity, int frames) {
+  constexpr double kFewestFrames = 2, kPercent = 100;
+  if (!quantity.is_share || frames == 0) return quantity.tolerance;
+  return std::max(quantity.tolerance, kPercent * kFewestFrames / frames);
+}
+
+double minimum_effect(const Quantity& quantity, std::string_view experiment, int frames, const NoiseFloor* floor) {
+  const NoiseFloorEntry* entry = floor ? floor->find(experiment, quantity.key) : nullptr;
+  return std::max(entry ? entry->minimum_effect : quantity.default_minimum_effect, least_effect(quantity, frames));
+}
+
+int row_count(size_t experiments) {
+  return kQuantityCount * (static_cast<int>(experiments) + 1);
+}
+
+std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
+                                           const CompareConfig& config, Draws& draws) {
+  check_config(config);
+  const size_t experiments = pairing.experiments.size();
+  const double tail_error = config.family_error / (2 * row_count(experiments));
+  std::vector<ComparisonRow> rows(row_count(experiments));
+  for (int q = 0; q < kQuantityCount; ++q) {
+    std::vector<ResampledRow> resampled;
+    for (const auto& [baseline, candidate] : pairing.experiments)
+      resampled.push_back(experiment_row(q, *baseline, *candidate, config, draws));
+    rows[q] = all_row(q, resampled, tail_error);
+    for (size_t e = 0; e < experiments; ++e) {
+      auto& [row, trajectory, means] = resampled[e];
+      if (means.size() > 0) set_interval(row, means, tail_error, row.blocks - 1);
+      rows[(e + 1) * kQuantityCount + q] = row;
+    }
+  }
+  for (ComparisonRow& row : rows) {
+    row.minimum_effect = minimum_effect(quantities()[row.quantity], row.experiment, row.frames, floor);
+    row.verdict = verdict_of(row);
+  }
+  return rows;
+}
+
+}  // namespace glovebench::reports

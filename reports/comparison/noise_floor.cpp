@@ -1,0 +1,186 @@
+#include "reports/comparison/noise_floor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/random.h"
+#include "reports/comparison/comparison_rows.h"
+
+namespace glovebench::reports {
+namespace {
+
+constexpr int kDraws = 100;
+constexpr double kPower = 0.9;
+/// The standard error of a draw is known to 2% of itself; the quantile over the draws is coarser than that.
+constexpr int kResamples = 1000;
+
+/// The mean of each seed; empty for a quantity that some seed has no value of.
+using SeedMeans = std::optional<std::vector<double>>;
+
+SeedMeans seed_means(const Quantity& quantity, const ExperimentResult& experiment) {
+  std::vector<double> means;
+  for (const SeedRun& run : experiment.runs) {
+    std::vector<double> values;
+    for (const FrameRecord& frame : run.frames)
+      if (const auto value = value_of(quantity, frame)) values.push_back(*value);
+    if (values.empty()) return std::nullopt;
+    means.push_back(*mean(values));
+  }
+  return means;
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  const double center = *mean(values);
+  double squares = 0;
+  for (const double value : values) squares += (value - center) * (value - center);
+  return std::sqrt(squares / (static_cast<double>(values.size()) - 1));
+}
+
+/// Of one quantity: over all experiments, and of each; empty where it has none.
+struct Spreads {
+  std::optional<double> all;
+  std::vector<std::optional<double>> experiments;
+  int measured = 0;  ///< experiments that have one
+};
+
+/// Few seeds estimate a spread badly, and one that came out too small would raise false alarms: the spread of all
+/// experiments, as a root mean square, bounds that of each from below.
+Spreads measure_spreads(const Quantity& quantity, const RunResult& result) {
+  Spreads spreads;
+  std::vector<double> measured, sums(result.experiments.front().runs.size());
+  for (const ExperimentResult& experiment : result.experiments) {
+    const SeedMeans means = seed_means(quantity, experiment);
+    spreads.experiments.emplace_back();
+    if (!means) continue;
+    measured.push_back(standard_deviation(*means));
+    spreads.experiments.back() = measured.back();
+    for (size_t s = 0; s < sums.size(); ++s) sums[s] += (*means)[s];
+  }
+  spreads.measured = static_cast<int>(measured.size());
+  if (measured.empty()) return spreads;
+  spreads.all = standard_deviation(sums) / spreads.measured;
+  for (auto& spread : spreads.experiments)
+    if (spread) spread = std::max(*spread, *rms(measured));
+  return spreads;
+}
+
+int frames_of(const ExperimentResult& experiment, int seeds) {
+  return seeds * static_cast<int>(experiment.runs.front().frames.size());
+}
+
+/// One entry for each row of a comparison that has a spread, without `detectable`.
+std::vector<NoiseFloorEntry> measure_effects(const RunResult& result, const NoiseFloor& floor) {
+  const double tail_error = floor.family_error / (2 * row_count(result.experiments.size()));
+  const double difference_of_means = std::sqrt(2.0 / floor.seeds_per_result);
+  std::vector<NoiseFloorEntry> entries;
+  for (const Quantity& quantity : quantities()) {
+    const Spreads spreads = measure_spreads(quantity, result);
+    const auto add = [&](std::string experiment, double spread, int degrees_of_freedom, int frames) {
+      const double effect = student_t_above(tail_error, degrees_of_freedom) * spread * difference_of_means;
+      entries.push_back({std::move(experiment), std::string(quantity.key), spread,
+                         std::max(effect, least_effect(quantity, frames)), 0});
+    };
+    int all_frames = 0;
+    for (size_t e = 0; e < result.experiments.size(); ++e) {
+      const ExperimentResult& experiment = result.experiments[e];
+      if (!spreads.experiments[e]) continue;
+      const int frames = frames_of(experiment, floor.seeds_per_result);
+      all_frames += frames;
+      add(to_string(experiment.key), *spreads.experiments[e], spreads.measured * (floor.seeds - 1), frames);
+    }
+    if (spreads.all) add(std::string(kAllExperiments), *spreads.all, floor.seeds - 1, all_frames);
+  }
+  return entries;
+}
+
+/// Two results of disjoint seeds, drawn from one of many.
+std::pair<RunResult, RunResult> draw_results(const RunResult& result, int seeds, int draw) {
+  std::vector<size_t> order(result.experiments.front().runs.size());
+  for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+  RandomStream random(1, "noise floor", draw, "seeds");
+  for (int i = 0; i < 2 * seeds; ++i) std::swap(order[i], order[i + random.index(order.size() - i)]);
+  std::pair<RunResult, RunResult> drawn;
+  for (const ExperimentResult& experiment : result.experiments) {
+    ExperimentResult &first = drawn.first.experiments.emplace_back(),
+                     &second = drawn.second.experiments.emplace_back();
+    first.key = second.key = experiment.key;
+    for (int i = 0; i < seeds; ++i) {
+      first.runs.push_back(experiment.runs[order[i]]);
+      second.runs.push_back(experiment.runs[order[seeds + i]]);
+    }
+  }
+  return drawn;
+}
+
+/// What must be added to every frame of the candidate to have the row called worse.
+double needed_change(const ComparisonRow& row) {
+  const double half_width = *row.high - *row.difference;
+  return std::max(row.minimum_effect, half_width) - *row.difference;
+}
+
+/// The entries that a comparison has an interval for, with the change that it detects.
+std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const NoiseFloor& floor) {
+  const CompareConfig config = {.family_error = floor.family_error, .resamples = kResamples};
+  Draws draws(config.seed, config.resamples);
+  std::map<std::pair<std::string, std::string>, std::vector<double>> needed;
+  for (int d = 0; d < kDraws; ++d) {
+    const auto [baseline, candidate] = draw_results(result, floor.seeds_per_result, d);
+    Pairing pairing;
+    for (size_t e = 0; e < baseline.experiments.size(); ++e)
+      pairing.experiments.emplace_back(&baseline.experiments[e], &candidate.experiments[e]);
+    for (const ComparisonRow& row : comparison_rows(pairing, &floor, config, draws))
+      if (row.high)
+        needed[{row.experiment, std::string(quantities()[row.quantity].key)}].push_back(needed_change(row));
+  }
+  std::vector<NoiseFloorEntry> entries;
+  for (NoiseFloorEntry entry : floor.entries) {
+    const std::vector<double>& changes = needed[{entry.experiment, entry.quantity}];
+    if (changes.size() < kDraws) continue;
+    entry.detectable = std::max(0.0, *percentile(changes, kPower));
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+void check_seeds(const RunResult& result, int seeds_per_result) {
+  constexpr const char* kWhere = "noise floor";
+  const int fewest = 4 * seeds_per_result;
+  if (result.experiments.empty()) throw Error(kWhere, "experiments", "none", "at least one");
+  const std::vector<SeedRun>& first = result.experiments.front().runs;
+  for (const ExperimentResult& experiment : result.experiments) {
+    const auto seeds = static_cast<int>(experiment.runs.size());
+    const std::string field = to_string(experiment.key) + ".seeds";
+    if (seeds < fewest) throw Error(kWhere, field, std::to_string(seeds), fmt::format("at least {}", fewest));
+    if (!std::ranges::equal(experiment.runs, first, {}, &SeedRun::seed, &SeedRun::seed))
+      throw Error(kWhere, field, "other seeds", "those of the first experiment");
+  }
+}
+
+}  // namespace
+
+const NoiseFloorEntry* NoiseFloor::find(std::string_view experiment, std::string_view quantity) const {
+  const auto found = std::ranges::find_if(entries, [&](const NoiseFloorEntry& entry) {
+    return entry.experiment == experiment && entry.quantity == quantity;
+  });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error) {
+  check(seeds_per_result >= 1 && family_error > 0 && family_error < 1, "a noise floor has seeds and an error");
+  check_seeds(result, seeds_per_result);
+  NoiseFloor floor;
+  floor.suite = result.suite;
+  floor.seeds = static_cast<int>(result.experiments.front().runs.size());
+  floor.seeds_per_result = seeds_per_result;
+  floor.family_error = family_error;
+  floor.commit = result.commit;
+  floor.entries = measure_effects(result, floor);
+  floor.entries = with_detectable(result, floor);
+  return floor;
+}
+
+}  // namespace glovebench::reports

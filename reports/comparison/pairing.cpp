@@ -1,0 +1,137 @@
+#include "reports/comparison/pairing.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+namespace glovebench::reports {
+namespace {
+
+void check_equal(const std::string& where, const std::string& field, const std::string& found,
+                 const std::string& expected) {
+  if (found != expected) throw Incomparable(where, field, found, expected);
+}
+
+/// The first name that differs, in words; lists that are equal up to there differ in length.
+void check_names(const std::string& where, const std::string& field, const std::vector<std::string>& found,
+                 const std::vector<std::string>& expected) {
+  const size_t most = std::max(found.size(), expected.size());
+  for (size_t i = 0; i < most; ++i)
+    check_equal(where, fmt::format("{}[{}]", field, i), i < found.size() ? found[i] : "nothing",
+                i < expected.size() ? expected[i] : "nothing");
+}
+
+void check_protocol(const std::string& where, const Protocol& found, const Protocol& expected) {
+  check_equal(where, "protocol.metric_definitions", std::to_string(found.metric_definitions),
+              std::to_string(expected.metric_definitions));
+  check_names(where, "protocol.joint_order", found.joint_order, expected.joint_order);
+  check_names(where, "protocol.metric_keys", found.metric_keys, expected.metric_keys);
+  check_equal(where, "protocol.association", found.association, expected.association);
+}
+
+void check_unique(const NamedResult& result) {
+  std::set<std::string> names;
+  for (const ExperimentResult& experiment : result.result.experiments)
+    if (!names.insert(to_string(experiment.key)).second)
+      throw Incomparable(result.name, "experiments", to_string(experiment.key) + " twice", "each of them once");
+}
+
+/// What is not in the file cannot be known to be the same.
+void check_hash(const NamedResult& baseline, const NamedResult& candidate, const std::string& name,
+                std::map<std::string, std::string> InputHashes::*hashes, const std::string& field) {
+  const auto& found = candidate.result.inputs.*hashes;
+  const auto& expected = baseline.result.inputs.*hashes;
+  if (!expected.contains(name)) throw Incomparable(baseline.name, field + name, "nothing", "a hash");
+  if (!found.contains(name)) throw Incomparable(candidate.name, field + name, "nothing", expected.at(name));
+  check_equal(candidate.name, field + name, found.at(name), expected.at(name));
+}
+
+void check_inputs(const NamedResult& baseline, const NamedResult& candidate, const ExperimentKey& key) {
+  check_hash(baseline, candidate, truth_name(key), &InputHashes::truths, "inputs.truths.");
+  check_hash(baseline, candidate, key.database, &InputHashes::databases, "inputs.databases.");
+}
+
+std::string seeds_of(const ExperimentResult& experiment) {
+  std::vector<uint64_t> seeds;
+  for (const SeedRun& run : experiment.runs) seeds.push_back(run.seed);
+  return fmt::format("[{}]", fmt::join(seeds, ", "));
+}
+
+void check_seeds(const std::string& where, const ExperimentResult& found, const ExperimentResult& expected,
+                 bool other_seeds) {
+  const std::string field = to_string(expected.key) + ".seeds";
+  if (!other_seeds) check_equal(where, field, seeds_of(found), seeds_of(expected));
+  if (found.runs.size() != expected.runs.size())
+    throw Incomparable(where, field, seeds_of(found), fmt::format("{} seeds", expected.runs.size()));
+}
+
+/// Where the shorter list stops following the longer one.
+size_t first_extra(const std::vector<FrameRecord>& longer, const std::vector<FrameRecord>& shorter) {
+  size_t i = 0;
+  while (i < shorter.size() && shorter[i].frame == longer[i].frame) ++i;
+  return i;
+}
+
+void check_frames(const std::string& where, const std::string& field, const std::vector<FrameRecord>& found,
+                  const std::vector<FrameRecord>& expected) {
+  if (found.size() < expected.size())
+    throw Incomparable(
+        where, field,
+        fmt::format("{} frames, without frame {}", found.size(), expected[first_extra(expected, found)].frame),
+        fmt::format("{} frames (a lost frame stays in a result)", expected.size()));
+  if (found.size() > expected.size())
+    throw Incomparable(
+        where, field,
+        fmt::format("{} frames, frame {} among them", found.size(), found[first_extra(found, expected)].frame),
+        fmt::format("{} frames without it", expected.size()));
+  for (size_t i = 0; i < found.size(); ++i) {
+    const std::string frame = fmt::format("{}[{}].", field, i);
+    if (found[i].frame != expected[i].frame)
+      throw Incomparable(where, frame + "frame", std::to_string(found[i].frame), std::to_string(expected[i].frame));
+    if (found[i].timestamp_us != expected[i].timestamp_us)
+      throw Incomparable(where, frame + "timestamp_us", std::to_string(found[i].timestamp_us),
+                         std::to_string(expected[i].timestamp_us));
+  }
+}
+
+void check_runs(const std::string& where, const ExperimentResult& found, const ExperimentResult& expected) {
+  for (size_t s = 0; s < expected.runs.size(); ++s)
+    check_frames(where, fmt::format("{}.seed {}.frames", to_string(expected.key), found.runs[s].seed),
+                 found.runs[s].frames, expected.runs[s].frames);
+}
+
+Pairing pair_experiments(const RunResult& baseline, const RunResult& candidate) {
+  Pairing pairing;
+  for (const ExperimentResult& experiment : baseline.experiments) {
+    if (const ExperimentResult* other = find_experiment(candidate, experiment.key))
+      pairing.experiments.emplace_back(&experiment, other);
+    else
+      pairing.only_in_baseline.push_back(to_string(experiment.key));
+  }
+  for (const ExperimentResult& experiment : candidate.experiments)
+    if (!find_experiment(baseline, experiment.key)) pairing.only_in_candidate.push_back(to_string(experiment.key));
+  return pairing;
+}
+
+}  // namespace
+
+Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options) {
+  check_protocol(candidate.name, candidate.result.protocol, baseline.result.protocol);
+  check_unique(baseline);
+  check_unique(candidate);
+  Pairing pairing = pair_experiments(baseline.result, candidate.result);
+  for (const auto& [expected, found] : pairing.experiments) check_inputs(baseline, candidate, expected->key);
+  for (const auto& [expected, found] : pairing.experiments)
+    check_seeds(candidate.name, *found, *expected, options.other_seeds);
+  for (const auto& [expected, found] : pairing.experiments) check_runs(candidate.name, *found, *expected);
+  if (!options.partial && !pairing.only_in_baseline.empty())
+    throw Incomparable(candidate.name, "experiments", fmt::format("no {}", pairing.only_in_baseline.front()),
+                       fmt::format("all {} of the baseline's", baseline.result.experiments.size()));
+  if (pairing.experiments.empty())
+    throw Incomparable(candidate.name, "experiments", "none that the baseline has", "at least one");
+  return pairing;
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,157 @@
+#include "reports/comparison/pairing.h"
+
+#include <gmock/gmock.h>
+
+#include "reports/comparison/example_comparison.h"
+
+namespace glovebench::reports {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+NamedResult two_experiments(const std::string& name) {
+  const MakeFrame make_frame = [](uint64_t, int f) {
+    return f == 5 ? example_lost_frame(f) : example_frame(f, 3, 2, 1);
+  };
+  return example_named(
+      name, {example_experiment("Tr1", {1, 2}, 20, make_frame), example_experiment("Tr4", {1, 2}, 20, make_frame)});
+}
+
+std::string refusal(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {}) {
+  try {
+    pair_results(baseline, candidate, options);
+  } catch (const Incomparable& error) {
+    return error.what();
+  }
+  return "no refusal";
+}
+
+std::string refusal_of_change(const std::function<void(RunResult&)>& change, const PairingOptions& options = {}) {
+  NamedResult candidate = two_experiments("out/new");
+  change(candidate.result);
+  return refusal(two_experiments("base"), candidate, options);
+}
+
+TEST(Pairing, EqualResultsArePairedWithAllTheyHave) {
+  const NamedResult a = two_experiments("a");
+  NamedResult b = two_experiments("b");
+  std::ranges::reverse(b.result.experiments);
+  const Pairing pairing = pair_results(a, b);
+  ASSERT_EQ(pairing.experiments.size(), 2u);
+  for (const auto& [baseline, candidate] : pairing.experiments) EXPECT_EQ(baseline->key, candidate->key);
+  EXPECT_EQ(pairing.experiments[0].first, &a.result.experiments[0]);
+  EXPECT_EQ(pairing.experiments[0].second, &b.result.experiments[1]);
+  EXPECT_THAT(pairing.only_in_baseline, IsEmpty());
+  EXPECT_THAT(pairing.only_in_candidate, IsEmpty());
+}
+
+TEST(Pairing, OtherProtocolsAreRefusedByTheMemberThatDiffers) {
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { ++r.protocol.metric_definitions; }),
+            "out/new: protocol.metric_definitions: found 2, expected 1");
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.joint_order[3] = "elbow"; }),
+              HasSubstr("protocol.joint_order[3]: found elbow, expected "));
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.metric_keys.pop_back(); }),
+              HasSubstr("protocol.metric_keys[13]: found nothing, expected icp_residual_mm"));
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.metric_keys.push_back("more"); }),
+              HasSubstr("protocol.metric_keys[14]: found more, expected nothing"));
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.association = "nearest"; }),
+              HasSubstr("protocol.association: found nearest, expected by time stamp, exact"));
+}
+
+TEST(Pairing, OtherTruthsAndDatabasesAreRefused) {
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.truths["source/Tr4"] = "ee"; }),
+            "out/new: inputs.truths.source/Tr4: found ee, expected ff");
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.databases["DB_open_power"] = "0b"; }),
+            "out/new: inputs.databases.DB_open_power: found 0b, expected 0a");
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.truths.erase("source/Tr1"); }),
+            "out/new: inputs.truths.source/Tr1: found nothing, expected ff");
+  NamedResult baseline = two_experiments("base");
+  baseline.result.inputs.databases.clear();
+  EXPECT_EQ(refusal(baseline, two_experiments("new")),
+            "base: inputs.databases.DB_open_power: found nothing, expected a hash");
+}
+
+TEST(Pairing, InputsOfWhatIsNotSharedDoNotMatter) {
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.truths["source/Tr3"] = "01"; }), "no refusal");
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.color_table = "01"; }), "no refusal")
+      << "a table calibrated otherwise is a change of the tracker, to be measured";
+}
+
+TEST(Pairing, SeedsMustBeTheSameUnlessOthersAreAskedFor) {
+  const auto other = [](RunResult& r) { r.experiments[1].runs[1].seed = 3; };
+  EXPECT_EQ(refusal_of_change(other),
+            "out/new: Tr4_DB_open_power_source_subject1_gradient_1.seeds: found [1, 3], expected [1, 2]");
+  EXPECT_EQ(refusal_of_change(other, {.other_seeds = true}), "no refusal");
+  const auto fewer = [](RunResult& r) { r.experiments[0].runs.pop_back(); };
+  EXPECT_THAT(refusal_of_change(fewer), HasSubstr("seeds: found [1], expected [1, 2]"));
+  EXPECT_THAT(refusal_of_change(fewer, {.other_seeds = true}), HasSubstr("seeds: found [1], expected 2 seeds"));
+}
+
+TEST(Pairing, AFrameThatLeftTheResultIsNamed) {
+  EXPECT_EQ(
+      refusal_of_change([](RunResult& r) {
+        auto& frames = r.experiments[1].runs[0].frames;
+        frames.erase(frames.begin() + 5);
+      }),
+      "out/new: Tr4_DB_open_power_source_subject1_gradient_1.seed 1.frames: found 19 frames, without frame 5, "
+      "expected 20 frames (a lost frame stays in a result)");
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.experiments[1].runs[0].frames.pop_back(); }),
+              HasSubstr("found 19 frames, without frame 19"));
+  EXPECT_THAT(
+      refusal_of_change([](RunResult& r) { r.experiments[0].runs[1].frames.push_back(example_lost_frame(20)); }),
+      HasSubstr("seed 2.frames: found 21 frames, frame 20 among them, expected 20 frames"));
+}
+
+TEST(Pairing, FrameNumbersAndTimeStampsMustBeEqual) {
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.experiments[0].runs[1].frames[3].frame = 4; }),
+              HasSubstr("seed 2.frames[3].frame: found 4, expected 3"));
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.experiments[0].runs[1].frames[3].timestamp_us += 1; }),
+              HasSubstr("seed 2.frames[3].timestamp_us: found 200001, expected 200000"));
+}
+
+TEST(Pairing, AMissingExperimentIsRefusedUnlessAPartIsAskedFor) {
+  const auto remove = [](RunResult& r) { r.experiments.pop_back(); };
+  EXPECT_EQ(refusal_of_change(remove),
+            "out/new: experiments: found no Tr4_DB_open_power_source_subject1_gradient_1, expected all 2 of the "
+            "baseline's");
+  NamedResult part = two_experiments("part");
+  remove(part.result);
+  const Pairing pairing = pair_results(two_experiments("base"), part, {.partial = true});
+  EXPECT_EQ(pairing.experiments.size(), 1u);
+  EXPECT_THAT(pairing.only_in_baseline, ElementsAre("Tr4_DB_open_power_source_subject1_gradient_1"));
+  const Pairing grown = pair_results(part, two_experiments("more"));
+  EXPECT_THAT(grown.only_in_candidate, ElementsAre("Tr4_DB_open_power_source_subject1_gradient_1"));
+}
+
+TEST(Pairing, NothingInCommonIsNoComparison) {
+  const auto remove_all = [](RunResult& r) { r.experiments.clear(); };
+  EXPECT_THAT(refusal_of_change(remove_all, {.partial = true}), HasSubstr("found none that the baseline has"));
+  NamedResult empty = two_experiments("empty");
+  remove_all(empty.result);
+  EXPECT_THAT(refusal(empty, two_experiments("new")), HasSubstr("found none that the baseline has"));
+}
+
+TEST(Pairing, AnExperimentThatIsThereTwiceIsRefused) {
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.experiments.push_back(r.experiments[0]); }),
+              HasSubstr("out/new: experiments: found Tr1_DB_open_power_source_subject1_gradient_1 twice"));
+}
+
+TEST(Pairing, TheFirstDifferenceIsTheOneNamed) {
+  EXPECT_THAT(refusal_of_change([](RunResult& r) {
+                r.experiments[0].runs[0].frames.pop_back();
+                r.experiments[1].runs[0].seed = 9;
+                r.inputs.databases["DB_open_power"] = "0b";
+                r.protocol.association = "nearest";
+              }),
+              HasSubstr("protocol.association"));
+  EXPECT_THAT(refusal_of_change([](RunResult& r) {
+                r.experiments[0].runs[0].frames.pop_back();
+                r.experiments[1].runs[0].seed = 9;
+              }),
+              HasSubstr("seeds"));
+}
+
+}  // namespace
+}  // namespace glovebench::reports
