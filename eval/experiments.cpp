@@ -30,10 +30,6 @@ TruthKind truth_kind(const Trajectory& trajectory) {
   return trajectory.kind == TrajectoryKind::recorded ? TruthKind::recorded : TruthKind::source;
 }
 
-ExperimentKey key_of(const Replay& replay, const std::string& database) {
-  return {replay.truth->name, database, truth_kind(*replay.truth), replay.subject, replay.noise};
-}
-
 double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -145,6 +141,10 @@ reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& exper
 }
 
 }  // namespace
+
+ExperimentKey key_of(const Replay& replay, const std::string& database) {
+  return {replay.truth->name, database, truth_kind(*replay.truth), replay.subject, replay.noise};
+}
 
 Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
   const std::string folder = trajectory_folder();

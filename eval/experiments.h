@@ -15,6 +15,9 @@ struct Plan {
   std::string suite = {};  ///< the name of the suite that this is; empty if it is none
 };
 
+/// What names the experiment of a replay with one of its databases.
+reports::ExperimentKey key_of(const Replay& replay, const std::string& database);
+
 struct Figure4Options {
   std::vector<std::string> trajectories;  ///< empty: all five
   std::vector<uint64_t> seeds = {1};

@@ -38,6 +38,10 @@ std::string trajectory_folder() {
   return share_folder() + "/trajectories/data";
 }
 
+std::string suite_folder() {
+  return share_folder() + "/suites";
+}
+
 std::string default_cache_folder() {
   if (const std::string chosen = environment("GLOVEBENCH_CACHE"); !chosen.empty()) return chosen;
   if (const std::string cache = environment("XDG_CACHE_HOME"); !cache.empty()) return cache + "/glovebench";

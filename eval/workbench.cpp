@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/base/error.h"
 #include "eval/color_table_cache.h"
 #include "eval/progress.h"
@@ -42,7 +44,7 @@ std::shared_ptr<const ColorTable> Workbench::color_table() {
 std::shared_ptr<const Database> Workbench::database(const std::string& name) {
   const std::lock_guard lock(mutex_);
   if (const auto it = databases_.find(name); it != databases_.end()) return it->second;
-  return database(trajectories::posture_set(trajectory_folder(), name));
+  return database(postures_of(name));
 }
 
 std::shared_ptr<const Database> Workbench::database(const PostureSet& postures) {
@@ -50,11 +52,7 @@ std::shared_ptr<const Database> Workbench::database(const PostureSet& postures) 
   std::shared_ptr<const Database>& database = databases_[postures.name];
   if (!database) {
     Progress progress("building " + postures.name, config_.quiet);
-    DatabaseCache cache;
-    cache.folder = config_.cache_folder;
-    cache.renderers = render::label_renderer_factory();
-    cache.threads = config_.threads;
-    cache.message = [](const std::string& text) { fmt::print(stderr, "glovebench: {}\n", text); };
+    DatabaseCache cache = database_cache();
     cache.progress = [&](double share) { progress.show(share); };
     database = std::make_shared<Database>(cache.get(postures, *model(), config_.views, kTinySizes));
   }
@@ -82,11 +80,32 @@ std::string Workbench::add_database(const std::string& name_or_file) {
   if (!is_built && std::find(known.begin(), known.end(), postures.name) != known.end()) {
     throw Error(name_or_file, "name", postures.name, "one that is not a built-in posture set's");
   }
-  if (databases_.contains(postures.name))
+  if (databases_.contains(postures.name) || postures_.contains(postures.name)) {
     throw Error(name_or_file, "name", postures.name, "one not yet in the run");
+  }
   if (is_built) databases_[postures.name] = built;
-  if (!is_built) database(postures);
+  if (!is_built) postures_[postures.name] = postures;
   return postures.name;
+}
+
+bool Workbench::has_database(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return databases_.contains(name) ||
+         std::filesystem::exists(database_cache().path(postures_of(name), *model(), config_.views));
+}
+
+DatabaseCache Workbench::database_cache() const {
+  DatabaseCache cache;
+  cache.folder = config_.cache_folder;
+  cache.renderers = render::label_renderer_factory();
+  cache.threads = config_.threads;
+  cache.message = [](const std::string& text) { fmt::print(stderr, "glovebench: {}\n", text); };
+  return cache;
+}
+
+PostureSet Workbench::postures_of(const std::string& name) const {
+  const auto added = postures_.find(name);
+  return added != postures_.end() ? added->second : trajectories::posture_set(trajectory_folder(), name);
 }
 
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {

@@ -38,10 +38,11 @@ class Workbench {
   /// A database of these postures.
   std::shared_ptr<const Database> database(const PostureSet& postures);
   /// Makes a database of a file known under its name, which is returned: a built one (*.glovedb) or postures
-  /// (*.csv,
-  /// *.json). Any other text is the name of a posture set and is returned as it is. Throws Error if a built one was
-  /// made for another hand or with other views, or if the name is taken.
+  /// (*.csv, *.json). Any other text is the name of a posture set and is returned as it is. Throws Error if a built
+  /// one was made for another hand or with other views, or if the name is taken.
   std::string add_database(const std::string& name_or_file);
+  /// Whether `database` of this name will have nothing to build.
+  bool has_database(const std::string& name);
 
   /// A tracker for a database.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
@@ -49,8 +50,13 @@ class Workbench {
  private:
   WorkbenchConfig config_;
   RgbdCalibration calibration_;
+  DatabaseCache database_cache() const;
+  /// The postures of a name: of the program's data or of a file that was added.
+  PostureSet postures_of(const std::string& name) const;
+
   std::recursive_mutex mutex_;
   std::map<int, std::shared_ptr<const HandModel>> subjects_;
+  std::map<std::string, PostureSet> postures_;  ///< of files, by name
   std::map<std::string, std::shared_ptr<const Database>> databases_;
   std::shared_ptr<const ColorTable> color_table_;
 };

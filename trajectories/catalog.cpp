@@ -101,6 +101,10 @@ PostureSet load_gestures(const std::string& data_folder) {
   return load_posture_set((fs::path(data_folder) / "gestures.csv").string());
 }
 
+std::vector<std::string> script_names(const std::string& data_folder) {
+  return names_in(fs::path(data_folder) / "scripts");
+}
+
 std::vector<TrajectoryListing> list_trajectories(const std::string& data_folder) {
   std::vector<TrajectoryListing> listing;
   for (const TrajectoryKind kind : {TrajectoryKind::source, TrajectoryKind::recorded}) {

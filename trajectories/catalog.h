@@ -44,6 +44,9 @@ struct TrajectoryListing {
   TrajectoryKind kind;
   std::string path;
 };
+/// The names of the data folder's motion scripts, sorted: the ground truths, and what else has a source.
+std::vector<std::string> script_names(const std::string& data_folder);
+
 /// All trajectories of the data folder, sources first, by name; files are not opened. Throws Error if the folder
 /// has no sources.
 std::vector<TrajectoryListing> list_trajectories(const std::string& data_folder);

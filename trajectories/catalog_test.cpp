@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
+#include "core/base/file.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::trajectories {
@@ -42,6 +43,13 @@ TEST(Catalog, lists_sources_then_recorded_by_name) {
     listed.push_back(std::string(to_string(listing.kind)) + " " + listing.name);
   }
   EXPECT_THAT(listed, ElementsAre("source a", "source b", "recorded a"));
+}
+
+TEST(Catalog, lists_scripts_by_name) {
+  const std::string folder = make_folder("scripts");
+  EXPECT_THAT(script_names(folder), testing::IsEmpty());
+  for (const std::string name : {"b.json", "a.json", "notes.txt"}) write_file(folder + "/scripts/" + name, "");
+  EXPECT_THAT(script_names(folder), ElementsAre("a", "b"));
 }
 
 TEST(Catalog, says_which_trajectories_there_are) {

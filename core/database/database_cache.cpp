@@ -35,24 +35,29 @@ class FileLock {
 Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                             std::span<const int> sizes) const {
   const std::string hash = Database::input_hash(postures, model, views);
-  const std::string path = fmt::format("{}/{}-{}.glovedb", folder, postures.name, hash.substr(0, 16));
+  const std::string file = path(postures, model, views);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(folder, "cache folder", error.message(), "a folder that can be written");
 
-  const FileLock lock(path + ".lock");
-  if (std::filesystem::exists(path)) {
+  const FileLock lock(file + ".lock");
+  if (std::filesystem::exists(file)) {
     try {
-      Database database = Database::load(path, sizes);
+      Database database = Database::load(file, sizes);
       if (database.hash() == hash) return database;
-      message(path + ": made of other inputs; rebuilding it");
+      message(file + ": made of other inputs; rebuilding it");
     } catch (const Error& e) {
       message(fmt::format("{}; rebuilding it", e.what()));
     }
   }
   Database built = Database::build(postures, model, views, renderers, threads, progress);
-  built.save(path);
+  built.save(file);
   return built;
+}
+
+std::string DatabaseCache::path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const {
+  const std::string hash = Database::input_hash(postures, model, views);
+  return fmt::format("{}/{}-{}.glovedb", folder, postures.name, hash.substr(0, 16));
 }
 
 }  // namespace glovebench

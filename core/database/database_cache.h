@@ -19,6 +19,8 @@ struct DatabaseCache {
 
   Database get(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                std::span<const int> sizes) const;
+  /// Where `get` keeps the database of these inputs.
+  std::string path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const;
 };
 
 }  // namespace glovebench

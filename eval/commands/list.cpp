@@ -4,6 +4,7 @@
 
 #include "eval/commands/command.h"
 #include "eval/share.h"
+#include "eval/suite.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -24,6 +25,10 @@ void list_databases() {
   }
 }
 
+void list_suites() {
+  for (const std::string& name : suite_names()) fmt::print("{:<6} {}\n", name, load_suite(name).description);
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -34,8 +39,11 @@ void list_angles() {
 void add_list(CLI::App& program) {
   CLI::App* list = program.add_subcommand("list", "Print what the program knows.");
   list->require_subcommand(1);
-  list->add_subcommand("trajectories", "The ground truths, with their hashes.")->callback(list_trajectories);
+  list->add_subcommand("trajectories", "The ground truths and other movements, with their hashes.")
+      ->callback(list_trajectories);
   list->add_subcommand("databases", "The posture databases.")->callback(list_databases);
+  list->add_subcommand("suites", "Experiments that belong together, for `glovebench run --suite`.")
+      ->callback(list_suites);
   list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
   const auto common = std::make_shared<CommonFlags>();
   CLI::App* config = list->add_subcommand("config", "The tracker's configuration as JSON, as --config takes it.");

@@ -4,22 +4,23 @@
 
 #include "core/base/error.h"
 #include "eval/commands/command.h"
-#include "eval/experiments.h"
 #include "eval/explain.h"
-#include "eval/share.h"
-#include "reports/paper_numbers.h"
+#include "eval/plan_overview.h"
+#include "eval/suite.h"
 #include "reports/report.h"
 #include "reports/summary.h"
-#include "trajectories/catalog.h"
 
 namespace glovebench::eval {
 namespace {
 
-using trajectories::Trajectory;
-
 struct Run {
+  const CLI::App* command = nullptr;
   CommonFlags common;
-  std::vector<std::string> trajectory_names;
+  std::string suite_name;
+  std::string filter;
+  bool list = false;
+  bool dry_run = false;
+  std::vector<std::string> trajectories;
   std::vector<std::string> databases;
   std::string truth = "source";
   std::string noise = "gradient";
@@ -29,33 +30,14 @@ struct Run {
   RobotFlags robot;
 
   void run() {
-    // A range check lets it pass.
-    if (std::isnan(gain)) throw Error("--gain", "value", "nan", "a number from 0 to 100");
-    Plan plan{common.tracker_config(), {}};
-    for (const std::string& name : trajectory_names) {
-      const auto trajectory = std::make_shared<const Trajectory>(load(name));
-      common.left = trajectory->side == Side::left;
-      if (!plan.replays.empty() && plan.replays.front().truth->side != trajectory->side) {
-        throw Error(name, "side", common.left ? "left" : "right", "that of the run's other trajectories");
-      }
-      for (const Replay& other : plan.replays) {
-        if (other.truth->name == trajectory->name)
-          throw Error(name, "name", trajectory->name, "one not yet in the run");
-      }
-      for (int s = 0; s < seed_count; ++s) {
-        plan.replays.push_back({trajectory, subject, {noise, gain}, common.seed + s, {}});
-      }
-    }
-    common.check_output_folder();
+    const Suite suite = chosen_suite();
+    common.left = side_of(suite) == Side::left;
     Workbench workbench = common.workbench();
-    std::vector<std::string> names;
-    for (const std::string& database : databases) {
-      names.push_back(workbench.add_database(database));
-      if (std::count(names.begin(), names.end(), names.back()) > 1) {
-        throw Error("--database", "name", names.back(), "one not yet in the run");
-      }
-    }
-    for (Replay& replay : plan.replays) replay.databases = names;
+    const Plan plan = plan_suite(workbench, common.tracker_config(), suite, filter);
+    if (list) return fmt::print("{}", list_experiments(plan));
+    if (dry_run) return print_dry_run(workbench, plan);
+    require_output();
+    common.check_output_folder();
     const Outcome outcome = run_experiments(workbench, plan, {robot.output, robot.T_base_camera()});
     reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
     fmt::print("{}", reports::to_markdown(reports::detail_summary(outcome.result)));
@@ -63,10 +45,53 @@ struct Run {
                common.output);
   }
 
-  Trajectory load(const std::string& name) const {
-    if (name.ends_with(".json")) return trajectories::load_trajectory(name);
-    return truth == "recorded" ? trajectories::recorded_trajectory(trajectory_folder(), name)
-                               : trajectories::source_trajectory(trajectory_folder(), name);
+  /// The suite by its name, or what the flags say, as a suite without a name.
+  Suite chosen_suite() const {
+    require_one_choice();
+    Suite suite = suite_name.empty() ? suite_of_flags() : load_suite(suite_name);
+    const bool keeps_its_seeds = !suite_name.empty() && !given("--seed") && !given("--seeds");
+    if (keeps_its_seeds) return suite;
+    const size_t count =
+        suite_name.empty() || given("--seeds") ? static_cast<size_t>(seed_count) : suite.seeds.size();
+    suite.seeds.clear();
+    for (size_t s = 0; s < count; ++s) suite.seeds.push_back(common.seed + s);
+    return suite;
+  }
+
+  Suite suite_of_flags() const {
+    // A range check lets it pass.
+    if (std::isnan(gain)) throw Error("--gain", "value", "nan", "a number from 0 to 100");
+    Suite suite;
+    for (const std::string& trajectory : trajectories) {
+      SuiteEntry entry{trajectory, {}, databases, subject, {noise, gain}, {}};
+      if (!trajectory.ends_with(".json")) {
+        entry.truth = truth == "recorded" ? reports::TruthKind::recorded : reports::TruthKind::source;
+      }
+      suite.entries.push_back(entry);
+    }
+    return suite;
+  }
+
+  bool given(const std::string& flag) const { return command->count(flag) > 0; }
+
+  void require_one_choice() const {
+    if (suite_name.empty() && !(given("--trajectory") && given("--database"))) {
+      throw Error("run", "experiments", "none", "--suite, or --trajectory and --database");
+    }
+    for (const char* flag : {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject"}) {
+      if (!suite_name.empty() && given(flag)) {
+        throw Error("--suite", "flags", flag, "none of those that say what a suite says itself");
+      }
+    }
+  }
+
+  void require_output() const {
+    if (common.output.empty()) throw Error("--output", "folder", "none", "one for the report");
+  }
+
+  void print_dry_run(Workbench& workbench, const Plan& plan) const {
+    fmt::print("{}", describe_plan(workbench, plan));
+    fmt::print("report: {}\n", common.output.empty() ? "nowhere without --output" : common.output);
   }
 };
 
@@ -74,17 +99,21 @@ struct Run {
 
 void add_run(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "run", "Replay trajectories, also your own, through the tracker and report the errors.");
+      "run", "Replay a suite, or trajectories, also your own, through the tracker and report the errors.");
   const auto state = std::make_shared<Run>();
-  state->common.add_output(*command, "folder of the report", true);
-  command
-      ->add_option("--trajectory", state->trajectory_names, "Tr1..Tr5, or a file (*.json; trajectories/README.md)")
-      ->required();
-  command
-      ->add_option("--database", state->databases,
-                   "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)")
-      ->required();
-  command->add_option("--truth", state->truth, "which truth of Tr1..Tr5")
+  state->command = command;
+  state->common.add_output(*command, "folder of the report");
+  command->add_option("--suite", state->suite_name,
+                      "experiments that belong together: a name (`glovebench list suites`) or a file (*.json)");
+  command->add_option("--filter", state->filter,
+                      "only experiments with such a name, e.g. 'Tr4_*' (shell wildcards)");
+  command->add_flag("--list", state->list, "print the experiments and stop");
+  command->add_flag("--dry-run", state->dry_run, "print what would be done and touch nothing");
+  command->add_option("--trajectory", state->trajectories,
+                      "names (`glovebench list trajectories`) or files (*.json; trajectories/README.md)");
+  command->add_option("--database", state->databases,
+                      "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)");
+  command->add_option("--truth", state->truth, "which truth of a named one")
       ->check(CLI::IsMember({"source", "recorded"}))
       ->capture_default_str();
   command->add_option("--noise", state->noise, "depth noise")
@@ -96,7 +125,9 @@ void add_run(CLI::App& program) {
   command->add_option("--subject", state->subject, "whose hand is in front of the camera; the tracker's own is 1")
       ->check(CLI::Range(1, 2))
       ->capture_default_str();
-  command->add_option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed")
+  command
+      ->add_option("--seeds", state->seed_count,
+                   "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   state->robot.add(*command, "folder for the robot commands of each experiment");

@@ -18,7 +18,7 @@ std::map<std::string, std::string> generate_data_files(const std::string& data_f
   for (const PostureSet& set : make_database_posture_sets(gestures)) {
     files["postures/" + set.name + ".json"] = canonical_text(set);
   }
-  for (const std::string& name : ground_truth_names()) {
+  for (const std::string& name : script_names(data_folder)) {
     const std::string path = data_folder + "/scripts/" + name + ".json";
     const MotionScript script = parse_motion_script(read_file(path), gestures, path);
     if (script.name != name) throw Error(path, "name", script.name, name);

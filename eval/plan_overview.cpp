@@ -1,0 +1,61 @@
+#include "eval/plan_overview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace glovebench::eval {
+namespace {
+
+struct PlannedExperiment {
+  std::string name;
+  size_t frames = 0;  ///< of one seed
+  int seeds = 0;
+};
+
+std::vector<PlannedExperiment> experiments_of(const Plan& plan) {
+  std::vector<PlannedExperiment> experiments;
+  for (const Replay& replay : plan.replays) {
+    for (const std::string& database : replay.databases) {
+      const std::string name = to_string(key_of(replay, database));
+      auto it = std::ranges::find(experiments, name, &PlannedExperiment::name);
+      if (it == experiments.end()) it = experiments.insert(it, {name, frames_of(replay).size(), 0});
+      ++it->seeds;
+    }
+  }
+  return experiments;
+}
+
+}  // namespace
+
+std::string list_experiments(const Plan& plan) {
+  const std::vector<PlannedExperiment> experiments = experiments_of(plan);
+  const size_t width = std::ranges::max(experiments, {}, [](const auto& e) { return e.name.size(); }).name.size();
+  std::string text;
+  for (const PlannedExperiment& experiment : experiments) {
+    text += fmt::format("{:<{}}  {:>4} frames x {} seeds\n", experiment.name, width, experiment.frames,
+                        experiment.seeds);
+  }
+  return text;
+}
+
+std::string describe_plan(Workbench& workbench, const Plan& plan) {
+  std::set<uint64_t> seeds;
+  std::set<std::string> databases;
+  size_t rendered = 0, tracked = 0;
+  for (const Replay& replay : plan.replays) {
+    seeds.insert(replay.seed);
+    databases.insert(replay.databases.begin(), replay.databases.end());
+    rendered += frames_of(replay).size();
+    tracked += frames_of(replay).size() * replay.databases.size();
+  }
+  std::string text = list_experiments(plan);
+  text += fmt::format("seeds {}: {} frames to render, {} to track\n", fmt::join(seeds, ", "), rendered, tracked);
+  for (const std::string& name : databases) {
+    text += fmt::format("database {}: {}\n", name, workbench.has_database(name) ? "there" : "to be built");
+  }
+  return text;
+}
+
+}  // namespace glovebench::eval

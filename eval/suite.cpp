@@ -1,0 +1,264 @@
+#include "eval/suite.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "eval/share.h"
+#include "trajectories/catalog.h"
+#include "trajectories/json_field.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using reports::ExperimentKey;
+using reports::TruthKind;
+using trajectories::JsonField;
+using trajectories::Trajectory;
+using trajectories::TrajectoryKind;
+
+constexpr int64_t kMaxSeed = 4'294'967'295;
+constexpr int kMaxFrame = 1'000'000;
+constexpr double kMaxNoiseFactor = 100;
+
+bool is_trajectory_file(const std::string& name) {
+  return name.ends_with(".json");
+}
+
+bool is_database_file(const std::string& name) {
+  return name.ends_with(".glovedb") || name.ends_with(".csv") || name.ends_with(".json");
+}
+
+/// One of some words.
+template <typename Value>
+Value one_of(const JsonField& field, const std::vector<std::pair<std::string, Value>>& words) {
+  std::vector<std::string> known;
+  for (const auto& [word, value] : words) {
+    if (field.value() == word) return value;
+    known.push_back(word);
+  }
+  field.fail(fmt::format("one of {}", fmt::join(known, ", ")));
+}
+
+reports::NoiseSetting noise_from(const JsonField& field) {
+  field.expect_members({"model", "factor"});
+  const JsonField model = field.member("model");
+  return {one_of<std::string>(model, {{"gradient", "gradient"}, {"kinect", "kinect"}, {"none", "none"}}),
+          field.member("factor").number(0, kMaxNoiseFactor)};
+}
+
+FrameRange frames_from(const JsonField& field) {
+  field.expect_members({"first"}, {"count"});
+  FrameRange range{static_cast<int>(field.member("first").integer(0, kMaxFrame)), {}};
+  if (field.has("count")) range.count = static_cast<int>(field.member("count").integer(1, kMaxFrame));
+  return range;
+}
+
+SuiteEntry entry_from(const JsonField& field, const fs::path& folder) {
+  field.expect_members({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
+  const std::string trajectory = field.member("trajectory").text();
+  SuiteEntry entry;
+  entry.trajectory = is_trajectory_file(trajectory) ? (folder / trajectory).string() : trajectory;
+  entry.truth =
+      one_of<TruthKind>(field.member("truth"), {{"source", TruthKind::source}, {"recorded", TruthKind::recorded}});
+  const JsonField databases = field.member("databases");
+  for (size_t i = 0; i < databases.array_size(); ++i) {
+    const std::string database = databases.element(i).text();
+    entry.databases.push_back(is_database_file(database) ? (folder / database).string() : database);
+  }
+  if (field.has("subject")) entry.subject = static_cast<int>(field.member("subject").integer(1, 2));
+  if (field.has("noise")) entry.noise = noise_from(field.member("noise"));
+  if (field.has("frames")) entry.frames = frames_from(field.member("frames"));
+  return entry;
+}
+
+std::vector<uint64_t> seeds_from(const JsonField& field) {
+  std::vector<uint64_t> seeds;
+  for (size_t i = 0; i < field.array_size(); ++i) {
+    const auto seed = static_cast<uint64_t>(field.element(i).integer(0, kMaxSeed));
+    if (std::ranges::count(seeds, seed) > 0) field.element(i).fail("each seed once");
+    seeds.push_back(seed);
+  }
+  return seeds;
+}
+
+/// An experiment counted twice would weigh double.
+void expect_each_once(const JsonField& experiments, const std::vector<SuiteEntry>& entries) {
+  std::vector<ExperimentKey> seen;
+  for (size_t i = 0; i < entries.size(); ++i) {
+    for (size_t d = 0; d < entries[i].databases.size(); ++d) {
+      const SuiteEntry& entry = entries[i];
+      const ExperimentKey key{entry.trajectory, entry.databases[d], *entry.truth, entry.subject, entry.noise};
+      if (std::ranges::count(seen, key) > 0) {
+        experiments.element(i).member("databases").element(d).fail("an experiment that is not yet in the suite");
+      }
+      seen.push_back(key);
+    }
+  }
+}
+
+/// The trajectories of a plan, each loaded once.
+class Truths {
+ public:
+  explicit Truths(Side side) : side_(side) {}
+
+  std::shared_ptr<const Trajectory> get(const SuiteEntry& entry) {
+    const std::pair place{entry.trajectory, is_trajectory_file(entry.trajectory) ? std::nullopt : entry.truth};
+    std::shared_ptr<const Trajectory>& truth = truths_[place];
+    if (!truth) {
+      const auto loaded = std::make_shared<const Trajectory>(load(entry));
+      require_new(entry, *loaded);
+      truth = loaded;
+    }
+    return truth;
+  }
+
+  static Trajectory load(const SuiteEntry& entry) {
+    const std::string& name = entry.trajectory;
+    if (!is_trajectory_file(name)) {
+      return entry.truth == TruthKind::recorded ? trajectories::recorded_trajectory(trajectory_folder(), name)
+                                                : trajectories::source_trajectory(trajectory_folder(), name);
+    }
+    const Trajectory trajectory = trajectories::load_trajectory(name);
+    if (entry.truth && to_string(*entry.truth) != to_string(trajectory.kind)) {
+      throw Error(name, "kind", std::string(to_string(trajectory.kind)), std::string(to_string(*entry.truth)));
+    }
+    return trajectory;
+  }
+
+ private:
+  void require_new(const SuiteEntry& entry, const Trajectory& loaded) const {
+    if (loaded.side != side_) {
+      throw Error(entry.trajectory, "side", loaded.side == Side::left ? "left" : "right",
+                  "that of the run's other trajectories");
+    }
+    for (const auto& [place, other] : truths_) {
+      if (other && other->name == loaded.name && other->kind == loaded.kind) {
+        throw Error(entry.trajectory, "name", loaded.name, "one not yet in the run");
+      }
+    }
+  }
+
+  Side side_;
+  std::map<std::pair<std::string, std::optional<TruthKind>>, std::shared_ptr<const Trajectory>> truths_;
+};
+
+/// The names of databases, each file opened once.
+class DatabaseNames {
+ public:
+  explicit DatabaseNames(Workbench& workbench) : workbench_(workbench) {}
+
+  std::string get(const std::string& name_or_file) {
+    const auto known = names_.find(name_or_file);
+    if (known != names_.end()) return known->second;
+    return names_[name_or_file] = workbench_.add_database(name_or_file);
+  }
+
+ private:
+  Workbench& workbench_;
+  std::map<std::string, std::string> names_;
+};
+
+bool matches(const std::string& filter, const std::string& name) {
+  return filter.empty() || fnmatch(filter.c_str(), name.c_str(), 0) == 0;
+}
+
+bool same_frames(const Replay& a, const Replay& b) {
+  return a.truth == b.truth && a.subject == b.subject && a.noise == b.noise && a.range.first == b.range.first &&
+         a.range.count == b.range.count;
+}
+
+/// Replays of the first seed with the experiments that the filter leaves.
+std::vector<Replay> replays_of(Workbench& workbench, const Suite& suite, const std::string& filter) {
+  Truths truths(workbench.config().side);
+  DatabaseNames names(workbench);
+  std::vector<Replay> replays;
+  std::vector<std::string> experiments;
+  for (const SuiteEntry& entry : suite.entries) {
+    const Replay wanted{truths.get(entry), entry.subject, entry.noise, suite.seeds.front(), {}, entry.frames};
+    frames_of(wanted);  // the trajectory has them
+    for (const std::string& database : entry.databases) {
+      const std::string name = names.get(database);
+      const std::string experiment = to_string(key_of(wanted, name));
+      if (std::ranges::count(experiments, experiment) > 0) {
+        throw Error(database, "experiment", experiment, "one not yet in the run");
+      }
+      experiments.push_back(experiment);
+      if (!matches(filter, experiment)) continue;
+      auto replay = std::ranges::find_if(replays, [&](const Replay& r) { return same_frames(r, wanted); });
+      if (replay == replays.end()) replay = replays.insert(replay, wanted);
+      replay->databases.push_back(name);
+    }
+  }
+  if (replays.empty()) {
+    constexpr size_t shown = 3;
+    const bool all = experiments.size() <= shown;
+    experiments.resize(std::min(shown, experiments.size()));
+    throw Error(
+        "--filter", "pattern", trajectories::in_quotes(filter),
+        fmt::format("one that matches {}{}", fmt::join(experiments, ", "), all ? "" : ", ... (see --list)"));
+  }
+  return replays;
+}
+
+}  // namespace
+
+Suite parse_suite(std::string_view text, const std::string& path) {
+  const nlohmann::json document = JsonField::parse(text, path);
+  const JsonField root(document, path);
+  root.expect_members({"format", "version", "name", "description", "seeds", "experiments"});
+  root.member("format").expect_text("glovebench-suite");
+  root.member("version").integer(1, 1);
+  Suite suite{root.member("name").name(), root.member("description").text(), seeds_from(root.member("seeds")), {}};
+  const JsonField experiments = root.member("experiments");
+  for (size_t i = 0; i < experiments.array_size(); ++i) {
+    suite.entries.push_back(entry_from(experiments.element(i), fs::path(path).parent_path()));
+  }
+  expect_each_once(experiments, suite.entries);
+  return suite;
+}
+
+Suite load_suite(const std::string& name_or_file) {
+  if (name_or_file.ends_with(".json")) return parse_suite(read_file(name_or_file), name_or_file);
+  const std::vector<std::string> known = suite_names();
+  if (std::ranges::count(known, name_or_file) == 0) {
+    throw Error("suites", "name", name_or_file,
+                fmt::format("a file (*.json) or one of {}", fmt::join(known, ", ")));
+  }
+  const std::string path = fmt::format("{}/{}.json", suite_folder(), name_or_file);
+  Suite suite = parse_suite(read_file(path), path);
+  if (suite.name != name_or_file) throw Error(path, "name", suite.name, name_or_file);
+  return suite;
+}
+
+std::vector<std::string> suite_names() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(suite_folder(), error)) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+Side side_of(const Suite& suite) {
+  return Truths::load(suite.entries.at(0)).side;
+}
+
+Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter) {
+  Plan plan{tracker, {}, suite.name};
+  for (const Replay& first : replays_of(workbench, suite, filter)) {
+    for (const uint64_t seed : suite.seeds) {
+      plan.replays.push_back(first);
+      plan.replays.back().seed = seed;
+    }
+  }
+  return plan;
+}
+
+}  // namespace glovebench::eval
