@@ -6,10 +6,12 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <memory>
+#include <regex>
+#include <vector>
 
 #include "core/base/error.h"
 
@@ -26,15 +28,31 @@ std::string temporary_name(const std::string& path) {
 
 }  // namespace
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, uint64_t max_bytes) {
+  constexpr const char* kExpected = "a readable file";
   std::error_code ignored;
-  if (fs::is_directory(path, ignored)) throw Error(path, "file", "a folder", "a readable file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path, "file", std::strerror(errno), "a readable file");
-  std::ostringstream content;
-  content << in.rdbuf();
-  if (in.bad()) throw Error(path, "file", "a read error", "a readable file");
-  return std::move(content).str();
+  if (fs::is_directory(path, ignored)) throw Error(path, "file", "a folder", kExpected);
+  // Not a stream: its buffer takes a read error for the end of the file.
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rbe"), &std::fclose);
+  if (!file) throw Error(path, "file", std::strerror(errno), kExpected);
+  std::string content;
+  std::vector<char> chunk(1 << 16);
+  const auto check_size = [&](uint64_t bytes) {
+    if (bytes > max_bytes) {
+      throw Error(path, "size", fmt::format("more than {} bytes", max_bytes), fmt::format("at most {}", max_bytes));
+    }
+  };
+  const uintmax_t size = fs::file_size(path, ignored);
+  if (!ignored) {
+    check_size(size);
+    content.reserve(size);
+  }
+  while (const size_t read = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
+    content.append(chunk.data(), read);
+    check_size(content.size());  // what has no size of its own, a pipe, may still hold too much
+  }
+  if (std::ferror(file.get())) throw Error(path, "file", std::strerror(errno), kExpected);
+  return content;
 }
 
 WholeFile::WholeFile(const std::string& path) : path_(path), temporary_(temporary_name(path)) {
@@ -74,6 +92,18 @@ void write_file(const std::string& path, std::string_view content) {
   WholeFile file(path);
   file.append(content);
   file.commit();
+}
+
+void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such) {
+  static const std::regex temporary(R"((.+)\.tmp-[0-9]+-[0-9]+)");  // as temporary_name makes it
+  std::vector<fs::path> leftovers;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    std::smatch match;
+    if (std::regex_match(name, match, temporary) && is_such(match[1])) leftovers.push_back(entry.path());
+  }
+  for (const fs::path& path : leftovers) fs::remove(path, error);
 }
 
 }  // namespace glovebench

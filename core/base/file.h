@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 
 namespace glovebench {
 
-/// The whole content of a file. Throws Error if it is missing or cannot be read.
-std::string read_file(const std::string& path);
+/// The whole content of a file. Throws Error if it is missing, cannot be read or is larger than that.
+std::string read_file(const std::string& path, uint64_t max_bytes = std::numeric_limits<uint64_t>::max());
 
 /// A file that is written whole: to a temporary name beside the target, flushed, then renamed by `commit`, so that
 /// a reader sees the old content or the new one and a full disk leaves the old one. Creates missing folders.
@@ -29,5 +32,9 @@ class WholeFile {
 
 /// Writes all of a file through WholeFile.
 void write_file(const std::string& path, std::string_view content);
+
+/// Removes from a folder the temporary files of writes that a kill or a crash ended, of files with such names. For
+/// whoever knows that no other process is writing them.
+void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 
 }  // namespace glovebench

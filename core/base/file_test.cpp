@@ -41,6 +41,21 @@ TEST(File, errors_name_the_path) {
   EXPECT_THAT([&] { write_file(blocked + "/c.txt", "x"); }, ThrowsMessage<Error>(HasSubstr(blocked)));
 }
 
+TEST(File, a_read_error_is_no_empty_file) {
+  EXPECT_THAT([] { read_file("/proc/self/mem"); }, ThrowsMessage<Error>(HasSubstr("Input/output error")));
+}
+
+TEST(File, larger_than_its_limit_is_refused_before_it_is_read) {
+  const TestFolder folder;
+  const std::string path = folder / "large";
+  write_file(path, "12345");
+  EXPECT_EQ(read_file(path, 5), "12345");
+  EXPECT_THAT([&] { read_file(path, 4); }, ThrowsMessage<Error>(HasSubstr("more than 4 bytes")));
+  std::filesystem::resize_file(path, uintmax_t{1} << 40);  // a hole: it takes no room
+  EXPECT_THAT([&] { read_file(path, 1'000'000); }, ThrowsMessage<Error>(HasSubstr("more than 1000000 bytes")));
+  EXPECT_THAT([] { read_file("/dev/zero", 1'000'000); }, ThrowsMessage<Error>(HasSubstr("more than 1000000")));
+}
+
 TEST(WholeFile, leaves_nothing_without_commit) {
   const TestFolder folder;
   const std::string path = folder / "file";
@@ -113,6 +128,16 @@ TEST(WholeFile, a_full_disk_is_an_error_and_leaves_the_old_content) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_EQ(read_file(path), "old");
   EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(WholeFile, leftovers_are_removed_by_the_name_of_their_file) {
+  const TestFolder folder;
+  for (const char* name : {"a.csv", "a.csv.tmp-12-0", "b.csv.tmp-1-34", "a.csv.tmp-", "a.csv.tmp-12", "tmp-1-2"})
+    write_file(folder / name, name);
+  remove_leftovers(folder.path(), [](const std::string& name) { return name == "a.csv"; });
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.tmp-12-0"));
+  EXPECT_EQ(folder.file_count(), 5);
+  remove_leftovers(folder / "none", [](const std::string&) { return true; });  // is none
 }
 
 }  // namespace
