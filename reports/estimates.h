@@ -33,5 +33,7 @@ std::string estimates_file(const ExperimentKey& key);
 std::string estimates_csv(const ExperimentEstimates& estimates);
 /// Throws Error naming file, line and column for whatever estimates_csv does not write.
 std::vector<Estimate> read_estimates(const std::string& path);
+/// The same for the file's text; `where` names it in errors.
+std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);
 
 }  // namespace glovebench::reports

@@ -20,9 +20,28 @@ std::string excerpt(const json& value) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
+/// Before anything is parsed: what is nested deeper than that would overflow the stack where it is copied.
+void check_nesting(const std::string& text, const std::string& where) {
+  int depth = 0;
+  bool in_text = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text && c == '\\') ++i;
+    if (c == '"') in_text = !in_text;
+    if (in_text) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > kDeepestNesting) {
+      throw Error(where, fmt::format("byte {}", i + 1), "deeper nesting",
+                  fmt::format("{} levels", kDeepestNesting));
+    }
+  }
+}
+
 }  // namespace
 
 json parse_json(const std::string& text, const std::string& where) {
+  check_nesting(text, where);
   try {
     return json::parse(text);
   } catch (const json::parse_error& error) {
@@ -84,6 +103,17 @@ bool JsonReader::boolean() const {
 double JsonReader::number() const {
   if (!value_.is_number()) fail("a number");
   return value_.get<double>();
+}
+
+double JsonReader::number(double min, double max) const {
+  const bool within = value_.is_number() && value_.get<double>() >= min && value_.get<double>() <= max;
+  if (!within) fail(fmt::format("a number in {}..{}", min, max));
+  return value_.get<double>();
+}
+
+std::optional<double> JsonReader::number_or_null(double min, double max) const {
+  if (value_.is_null()) return std::nullopt;
+  return number(min, max);
 }
 
 std::optional<double> JsonReader::number_or_null() const {

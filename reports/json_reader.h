@@ -11,6 +11,11 @@
 
 namespace glovebench::reports {
 
+/// Larger files, and values nested deeper, are refused before they take memory or stack: 256 MB is the report of
+/// some million frames.
+inline constexpr uint64_t kLargestFile = 256'000'000;
+inline constexpr int kDeepestNesting = 64;
+
 /// Parses JSON text; throws Error naming `where` and the place of what cannot be parsed.
 nlohmann::json parse_json(const std::string& text, const std::string& where);
 
@@ -35,7 +40,9 @@ class JsonReader {
   void expect_text(std::string_view expected) const;
   bool boolean() const;
   double number() const;
+  double number(double min, double max) const;
   std::optional<double> number_or_null() const;
+  std::optional<double> number_or_null(double min, double max) const;
   int64_t integer(int64_t min, int64_t max) const;
   int count() const { return static_cast<int>(integer(0, std::numeric_limits<int>::max())); }
   uint64_t unsigned_integer() const;

@@ -65,6 +65,9 @@ struct NoiseSetting {
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
 };
 
+/// The status of that name; empty if there is none.
+std::optional<TrackStatus> status_from_string(std::string_view name);
+
 /// What makes one experiment: one trajectory replayed against one database.
 struct ExperimentKey {
   std::string trajectory;  ///< "Tr4"
