@@ -1,9 +1,21 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "core/base/file.h"
 #include "reports/json_reader.h"
 #include "reports/results_json.h"
 
 namespace glovebench::reports {
 namespace {
+
+/// No error is larger (a kilometre, in mm), so that sums and squares of what a file holds stay finite.
+constexpr double kLargestValue = 1e6;
+
+std::optional<double> read_value(const JsonReader& json) {
+  return json.number_or_null(0, kLargestValue);
+}
 
 template <typename Value>
 Value named(const JsonReader& json, std::initializer_list<Value> values) {
@@ -14,10 +26,18 @@ Value named(const JsonReader& json, std::initializer_list<Value> values) {
 }
 
 TrackStatus read_status(const JsonReader& json) {
+  const std::optional<TrackStatus> status = status_from_string(json.text());
+  if (!status) json.fail("a frame's status");
+  return *status;
+}
+
+/// Names of experiments become names of files: nothing that leads out of a folder.
+std::string read_name(const JsonReader& json) {
   const std::string name = json.text();
-  for (int s = 0; s < kTrackStatusCount; ++s)
-    if (to_string(static_cast<TrackStatus>(s)) == name) return static_cast<TrackStatus>(s);
-  json.fail("a frame's status");
+  const bool is_safe = !name.empty() && name.size() <= 200 && name.front() != '.' &&
+                       std::ranges::none_of(name, [](unsigned char c) { return c == '/' || c < ' ' || c == 127; });
+  if (!is_safe) json.fail("a name that can be a file's");
+  return name;
 }
 
 std::vector<std::string> read_texts(const JsonReader& json) {
@@ -26,9 +46,9 @@ std::vector<std::string> read_texts(const JsonReader& json) {
   return texts;
 }
 
-std::vector<double> read_numbers(const JsonReader& json) {
+std::vector<double> read_numbers(const JsonReader& json, double max) {
   std::vector<double> numbers;
-  for (const JsonReader& item : json.items()) numbers.push_back(item.number());
+  for (const JsonReader& item : json.items()) numbers.push_back(item.number(0, max));
   return numbers;
 }
 
@@ -69,8 +89,21 @@ FrameRecord read_frame(const JsonReader& json) {
   frame.ambiguous = row[6].boolean();
   frame.converged = row[7].boolean();
   frame.icp_iterations = row[8].count();
-  for (int m = 0; m < kMetricCount; ++m) frame.*metrics()[m].value = row[kFirstMetric + m].number_or_null();
+  for (int m = 0; m < kMetricCount; ++m) frame.*metrics()[m].value = read_value(row[kFirstMetric + m]);
   return frame;
+}
+
+/// The frames of a run follow each other, and are those of the first run.
+void check_frame(const JsonReader& json, const std::vector<FrameRecord>& before, const FrameRecord& frame,
+                 const std::vector<SeedRun>& runs) {
+  if (!before.empty() && frame.frame - 1 != before.back().frame)
+    json.fail("frame " + std::to_string(int64_t{before.back().frame} + 1));
+  if (!before.empty() && frame.timestamp_us <= before.back().timestamp_us)
+    json.fail("a time stamp after " + std::to_string(before.back().timestamp_us));
+  if (runs.empty() || runs.front().frames.size() <= before.size()) return;
+  const FrameRecord& first = runs.front().frames[before.size()];
+  if (frame.frame != first.frame || frame.timestamp_us != first.timestamp_us)
+    json.fail("the frame and time stamp of the first seed");
 }
 
 std::vector<SeedRun> read_runs(const JsonReader& json) {
@@ -79,7 +112,13 @@ std::vector<SeedRun> read_runs(const JsonReader& json) {
     item.expect_keys({"seed", "frames"});
     SeedRun run;
     run.seed = item["seed"].unsigned_integer();
-    for (const JsonReader& frame : item["frames"].items()) run.frames.push_back(read_frame(frame));
+    if (std::ranges::find(runs, run.seed, &SeedRun::seed) != runs.end())
+      item["seed"].fail("a seed that has not been before");
+    for (const JsonReader& row : item["frames"].items()) {
+      const FrameRecord frame = read_frame(row);
+      check_frame(row, run.frames, frame, runs);
+      run.frames.push_back(frame);
+    }
     if (!runs.empty() && run.frames.size() != runs.front().frames.size())
       item["frames"].fail(std::to_string(runs.front().frames.size()) + " items, as the first seed has");
     runs.push_back(std::move(run));
@@ -89,7 +128,7 @@ std::vector<SeedRun> read_runs(const JsonReader& json) {
 
 Coverage read_coverage(const JsonReader& json) {
   json.expect_keys({"frames", "covered", "lost", "false_tracked", "false_lost", "share"});
-  json["share"].number_or_null();
+  json["share"].number_or_null(0, 1);
   return {json["frames"].count(), json["covered"].count(), json["lost"].count(), json["false_tracked"].count(),
           json["false_lost"].count()};
 }
@@ -97,9 +136,29 @@ Coverage read_coverage(const JsonReader& json) {
 std::optional<ConfidenceInterval> read_interval(const JsonReader& json) {
   if (json.is_null()) return std::nullopt;
   json.expect_keys({"low", "high", "level", "seeds", "blocks", "block_frames", "over"});
-  return ConfidenceInterval{json["low"].number(),  json["high"].number(),  json["level"].number(),
-                            json["seeds"].count(), json["blocks"].count(), json["block_frames"].count(),
+  return ConfidenceInterval{json["low"].number(0, kLargestValue),
+                            json["high"].number(0, kLargestValue),
+                            json["level"].number(0, 1),
+                            json["seeds"].count(),
+                            json["blocks"].count(),
+                            json["block_frames"].count(),
                             json["over"].text()};
+}
+
+/// A mean that its frames do not have was changed by hand, or the frames were.
+void check_aggregate(const JsonReader& json, const Aggregate& aggregate, int metric,
+                     const std::vector<SeedRun>& runs) {
+  constexpr double kRounding = 2e-6;  // frames and mean are written to 1e-6
+  std::vector<double> values;
+  for (const SeedRun& run : runs)
+    for (const FrameRecord& frame : run.frames)
+      if (const std::optional<double>& value = frame.*metrics()[metric].value) values.push_back(*value);
+  if (aggregate.count != static_cast<int>(values.size()))
+    json["count"].fail(fmt::format("{}, the frames that have it", values.size()));
+  const std::optional<double> expected = mean(values);
+  const bool agrees = aggregate.mean.has_value() == expected.has_value() &&
+                      (!expected || std::abs(*aggregate.mean - *expected) <= kRounding);
+  if (!agrees) json["mean"].fail("the mean of the frames in runs");
 }
 
 void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
@@ -107,9 +166,9 @@ void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
   for (int m = 0; m < kMetricCount; ++m) {
     const JsonReader item = json[metrics()[m].key];
     item.expect_keys({"count", "mean", "median", "rms", "p95", "max", "interval"});
-    experiment.aggregates[m] = {item["count"].count(),           item["mean"].number_or_null(),
-                                item["median"].number_or_null(), item["rms"].number_or_null(),
-                                item["p95"].number_or_null(),    item["max"].number_or_null()};
+    experiment.aggregates[m] = {item["count"].count(),   read_value(item["mean"]), read_value(item["median"]),
+                                read_value(item["rms"]), read_value(item["p95"]),  read_value(item["max"])};
+    check_aggregate(item, experiment.aggregates[m], m, experiment.runs);
     experiment.intervals[m] = read_interval(item["interval"]);
   }
 }
@@ -117,11 +176,11 @@ void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
 ExperimentKey read_key(const JsonReader& json) {
   json["noise"].expect_keys({"model", "factor"});
   ExperimentKey key;
-  key.trajectory = json["trajectory"].text();
-  key.database = json["database"].text();
+  key.trajectory = read_name(json["trajectory"]);
+  key.database = read_name(json["database"]);
   key.truth = named(json["truth"], {TruthKind::recorded, TruthKind::source});
   key.subject = json["subject"].count();
-  key.noise = {json["noise"]["model"].text(), json["noise"]["factor"].number()};
+  key.noise = {read_name(json["noise"]["model"]), json["noise"]["factor"].number(0, kLargestValue)};
   return key;
 }
 
@@ -138,19 +197,19 @@ ExperimentResult read_experiment(const JsonReader& json) {
     json["coverage"].fail("the counts of the frames in runs");
   read_aggregates(json["aggregates"], experiment);
   const JsonReader pck = json["joint_pck"], sequence = json["sequence"];
-  experiment.pck = {read_numbers(pck["thresholds_mm"]), read_numbers(pck["shares"]), pck["area"].number_or_null()};
+  experiment.pck = {read_numbers(pck["thresholds_mm"], kLargestValue), read_numbers(pck["shares"], 1),
+                    pck["area"].number_or_null(0, 1)};
   if (experiment.pck.shares.size() != experiment.pck.thresholds_mm.size())
     pck["shares"].fail("one for each threshold");
-  experiment.sequence = {sequence["jitter_position_mm"].number_or_null(),
-                         sequence["jitter_rotation_deg"].number_or_null(),
-                         sequence["latency_frames"].number_or_null()};
+  experiment.sequence = {read_value(sequence["jitter_position_mm"]), read_value(sequence["jitter_rotation_deg"]),
+                         sequence["latency_frames"].number_or_null(-kLargestValue, kLargestValue)};
   return experiment;
 }
 
 }  // namespace
 
 RunResult read_results(const std::string& path) {
-  return parse_results(read_file(path), path);
+  return parse_results(read_file(path, kLargestFile), path);
 }
 
 RunResult parse_results(const std::string& text, const std::string& where) {
@@ -170,7 +229,11 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   result.program_version = json["program"]["version"].text();
   result.commit = json["program"]["commit"].text();
   result.configuration = json["configuration"].object();
-  for (const JsonReader& item : json["experiments"].items()) result.experiments.push_back(read_experiment(item));
+  for (const JsonReader& item : json["experiments"].items()) {
+    ExperimentResult experiment = read_experiment(item);
+    if (find_experiment(result, experiment.key)) item.fail("an experiment that has not been before");
+    result.experiments.push_back(std::move(experiment));
+  }
   return result;
 }
 

@@ -1,0 +1,244 @@
+// results.json as no run writes it: one line that says what is wrong, whatever was done to the file.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/random.h"
+#include "reports/example_result.h"
+#include "reports/json_reader.h"
+#include "reports/results_json.h"
+
+namespace glovebench::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string& example_text() {
+  static const std::string text = results_json(small_result());
+  return text;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_results(text, "results.json");
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string error_of_change(const std::function<void(json&)>& change) {
+  json results = json::parse(example_text());
+  change(results);
+  return error_of(results.dump());
+}
+
+/// The first frame of the first seed of the first experiment.
+json& first_frame(json& results) {
+  return results["experiments"][0]["runs"][0]["frames"][0];
+}
+
+std::string error_of_reading(const std::string& path) {
+  try {
+    read_results(path);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(HostileResults, NestedAMillionDeep) {
+  constexpr size_t kDeep = 1'000'000;
+  EXPECT_THAT(error_of(std::string(kDeep, '[')), HasSubstr("results.json: byte 65: found deeper nesting"));
+  std::string objects;
+  for (size_t i = 0; i < kDeep; ++i) objects += "{\"a\":";
+  EXPECT_THAT(error_of(objects), HasSubstr("deeper nesting"));
+  std::string text = example_text();
+  const std::string key = "\"configuration\": ";
+  text.insert(text.find(key) + key.size(),
+              "{\"a\": " + std::string(kDeep, '[') + std::string(kDeep, ']') + "}, \"b\": ");
+  EXPECT_THAT(error_of(text), HasSubstr("deeper nesting"));
+}
+
+TEST(HostileResults, BracketsInATextAreNoNesting) {
+  json results = json::parse(example_text());
+  results["configuration"]["note"] = "\\\"" + std::string(100, '[');
+  EXPECT_EQ(error_of(results.dump()), "no error");
+}
+
+TEST(HostileResults, NumbersThatNoErrorHas) {
+  const auto with_number = [](const std::string& number) {
+    json results = json::parse(example_text());
+    first_frame(results)[9] = "NUMBER";
+    std::string text = results.dump();
+    return error_of(text.replace(text.find("\"NUMBER\""), 8, number));
+  };
+  EXPECT_THAT(with_number("1e999"), HasSubstr("expected a finite number"));
+  EXPECT_THAT(with_number("NaN"), HasSubstr("expected JSON"));
+  EXPECT_THAT(with_number("Infinity"), HasSubstr("expected JSON"));
+  for (const char* number : {"1e308", "1000000.5", "-0.5", "-1e308", "18446744073709551615", "\"4\"", "true", "[]"})
+    EXPECT_THAT(with_number(number), HasSubstr("runs[0].frames[0][9]: found")) << number;
+}
+
+TEST(HostileResults, NumbersBesideTheFramesThatWouldOverflow) {
+  EXPECT_THAT(
+      error_of_change([](json& r) { r["experiments"][0]["aggregates"]["position_error_mm"]["max"] = 1e308; }),
+      HasSubstr("aggregates.position_error_mm.max"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["noise"]["factor"] = -1; }),
+              HasSubstr("noise.factor"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["joint_pck"]["shares"][3] = 1.5; }),
+              HasSubstr("joint_pck.shares[3]"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["sequence"]["latency_frames"] = 1e300; }),
+              HasSubstr("sequence.latency_frames"));
+}
+
+TEST(HostileResults, MeansThatTheFramesDoNotHave) {
+  const auto mean = [](json& r) -> json& { return r["experiments"][0]["aggregates"]["position_error_mm"]["mean"]; };
+  EXPECT_THAT(error_of_change([&](json& r) { mean(r) = 3.9; }),
+              HasSubstr("aggregates.position_error_mm.mean: found 3.9, expected the mean of the frames"));
+  EXPECT_THAT(error_of_change([&](json& r) { mean(r) = nullptr; }), HasSubstr("position_error_mm.mean"));
+  EXPECT_THAT(error_of_change([](json& r) { first_frame(r)[9] = 3.5; }), HasSubstr("position_error_mm.mean"));
+  EXPECT_THAT(error_of_change([](json& r) { first_frame(r)[9] = nullptr; }), HasSubstr("position_error_mm.count"));
+}
+
+TEST(HostileResults, WhatComesTwice) {
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"].push_back(r["experiments"][0]); }),
+              HasSubstr("experiments[4]: found an object, expected an experiment that has not been before"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][1]["seed"] = 1; }),
+              HasSubstr("runs[1].seed: found 1, expected a seed that has not been before"));
+}
+
+TEST(HostileResults, FramesThatDoNotFollowEachOther) {
+  const auto frame = [](json& r, int run, int row) -> json& {
+    return r["experiments"][0]["runs"][run]["frames"][row];
+  };
+  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[0] = 2; }),
+              HasSubstr("frames[1]: found 23 items, expected frame 1"));
+  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[0] = 0; }), HasSubstr("expected frame 1"));
+  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[1] = 0; }), HasSubstr("expected a time stamp after 0"));
+  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 1, 1)[1] = 7; }), HasSubstr("runs[1].frames[1]"));
+  EXPECT_THAT(error_of_change([&](json& r) {
+                frame(r, 1, 0)[0] = 1;
+                frame(r, 1, 1)[0] = 2;
+              }),
+              HasSubstr("runs[1].frames[0]"));
+}
+
+TEST(HostileResults, NamesThatLeadOutOfTheFolder) {
+  for (const char* name : {"../../Tr4", "/Tr4", "..", "", "Tr4\n", "a\x7f"}) {
+    EXPECT_THAT(error_of_change([&](json& r) { r["experiments"][0]["trajectory"] = name; }),
+                HasSubstr("trajectory"));
+    EXPECT_THAT(error_of_change([&](json& r) { r["experiments"][0]["database"] = name; }), HasSubstr("database"));
+  }
+}
+
+TEST(HostileResults, FilesThatCannotBeRead) {
+  const std::string folder = testing::TempDir() + "/hostile_results_test";
+  fs::remove_all(folder);
+  fs::create_directories(folder + "/results.json");
+  EXPECT_THAT(error_of_reading(folder + "/results.json"), HasSubstr("found a folder"));
+  EXPECT_THAT(error_of_reading(folder + "/none.json"), HasSubstr("No such file"));
+  EXPECT_THAT(error_of_reading("/proc/self/mem"), HasSubstr("Input/output error"));
+
+  const std::string large = folder + "/large.json";
+  write_file(large, example_text());
+  fs::resize_file(large, 2'000'000'000);  // mostly a hole
+  EXPECT_THAT(error_of_reading(large),
+              AllOf(HasSubstr("large.json: size: found more than"), HasSubstr("256000000")));
+
+  const std::string secret = folder + "/secret.json";
+  write_file(secret, example_text());
+  fs::permissions(secret, fs::perms::none);
+  // Permissions do not bind the superuser, as whom some machines test.
+  const uid_t self = geteuid();
+  if (self == 0) ASSERT_EQ(seteuid(65534), 0);
+  EXPECT_THAT(error_of_reading(secret), HasSubstr("Permission denied"));
+  if (self == 0) ASSERT_EQ(seteuid(0), 0);
+  fs::remove_all(folder);
+}
+
+TEST(HostileResults, TruncatedAnywhere) {
+  const std::string text = results_json(full_result());
+  for (size_t length = 0; length < text.size(); length += 1000)
+    EXPECT_THAT(error_of(text.substr(0, length)), HasSubstr("expected JSON")) << length;
+}
+
+/// One of the document's values, all the way down.
+json& random_value(json& document, RandomStream& random) {
+  json* value = &document;
+  while (value->is_structured() && !value->empty() && random.index(8) != 0)
+    value = &*std::next(value->begin(), static_cast<std::ptrdiff_t>(random.index(value->size())));
+  return *value;
+}
+
+/// Replaces, removes, doubles or exchanges values; the syntax stays right.
+std::string damaged(RandomStream& random) {
+  static const std::vector<json> strangers = {nullptr,
+                                              true,
+                                              -1,
+                                              0,
+                                              1e308,
+                                              -1e308,
+                                              0.5,
+                                              1e6,
+                                              uint64_t{18446744073709551615u},
+                                              "",
+                                              "tracked",
+                                              "../x",
+                                              json::array(),
+                                              json::object(),
+                                              json::array({1, 2}),
+                                              "\xc3\xa9"};
+  json document = json::parse(example_text());
+  json& value = random_value(document, random);
+  switch (random.index(4)) {
+    case 0:
+      value = strangers[random.index(strangers.size())];
+      break;
+    case 1:
+      if (value.is_array() && !value.empty()) value.push_back(value[random.index(value.size())]);
+      if (value.is_number_float()) value = value.get<double>() + 0.25;
+      if (value.is_number_integer()) value = value.get<int64_t>() + 1;
+      break;
+    case 2:
+      if (value.is_structured() && !value.empty())
+        value.erase(std::next(value.begin(), static_cast<std::ptrdiff_t>(random.index(value.size()))));
+      break;
+    default: {
+      const json other = random_value(document, random);
+      random_value(document, random) = other;
+    }
+  }
+  return document.dump();
+}
+
+TEST(HostileResults, ExchangedValuesGiveAnErrorOrAResultThatCanBeWrittenAgain) {
+  int refused = 0, accepted = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    RandomStream random(1, "hostile_results_test", trial, "damage");
+    const std::string text = damaged(random);
+    try {
+      const RunResult read = parse_results(text, "results.json");
+      ++accepted;
+      EXPECT_FALSE(results_json(read).empty());
+      // What reports do with the frames stays finite.
+      for (const ExperimentResult& e : read.experiments)
+        summarize(e.key, e.runs, e.pck, e.sequence, {.resamples = 10});
+    } catch (const Error& error) {
+      ++refused;
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(accepted, 100) << "another commit, say, is another result: the damage reaches the values";
+}
+
+}  // namespace
+}  // namespace glovebench::reports
