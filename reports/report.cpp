@@ -1,6 +1,10 @@
 #include "reports/report.h"
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <memory>
+#include <regex>
 
 #include "core/base/file.h"
 #include "reports/json_text.h"
@@ -8,11 +12,65 @@
 #include "reports/summary.h"
 
 namespace glovebench::reports {
+namespace {
 
-std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
-                                      const std::vector<Picture>& pictures) {
+namespace fs = std::filesystem;
+
+struct NamedFile {
+  std::string name;
+  std::string content;
+};
+
+std::vector<NamedFile> table_files(const RunResult& result) {
   const PaperNumbers& paper = paper_numbers();
   const NoiseSetting noise = headline_noise(result);
+  std::vector<NamedFile> files = {{"tables/figure4.csv", figure4_csv(result, paper, noise)}};
+  const auto add_curve = [&](const std::string& name, const PaperCurve& curve) {
+    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
+    if (const ExperimentResult* experiment = find_experiment(result, key))
+      files.push_back({name, curve_csv(*experiment, curve)});
+  };
+  add_curve("tables/figure5.csv", paper.figure_5);
+  add_curve("tables/figure6.csv", paper.figure_6);
+  for (const ExperimentResult& experiment : result.experiments)
+    files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment)});
+  return files;
+}
+
+constexpr std::array<const char*, 3> kFolders = {"", "tables/", "estimates/"};
+
+/// What nobody but write_report calls a file in a run's folder, and what only some reports have.
+bool is_of_some_reports(const std::string& name) {
+  static const std::string experiment = R"([^/]+_(recorded|source)_subject[0-9]+_[a-z]+_[0-9.e+-]+\.csv)";
+  static const std::regex pattern("tables/figure[56]\\.csv|(tables/frames_|estimates/)" + experiment);
+  return std::regex_match(name, pattern);
+}
+bool is_of_a_report(const std::string& name) {
+  static const std::regex always(R"((results|config|timings)\.json|summary\.md|index\.html|tables/figure4\.csv)");
+  return is_of_some_reports(name) || std::regex_match(name, always);
+}
+
+/// Tables and estimates of experiments that an older report had.
+void remove_stale_files(const std::string& folder, const std::vector<std::string>& names) {
+  std::vector<fs::path> stale;
+  std::error_code ignored;  // a file that stays is no reason to lose the report
+  for (const std::string part : kFolders) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(folder) / part, ignored)) {
+      const std::string name = part + entry.path().filename().string();
+      if (is_of_some_reports(name) && std::ranges::find(names, name) == names.end()) stale.push_back(entry.path());
+    }
+  }
+  for (const fs::path& path : stale) fs::remove(path, ignored);
+}
+
+}  // namespace
+
+std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
+                                      const std::vector<Picture>& pictures,
+                                      const std::vector<ExperimentEstimates>& estimates) {
+  for (const std::string part : kFolders)
+    remove_leftovers(folder + "/" + part, [&](const std::string& name) { return is_of_a_report(part + name); });
+  const PaperNumbers& paper = paper_numbers();
   std::vector<std::string> names;
   std::vector<std::unique_ptr<WholeFile>> files;
   const auto write = [&](const std::string& name, const std::string& content) {
@@ -20,23 +78,19 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
     files.back()->append(content);
     names.push_back(name);
   };
-  write("results.json", results_json(result));
   write("config.json", format_json(result.configuration));
   write("summary.md", summary_markdown(result, paper));
   write("index.html", html_page(result, paper, pictures));
   write("timings.json", timings_json(timings));
-  write("tables/figure4.csv", figure4_csv(result, paper, noise));
-  const auto write_curve = [&](const std::string& name, const PaperCurve& curve) {
-    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
-    if (const ExperimentResult* experiment = find_experiment(result, key))
-      write(name, curve_csv(*experiment, curve));
-  };
-  write_curve("tables/figure5.csv", paper.figure_5);
-  write_curve("tables/figure6.csv", paper.figure_6);
-  for (const ExperimentResult& experiment : result.experiments)
-    write("tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment));
-  // Only now that there was room for all of them.
-  for (const std::unique_ptr<WholeFile>& file : files) file->commit();
+  for (const NamedFile& table : table_files(result)) write(table.name, table.content);
+  for (const ExperimentEstimates& experiment : estimates)
+    write(estimates_file(experiment.key), estimates_csv(experiment));
+  write("results.json", results_json(result));
+  // Only now that there was room for all of them; results.json, whose numbers are compared, is the last.
+  for (const std::unique_ptr<WholeFile>& file : files) {
+    if (file == files.back()) remove_stale_files(folder, names);
+    file->commit();
+  }
   return names;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/estimates.h"
 #include "reports/page.h"
 #include "reports/results.h"
 #include "reports/timings.h"
@@ -16,8 +17,12 @@ namespace glovebench::reports {
 ///   index.html     tables, curves, pictures; one file that needs no other
 ///   timings.json   what differs from run to run; all other files depend on the results alone
 ///   tables/        figure4.csv; figure5.csv and figure6.csv if those experiments were run; frames_*.csv for each
-/// Throws Error if the folder cannot be written; an older report then stays as it was.
+///   estimates/     what the tracker said, one file an experiment
+/// The older report's files of experiments that are no longer there go, and no others. results.json comes last:
+/// while it is an older one, so may be any file beside it. No other run may be writing there. Throws Error if the
+/// folder cannot be written; an older report then stays as it was.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
-                                      const std::vector<Picture>& pictures = {});
+                                      const std::vector<Picture>& pictures = {},
+                                      const std::vector<ExperimentEstimates>& estimates = {});
 
 }  // namespace glovebench::reports

@@ -33,15 +33,31 @@ Timings example_timings() {
   return timings;
 }
 
+std::vector<ExperimentEstimates> example_estimates(const RunResult& result) {
+  std::vector<ExperimentEstimates> all;
+  for (const ExperimentResult& experiment : result.experiments) {
+    all.push_back({experiment.key, {}});
+    for (const SeedRun& run : experiment.runs)
+      for (const FrameRecord& frame : run.frames)
+        all.back().estimates.push_back({run.seed, frame.frame, frame.timestamp_us, frame.status});
+  }
+  return all;
+}
+
 TEST(Report, WritesEveryFile) {
   const std::string folder = fresh_folder("files");
-  const std::vector<std::string> names = write_report(folder, small_result(), example_timings());
-  EXPECT_THAT(names, testing::ElementsAre("results.json", "config.json", "summary.md", "index.html", "timings.json",
-                                          "tables/figure4.csv", "tables/figure5.csv",
-                                          "tables/frames_Tr4_DB_open_power_recorded_subject1_gradient_1.csv",
-                                          "tables/frames_Tr4_DB_open_power_source_subject2_gradient_1.csv",
-                                          "tables/frames_Tr1_DB_20_postures_source_subject1_gradient_1.csv",
-                                          "tables/frames_Tr4_DB_open_power_recorded_subject1_kinect_0.5.csv"));
+  const RunResult result = small_result();
+  const std::vector<std::string> names =
+      write_report(folder, result, example_timings(), {}, example_estimates(result));
+  std::vector<std::string> expected = {"config.json",  "summary.md",         "index.html",
+                                       "timings.json", "tables/figure4.csv", "tables/figure5.csv"};
+  const std::vector<std::string> experiments = {
+      "Tr4_DB_open_power_recorded_subject1_gradient_1", "Tr4_DB_open_power_source_subject2_gradient_1",
+      "Tr1_DB_20_postures_source_subject1_gradient_1", "Tr4_DB_open_power_recorded_subject1_kinect_0.5"};
+  for (const std::string& name : experiments) expected.push_back("tables/frames_" + name + ".csv");
+  for (const std::string& name : experiments) expected.push_back("estimates/" + name + ".csv");
+  expected.push_back("results.json");
+  EXPECT_THAT(names, testing::ElementsAreArray(expected)) << "the results last";
   for (const std::string& name : names) EXPECT_GT(fs::file_size(folder + "/" + name), 0u) << name;
   EXPECT_EQ(results_json(read_results(folder + "/results.json")), results_json(small_result()));
   EXPECT_EQ(nlohmann::json::parse(read_file(folder + "/config.json")), small_result().configuration);
@@ -55,6 +71,35 @@ TEST(Report, OnlyTimingsDifferBetweenRuns) {
   ASSERT_EQ(write_report(second, full_result(), slower), names);
   for (const std::string& name : names)
     EXPECT_EQ(read_file(first + "/" + name) == read_file(second + "/" + name), name != "timings.json") << name;
+}
+
+TEST(Report, RemovesWhatAnOlderReportLeftAndNothingElse) {
+  const std::string folder = fresh_folder("stale");
+  const RunResult all = small_result();
+  write_report(folder, all, example_timings(), {}, example_estimates(all));
+  const std::string experiment = "Tr4_DB_open_power_recorded_subject1_kinect_0.5.csv";
+  const std::vector<std::string> of_the_user = {"notes.md",
+                                                "tables/mine.csv",
+                                                "tables/frames_mine.csv",
+                                                "tables/frames_" + experiment + ".bak",
+                                                "tables/old/frames_" + experiment,
+                                                "tables/notes.csv.tmp-1-0",
+                                                "estimates/filtered.csv",
+                                                experiment};
+  for (const std::string& name : of_the_user) write_file(folder + "/" + name, "the user's");
+  const std::vector<std::string> interrupted = {"results.json.tmp-1-0", "tables/frames_" + experiment + ".tmp-1-7"};
+  for (const std::string& name : interrupted) write_file(folder + "/" + name, "half");
+
+  RunResult fewer = all;
+  fewer.experiments.erase(fewer.experiments.begin() + 1, fewer.experiments.end());
+  fewer.experiments[0].key.trajectory = "Tr5";  // no Figure 5 either
+  const std::vector<std::string> names =
+      write_report(folder, fewer, example_timings(), {}, example_estimates(fewer));
+  std::vector<std::string> expected = names, found;
+  expected.insert(expected.end(), of_the_user.begin(), of_the_user.end());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) found.push_back(fs::relative(entry.path(), folder).string());
+  EXPECT_THAT(found, testing::UnorderedElementsAreArray(expected));
 }
 
 TEST(Report, FolderThatCannotBeWrittenIsAnError) {
