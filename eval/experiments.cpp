@@ -11,11 +11,14 @@
 #include <fstream>
 
 #include "core/base/check.h"
+#include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/robot/json_lines_sink.h"
+#include "eval/explain.h"
 #include "eval/program_info.h"
 #include "eval/progress.h"
 #include "eval/share.h"
+#include "reports/report.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -121,6 +124,60 @@ void write_robot_commands(const RobotOutput& robot, const Gathered& experiment) 
   }
 }
 
+/// Of a robot folder: "EXPERIMENT_seed1.jsonl".
+bool is_of_robot_output(const std::string& name) {
+  return name.find("_seed") != std::string::npos && name.ends_with(".jsonl");
+}
+
+reports::ExperimentEstimates estimates_of(const Gathered& experiment) {
+  reports::ExperimentEstimates estimates{experiment.key, {}};
+  for (size_t i = 0; i < experiment.passes.size(); ++i) {
+    int frame = experiment.replays[i]->range.first;
+    for (const TrackResult& r : experiment.passes[i]->results) {
+      estimates.estimates.push_back(
+          {experiment.replays[i]->seed, frame++, r.timestamp_us, r.status, r.posture, r.T_camera_hand});
+    }
+  }
+  return estimates;
+}
+
+/// The replay, or what an interrupted run stored of it.
+std::vector<TrackedReplay> replay_once(Workbench& workbench, const Plan& plan, const Replay& one,
+                                       const RunFolder* run_folder, const std::function<void()>& frame_done) {
+  if (!run_folder) return replay(workbench, one, plan.tracker, frame_done);
+  const std::string key = replay_key(workbench, one, plan.tracker);
+  if (std::optional<std::vector<TrackedReplay>> stored = run_folder->load(key)) {
+    for (size_t i = 0; i < frames_of(one).size(); ++i) frame_done();
+    return *std::move(stored);
+  }
+  std::vector<TrackedReplay> made = replay(workbench, one, plan.tracker, frame_done);
+  run_folder->store(key, made);
+  return made;
+}
+
+std::vector<std::vector<TrackedReplay>> run_replays(Workbench& workbench, const Plan& plan,
+                                                    const RunFolder* run_folder) {
+  size_t frames = 0;
+  for (const Replay& replay : plan.replays) frames += frames_of(replay).size();
+  std::vector<std::vector<TrackedReplay>> outputs(plan.replays.size());
+  Progress progress("replaying", workbench.config().quiet);
+  std::atomic<size_t> done{0};
+  const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workbench.config().threads);
+  tbb::task_arena arena(workbench.config().threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, plan.replays.size(), 1),
+        [&](const tbb::blocked_range<size_t>& range) {
+          for (size_t r = range.begin(); r != range.end(); ++r) {
+            outputs[r] = replay_once(workbench, plan, plan.replays[r], run_folder, frame_done);
+          }
+        },
+        tbb::simple_partitioner());
+  });
+  return outputs;
+}
+
 reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& experiments, Workbench& workbench) {
   reports::RunResult result;
   result.protocol = reports::make_protocol("by time stamp, exact");
@@ -163,43 +220,43 @@ Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
   return plan;
 }
 
-Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot) {
-  const auto start = std::chrono::steady_clock::now();
-  size_t frames = 0;
+void prepare(Workbench& workbench, const Plan& plan) {
   for (const Replay& replay : plan.replays) {
-    frames += frames_of(replay).size();
+    frames_of(replay);
+    workbench.subject(replay.subject);
     // Before the threads start: building a database uses all of them itself.
     for (const std::string& name : replay.databases) workbench.database(name);
   }
   workbench.color_table();
+}
 
-  std::vector<std::vector<TrackedReplay>> outputs(plan.replays.size());
-  {
-    Progress progress("replaying", workbench.config().quiet);
-    std::atomic<size_t> done{0};
-    const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workbench.config().threads);
-    tbb::task_arena arena(workbench.config().threads);
-    arena.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<size_t>(0, plan.replays.size(), 1),
-          [&](const tbb::blocked_range<size_t>& range) {
-            for (size_t r = range.begin(); r != range.end(); ++r) {
-              outputs[r] = replay(workbench, plan.replays[r], plan.tracker, frame_done);
-            }
-          },
-          tbb::simple_partitioner());
-    });
-  }
-
+Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot,
+                        const RunFolder* run_folder) {
+  const auto start = std::chrono::steady_clock::now();
+  prepare(workbench, plan);
+  const std::vector<std::vector<TrackedReplay>> outputs = run_replays(workbench, plan, run_folder);
   const std::vector<Gathered> experiments = gather(plan, outputs);
-  Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads)};
+  Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads), {}};
+  if (!robot.folder.empty()) remove_leftovers(robot.folder, is_of_robot_output);
   for (const Gathered& experiment : experiments) {
     outcome.timings.experiments.push_back(timing_of(experiment));
+    outcome.estimates.push_back(estimates_of(experiment));
     if (!robot.folder.empty()) write_robot_commands(robot, experiment);
   }
   outcome.timings.peak_memory_mb = peak_memory_mb();
   outcome.timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return outcome;
+}
+
+Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot,
+                        const std::string& folder) {
+  RunFolder run_folder(folder);
+  prepare(workbench, plan);
+  run_folder.begin();
+  const Outcome outcome = run_experiments(workbench, plan, robot, &run_folder);
+  reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan),
+                        outcome.estimates);
+  run_folder.finish();
   return outcome;
 }
 

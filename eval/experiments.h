@@ -5,6 +5,8 @@
 
 #include "core/robot/robot_command.h"
 #include "eval/replay.h"
+#include "eval/run_folder.h"
+#include "reports/estimates.h"
 
 namespace glovebench::eval {
 
@@ -30,6 +32,7 @@ Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options);
 struct Outcome {
   reports::RunResult result;
   reports::Timings timings;
+  std::vector<reports::ExperimentEstimates> estimates;
 };
 /// Where the robot commands of each experiment are written; an empty folder: nowhere.
 struct RobotOutput {
@@ -37,8 +40,19 @@ struct RobotOutput {
   Eigen::Isometry3d T_base_camera = default_T_base_camera();
 };
 
+/// Checks all that a plan names, and makes or loads the databases and the color table: what a mistake in the plan
+/// throws Error for, it throws here.
+void prepare(Workbench& workbench, const Plan& plan);
+
 /// Runs a plan on the workbench's threads. The result does not depend on their number. With a robot folder, the
-/// robot commands of each experiment are written there as JSON Lines.
-Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot = {});
+/// robot commands of each experiment are written there as JSON Lines. With a run folder, replays that an
+/// interrupted run finished are taken from it, and each that is finished is stored in it.
+Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot = {},
+                        const RunFolder* run_folder = nullptr);
+
+/// The same, with its report: locks and marks the folder, runs the plan or what is left of it after a kill, writes
+/// the report, and takes the mark away.
+Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot,
+                        const std::string& folder);
 
 }  // namespace glovebench::eval

@@ -33,7 +33,8 @@ PlanRun run_plan(const std::string& folder, int threads) {
   Workbench workbench(test_workbench(threads));
   const Plan plan = make_plan();
   const Outcome outcome = run_experiments(workbench, plan, {folder + "/robot", default_T_base_camera()});
-  reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan));
+  reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan),
+                        outcome.estimates);
   PlanRun run{outcome.result, read_folder(folder)};
   EXPECT_EQ(run.files.erase("timings.json"), 1U);
   return run;

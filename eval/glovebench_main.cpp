@@ -8,10 +8,12 @@
 #include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/program_info.h"
+#include "reports/comparison/pairing.h"
 
 namespace {
 
 constexpr int kUsageError = 2;
+constexpr int kIncomparable = 3;
 
 /// What is wrong with the command line. CLI11 tells a missing subcommand or option before an unknown one, which
 /// hides the misspelling that it comes from.
@@ -57,6 +59,9 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is an Error like a full disk
   try {
     return run(argc, argv);
+  } catch (const glovebench::reports::Incomparable& e) {
+    fmt::print(stderr, "glovebench: {}\n", e.what());
+    return kIncomparable;
   } catch (const glovebench::Error& e) {
     fmt::print(stderr, "glovebench: {}\n", e.what());
     return kUsageError;

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "eval/replay.h"
 
@@ -11,24 +12,34 @@ namespace glovebench::eval {
 /// for a whole; finished replays are kept in it, so that the same run, started again after a crash or a kill, goes
 /// on where it was and writes the same bytes; and it is locked, so that two runs do not write into it at once.
 ///
-/// Under FOLDER/.unfinished/: `lock` (held with flock while the run lives), one file for each finished replay.
+/// FOLDER/.unfinished/ is the mark. It holds `lock` (held with flock while the run lives) and one file for each
+/// finished replay.
 class RunFolder {
  public:
-  /// Throws Error if another run holds the folder or it cannot be written.
+  /// Locks and marks. Throws Error if another run holds the folder or it cannot be written.
   explicit RunFolder(const std::string& folder);
+  /// Without `begin`, a mark that was not there before goes again.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
+  /// What was asked for can be done, and the work begins: from here on the mark stays until `finish`.
+  void begin() { keep_mark_ = true; }
+
   /// What an earlier, interrupted run stored under this key; empty if there is nothing, or nothing whole.
   std::optional<std::vector<TrackedReplay>> load(const std::string& key) const;
+  /// Thread-safe. Throws Error if there is no room.
   void store(const std::string& key, const std::vector<TrackedReplay>& replay) const;
 
-  /// The report is written: what was kept goes, and the mark with it.
+  /// The report is written: the mark goes, in one step, and what was kept with it.
   void finish();
 
  private:
+  void lock();
+
   std::string folder_;
+  std::string mark_;
+  bool keep_mark_ = false;
   int lock_ = -1;
 };
 

@@ -71,25 +71,48 @@ struct ProgramSetting {
   _exit(127);
 }
 
-/// Runs a program to its end. `command` begins with its path.
-inline ProgramRun run_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
-  const std::string base = testing::TempDir() + "glovebench-program-" + std::to_string(getpid());
-  const std::string out = base + ".out", err = base + ".err";
-  const pid_t child = fork();
-  if (child == 0) become(command, setting, out, err);
+/// A program that was started, with the files that hold what it says.
+struct StartedProgram {
+  pid_t process = -1;
+  std::string out;
+  std::string err;
+};
+/// `command` begins with the program's path.
+inline StartedProgram start_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
+  static int count = 0;
+  const std::string base =
+      testing::TempDir() + "glovebench-program-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+  StartedProgram started{fork(), base + ".out", base + ".err"};
+  if (started.process == 0) become(command, setting, started.out, started.err);
+  return started;
+}
+/// Waits for its end.
+inline ProgramRun finish_program(const StartedProgram& started) {
   int status = 0;
-  waitpid(child, &status, 0);
-  const ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+  waitpid(started.process, &status, 0);
+  const std::filesystem::path out = started.out, err = started.err;
+  // A program that was killed at once has not even opened them.
+  const auto text = [](const std::filesystem::path& path) { return exists(path) ? read_file(path) : ""; };
+  const ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
   std::filesystem::remove(out);
   std::filesystem::remove(err);
   return run;
 }
 
-/// Runs the glovebench command with the tests' cache.
-inline ProgramRun run_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
+/// Runs a program to its end.
+inline ProgramRun run_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
+  return finish_program(start_program(command, setting));
+}
+
+/// Starts the glovebench command with the tests' cache.
+inline StartedProgram start_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
   arguments.insert(arguments.begin(), GLOVEBENCH_PROGRAM);
   setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());
-  return run_program(arguments, setting);
+  return start_program(arguments, setting);
+}
+/// Runs the glovebench command with the tests' cache.
+inline ProgramRun run_glovebench(const std::vector<std::string>& arguments, const ProgramSetting& setting = {}) {
+  return finish_program(start_glovebench(arguments, setting));
 }
 
 /// The content of each file under a folder, by its path in there.

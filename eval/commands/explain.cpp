@@ -26,6 +26,7 @@ struct Explain {
 
   void run() {
     const std::string results_path = run_folder + "/results.json";
+    require_finished(run_folder);
     const reports::RunResult results = reports::read_results(results_path);
     const ExperimentResult& experiment = find(results, results_path);
     const auto truth = std::make_shared<const Trajectory>(load_truth(experiment.key));

@@ -6,9 +6,7 @@
 #include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/experiments.h"
-#include "eval/explain.h"
 #include "reports/paper_numbers.h"
-#include "reports/report.h"
 #include "reports/tables.h"
 #include "trajectories/catalog.h"
 
@@ -36,8 +34,7 @@ struct Reproduce {
 
     Workbench workbench = common.workbench();
     const Plan plan = plan_figure4(common.tracker_config(), figure4);
-    const Outcome outcome = run_experiments(workbench, plan, {robot.output, robot.T_base_camera()});
-    reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
+    const Outcome outcome = run_into_folder(workbench, plan, {robot.output, robot.T_base_camera()}, common.output);
     for (const reports::NoiseSetting& noise : figure4.noises) {
       if (all_gains) fmt::print("Depth noise: {} x{}\n", noise.model, noise.factor);
       fmt::print("{}\n", reports::figure4_table(outcome.result, reports::paper_numbers(), noise));

@@ -4,10 +4,9 @@
 
 #include "core/base/error.h"
 #include "eval/commands/command.h"
-#include "eval/explain.h"
+#include "eval/experiments.h"
 #include "eval/plan_overview.h"
 #include "eval/suite.h"
-#include "reports/report.h"
 #include "reports/summary.h"
 
 namespace glovebench::eval {
@@ -38,8 +37,7 @@ struct Run {
     if (dry_run) return print_dry_run(workbench, plan);
     require_output();
     common.check_output_folder();
-    const Outcome outcome = run_experiments(workbench, plan, {robot.output, robot.T_base_camera()});
-    reports::write_report(common.output, outcome.result, outcome.timings, sample_pictures(workbench, plan));
+    const Outcome outcome = run_into_folder(workbench, plan, {robot.output, robot.T_base_camera()}, common.output);
     fmt::print("{}", reports::to_markdown(reports::detail_summary(outcome.result)));
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);

@@ -1,0 +1,142 @@
+#include "eval/run_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "eval/stored_replay.h"
+#include "reports/comparison/pairing.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMark = "/.unfinished";
+constexpr const char* kDone = ".finished-";  // a mark that no longer is one, on its way out
+
+/// Does the path still lead to the open file?
+bool is_still_there(int descriptor, const std::string& path) {
+  struct stat opened {
+  }, present{};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &present) == 0 &&
+         opened.st_ino == present.st_ino && opened.st_dev == present.st_dev;
+}
+
+/// Marks that a kill kept from being removed after they were put aside.
+void remove_done_marks(const std::string& folder) {
+  std::vector<fs::path> done;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().filename().string().starts_with(kDone)) done.push_back(entry.path());
+  for (const fs::path& path : done) fs::remove_all(path, ignored);
+}
+
+const std::string& program_hash() {
+  static const std::string hash = hash_file("/proc/self/exe");
+  return hash;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const std::string& folder) : folder_(folder), mark_(folder + kMark) {
+  lock();
+  remove_done_marks(folder_);
+}
+
+/// A run that just finishes takes the lock's file away with the mark: then the lock is one of nothing, and another
+/// has to be taken.
+void RunFolder::lock() {
+  const std::string path = mark_ + "/lock";
+  while (lock_ < 0) {
+    std::error_code error;
+    if (fs::create_directories(folder_, error); error)
+      throw Error(folder_, "folder", error.message(), "a folder that can be written");
+    keep_mark_ = !fs::create_directory(mark_, error);
+    if (error) throw Error(mark_, "folder", error.message(), "a folder that can be written");
+    lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (lock_ < 0 && errno == ENOENT) continue;
+    if (lock_ < 0) throw Error(path, "lock", std::strerror(errno), "a file that can be written");
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+      const int reason = errno;
+      ::close(lock_);
+      if (reason != EWOULDBLOCK) throw Error(path, "lock", std::strerror(reason), "a file that can be locked");
+      throw Error(folder_, "folder", "another run that is writing into it", "a folder of its own for each run");
+    }
+    if (is_still_there(lock_, path)) return;
+    ::close(lock_);
+    lock_ = -1;
+  }
+}
+
+RunFolder::~RunFolder() {
+  if (lock_ < 0) return;
+  if (!keep_mark_) {
+    std::error_code ignored;
+    fs::remove_all(mark_, ignored);
+  }
+  ::close(lock_);
+}
+
+std::optional<std::vector<TrackedReplay>> RunFolder::load(const std::string& key) const {
+  const std::string path = fmt::format("{}/{}.replay", mark_, key);
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  try {
+    return from_bytes(key, read_file(path));
+  } catch (const Error&) {  // what cannot be read is made anew
+    return std::nullopt;
+  }
+}
+
+void RunFolder::store(const std::string& key, const std::vector<TrackedReplay>& replay) const {
+  write_file(fmt::format("{}/{}.replay", mark_, key), to_bytes(key, replay));
+}
+
+void RunFolder::finish() {
+  const std::string done = fmt::format("{}/{}{}", folder_, kDone, getpid());
+  if (::rename(mark_.c_str(), done.c_str()) != 0)
+    throw Error(mark_, "folder", std::strerror(errno), "a mark that can be removed");
+  std::error_code ignored;  // the next run removes what stays
+  fs::remove_all(done, ignored);
+  ::close(lock_);
+  lock_ = -1;
+}
+
+std::string replay_key(Workbench& workbench, const Replay& replay, const TrackerConfig& config) {
+  nlohmann::json databases = nlohmann::json::array();
+  for (const std::string& name : replay.databases) databases.push_back({name, workbench.database(name)->hash()});
+  const auto frames = frames_of(replay);
+  const nlohmann::json content = {
+      {"program", program_hash()},
+      {"configuration", to_json(config)},
+      {"truth", {replay.truth->name, trajectories::hash(*replay.truth)}},
+      {"frames", {replay.range.first, frames.size()}},
+      {"noise", {replay.noise.model, replay.noise.factor}},
+      {"seed", replay.seed},
+      {"subject", {replay.subject, workbench.subject(replay.subject)->hash()}},
+      {"hand_model", workbench.model()->hash()},
+      {"databases", databases},
+      {"color_table", hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())))},
+  };
+  return hash_text(content.dump());
+}
+
+void require_finished(const std::string& folder) {
+  std::error_code ignored;
+  if (!fs::exists(folder + kMark, ignored)) return;
+  throw reports::Incomparable(folder, "run", "an unfinished one (.unfinished)",
+                              "a finished one: the same command again resumes it where it stopped");
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,158 @@
+#include "eval/stored_replay.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/hash.h"
+
+namespace glovebench::eval {
+namespace {
+
+using nlohmann::json;
+
+/// Raised whenever the meaning of a row below changes.
+constexpr int kVersion = 1;
+
+/// The first line of a file with that content.
+std::string heading(std::string_view content) {
+  return fmt::format("glovebench-replay {} {}\n", kVersion, hash_text(content));
+}
+
+json row_of(const Posture& posture) {
+  return std::vector<double>(posture.begin(), posture.end());
+}
+
+Posture posture_of(const json& row) {
+  const auto values = row.get<std::array<double, kAngleCount>>();
+  return Posture::Map(values.data());
+}
+
+/// The upper three rows of the matrix, column by column.
+json row_of(const Eigen::Isometry3d& pose) {
+  const Eigen::Matrix<double, 3, 4> upper = pose.matrix().topRows<3>();
+  return std::vector<double>(upper.data(), upper.data() + upper.size());
+}
+
+Eigen::Isometry3d pose_of(const json& row) {
+  const auto values = row.get<std::array<double, 12>>();
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.matrix().topRows<3>() = Eigen::Matrix<double, 3, 4>::Map(values.data());
+  return pose;
+}
+
+json row_of(const TrackResult& r) {
+  json matches = json::array();
+  for (const Match& match : r.matches) matches.push_back({match.entry, match.error});
+  return {r.timestamp_us,
+          static_cast<int>(r.status),
+          row_of(r.posture),
+          row_of(r.T_camera_hand),
+          row_of(r.posture_unfiltered),
+          row_of(r.T_camera_hand_unfiltered),
+          row_of(r.T_camera_hand_coarse),
+          std::move(matches),
+          r.ambiguous,
+          r.converged,
+          r.cloud_points,
+          r.icp_points,
+          r.icp_iterations,
+          r.icp_residual};
+}
+
+TrackResult result_of(const json& row) {
+  TrackResult r;
+  r.timestamp_us = row.at(0);
+  r.status = static_cast<TrackStatus>(row.at(1).get<int>());
+  r.posture = posture_of(row.at(2));
+  r.T_camera_hand = pose_of(row.at(3));
+  r.posture_unfiltered = posture_of(row.at(4));
+  r.T_camera_hand_unfiltered = pose_of(row.at(5));
+  r.T_camera_hand_coarse = pose_of(row.at(6));
+  for (const json& match : row.at(7)) r.matches.push_back({match.at(0).get<int>(), match.at(1).get<float>()});
+  r.ambiguous = row.at(8);
+  r.converged = row.at(9);
+  r.cloud_points = row.at(10);
+  r.icp_points = row.at(11);
+  r.icp_iterations = row.at(12);
+  r.icp_residual = row.at(13);
+  return r;
+}
+
+json row_of(const FrameErrors& errors) {
+  const reports::FrameRecord& r = errors.record;
+  json values = json::array();
+  for (const reports::Metric& metric : reports::metrics())
+    values.push_back(r.*metric.value ? json(*(r.*metric.value)) : json());
+  return {r.frame,           r.timestamp_us,        static_cast<int>(r.status),
+          r.covered,         r.false_tracked,       r.false_lost,
+          r.ambiguous,       r.converged,           r.icp_iterations,
+          std::move(values), errors.joint_errors_mm};
+}
+
+FrameErrors errors_of(const json& row) {
+  FrameErrors errors;
+  reports::FrameRecord& r = errors.record;
+  r.frame = row.at(0);
+  r.timestamp_us = row.at(1);
+  r.status = static_cast<TrackStatus>(row.at(2).get<int>());
+  r.covered = row.at(3);
+  r.false_tracked = row.at(4);
+  r.false_lost = row.at(5);
+  r.ambiguous = row.at(6);
+  r.converged = row.at(7);
+  r.icp_iterations = row.at(8);
+  for (int m = 0; m < reports::kMetricCount; ++m)
+    if (const json& value = row.at(9).at(m); !value.is_null()) r.*reports::metrics()[m].value = value.get<double>();
+  errors.joint_errors_mm = row.at(10).get<std::vector<double>>();
+  return errors;
+}
+
+json object_of(const TrackedReplay& replay) {
+  json results = json::array(), errors = json::array(), stages = json::array();
+  for (const TrackResult& result : replay.results) results.push_back(row_of(result));
+  for (const FrameErrors& frame : replay.errors) errors.push_back(row_of(frame));
+  for (const reports::StageTiming& stage : replay.stages) stages.push_back({stage.stage, stage.frame_ms});
+  return {{"database", replay.database},
+          {"results", std::move(results)},
+          {"errors", std::move(errors)},
+          {"stages", std::move(stages)}};
+}
+
+TrackedReplay replay_of(const json& object) {
+  TrackedReplay replay;
+  replay.database = object.at("database");
+  for (const json& row : object.at("results")) replay.results.push_back(result_of(row));
+  for (const json& row : object.at("errors")) replay.errors.push_back(errors_of(row));
+  for (const json& stage : object.at("stages")) {
+    replay.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::vector<double>>()});
+  }
+  return replay;
+}
+
+}  // namespace
+
+std::string to_bytes(const std::string& key, const std::vector<TrackedReplay>& replay) {
+  json passes = json::array();
+  for (const TrackedReplay& pass : replay) passes.push_back(object_of(pass));
+  std::string content;
+  json::to_cbor({{"key", key}, {"passes", std::move(passes)}}, content);
+  return heading(content) + content;
+}
+
+std::optional<std::vector<TrackedReplay>> from_bytes(const std::string& key, const std::string& bytes) {
+  const size_t content_begin = bytes.find('\n') + 1;
+  const std::string_view content = std::string_view(bytes).substr(content_begin);
+  if (std::string_view(bytes).substr(0, content_begin) != heading(content)) return std::nullopt;
+  try {
+    const json object = json::from_cbor(content);
+    if (object.at("key") != key) return std::nullopt;
+    std::vector<TrackedReplay> replay;
+    for (const json& pass : object.at("passes")) replay.push_back(replay_of(pass));
+    return replay;
+  } catch (const json::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace glovebench::eval
