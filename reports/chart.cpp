@@ -17,23 +17,27 @@ constexpr double kLeft = 52, kRight = 750, kTop = 26, kBottom = 156;
 /// Where places and values lie in the box.
 struct Scale {
   double x_max = 1;
-  double y_max = 1;
+  std::vector<double> y_ticks;
   double x(double place) const { return kLeft + (kRight - kLeft) * place / x_max; }
-  double y(double value) const { return kBottom - (kBottom - kTop) * value / y_max; }
+  double y(double value) const {
+    return kBottom - (kBottom - kTop) * (value - y_ticks.front()) / (y_ticks.back() - y_ticks.front());
+  }
 };
 
 Scale make_scale(const LineChart& chart) {
   size_t places = 2;
-  double largest = 0;
+  double smallest = 0, largest = 0;
   for (const Series& series : chart.series) {
     places = std::max(places, series.values.size());
     for (const auto& value : series.values) {
       if (!value) continue;
-      check(std::isfinite(*value) && *value >= 0, "a chart shows finite values of 0 or more");
+      check(std::isfinite(*value), "a chart shows finite values");
+      check(chart.is_signed || *value >= 0, "a chart that is not signed shows values of 0 or more");
+      smallest = std::min(smallest, *value);
       largest = std::max(largest, *value);
     }
   }
-  return {static_cast<double>(places - 1), axis_ticks(largest, 4).back()};
+  return {static_cast<double>(places - 1), signed_axis_ticks(smallest, largest, 4)};
 }
 
 std::string text(double x, double y, const char* anchor, const std::string& label) {
@@ -48,16 +52,19 @@ std::string line(const char* style, double x1, double y1, double x2, double y2) 
 
 std::string axes(const LineChart& chart, const Scale& scale) {
   std::string svg;
-  for (const double tick : axis_ticks(scale.y_max, 4)) {
+  for (const double tick : scale.y_ticks) {
     svg += line("grid", kLeft, scale.y(tick), kRight, scale.y(tick));
     svg += text(kLeft - 6, scale.y(tick) + 4, "end", fmt::format("{:g}", tick));
   }
-  for (const double tick : axis_ticks(scale.x_max, 8)) {
-    if (tick > scale.x_max) break;
-    svg += line("axis", scale.x(tick), kBottom, scale.x(tick), kBottom + 4);
-    svg += text(scale.x(tick), kBottom + 17, "middle", fmt::format("{:g}", tick));
+  // Round numbers of the first place on, not round distances from it.
+  const double last_place = chart.first_place + scale.x_max;
+  const double step = axis_ticks(scale.x_max, 8)[1];
+  for (double tick = std::ceil(chart.first_place / step) * step; tick <= last_place; tick += step) {
+    const double x = scale.x(tick - chart.first_place);
+    svg += line("axis", x, kBottom, x, kBottom + 4);
+    svg += text(x, kBottom + 17, "middle", fmt::format("{:g}", tick));
   }
-  svg += line("axis", kLeft, kBottom, kRight, kBottom);
+  svg += line("axis", kLeft, scale.y(0), kRight, scale.y(0));
   svg += text(kLeft, kTop - 12, "start", chart.y_label);
   svg += text((kLeft + kRight) / 2, kHeight - 3, "middle", chart.x_label);
   return svg;
@@ -82,14 +89,21 @@ std::string path(const Series& series, size_t index, const Scale& scale) {
 }  // namespace
 
 std::vector<double> axis_ticks(double max, int count) {
-  if (max <= 0) return {0, 1};
-  const double raw_step = max / count;
+  return signed_axis_ticks(0, max, count);
+}
+
+std::vector<double> signed_axis_ticks(double min, double max, int count) {
+  min = std::min(min, 0.0);
+  max = std::max(max, 0.0);
+  if (max - min <= 0) return {0, 1};
+  const double raw_step = (max - min) / count;
   const double power = std::pow(10, std::floor(std::log10(raw_step)));
   double step = 10 * power;
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= raw_step * (1 - 1e-9)) step = factor * power;
-  std::vector<double> ticks = {0};
-  while (ticks.back() < max * (1 - 1e-9)) ticks.push_back(step * static_cast<double>(ticks.size()));
+  std::vector<double> ticks;
+  const double first = std::ceil(-min / step * (1 - 1e-9)), last = std::ceil(max / step * (1 - 1e-9));
+  for (double i = -first; i <= last; ++i) ticks.push_back(step * i + 0.0);  // + 0.0 turns -0 into 0
   return ticks;
 }
 

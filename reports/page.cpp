@@ -3,23 +3,10 @@
 #include <fmt/format.h>
 
 #include "reports/chart.h"
-#include "reports/embedded.h"
 #include "reports/summary.h"
 
 namespace glovebench::reports {
 namespace {
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t group = 0;
-    const size_t count = std::min<size_t>(3, bytes.size() - i);
-    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 /// One error of the experiment's first seed over the paper's curve.
 std::string error_chart(const ExperimentResult& experiment, std::string_view metric, const std::string& label,
@@ -46,38 +33,22 @@ std::string curve_section(const RunResult& result, const NoiseSetting& noise, co
          error_chart(*experiment, "rotation_error_deg", "rotation error (deg)", paper, &PaperErrors::rotation_deg);
 }
 
-std::string picture_section(const std::vector<Picture>& pictures) {
-  if (pictures.empty()) return "";
-  std::string html = "<h2>Frames</h2>\n<div class=\"pictures\">\n";
-  for (const Picture& picture : pictures) {
-    const std::string caption = escape_html(picture.caption);
-    html += fmt::format(
-        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"/><figcaption>{}</figcaption></figure>\n", caption,
-        base64(picture.png), caption);
-  }
-  return html + "</div>\n";
-}
-
 }  // namespace
 
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const std::vector<Picture>& pictures) {
   const NoiseSetting noise = headline_noise(result);
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>glovebench "
-         "results</title>\n"
-         "<style>\n" +
-         embedded_page_style() + "</style>\n</head>\n<body>\n<main>\n<h1>glovebench results</h1>\n" +
-         fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
-                     escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
-         "<h2>Figure 4: mean errors</h2>\n<p>" +
-         escape_html(fmt::format("{} Noise: {} x {}.", summary_explanation(), noise.model, noise.factor)) +
-         "</p>\n" + to_html(figure4_summary(result, paper, noise)) +
-         curve_section(result, noise, "Figure 5", paper.figure_5) +
-         curve_section(result, noise, "Figure 6", paper.figure_6) + picture_section(pictures) +
-         "<h2>More metrics</h2>\n<p>Intervals are over blocks of frames and, where there are several, noise seeds; "
-         "not over movements or hands.</p>\n" +
-         to_html(detail_summary(result)) + "<p class=\"provenance\">The paper: " + escape_html(paper.source) +
-         ".</p>\n</main>\n</body>\n</html>\n";
+  const std::string body =
+      fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
+                  escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
+      "<h2>Figure 4: mean errors</h2>\n<p>" +
+      escape_html(fmt::format("{} Noise: {} x {}.", summary_explanation(), noise.model, noise.factor)) + "</p>\n" +
+      to_html(figure4_summary(result, paper, noise)) + curve_section(result, noise, "Figure 5", paper.figure_5) +
+      curve_section(result, noise, "Figure 6", paper.figure_6) + picture_section("Frames", pictures) +
+      "<h2>More metrics</h2>\n<p>Intervals are over blocks of frames and, where there are several, noise seeds; "
+      "not over movements or hands.</p>\n" +
+      to_html(detail_summary(result)) + "<p class=\"provenance\">The paper: " + escape_html(paper.source) +
+      ".</p>\n";
+  return html_document("glovebench results", body);
 }
 
 }  // namespace glovebench::reports

@@ -3,15 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "reports/page_frame.h"
 #include "reports/tables.h"
 
 namespace glovebench::reports {
-
-/// A picture for the page.
-struct Picture {
-  std::string caption;
-  std::string png;  ///< the file's bytes
-};
 
 /// index.html, one file that needs no other: Figure 4 as a table, the curves of figures 5 and 6 beside the paper's
 /// own (of the first noise seed; left out if those experiments were not run), the pictures, and the table of more

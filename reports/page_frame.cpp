@@ -1,0 +1,45 @@
+#include "reports/page_frame.h"
+
+#include <fmt/format.h>
+
+#include "reports/chart.h"
+#include "reports/embedded.h"
+
+namespace glovebench::reports {
+namespace {
+
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t group = 0;
+    const size_t count = std::min<size_t>(3, bytes.size() - i);
+    for (size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? static_cast<uint8_t>(bytes[i + k]) : 0u);
+    for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string picture_section(const std::string& title, const std::vector<Picture>& pictures) {
+  if (pictures.empty()) return "";
+  std::string html = fmt::format("<h2>{}</h2>\n<div class=\"pictures\">\n", escape_html(title));
+  for (const Picture& picture : pictures) {
+    const std::string caption = escape_html(picture.caption);
+    html += fmt::format(
+        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"/><figcaption>{}</figcaption></figure>\n", caption,
+        base64(picture.png), caption);
+  }
+  return html + "</div>\n";
+}
+
+std::string html_document(const std::string& title, const std::string& body) {
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
+         fmt::format("<title>{}</title>\n<style>\n", escape_html(title)) + embedded_page_style() +
+         fmt::format("</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n", escape_html(title)) + body +
+         "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace glovebench::reports
