@@ -7,7 +7,9 @@
 #include <regex>
 
 #include "core/base/file.h"
+#include "reports/histories/histories.h"
 #include "reports/json_text.h"
+#include "reports/latex.h"
 #include "reports/results_json.h"
 #include "reports/summary.h"
 
@@ -21,10 +23,13 @@ struct NamedFile {
   std::string content;
 };
 
-std::vector<NamedFile> table_files(const RunResult& result) {
+std::vector<NamedFile> other_files(const RunResult& result) {
   const PaperNumbers& paper = paper_numbers();
   const NoiseSetting noise = headline_noise(result);
-  std::vector<NamedFile> files = {{"tables/figure4.csv", figure4_csv(result, paper, noise)}};
+  std::vector<NamedFile> files = {{"histories/bencher.json", bencher_json(result)},
+                                  {"histories/github_action_benchmark.json", github_action_benchmark_json(result)},
+                                  {"tables/figure4.csv", figure4_csv(result, paper, noise)},
+                                  {"tables/figure4.tex", figure4_latex(result, paper, noise)}};
   const auto add_curve = [&](const std::string& name, const PaperCurve& curve) {
     const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
     if (const ExperimentResult* experiment = find_experiment(result, key))
@@ -37,7 +42,7 @@ std::vector<NamedFile> table_files(const RunResult& result) {
   return files;
 }
 
-constexpr std::array<const char*, 3> kFolders = {"", "tables/", "estimates/"};
+constexpr std::array<const char*, 4> kFolders = {"", "tables/", "histories/", "estimates/"};
 
 /// What nobody but write_report calls a file in a run's folder, and what only some reports have.
 bool is_of_some_reports(const std::string& name) {
@@ -46,7 +51,8 @@ bool is_of_some_reports(const std::string& name) {
   return std::regex_match(name, pattern);
 }
 bool is_of_a_report(const std::string& name) {
-  static const std::regex always(R"((results|config|timings)\.json|summary\.md|index\.html|tables/figure4\.csv)");
+  static const std::regex always(R"((results|config|timings|histories/(bencher|github_action_benchmark))\.json|)"
+                                 R"(summary\.md|index\.html|tables/figure4\.(csv|tex))");
   return is_of_some_reports(name) || std::regex_match(name, always);
 }
 
@@ -82,7 +88,7 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
   write("summary.md", summary_markdown(result, paper));
   write("index.html", html_page(result, paper, pictures));
   write("timings.json", timings_json(timings));
-  for (const NamedFile& table : table_files(result)) write(table.name, table.content);
+  for (const NamedFile& table : other_files(result)) write(table.name, table.content);
   for (const ExperimentEstimates& experiment : estimates)
     write(estimates_file(experiment.key), estimates_csv(experiment));
   write("results.json", results_json(result));

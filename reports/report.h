@@ -16,7 +16,9 @@ namespace glovebench::reports {
 ///   summary.md     the tables, to read
 ///   index.html     tables, curves, pictures; one file that needs no other
 ///   timings.json   what differs from run to run; all other files depend on the results alone
-///   tables/        figure4.csv; figure5.csv and figure6.csv if those experiments were run; frames_*.csv for each
+///   tables/        figure4.csv and .tex; figure5.csv and figure6.csv if those experiments were run; frames_*.csv
+///                  for each
+///   histories/     bencher.json and github_action_benchmark.json, for services that keep a history
 ///   estimates/     what the tracker said, one file an experiment
 /// The older report's files of experiments that are no longer there go, and no others. results.json comes last:
 /// while it is an older one, so may be any file beside it. No other run may be writing there. Throws Error if the

@@ -49,8 +49,15 @@ TEST(Report, WritesEveryFile) {
   const RunResult result = small_result();
   const std::vector<std::string> names =
       write_report(folder, result, example_timings(), {}, example_estimates(result));
-  std::vector<std::string> expected = {"config.json",  "summary.md",         "index.html",
-                                       "timings.json", "tables/figure4.csv", "tables/figure5.csv"};
+  std::vector<std::string> expected = {"config.json",
+                                       "summary.md",
+                                       "index.html",
+                                       "timings.json",
+                                       "histories/bencher.json",
+                                       "histories/github_action_benchmark.json",
+                                       "tables/figure4.csv",
+                                       "tables/figure4.tex",
+                                       "tables/figure5.csv"};
   const std::vector<std::string> experiments = {
       "Tr4_DB_open_power_recorded_subject1_gradient_1", "Tr4_DB_open_power_source_subject2_gradient_1",
       "Tr1_DB_20_postures_source_subject1_gradient_1", "Tr4_DB_open_power_recorded_subject1_kinect_0.5"};

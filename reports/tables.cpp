@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/csv.h"
 #include "reports/json_text.h"
 #include "reports/results_json.h"
 
@@ -20,16 +21,6 @@ struct Headline {
 constexpr std::array<Headline, 3> kHeadlines = {{{"position_error_mm", &PaperErrors::position_mm},
                                                  {"posture_rms_deg", &PaperErrors::posture_deg},
                                                  {"rotation_error_deg", &PaperErrors::rotation_deg}}};
-
-/// JSON values as one CSV line; texts here are names without commas or quotes.
-std::string csv_line(const Json& cells) {
-  std::string line;
-  for (const auto& cell : cells) {
-    if (&cell != &cells.front()) line += ',';
-    if (!cell.is_null()) line += cell.is_string() ? cell.get<std::string>() : cell.dump();
-  }
-  return line + "\n";
-}
 
 std::string short_name(const std::string& database) {
   return database.starts_with("DB_") ? database.substr(3) : database;
