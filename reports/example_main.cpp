@@ -1,8 +1,11 @@
-// Writes the report of an invented run, to try the schema and to look at the page: reports_example FOLDER
+// Writes the reports of an invented run and of an invented comparison, to try the schemas and to look at the pages:
+// reports_example FOLDER
 
 #include <cstdio>
 #include <exception>
 
+#include "core/base/file.h"
+#include "reports/comparison/example_comparison.h"
 #include "reports/example_result.h"
 #include "reports/report.h"
 
@@ -15,7 +18,12 @@ int main(int argc, char** argv) {
     using namespace glovebench::reports;
     write_report(argv[1], full_result(), {});
     write_report(std::string(argv[1]) + "/small", small_result(), {});
+    const std::string comparison = std::string(argv[1]) + "/comparison";
+    write_comparison(comparison, full_comparison());
+    write_comparison(comparison + "/small", small_comparison());
+    glovebench::write_file(comparison + "/incomparable.xml", incomparable_junit("a.json: seeds: found <1>\n\x01"));
     std::fputs(figure4_table(full_result(), paper_numbers(), {}).c_str(), stdout);
+    std::fputs(comparison_table(full_comparison(), false).c_str(), stdout);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

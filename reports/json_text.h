@@ -15,4 +15,7 @@ double rounded(double value);
 /// null for an empty optional.
 nlohmann::ordered_json rounded_or_null(const std::optional<double>& value);
 
+/// The text with U+FFFD for whatever is not UTF-8 in it: a folder's name can hold any bytes, JSON and XML cannot.
+std::string valid_utf8(const std::string& text);
+
 }  // namespace glovebench::reports

@@ -5,7 +5,7 @@
 
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/gate.h"
-#include "reports/page.h"
+#include "reports/page_frame.h"
 
 namespace glovebench::reports {
 

@@ -1,60 +1,119 @@
 #pragma once
 
-// Results whose every value the test decides. Not part of the library.
+// Comparisons made by hand and by seeded chance, for the tests and for looking at the page. Not part of the
+// library.
 
-#include <functional>
+#include <cmath>
 
-#include "reports/comparison/pairing.h"
-#include "reports/example_result.h"
+#include "core/base/random.h"
+#include "reports/comparison/comparison_report.h"
 
 namespace glovebench::reports {
 
-using MakeFrame = std::function<FrameRecord(uint64_t seed, int frame)>;
-
-inline ExperimentResult example_experiment(const std::string& trajectory, const std::vector<uint64_t>& seeds,
-                                           int frames, const MakeFrame& make_frame) {
-  ExperimentResult experiment;
-  experiment.key = {trajectory, "DB_open_power", TruthKind::source, 1, {}};
-  for (const uint64_t seed : seeds) {
-    SeedRun& run = experiment.runs.emplace_back();
-    run.seed = seed;
-    for (int f = 0; f < frames; ++f) run.frames.push_back(make_frame(seed, f));
-  }
-  experiment.coverage = count_coverage(experiment.runs);
-  return experiment;
+/// A row whose interval reaches as far as given on both sides of the difference.
+inline ComparisonRow example_row(const std::string& experiment, int quantity, double baseline, double difference,
+                                 double reach, Verdict verdict) {
+  ComparisonRow row;
+  row.experiment = experiment;
+  row.quantity = quantity;
+  row.pairs = row.frames = 234;
+  row.blocks = 14;
+  row.baseline = baseline;
+  row.candidate = baseline + difference;
+  row.difference = difference;
+  row.low = difference - reach;
+  row.high = difference + reach;
+  row.minimum_effect = quantities()[quantity].is_share ? 1 : 0.1;
+  row.verdict = verdict;
+  return row;
 }
 
-inline NamedResult example_named(const std::string& name, std::vector<ExperimentResult> experiments) {
-  NamedResult named = {name, small_result()};
-  named.result.experiments = std::move(experiments);
-  named.result.inputs.databases = {{"DB_open_power", "0a"}};
-  named.result.inputs.truths.clear();
-  for (const ExperimentResult& experiment : named.result.experiments)
-    named.result.inputs.truths[truth_name(experiment.key)] = "ff";
-  return named;
+/// One experiment and the rows over all, each verdict once: position worse, rotation better, posture the same, the
+/// unfiltered posture without any value, lost frames that stop though the data say little.
+inline ComparisonReport small_comparison() {
+  const std::string experiment = "Tr4_DB_open_power_source_subject1_gradient_1";
+  ComparisonReport report;
+  Comparison& comparison = report.comparison;
+  comparison.baseline = {"ci/baselines/quick", "0.1.0", "105ec9a", "quick"};
+  comparison.candidate = {"out", "0.1.0", "82ad045", "quick"};
+  comparison.seeds = 2;
+  comparison.rows = {example_row(std::string(kAllExperiments), 0, 3, 0.25, 0.125, Verdict::worse),
+                     example_row(experiment, 0, 3, 0.5, 0.25, Verdict::worse),
+                     example_row(experiment, 1, 4, -0.5, 0.25, Verdict::better),
+                     example_row(experiment, 2, 6, 0.01, 0.02, Verdict::same),
+                     example_row(experiment, 6, 1, 2, 4, Verdict::not_enough_data)};
+  ComparisonRow none;
+  none.experiment = experiment;
+  none.quantity = 3;
+  none.frames = 234;
+  comparison.rows.insert(comparison.rows.begin() + 4, none);
+  comparison.worst = {{{"Tr4", "DB_open_power", TruthKind::source, 1, {}}, 1, 1, 57, 3.5, std::nullopt}};
+  comparison.configuration = {{"icp.max_iterations", "30", "3"}, {"segmentation.extra", "", "\"a|b\""}};
+  comparison.frames = {{experiment, 5, {}}};
+  comparison.frames[0].differences[0] = {0.5, std::nullopt, -0.25};
+  report.speed = {{"look_up", 8, 7.5, 5.6, false}, {"align", 4, 2, 2.8, true}};
+  return report;
 }
 
-/// Errors of about 3 mm: a movement that all seeds and results share, a slow change that belongs to the seed and
-/// `purpose`, and noise of each frame. `shift_mm` is added to all.
-inline ExperimentResult noisy_experiment(const std::string& trajectory, const std::vector<uint64_t>& seeds,
-                                         int frames, const std::string& purpose, double shift_mm) {
-  std::vector<double> movement(frames, 0);
-  RandomStream shared(1, trajectory, 0, "movement");
-  for (int f = 1; f < frames; ++f) movement[f] = 0.9 * movement[f - 1] + 0.2 * shared.normal();
-  ExperimentResult experiment;
-  for (const uint64_t seed : seeds) {
-    RandomStream random(seed, trajectory, 0, purpose);
-    double slow = 0;
-    const auto make_frame = [&](uint64_t, int f) {
-      slow = 0.75 * slow + 0.1 * random.normal();
-      return example_frame(f, 3 + shift_mm + movement[f] + slow + 0.05 * random.normal(), 5, 3);
-    };
-    ExperimentResult one = example_experiment(trajectory, {seed}, frames, make_frame);
-    experiment.key = one.key;
-    experiment.runs.push_back(std::move(one.runs.front()));
+/// Frame by frame: noise, and after a third of the movement a change that fades away.
+inline std::vector<std::optional<double>> example_differences(const std::string& name, int quantity, double level,
+                                                              bool loses_frames) {
+  std::vector<std::optional<double>> values;
+  RandomStream random(1, name, quantity, "example");
+  for (int i = 0; i < 117; ++i) {
+    if (quantities()[quantity].is_share) {
+      values.push_back(loses_frames && quantity == 6 && i > 60 && i < 66 ? 100 : 0);
+    } else if (loses_frames && i > 60 && i < 66) {
+      values.push_back(std::nullopt);
+    } else {
+      values.push_back(level * (i < 40 ? 0.2 : 1.5 * std::exp(-(i - 40) / 60.0)) + 0.1 * random.normal());
+    }
   }
-  experiment.coverage = count_coverage(experiment.runs);
-  return experiment;
+  return values;
+}
+
+inline void append_example_experiment(Comparison& comparison, const ExperimentKey& key, double level,
+                                      bool loses_frames) {
+  const std::string name = to_string(key);
+  FrameDifferences frames{name, 0, {}};
+  for (int q = 0; q < kQuantityCount; ++q) {
+    frames.differences[q] = example_differences(name, q, level, loses_frames);
+    double sum = 0;
+    int count = 0;
+    for (const auto& value : frames.differences[q]) {
+      sum += value.value_or(0);
+      count += value.has_value();
+    }
+    const bool is_share = quantities()[q].is_share;
+    const double mean = sum / count, reach = is_share ? 6 * mean : 0.06 + std::abs(mean) / 4;
+    const double minimum = is_share ? 1 : 0.1;
+    Verdict verdict = Verdict::not_enough_data;
+    if (mean - reach > 0 && mean > minimum) verdict = Verdict::worse;
+    if (mean + reach < 0 && mean < -minimum) verdict = Verdict::better;
+    if (mean - reach > -minimum && mean + reach < minimum) verdict = Verdict::same;
+    comparison.rows.push_back(example_row(name, q, is_share ? 1 : 3, mean, reach, verdict));
+    comparison.rows.back().pairs = 2 * count;
+  }
+  comparison.frames.push_back(std::move(frames));
+}
+
+/// The quick suite with one experiment worse, one better, one unchanged and one that loses frames.
+inline ComparisonReport full_comparison() {
+  ComparisonReport report = small_comparison();
+  Comparison& comparison = report.comparison;
+  comparison.frames.clear();
+  comparison.rows.clear();
+  for (int q = 0; q < kQuantityCount; ++q)
+    comparison.rows.push_back(example_row(std::string(kAllExperiments), q, 3, q == 0 ? 0.2 : 0.01, 0.05,
+                                          q == 0 ? Verdict::worse : Verdict::same));
+  const auto source = TruthKind::source;
+  append_example_experiment(comparison, {"Tr4", "DB_open_power", source, 1, {}}, 0.9, false);
+  append_example_experiment(comparison, {"Tr1", "DB_20_postures", source, 1, {}}, -0.7, false);
+  append_example_experiment(comparison, {"Tr5", "DB_open_power", source, 2, {}}, 0, false);
+  append_example_experiment(comparison, {"Exit", "DB_open_power", source, 1, {}}, 0.1, true);
+  comparison.worst.push_back({{"Exit", "DB_open_power", source, 1, {}}, 2, 2, 64, 4.25, 31.5});
+  comparison.only_in_candidate = {"Tr4_DB_open_power_source_subject1_kinect_1"};
+  return report;
 }
 
 }  // namespace glovebench::reports

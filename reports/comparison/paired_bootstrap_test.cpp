@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "reports/comparison/example_comparison.h"
+#include "reports/comparison/example_runs.h"
 
 namespace glovebench::reports {
 namespace {

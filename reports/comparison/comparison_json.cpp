@@ -1,0 +1,132 @@
+#include <algorithm>
+
+#include "reports/comparison/comparison_report.h"
+#include "reports/comparison/comparison_text.h"
+#include "reports/csv.h"
+#include "reports/json_text.h"
+#include "reports/latex.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json result_json(const ComparedResult& result) {
+  return {{"name", valid_utf8(result.name)},
+          {"suite", result.suite.empty() ? Json() : Json(result.suite)},
+          {"program", {{"version", result.program_version}, {"commit", result.commit}}}};
+}
+
+Json method_json(const Comparison& comparison) {
+  const CompareConfig& config = comparison.config;
+  return {{"family_error", config.family_error},
+          {"block_frames", config.block_frames},
+          {"resamples", config.resamples},
+          {"bootstrap_seed", config.seed},
+          {"seeds", comparison.seeds},
+          {"other_seeds", comparison.other_seeds},
+          {"has_noise_floor", comparison.has_noise_floor}};
+}
+
+Json row_json(const ComparisonRow& row) {
+  const Quantity& quantity = quantities()[row.quantity];
+  return {{"experiment", row.experiment},
+          {"quantity", quantity.key},
+          {"unit", quantity.unit},
+          {"verdict", to_string(row.verdict)},
+          {"stops", stops(row)},
+          {"pairs", row.pairs},
+          {"frames", row.frames},
+          {"blocks", row.blocks},
+          {"baseline", rounded_or_null(row.baseline)},
+          {"candidate", rounded_or_null(row.candidate)},
+          {"difference", rounded_or_null(row.difference)},
+          {"low", rounded_or_null(row.low)},
+          {"high", rounded_or_null(row.high)},
+          {"minimum_effect", rounded(row.minimum_effect)}};
+}
+
+Json speed_json(const SpeedRow& row) {
+  return {{"name", row.name},
+          {"baseline", rounded(row.baseline)},
+          {"candidate", rounded(row.candidate)},
+          {"limit", rounded(row.limit)},
+          {"slower", row.slower}};
+}
+
+Json changed_frame_json(const ChangedFrame& frame) {
+  return {{"experiment", to_string(frame.key)},
+          {"baseline_seed", frame.baseline_seed},
+          {"candidate_seed", frame.candidate_seed},
+          {"frame", frame.frame},
+          {"baseline_vertex_error_mm", rounded_or_null(frame.baseline_vertex_error_mm)},
+          {"candidate_vertex_error_mm", rounded_or_null(frame.candidate_vertex_error_mm)}};
+}
+
+Json differences_json(const FrameDifferences& experiment) {
+  Json differences = Json::object();
+  for (int q = 0; q < kQuantityCount; ++q) {
+    Json values = Json::array();
+    for (const auto& value : experiment.differences[q]) values.push_back(rounded_or_null(value));
+    differences[std::string(quantities()[q].key)] = std::move(values);
+  }
+  return {{"experiment", experiment.experiment},
+          {"first_frame", experiment.first_frame},
+          {"differences", std::move(differences)}};
+}
+
+/// Texts of JSON values; no value is null.
+Json change_json(const ConfigurationChange& change) {
+  const auto value = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
+  return {{"field", change.field}, {"baseline", value(change.baseline)}, {"candidate", value(change.candidate)}};
+}
+
+template <typename Items, typename ToJson>
+Json array_of(const Items& items, ToJson to_json) {
+  Json array = Json::array();
+  for (const auto& item : items) array.push_back(to_json(item));
+  return array;
+}
+
+}  // namespace
+
+std::string comparison_json(const ComparisonReport& report) {
+  const Comparison& comparison = report.comparison;
+  return format_json({{"format", "glovebench-comparison"},
+                      {"version", 1},
+                      {"outcome", outcome_line(report)},
+                      {"explanation", comparison_explanation(comparison)},
+                      {"baseline", result_json(comparison.baseline)},
+                      {"candidate", result_json(comparison.candidate)},
+                      {"method", method_json(comparison)},
+                      {"rows", array_of(comparison.rows, row_json)},
+                      {"speed", array_of(report.speed, speed_json)},
+                      {"configuration_changes", array_of(comparison.configuration, change_json)},
+                      {"only_in_baseline", comparison.only_in_baseline},
+                      {"only_in_candidate", comparison.only_in_candidate},
+                      {"worst_frames", array_of(comparison.worst, changed_frame_json)},
+                      {"frame_differences", array_of(comparison.frames, differences_json)}});
+}
+
+std::string comparison_csv(const ComparisonReport& report) {
+  std::string csv =
+      "experiment,quantity,unit,verdict,stops,pairs,frames,blocks,baseline,candidate,difference,low,high,"
+      "minimum_effect\n";
+  for (const ComparisonRow& row : report.comparison.rows) {
+    const Json json = row_json(row);
+    Json cells = Json::array();
+    for (const auto& [key, value] : json.items()) cells.push_back(value);
+    csv += csv_line(cells);
+  }
+  return csv;
+}
+
+std::string comparison_latex(const ComparisonReport& report) {
+  TextTable table = rows_table(report.comparison.rows);
+  for (auto& row : table.rows) std::rotate(row.begin() + 2, row.end() - 1, row.end());  // words before numbers
+  std::rotate(table.heading.begin() + 2, table.heading.end() - 1, table.heading.end());
+  table.name_columns = 3;
+  return to_latex(table);
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/chart.h"
+#include "reports/comparison/comparison_report.h"
+#include "reports/comparison/comparison_text.h"
+
+namespace glovebench::reports {
+namespace {
+
+std::string style_of(const ComparisonRow& row) {
+  if (stops(row)) return "worse";
+  if (row.verdict == Verdict::better) return "better";
+  return row.verdict == Verdict::same ? "same" : "unsure";
+}
+
+/// The interval as a bar over the minimum effect as a band, zero in the middle: less is to the left, and better.
+std::string interval_plot(const ComparisonRow& row) {
+  if (!row.difference || !row.low || !row.high) return "";
+  constexpr double kHalf = 60;
+  const double reach = 1.1 * std::max({std::abs(*row.low), std::abs(*row.high), std::abs(*row.difference),
+                                       row.minimum_effect, 1e-9});
+  const auto x = [&](double value) { return kHalf + kHalf * value / reach; };
+  return fmt::format(
+      "<svg class=\"interval {}\" viewBox=\"0 0 120 14\" width=\"120\" height=\"14\" aria-hidden=\"true\">"
+      "<rect class=\"band\" x=\"{:.1f}\" y=\"0\" width=\"{:.1f}\" height=\"14\"/>"
+      "<line class=\"zero\" x1=\"60\" y1=\"0\" x2=\"60\" y2=\"14\"/>"
+      "<line class=\"bar\" x1=\"{:.1f}\" y1=\"7\" x2=\"{:.1f}\" y2=\"7\"/>"
+      "<circle class=\"dot\" cx=\"{:.1f}\" cy=\"7\" r=\"3\"/></svg>",
+      style_of(row), x(-row.minimum_effect), x(row.minimum_effect) - x(-row.minimum_effect), x(*row.low),
+      x(*row.high), x(*row.difference));
+}
+
+std::string verdict_cell(const std::string& style, const std::string& words) {
+  return fmt::format("<td class=\"name\"><span class=\"verdict {}\">{}</span></td>", style, escape_html(words));
+}
+
+/// The verdict stands beside the name: a narrow screen cuts the numbers, not it.
+std::string row_html(const ComparisonRow& row, bool with_experiment) {
+  const std::vector<std::string> cells = row_cells(row);
+  std::string html = "<tr>";
+  if (with_experiment)
+    html += fmt::format("<td class=\"name\">{}</td>", escape_html(readable_experiment(row.experiment)));
+  html +=
+      fmt::format("<td class=\"name\">{}</td>", escape_html(cells[0])) + verdict_cell(style_of(row), cells.back());
+  for (size_t c = 1; c + 1 < cells.size(); ++c) html += fmt::format("<td>{}</td>", escape_html(cells[c]));
+  return html + fmt::format("<td>{}</td></tr>\n", interval_plot(row));
+}
+
+std::string rows_html(const std::vector<ComparisonRow>& rows, bool with_experiment) {
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
+  if (with_experiment) html += "<th class=\"name\">experiment</th>";
+  html +=
+      "<th class=\"name\">quantity</th><th class=\"name\">verdict</th><th>baseline</th><th>candidate</th>"
+      "<th>difference</th><th>interval</th><th>minimum effect</th><th></th></tr></thead>\n<tbody>\n";
+  for (const ComparisonRow& row : rows) html += row_html(row, with_experiment);
+  return html + "</tbody></table></div>\n";
+}
+
+std::string speed_section(const std::vector<SpeedRow>& speed) {
+  if (speed.empty()) return "";
+  std::string html =
+      "<h2>Speed</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th class=\"name\">times faster than plain</th>"
+      "<th class=\"name\">verdict</th><th>baseline</th><th>candidate</th><th>limit</th></tr></thead>\n<tbody>\n";
+  for (const SpeedRow& row : speed)
+    html += fmt::format("<tr><td class=\"name\">{}</td>{}<td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
+                        escape_html(row.name), verdict_cell(row.slower ? "worse" : "same", speed_verdict(row)),
+                        row.baseline, row.candidate, row.limit);
+  return html + "</tbody></table></div>\n";
+}
+
+std::string outcome_tiles(const Comparison& comparison) {
+  std::string html = "<div class=\"tiles\">\n";
+  for (const auto& [verdict, style] :
+       {std::pair{Verdict::worse, "worse"}, std::pair{Verdict::better, "better"}, std::pair{Verdict::same, "same"},
+        std::pair{Verdict::not_enough_data, "unsure"}})
+    html += fmt::format("<div class=\"tile {}\"><b>{}</b>{}</div>\n", style,
+                        std::ranges::count(comparison.rows, verdict, &ComparisonRow::verdict), to_string(verdict));
+  return html + "</div>\n";
+}
+
+bool shows_change(const std::vector<std::optional<double>>& values) {
+  return std::ranges::any_of(values, [](const auto& value) { return value && *value != 0; });
+}
+
+/// A chart for each quantity that changed in some frame.
+std::string difference_charts(const FrameDifferences& experiment) {
+  std::string charts, unchanged;
+  for (int q = 0; q < kQuantityCount; ++q) {
+    const std::string key(quantities()[q].key);
+    if (!shows_change(experiment.differences[q])) {
+      unchanged += (unchanged.empty() ? "" : ", ") + key;
+      continue;
+    }
+    LineChart chart{key, "frame", key + ", candidate - baseline", {{key, experiment.differences[q]}}};
+    chart.is_signed = true;
+    chart.first_place = experiment.first_frame;
+    charts += to_svg(chart);
+  }
+  if (!unchanged.empty()) charts += fmt::format("<p class=\"legend\">No frame differs in {}.</p>\n", unchanged);
+  return charts;
+}
+
+/// Folded, unless there is something to read in it.
+std::string experiment_section(std::span<const ComparisonRow> rows, const std::vector<FrameDifferences>& frames) {
+  const std::string& name = rows.front().experiment;
+  const auto worse = std::ranges::count_if(rows, stops);
+  const auto better = std::ranges::count(rows, Verdict::better, &ComparisonRow::verdict);
+  std::string html = fmt::format("<details{}><summary>{}", worse + better > 0 ? " open" : "",
+                                 escape_html(readable_experiment(name)));
+  if (worse > 0) html += fmt::format(" <span class=\"verdict worse\">{} worse</span>", worse);
+  if (better > 0) html += fmt::format(" <span class=\"verdict better\">{} better</span>", better);
+  html += "</summary>\n" + rows_html({rows.begin(), rows.end()}, false);
+  const auto differences = std::ranges::find(frames, name, &FrameDifferences::experiment);
+  if (differences != frames.end()) html += difference_charts(*differences);
+  return html + "</details>\n";
+}
+
+std::string experiments_html(const Comparison& comparison) {
+  std::string html =
+      "<h2>Experiments, frame by frame</h2>\n<p>Differences of each frame, mean over the seeds; above "
+      "zero the candidate is worse. Gaps are frames that have no value in one of the two.</p>\n";
+  for (const auto& rows : rows_by_experiment(comparison))
+    if (rows.front().experiment != kAllExperiments) html += experiment_section(rows, comparison.frames);
+  return html;
+}
+
+std::string worst_frames_html(const std::vector<ChangedFrame>& worst) {
+  if (worst.empty()) return "";
+  TextTable table{{"experiment", "frame", "seed", "baseline vertex error mm", "candidate"}, {}, 1};
+  for (const ChangedFrame& frame : worst) {
+    const auto error = [](const std::optional<double>& value) { return value ? number_text(value) : "lost"; };
+    const std::string seed = frame.baseline_seed == frame.candidate_seed
+                                 ? std::to_string(frame.baseline_seed)
+                                 : fmt::format("{}, candidate {}", frame.baseline_seed, frame.candidate_seed);
+    table.rows.push_back({readable_experiment(to_string(frame.key)), std::to_string(frame.frame), seed,
+                          error(frame.baseline_vertex_error_mm), error(frame.candidate_vertex_error_mm)});
+  }
+  return "<h2>Frames that changed most for the worse</h2>\n" + to_html(table);
+}
+
+std::string names_html(const char* title, const std::vector<std::string>& names) {
+  if (names.empty()) return "";
+  return fmt::format("<p>{}: {}.</p>\n", title, escape_html(fmt::format("{}", fmt::join(names, ", "))));
+}
+
+std::string rows_section(const Comparison& comparison) {
+  std::vector<ComparisonRow> all, changed;
+  for (const ComparisonRow& row : comparison.rows) {
+    if (row.experiment == kAllExperiments)
+      all.push_back(row);
+    else if (is_worth_reading(row))
+      changed.push_back(row);
+  }
+  std::string html;
+  if (!all.empty()) html += "<h2>All experiments</h2>\n" + rows_html(all, false);
+  html += "<h2>What changed</h2>\n";
+  return html + (changed.empty() ? "<p>Nothing in a single experiment.</p>\n" : rows_html(changed, true));
+}
+
+}  // namespace
+
+std::string comparison_page(const ComparisonReport& report) {
+  const Comparison& comparison = report.comparison;
+  std::string body = fmt::format("<p class=\"provenance\">baseline {}<br/>candidate {}</p>\n",
+                                 escape_html(result_sentence(comparison.baseline)),
+                                 escape_html(result_sentence(comparison.candidate))) +
+                     outcome_tiles(comparison) +
+                     fmt::format("<p>{} In the plots the band is the minimum effect, the bar the interval.</p>\n",
+                                 escape_html(comparison_explanation(comparison))) +
+                     rows_section(comparison) + speed_section(report.speed);
+  if (!comparison.configuration.empty())
+    body += "<h2>Configuration</h2>\n" + to_html(configuration_table(comparison.configuration));
+  body += names_html("Only in the baseline", comparison.only_in_baseline) +
+          names_html("Only in the candidate", comparison.only_in_candidate) + worst_frames_html(comparison.worst) +
+          picture_section("Pictures", report.pictures) + experiments_html(comparison);
+  return html_document("glovebench comparison", body);
+}
+
+}  // namespace glovebench::reports

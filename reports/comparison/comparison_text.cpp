@@ -1,0 +1,165 @@
+#include "reports/comparison/comparison_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace glovebench::reports {
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// Three digits while they fit, else fewer.
+std::string formatted(double value) {
+  const double magnitude = std::abs(value);
+  if (magnitude >= 99999.5) return fmt::format("{:.2e}", value);
+  return fmt::format("{:.{}f}", magnitude < 0.0005 ? 0.0 : value, magnitude < 999.9995 ? 3 : 1);  // no minus zero
+}
+
+std::string formatted_signed(double value) {
+  const std::string text = formatted(value);
+  return text.starts_with('-') ? text : "+" + text;
+}
+
+const Quantity& quantity_of(const ComparisonRow& row) {
+  return quantities()[row.quantity];
+}
+
+}  // namespace
+
+std::string outcome_line(const ComparisonReport& report) {
+  const auto count = [&](Verdict verdict) {
+    return std::ranges::count(report.comparison.rows, verdict, &ComparisonRow::verdict);
+  };
+  std::string line = fmt::format("{} worse, {} better, {} same, {} not enough data", count(Verdict::worse),
+                                 count(Verdict::better), count(Verdict::same), count(Verdict::not_enough_data));
+  if (!report.speed.empty())
+    line += fmt::format("; {} of {} speed ratios slower", std::ranges::count(report.speed, true, &SpeedRow::slower),
+                        report.speed.size());
+  return line;
+}
+
+bool is_worth_reading(const ComparisonRow& row) {
+  const bool unchanged = row.verdict == Verdict::same || (row.difference && *row.difference == 0);
+  return !unchanged || stops(row);
+}
+
+std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison) {
+  std::vector<std::span<const ComparisonRow>> groups;
+  const std::span<const ComparisonRow> rows = comparison.rows;
+  for (size_t begin = 0, end; begin < rows.size(); begin = end) {
+    for (end = begin + 1; end < rows.size() && rows[end].experiment == rows[begin].experiment;) ++end;
+    groups.push_back(rows.subspan(begin, end - begin));
+  }
+  return groups;
+}
+
+std::string readable_experiment(const std::string& experiment) {
+  if (experiment == kAllExperiments) return "all experiments";
+  const std::vector<std::string> parts = split(experiment, '_');
+  if (parts.size() < 6) return experiment;
+  // From the end: names of trajectories and databases hold underscores themselves.
+  const auto tail = parts.end() - 4;
+  const std::string &truth = tail[0], &subject = tail[1], &noise = tail[2], &factor = tail[3];
+  if ((truth != "source" && truth != "recorded") || !subject.starts_with("subject")) return experiment;
+  std::string name = fmt::format("{}", fmt::join(parts.begin(), tail, "_"));
+  if (const size_t database = name.find("_DB_"); database != std::string::npos)
+    name = fmt::format("{} {}", name.substr(0, database), name.substr(database + 4));
+  name += ", " + truth;
+  if (subject != "subject1") name += fmt::format(", subject {}", subject.substr(7));
+  if (noise != "gradient" || factor != "1") name += fmt::format(", {} x {}", noise, factor);
+  return name;
+}
+
+std::string number_text(const std::optional<double>& value) {
+  return value ? formatted(*value) : "-";
+}
+
+std::string signed_number_text(const std::optional<double>& value) {
+  return value ? formatted_signed(*value) : "-";
+}
+
+std::string interval_text(const ComparisonRow& row) {
+  if (!row.low || !row.high) return "-";
+  return fmt::format("[{}, {}]", formatted_signed(*row.low), formatted_signed(*row.high));
+}
+
+std::string verdict_text(const ComparisonRow& row) {
+  const std::string verdict(to_string(row.verdict));
+  return stops(row) && row.verdict != Verdict::worse ? verdict + ", stops" : verdict;
+}
+
+std::string row_sentence(const ComparisonRow& row) {
+  return fmt::format("{} -> {} {}, difference {} {}, minimum effect {}, {} of {} frames", number_text(row.baseline),
+                     number_text(row.candidate), quantity_of(row).unit, signed_number_text(row.difference),
+                     interval_text(row), number_text(row.minimum_effect), row.pairs, row.frames);
+}
+
+std::string speed_verdict(const SpeedRow& row) {
+  return row.slower ? "slower" : "as fast";
+}
+
+std::string speed_sentence(const SpeedRow& row) {
+  return fmt::format("{:.2f} times faster than plain, was {:.2f}, limit {:.2f}", row.candidate, row.baseline,
+                     row.limit);
+}
+
+std::string result_sentence(const ComparedResult& result) {
+  return fmt::format("{}: {}glovebench {}, commit {}", result.name,
+                     result.suite.empty() ? "" : "suite " + result.suite + ", ", result.program_version,
+                     result.commit);
+}
+
+std::vector<std::string> row_heading() {
+  return {"quantity", "baseline", "candidate", "difference", "interval", "minimum effect", "verdict"};
+}
+
+std::vector<std::string> row_cells(const ComparisonRow& row) {
+  return {std::string(quantity_of(row).key),
+          number_text(row.baseline),
+          number_text(row.candidate),
+          signed_number_text(row.difference),
+          interval_text(row),
+          number_text(row.minimum_effect),
+          verdict_text(row)};
+}
+
+TextTable rows_table(std::span<const ComparisonRow> rows) {
+  TextTable table;
+  table.heading = row_heading();
+  table.heading.insert(table.heading.begin(), "experiment");
+  for (const ComparisonRow& row : rows) {
+    std::vector<std::string> cells = row_cells(row);
+    cells.insert(cells.begin(), readable_experiment(row.experiment));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+TextTable speed_table(const std::vector<SpeedRow>& speed) {
+  TextTable table{{"times faster than plain", "baseline", "candidate", "limit", "verdict"}, {}, 1};
+  for (const SpeedRow& row : speed)
+    table.rows.push_back(
+        {row.name, fixed(row.baseline, 2), fixed(row.candidate, 2), fixed(row.limit, 2), speed_verdict(row)});
+  return table;
+}
+
+TextTable configuration_table(const std::vector<ConfigurationChange>& changes) {
+  TextTable table{{"configuration", "baseline", "candidate"}, {}, 3};
+  for (const ConfigurationChange& change : changes)
+    table.rows.push_back({change.field, change.baseline.empty() ? "-" : change.baseline,
+                          change.candidate.empty() ? "-" : change.candidate});
+  return table;
+}
+
+}  // namespace glovebench::reports

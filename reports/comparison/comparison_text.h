@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/comparison/comparison_report.h"
+#include "reports/summary.h"
+
+namespace glovebench::reports {
+
+// Words and numbers that all forms of a comparison share.
+
+/// "2 worse, 1 better, 33 same, 0 not enough data"; then what got slower, if speed was measured.
+std::string outcome_line(const ComparisonReport& report);
+
+/// A row that changed, or that could not be judged, or that stops a change.
+bool is_worth_reading(const ComparisonRow& row);
+
+/// The rows in groups of one experiment each, in their order.
+std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison);
+
+/// A name to read: "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1"; the
+/// first subject and the paper's noise go without saying. A name of another form stays as it is.
+std::string readable_experiment(const std::string& experiment);
+
+/// At most nine characters wide; "-" for none. Signed numbers of zero and more have a plus.
+std::string number_text(const std::optional<double>& value);
+std::string signed_number_text(const std::optional<double>& value);
+std::string interval_text(const ComparisonRow& row);  ///< "[-0.120, +0.400]", or "-"
+/// The verdict; with "stops the change" where that does not follow from it.
+std::string verdict_text(const ComparisonRow& row);
+
+/// "2.980 -> 3.400 mm, difference +0.420 [+0.300, +0.540], minimum effect 0.100, 234 of 234 frames"
+std::string row_sentence(const ComparisonRow& row);
+std::string speed_verdict(const SpeedRow& row);  ///< "slower" or "as fast"
+/// "6.10 times faster than plain, was 8.20, limit 5.74"
+std::string speed_sentence(const SpeedRow& row);
+/// "NAME: suite quick, glovebench 0.1.0, commit 105ec9a"
+std::string result_sentence(const ComparedResult& result);
+
+/// Heading and cells after an experiment's name.
+std::vector<std::string> row_heading();
+std::vector<std::string> row_cells(const ComparisonRow& row);
+/// Every row with its experiment; names are readable.
+TextTable rows_table(std::span<const ComparisonRow> rows);
+TextTable speed_table(const std::vector<SpeedRow>& speed);
+TextTable configuration_table(const std::vector<ConfigurationChange>& changes);
+
+}  // namespace glovebench::reports
