@@ -17,8 +17,12 @@ struct SpeedRatio {
 };
 
 /// From a JSON file of glovebench_bench (Google Benchmark's --benchmark_out), in which every pair NAME/plain,
-/// NAME/fast has at least three repetitions. Throws Error, also if there is no pair.
+/// NAME/fast has at least three repetitions (aggregates are not counted as such), or from one that speed_json
+/// wrote; by name. Throws Error, also if there is no pair or a benchmark failed.
 std::vector<SpeedRatio> read_speed_ratios(const std::string& path);
+std::vector<SpeedRatio> parse_speed_ratios(const std::string& text, const std::string& where);
+/// What a baseline keeps of a benchmark's file: the ratios, without the machine's name and paths.
+std::string speed_json(const std::vector<SpeedRatio>& ratios);
 
 /// One ratio against the baseline's.
 struct SpeedRow {
@@ -29,7 +33,8 @@ struct SpeedRow {
   bool slower = false;
 };
 inline constexpr double kSpeedShare = 0.7;
-/// Throws Incomparable if the candidate lacks a ratio of the baseline's.
+/// In the baseline's order; ratios that only the candidate has are new and not compared. Throws Incomparable if the
+/// candidate lacks a ratio of the baseline's.
 std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,
                                     const std::vector<SpeedRatio>& candidate, const std::string& candidate_name);
 

@@ -1,0 +1,248 @@
+#include "reports/comparison/speed.h"
+
+#include <gmock/gmock.h>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/random.h"
+#include "core/test_folder.h"
+#include "reports/comparison/pairing.h"
+
+namespace glovebench::reports {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+json repetition(const std::string& name, int index, double cpu_time, const std::string& unit = "ms") {
+  return {{"name", name},    {"run_name", name},          {"run_type", "iteration"}, {"repetition_index", index},
+          {"iterations", 6}, {"real_time", 3 * cpu_time}, {"cpu_time", cpu_time},    {"time_unit", unit},
+          {"frame", 1e-3}};
+}
+
+json aggregate(const std::string& name, const std::string& kind, double cpu_time, const std::string& unit = "ms") {
+  json run = repetition(name, 0, cpu_time, unit);
+  run.erase("repetition_index");
+  run["name"] = name + "_" + kind;
+  run["run_type"] = "aggregate";
+  run["aggregate_name"] = kind;
+  return run;
+}
+
+/// As Google Benchmark writes it: two pairs, one benchmark without a partner, aggregates after the repetitions.
+json benchmark_file() {
+  json runs = json::array();
+  for (const double ms : {12.0, 30.0, 15.0}) runs.push_back(repetition("search/plain", runs.size(), ms));
+  runs.push_back(aggregate("search/plain", "mean", 19));
+  runs.push_back(aggregate("search/plain", "median", 15));
+  runs.push_back(aggregate("search/plain", "cv", 0.5, "ms"));
+  int index = 0;
+  for (const double us : {4000.0, 5000.0, 6000.0}) runs.push_back(repetition("search/fast", index++, us, "us"));
+  runs.push_back(aggregate("search/fast", "median", 1, "us"));
+  index = 0;
+  for (const double ms : {8.0, 2.0, 4.0, 6.0}) runs.push_back(repetition("a/b/plain", index++, ms));
+  index = 0;
+  for (const double ns : {2e6, 2e6, 2e6, 2e6}) runs.push_back(repetition("a/b/fast", index++, ns, "ns"));
+  runs.push_back(repetition("frame/track", 0, 1, "s"));
+  return {{"context", {{"host_name", "somewhere"}, {"num_cpus", 2}}}, {"benchmarks", runs}};
+}
+
+std::vector<SpeedRatio> parsed(const json& file) {
+  return parse_speed_ratios(file.dump(), "bench.json");
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_speed_ratios(text, "bench.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+template <typename Change>
+std::string error_of_change(Change change) {
+  json file = benchmark_file();
+  change(file["benchmarks"]);
+  return error_of(file.dump());
+}
+
+TEST(SpeedRatios, are_of_the_medians_of_cpu_times_whatever_their_units) {
+  const std::vector<SpeedRatio> ratios = parsed(benchmark_file());
+  ASSERT_EQ(ratios.size(), 2u);
+  EXPECT_EQ(ratios[0].name, "a/b");
+  EXPECT_DOUBLE_EQ(ratios[0].ratio, 2.5);  // the median of four is the mean of 4 and 6 ms
+  EXPECT_DOUBLE_EQ(ratios[0].low, 1);
+  EXPECT_DOUBLE_EQ(ratios[0].high, 4);
+  EXPECT_EQ(ratios[1].name, "search");
+  EXPECT_DOUBLE_EQ(ratios[1].ratio, 3);  // 15 / 5, not 19 / 5, and not the aggregates'
+  EXPECT_DOUBLE_EQ(ratios[1].low, 2.5);  // 15 / 6
+  EXPECT_DOUBLE_EQ(ratios[1].high, 6);   // 30 / 5
+}
+
+TEST(SpeedRatios, do_not_depend_on_aggregates_or_the_order_of_runs) {
+  json file = benchmark_file();
+  json runs = json::array();
+  for (const json& run : file["benchmarks"])
+    if (run["run_type"] == "iteration") runs.insert(runs.begin(), run);
+  EXPECT_EQ(parsed({{"benchmarks", runs}}), parsed(file));
+}
+
+TEST(SpeedRatios, need_three_repetitions_of_both) {
+  const auto drop = [](const std::string& name, int index) {
+    return error_of_change([&](json& runs) {
+      for (size_t i = 0; i < runs.size(); ++i)
+        if (runs[i]["run_name"] == name && runs[i].value("repetition_index", -1) == index) runs.erase(i--);
+    });
+  };
+  EXPECT_THAT(drop("search/fast", 1), HasSubstr("bench.json: search: found 2 repetitions, expected at least 3"));
+  EXPECT_THAT(drop("search/plain", 0), HasSubstr("search: found 2 repetitions"));
+  EXPECT_THAT(drop("a/b/plain", 3), HasSubstr("a/b: found 3 and 4 repetitions, expected the same"));
+  // --benchmark_report_aggregates_only leaves no repetition at all.
+  EXPECT_THAT(error_of_change([](json& runs) {
+                for (size_t i = 0; i < runs.size(); ++i)
+                  if (runs[i]["run_type"] == "iteration") runs.erase(i--);
+              }),
+              HasSubstr("found no pair"));
+}
+
+TEST(SpeedRatios, refuse_what_is_no_benchmark_file) {
+  EXPECT_THAT(error_of(""), HasSubstr("bench.json: byte"));
+  EXPECT_THAT(error_of("[]"), HasSubstr("expected an object"));
+  EXPECT_THAT(error_of("{}"), HasSubstr("benchmarks: found nothing"));
+  EXPECT_THAT(error_of("{\"benchmarks\": []}"), HasSubstr("found no pair"));
+  EXPECT_THAT(error_of(std::string(100'000, '[')), HasSubstr("bench.json: byte"));
+  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["time_unit"] = "h"; }),
+              HasSubstr("benchmarks[0].time_unit: found \"h\""));
+  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["run_type"] = "guess"; }), HasSubstr("run_type"));
+  EXPECT_THAT(error_of_change([](json& runs) { runs[1]["repetition_index"] = 0; }),
+              HasSubstr("benchmarks[1].repetition_index: found 0, expected each repetition once"));
+  EXPECT_THAT(error_of_change([](json& runs) { runs.erase(6); }), HasSubstr("search: found"));
+  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["run_name"] = "two\nlines"; }), HasSubstr("run_name"));
+  EXPECT_THAT(error_of_change([](json& runs) {
+                for (json& run : runs)
+                  if (run["run_name"] == "search/fast") run["run_name"] = "search/other";
+              }),
+              HasSubstr("search: found no search/fast"));
+}
+
+TEST(SpeedRatios, refuse_times_that_are_none) {
+  for (const json& time : {json(0), json(-1), json(1e300), json(1e-30), json(nullptr), json("1")})
+    EXPECT_THAT(error_of_change([&](json& runs) { runs[0]["cpu_time"] = time; }),
+                HasSubstr("benchmarks[0].cpu_time: found " + time.dump()))
+        << time;
+  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["cpu_time"] = 8e7; }),  // 22 hours, against 4 ms
+              HasSubstr("search: found ratios of"));
+}
+
+TEST(SpeedRatios, refuse_a_benchmark_whose_check_failed) {
+  EXPECT_THAT(error_of_change([](json& runs) {
+                runs[5]["error_occurred"] = true;
+                runs[5]["cpu_time"] = 0;
+              }),
+              HasSubstr("benchmarks[5].error_occurred: found true"));
+}
+
+TEST(SpeedRatios, can_be_kept_without_the_machine) {
+  const std::vector<SpeedRatio> ratios = {{"a/b", 2.5, 1, 4}, {"search", 3, 2.5, 6}};
+  const std::string text = speed_json(ratios);
+  EXPECT_EQ(parse_speed_ratios(text, "speed.json"), ratios);
+  EXPECT_EQ(text.find("somewhere"), std::string::npos);
+  const TestFolder folder;
+  write_file(folder / "speed.json", text);
+  EXPECT_EQ(read_speed_ratios(folder / "speed.json"), ratios);
+  EXPECT_THROW(read_speed_ratios(folder / "none.json"), Error);
+}
+
+TEST(SpeedRatios, refuse_a_kept_file_that_speed_json_does_not_write) {
+  const json good = json::parse(speed_json({{"a", 2, 1, 4}, {"b", 3, 2, 6}}));
+  const auto error_with = [&](const std::string& pointer, const json& value) {
+    json file = good;
+    file[json::json_pointer(pointer)] = value;
+    return error_of(file.dump());
+  };
+  EXPECT_THAT(error_with("/format", "another"), HasSubstr("format: found \"another\""));
+  EXPECT_THAT(error_with("/version", 2), HasSubstr("version: found 2"));
+  EXPECT_THAT(error_with("/more", 2), HasSubstr("unknown key \"more\""));
+  EXPECT_THAT(error_with("/ratios", json::array()), HasSubstr("found no pair"));
+  EXPECT_THAT(error_with("/ratios/0/ratio", 5), HasSubstr("ratios[0].ratio: found 5"));
+  EXPECT_THAT(error_with("/ratios/0/low", 0), HasSubstr("ratios[0].low: found 0"));
+  EXPECT_THAT(error_with("/ratios/0/high", 1e9), HasSubstr("ratios[0].high"));
+  EXPECT_THAT(error_with("/ratios/1/name", "a"), HasSubstr("ratios[1].name: found \"a\""));
+}
+
+TEST(CompareSpeed, calls_slower_what_lost_three_tenths_of_its_ratio) {
+  const std::vector<SpeedRatio> baseline = {{"kept", 2, 2, 2}, {"lost", 10, 9, 11}};
+  const std::vector<SpeedRatio> candidate = {{"lost", 6.9, 6, 8}, {"new", 1, 1, 1}, {"kept", 1.41, 1, 2}};
+  const std::vector<SpeedRow> rows = compare_speed(baseline, candidate, "bench.json");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].name, "kept");
+  EXPECT_DOUBLE_EQ(rows[0].baseline, 2);
+  EXPECT_DOUBLE_EQ(rows[0].candidate, 1.41);
+  EXPECT_DOUBLE_EQ(rows[0].limit, 1.4);
+  EXPECT_FALSE(rows[0].slower);
+  EXPECT_EQ(rows[1].name, "lost");
+  EXPECT_TRUE(rows[1].slower);
+}
+
+TEST(CompareSpeed, does_not_pass_over_a_ratio_that_is_gone) {
+  try {
+    compare_speed({{"gone", 2, 2, 2}}, {{"other", 2, 2, 2}}, "bench.json");
+    FAIL() << "a missing ratio was accepted";
+  } catch (const Incomparable& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bench.json: gone: found nothing"));
+  }
+}
+
+/// Overwrites, removes or doubles a few bytes, cuts the end off, or puts a hostile value in.
+std::string damaged(std::string text, RandomStream& random) {
+  static const std::vector<std::string> values = {"null", "-1", "1e999", "[[[[", "NaN", "18446744073709551615",
+                                                  "{}"};
+  const size_t place = random.index(text.size());
+  const size_t length = 1 + random.index(40);
+  switch (random.index(5)) {
+    case 0:
+      text[place] = static_cast<char>(random.index(256));
+      break;
+    case 1:
+      text.erase(place, length);
+      break;
+    case 2:
+      text.insert(place, text.substr(place, length));
+      break;
+    case 3: {
+      const size_t colon = text.find(':', place);
+      if (colon != std::string::npos)
+        text.replace(colon + 1, 1 + random.index(4), values[random.index(values.size())]);
+      break;
+    }
+    default:
+      text.resize(place);
+  }
+  return text;
+}
+
+TEST(SpeedRatios, of_a_damaged_file_are_an_error_or_ratios_that_can_be_kept) {
+  const std::vector<std::string> texts = {benchmark_file().dump(), speed_json(parsed(benchmark_file()))};
+  std::array<int, 2> refused{}, accepted{};
+  for (int trial = 0; trial < 3000; ++trial) {
+    RandomStream random(1, "speed_test", trial, "damage");
+    const int kind = trial % 2;
+    try {
+      const std::vector<SpeedRatio> ratios = parse_speed_ratios(damaged(texts[kind], random), "damaged");
+      EXPECT_EQ(parse_speed_ratios(speed_json(ratios), "kept").size(), ratios.size());
+      ++accepted[kind];
+    } catch (const Error& error) {
+      ++refused[kind];
+      EXPECT_THAT(error.what(), HasSubstr("damaged")) << "the message names the file";
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+  for (const int kind : {0, 1}) {
+    EXPECT_GT(refused[kind], 500) << kind;
+    EXPECT_GT(accepted[kind], 0) << kind << ": a changed digit is another valid file";
+  }
+}
+
+}  // namespace
+}  // namespace glovebench::reports
