@@ -42,6 +42,10 @@ int run(int argc, char** argv) {
   glovebench::eval::add_explain(program);
   glovebench::eval::add_db(program);
   glovebench::eval::add_list(program);
+  glovebench::eval::add_compare(program);
+  int exit_code = 0;
+  glovebench::eval::add_gate(program, exit_code);
+  glovebench::eval::add_calibrate(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& e) {
@@ -50,7 +54,7 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "glovebench: {} (see glovebench --help)\n", describe(program, e));
     return kUsageError;
   }
-  return 0;
+  return exit_code;
 }
 
 }  // namespace

@@ -34,13 +34,13 @@ ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far
   return picture;
 }
 
-ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels) {
+ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line) {
   check(color.width() == labels.width() && color.height() == labels.height(), "outline and image have one size");
   ColorImage picture = color;
   for (int v = 0; v + 1 < labels.height(); ++v) {
     for (int u = 0; u + 1 < labels.width(); ++u) {
       const uint8_t label = labels(u, v);
-      if (label != labels(u + 1, v) || label != labels(u, v + 1)) picture(u, v) = {255, 255, 255};
+      if (label != labels(u + 1, v) || label != labels(u, v + 1)) picture(u, v) = line;
     }
   }
   return picture;

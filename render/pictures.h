@@ -10,9 +10,9 @@ namespace glovebench::render {
 ColorImage picture_of_labels(const LabelImage& labels);
 /// Depth as colors, near is warm, far is cold; black where there is no value. Range in metres, z_near < z_far.
 ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far);
-/// The color image with a white line along the borders of the labeled areas (outer and between colors), e.g. those
-/// of the estimated hand. Both images have one size.
-ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels);
+/// The color image with a line along the borders of the labeled areas (outer and between colors), e.g. those of the
+/// estimated hand. Both images have one size.
+ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line = {255, 255, 255});
 /// The bytes of a PNG file.
 std::string encode_png(const ColorImage& image);
 /// Writes a PNG, whole or not at all. Throws Error if the file cannot be written.

@@ -54,5 +54,9 @@ void add_track(CLI::App& program);
 void add_explain(CLI::App& program);
 void add_db(CLI::App& program);
 void add_list(CLI::App& program);
+void add_compare(CLI::App& program);
+/// Sets the exit code when it has run.
+void add_gate(CLI::App& program, int& exit_code);
+void add_calibrate(CLI::App& program);
 
 }  // namespace glovebench::eval

@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/base/error.h"
 #include "eval/commands/command.h"
-#include "eval/share.h"
+#include "eval/truths.h"
 #include "render/pictures.h"
 #include "reports/results_json.h"
-#include "trajectories/catalog.h"
 
 namespace glovebench::eval {
 namespace {
@@ -58,14 +55,9 @@ struct Explain {
 
   Trajectory load_truth(const reports::ExperimentKey& key) const {
     if (!trajectory_file.empty()) return trajectories::load_trajectory(trajectory_file);
-    const std::vector<std::string>& known = trajectories::ground_truth_names();
-    if (std::find(known.begin(), known.end(), key.trajectory) == known.end()) {
-      throw Error("--trajectory", "file", "none",
-                  "the one of " + key.trajectory + ", which the run was given as a file");
-    }
-    return key.truth == reports::TruthKind::recorded
-               ? trajectories::recorded_trajectory(trajectory_folder(), key.trajectory)
-               : trajectories::source_trajectory(trajectory_folder(), key.trajectory);
+    if (const auto truth = find_truth(key)) return *truth;
+    throw Error("--trajectory", "file", "none",
+                "the one of " + key.trajectory + ", which the run was given as a file");
   }
 
   static void check_truth(const reports::RunResult& results, const reports::ExperimentKey& key,

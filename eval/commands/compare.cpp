@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include "eval/commands/command.h"
+#include "eval/regression/baseline.h"
+#include "eval/regression/changed_frames.h"
+#include "reports/comparison/comparison_report.h"
+
+namespace glovebench::eval {
+namespace {
+
+struct Compare {
+  std::string baseline_path;
+  std::string candidate_path;
+  std::string output;
+  std::string noise_floor_path;
+  reports::PairingOptions pairing;
+  bool all_rows = false;
+
+  void run() const {
+    const reports::NamedResult baseline = load_run(baseline_path);
+    const reports::NamedResult candidate = load_run(candidate_path);
+    const std::optional<reports::NoiseFloor> floor = noise_floor_path.empty()
+                                                         ? load_noise_floor_beside(baseline_path)
+                                                         : reports::read_noise_floor(noise_floor_path);
+    reports::ComparisonReport report;
+    report.comparison = reports::compare_results(baseline, candidate, floor ? &*floor : nullptr, pairing);
+    if (!output.empty()) {
+      report.pictures = picture_changes(report.comparison, baseline_path, candidate_path);
+      reports::write_comparison(output, report);
+    }
+    fmt::print("{}", reports::comparison_table(report, all_rows));
+    if (!output.empty()) fmt::print("Report: {}/index.html\n", output);
+  }
+};
+
+}  // namespace
+
+void add_compare(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "compare",
+      "Compare two runs, frame by frame and seed by seed: what became better or worse, by how much, and is it "
+      "real?\n"
+      "Exit code 3 if they are not comparable: of another protocol, truth, database, or of other frames.");
+  const auto state = std::make_shared<Compare>();
+  command->add_option("baseline", state->baseline_path, "folder of a run, or its results.json")->required();
+  command->add_option("candidate", state->candidate_path, "the same, of the run to judge")->required();
+  command->add_option("-o,--output", state->output,
+                      "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures");
+  command->add_option("--noise-floor", state->noise_floor_path,
+                      "what other seeds do (`glovebench calibrate noise`) [noise_floor.json beside the baseline]");
+  command->add_flag("--other-seeds", state->pairing.other_seeds,
+                    "the runs have other noise seeds, as many: pair them in their order");
+  command->add_flag("--partial", state->pairing.partial, "compare the experiments that both have");
+  command->add_flag("--all-rows", state->all_rows, "print also what is the same");
+  command->callback([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval

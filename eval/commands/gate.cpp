@@ -1,0 +1,112 @@
+#include <fmt/format.h>
+
+#include "core/base/file.h"
+#include "eval/commands/command.h"
+#include "eval/regression/baseline.h"
+#include "eval/regression/changed_frames.h"
+#include "reports/comparison/comparison_report.h"
+
+namespace glovebench::eval {
+namespace {
+
+constexpr int kGateFailed = 1;
+
+struct Gate {
+  std::string candidate_path;
+  std::string baseline_folder;
+  std::string speed_path;
+  std::string output;
+  reports::PairingOptions pairing;
+  bool update = false;
+
+  /// The exit code.
+  int run() const {
+    const reports::NamedResult candidate = load_run(candidate_path);
+    const std::string folder =
+        baseline_folder.empty() ? default_baseline_folder(suite_of(candidate)) : baseline_folder;
+    if (update) {
+      update_baseline(folder, candidate, measured_speed());
+      fmt::print("{} is the baseline of suite {} now, in {}\n", candidate.result.commit, candidate.result.suite,
+                 folder);
+      return 0;
+    }
+    try {
+      return judge(folder, candidate);
+    } catch (const reports::Incomparable& e) {
+      if (!output.empty()) write_file(output + "/junit.xml", reports::incomparable_junit(e.what()));
+      throw;
+    }
+  }
+
+  int judge(const std::string& folder, const reports::NamedResult& candidate) const {
+    const Baseline baseline = load_baseline(folder);
+    reports::ComparisonReport report;
+    report.comparison = reports::compare_results(baseline.results, candidate,
+                                                 baseline.noise_floor ? &*baseline.noise_floor : nullptr, pairing);
+    require_baseline_for_all(report.comparison, folder);
+    if (!speed_path.empty()) report.speed = compare_with(baseline, folder);
+    if (!output.empty()) {
+      report.pictures = picture_changes(report.comparison, folder, candidate_path);
+      reports::write_comparison(output, report);
+    }
+    return say(report, folder);
+  }
+
+  int say(const reports::ComparisonReport& report, const std::string& folder) const {
+    const reports::GateDecision decision = decide(report.comparison, report.speed);
+    fmt::print("{}", reports::comparison_table(report, false));
+    for (const std::string& warning : decision.warnings) fmt::print("warning: {}\n", warning);
+    for (const std::string& failure : decision.failures) fmt::print("FAILED: {}\n", failure);
+    fmt::print("Gate {} against {}{}\n", decision.passed() ? "passed" : "failed", folder,
+               output.empty() ? "" : fmt::format(". Report: {}/index.html", output));
+    return decision.passed() ? 0 : kGateFailed;
+  }
+
+  std::vector<reports::SpeedRatio> measured_speed() const {
+    return speed_path.empty() ? std::vector<reports::SpeedRatio>{} : reports::read_speed_ratios(speed_path);
+  }
+
+  std::vector<reports::SpeedRow> compare_with(const Baseline& baseline, const std::string& folder) const {
+    if (baseline.speed.empty()) {
+      throw reports::Incomparable(folder + "/speed.json", "baseline", "none",
+                                  "the speed ratios of an earlier run (glovebench gate --speed FILE --update)");
+    }
+    return reports::compare_speed(baseline.speed, measured_speed(), speed_path);
+  }
+
+  static std::string suite_of(const reports::NamedResult& candidate) {
+    if (!candidate.result.suite.empty()) return candidate.result.suite;
+    throw Error(candidate.name, "suite", "none", "the run of a suite (run --suite), or --baseline FOLDER");
+  }
+
+  static void require_baseline_for_all(const reports::Comparison& comparison, const std::string& folder) {
+    if (comparison.only_in_candidate.empty()) return;
+    throw reports::Incomparable(folder, "experiments", fmt::format("no {}", comparison.only_in_candidate.front()),
+                                "a baseline for each experiment of the candidate (glovebench gate --update)");
+  }
+};
+
+}  // namespace
+
+void add_gate(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "gate",
+      "Compare a run of a suite with the committed baseline and say whether the change may pass.\n"
+      "Exit codes: 0 it may, 1 something became worse, 3 there is no baseline or it is not comparable.");
+  const auto state = std::make_shared<Gate>();
+  command->add_option("candidate", state->candidate_path, "folder of the run, or its results.json")->required();
+  command->add_option("--baseline", state->baseline_folder, "folder of the baseline [ci/baselines/SUITE]");
+  command->add_option(
+      "--speed", state->speed_path,
+      "file of `glovebench_bench --benchmark_repetitions=5 --benchmark_out=FILE`: the ratios to the "
+      "plain implementations are gated, too");
+  command->add_option("-o,--output", state->output,
+                      "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures");
+  command->add_flag("--other-seeds", state->pairing.other_seeds,
+                    "the run has other noise seeds, as many: pair them in their order");
+  command->add_flag("--update", state->update,
+                    "make this run the baseline; the noise floor stays, truths are not touched");
+  command->callback([state, &exit_code] { exit_code = state->run(); });
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,164 @@
+#include "eval/regression/baseline.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "eval/program_info.h"
+#include "eval/run_folder.h"
+#include "eval/suite.h"
+#include "reports/json_reader.h"
+#include "reports/json_text.h"
+#include "reports/results_json.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using reports::Incomparable;
+
+constexpr std::string_view kResults = "/results.json", kNoiseFloor = "/noise_floor.json", kSpeed = "/speed.json",
+                           kProvenance = "/provenance.json";
+constexpr std::string_view kSpeedFormat = "glovebench-speed", kProvenanceFormat = "glovebench-provenance";
+
+std::string in(const std::string& folder, std::string_view file) {
+  return folder + std::string(file);
+}
+
+std::string speed_json(const std::vector<reports::SpeedRatio>& speed) {
+  Json ratios = Json::array();
+  for (const reports::SpeedRatio& ratio : speed) {
+    ratios.push_back({{"name", ratio.name},
+                      {"ratio", reports::rounded(ratio.ratio)},
+                      {"low", reports::rounded(ratio.low)},
+                      {"high", reports::rounded(ratio.high)}});
+  }
+  return reports::format_json({{"format", kSpeedFormat}, {"version", 1}, {"ratios", ratios}});
+}
+
+std::vector<reports::SpeedRatio> read_speed(const std::string& path) {
+  const nlohmann::json document = reports::parse_json(read_file(path), path);
+  const reports::JsonReader json(document, path);
+  json.expect_keys({"format", "version", "ratios"});
+  json["format"].expect_text(kSpeedFormat);
+  json["version"].integer(1, 1);
+  std::vector<reports::SpeedRatio> speed;
+  for (const reports::JsonReader& item : json["ratios"].items()) {
+    item.expect_keys({"name", "ratio", "low", "high"});
+    speed.push_back({item["name"].text(), item["ratio"].number(), item["low"].number(), item["high"].number()});
+    if (!(speed.back().ratio > 0)) item["ratio"].fail("a number above 0");
+  }
+  return speed;
+}
+
+/// What the baseline was made by. No name of a machine: the file is committed.
+std::string provenance_json(const reports::NamedResult& run, const std::string& results_hash,
+                            const Json& replaced) {
+  const reports::Timings here = host_timings(1);
+  return reports::format_json({{"format", kProvenanceFormat},
+                               {"version", 1},
+                               {"suite", run.result.suite},
+                               {"results_hash", results_hash},
+                               {"program_version", run.result.program_version},
+                               {"commit", run.result.commit},
+                               {"updated", here.date},
+                               {"processor", here.processor},
+                               {"compiler", here.compiler},
+                               {"build_type", here.build_type},
+                               {"replaced", replaced}});
+}
+
+/// The replaced baseline in a few words; null if there was none.
+Json describe_replaced(const std::string& folder) {
+  if (!fs::exists(in(folder, kResults))) return nullptr;
+  const reports::RunResult old = reports::read_results(in(folder, kResults));
+  return {{"commit", old.commit}, {"results_hash", hash_file(in(folder, kResults))}};
+}
+
+void require_whole_suite(const reports::NamedResult& run) {
+  const std::string field = "suite";
+  if (run.result.suite.empty()) throw Error(run.name, field, "none", "the run of a whole suite (run --suite)");
+  const Suite suite = load_suite(run.result.suite);
+  size_t expected = 0;
+  for (const SuiteEntry& entry : suite.entries) expected += entry.databases.size();
+  if (run.result.experiments.size() != expected) {
+    throw Error(run.name, "experiments", fmt::format("{}", run.result.experiments.size()),
+                fmt::format("all {} of suite {}", expected, suite.name));
+  }
+  for (const reports::ExperimentResult& experiment : run.result.experiments) {
+    std::vector<uint64_t> seeds;
+    for (const reports::SeedRun& seed_run : experiment.runs) seeds.push_back(seed_run.seed);
+    if (seeds == suite.seeds) continue;
+    throw Error(run.name, "seeds of " + to_string(experiment.key), fmt::format("{}", fmt::join(seeds, ", ")),
+                fmt::format("those of suite {}: {}", suite.name, fmt::join(suite.seeds, ", ")));
+  }
+}
+
+void require_same_truths(const std::string& folder, const reports::NamedResult& run) {
+  if (!fs::exists(in(folder, kResults))) return;
+  const reports::RunResult old = reports::read_results(in(folder, kResults));
+  for (const auto& [name, hash] : run.result.inputs.truths) {
+    const auto found = old.inputs.truths.find(name);
+    if (found == old.inputs.truths.end() || found->second == hash) continue;
+    throw Error(run.name, "inputs.truths." + name, hash,
+                fmt::format("{} (the baseline's; if the truth was meant to change, delete {} first)", found->second,
+                            in(folder, kResults)));
+  }
+}
+
+}  // namespace
+
+std::string default_baseline_folder(const std::string& suite) {
+  return "ci/baselines/" + suite;
+}
+
+reports::NamedResult load_run(const std::string& folder_or_file) {
+  std::error_code error;
+  if (!fs::is_directory(folder_or_file, error)) return {folder_or_file, reports::read_results(folder_or_file)};
+  require_finished(folder_or_file);
+  const std::string path = in(folder_or_file, kResults);
+  return {path, reports::read_results(path)};
+}
+
+std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& folder_or_file) {
+  std::error_code error;
+  const fs::path folder =
+      fs::is_directory(folder_or_file, error) ? fs::path(folder_or_file) : fs::path(folder_or_file).parent_path();
+  const std::string path = in(folder.empty() ? "." : folder.string(), kNoiseFloor);
+  if (!fs::exists(path)) return std::nullopt;
+  return reports::read_noise_floor(path);
+}
+
+Baseline load_baseline(const std::string& folder) {
+  const std::string path = in(folder, kResults);
+  if (!fs::exists(path)) {
+    throw Incomparable(path, "baseline", "none",
+                       "the results of an earlier run (glovebench gate --update makes it)");
+  }
+  Baseline baseline{load_run(folder), load_noise_floor_beside(folder), {}};
+  if (fs::exists(in(folder, kSpeed))) baseline.speed = read_speed(in(folder, kSpeed));
+  return baseline;
+}
+
+void update_baseline(const std::string& folder, const reports::NamedResult& run,
+                     const std::vector<reports::SpeedRatio>& speed) {
+  require_whole_suite(run);
+  require_same_truths(folder, run);
+  const Json replaced = describe_replaced(folder);
+  const std::string results = reports::results_json(run.result);
+  std::vector<std::unique_ptr<WholeFile>> files;
+  const auto write = [&](std::string_view name, const std::string& content) {
+    files.push_back(std::make_unique<WholeFile>(in(folder, name)));
+    files.back()->append(content);
+  };
+  write(kProvenance, provenance_json(run, hash_text(results), replaced));
+  if (!speed.empty()) write(kSpeed, speed_json(speed));
+  write(kResults, results);
+  for (const std::unique_ptr<WholeFile>& file : files) file->commit();
+}
+
+}  // namespace glovebench::eval

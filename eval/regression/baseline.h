@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/comparison/noise_floor.h"
+#include "reports/comparison/pairing.h"
+#include "reports/comparison/speed.h"
+
+namespace glovebench::eval {
+
+/// What changes are gated against, as it stands in a folder that is committed:
+///   results.json      of the run that became the baseline
+///   noise_floor.json  what other seeds do (glovebench calibrate noise); may be missing
+///   speed.json        ratios to the plain implementations; may be missing
+///   provenance.json   what made it: commit, date, processor, compiler, and the baseline that it replaced
+struct Baseline {
+  reports::NamedResult results;
+  std::optional<reports::NoiseFloor> noise_floor;
+  std::vector<reports::SpeedRatio> speed;
+};
+
+/// "ci/baselines/quick", below the current folder.
+std::string default_baseline_folder(const std::string& suite);
+
+/// The results of a finished run: its folder, or the results.json itself. Throws Error, or Incomparable if the run
+/// is unfinished.
+reports::NamedResult load_run(const std::string& folder_or_file);
+/// The noise floor beside results, if there is one.
+std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& folder_or_file);
+/// Throws Incomparable if there is no baseline.
+Baseline load_baseline(const std::string& folder);
+
+/// Makes a run the baseline; the noise floor stays as it is. Writes into the folder alone. Throws Error if the run
+/// is no whole suite, or a truth is another than that of the baseline that it would replace: whoever means that
+/// deletes the old one.
+void update_baseline(const std::string& folder, const reports::NamedResult& run,
+                     const std::vector<reports::SpeedRatio>& speed);
+
+}  // namespace glovebench::eval

@@ -1,0 +1,128 @@
+#include "eval/regression/changed_frames.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "core/camera/registration.h"
+#include "core/kinect/disparity.h"
+#include "eval/replay.h"
+#include "eval/truths.h"
+#include "render/label_renderer.h"
+#include "render/montage.h"
+#include "render/pictures.h"
+#include "reports/estimates.h"
+#include "reports/tables.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::ChangedFrame;
+using reports::Estimate;
+
+constexpr Rgb kTruth = {255, 255, 255}, kBaseline = {90, 170, 255}, kCandidate = {255, 150, 40};
+constexpr int kMargin = 20;  // px around the hand
+
+/// The estimates of a run's folder, read when they are asked for.
+class EstimateFolder {
+ public:
+  explicit EstimateFolder(std::string folder) : folder_(std::move(folder)) {}
+
+  /// Empty if the folder has none of that experiment, or the frame was lost.
+  std::optional<Estimate> find(const reports::ExperimentKey& key, uint64_t seed, int frame) {
+    const std::string path = folder_ + "/" + reports::estimates_file(key);
+    if (!files_.contains(path)) {
+      files_[path] = std::filesystem::exists(path) ? reports::read_estimates(path) : std::vector<Estimate>{};
+    }
+    for (const Estimate& estimate : files_[path]) {
+      if (estimate.seed != seed || estimate.frame != frame) continue;
+      if (estimate.status == TrackStatus::tracked) return estimate;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::string folder_;
+  std::map<std::string, std::vector<Estimate>> files_;
+};
+
+/// Draws hands as the depth camera sees them.
+class Scene {
+ public:
+  Scene(Workbench& workbench, const ChangedFrame& change, std::shared_ptr<const trajectories::Trajectory> truth)
+      : workbench_(workbench), camera_(workbench.calibration().ir) {
+    const Replay replay{truth, change.key.subject, change.key.noise, change.candidate_seed, {}, {change.frame, 1}};
+    const trajectories::TrajectoryFrame& frame = frames_of(replay).front();
+    const DeviceFrame device = make_kinect(workbench, replay).next_frame().value();
+    picture_ =
+        register_color(depth_from_disparity(device.raw_disparity), device.color, workbench.calibration(), {}).color;
+    true_hand_ = silhouette(*workbench.subject(change.key.subject), frame.posture, frame.T_camera_hand);
+  }
+
+  ColorImage picture() const { return cropped(picture_); }
+  ColorImage with_outlines(const std::optional<Estimate>& estimate, const Rgb& color) {
+    ColorImage image = render::overlay_outline(picture_, true_hand_, kTruth);
+    if (estimate) {
+      const LabelImage hand = silhouette(*workbench_.model(), estimate->posture, estimate->T_camera_hand);
+      image = render::overlay_outline(image, hand, color);
+    }
+    return cropped(image);
+  }
+
+ private:
+  LabelImage silhouette(const HandModel& model, const Posture& posture, const Eigen::Isometry3d& T_camera_hand) {
+    LabelImage labels = renderer_.render_labels(model, model.pose(posture), camera_, T_camera_hand);
+    for (uint8_t& label : labels) label = label > 0;
+    return labels;
+  }
+  ColorImage cropped(const ColorImage& image) const { return render::crop_to_labels(image, true_hand_, kMargin); }
+
+  Workbench& workbench_;
+  PinholeCamera camera_;
+  render::LabelRenderer renderer_;
+  ColorImage picture_;
+  LabelImage true_hand_;
+};
+
+std::string describe(const std::optional<double>& vertex_error_mm, const std::optional<Estimate>& estimate) {
+  if (!vertex_error_mm) return "lost";
+  return fmt::format("{} mm{}", reports::fixed(vertex_error_mm, 1), estimate ? "" : " (estimate not kept)");
+}
+
+reports::Picture draw(Scene& scene, const ChangedFrame& change, const std::optional<Estimate>& baseline,
+                      const std::optional<Estimate>& candidate) {
+  const ColorImage sheet = render::montage({{"what the depth camera's pixels saw", scene.picture()},
+                                            {"baseline: " + describe(change.baseline_vertex_error_mm, baseline),
+                                             scene.with_outlines(baseline, kBaseline)},
+                                            {"candidate: " + describe(change.candidate_vertex_error_mm, candidate),
+                                             scene.with_outlines(candidate, kCandidate)}},
+                                           3, 300, 300);
+  return {fmt::format("{}, frame {}, seed {}: mean vertex error {} before, {} now", to_string(change.key),
+                      change.frame, change.candidate_seed, describe(change.baseline_vertex_error_mm, baseline),
+                      describe(change.candidate_vertex_error_mm, candidate)),
+          render::encode_png(sheet)};
+}
+
+}  // namespace
+
+std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
+                                              const std::string& baseline_folder,
+                                              const std::string& candidate_folder) {
+  EstimateFolder baseline(baseline_folder), candidate(candidate_folder);
+  std::map<Side, std::unique_ptr<Workbench>> workbenches;
+  std::vector<reports::Picture> pictures;
+  for (const ChangedFrame& change : comparison.worst) {
+    const std::shared_ptr<const trajectories::Trajectory> truth = find_truth(change.key);
+    if (!truth || change.frame >= static_cast<int>(truth->frames.size())) continue;
+    std::unique_ptr<Workbench>& workbench = workbenches[truth->side];
+    if (!workbench)
+      workbench = std::make_unique<Workbench>(WorkbenchConfig{.cache_folder = {}, .side = truth->side});
+    Scene scene(*workbench, change, truth);
+    pictures.push_back(draw(scene, change, baseline.find(change.key, change.baseline_seed, change.frame),
+                            candidate.find(change.key, change.candidate_seed, change.frame)));
+  }
+  return pictures;
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,72 @@
+#include "reports/comparison/stage_times.h"
+
+#include <algorithm>
+
+#include "core/base/file.h"
+#include "reports/json_text.h"
+
+namespace glovebench::reports {
+namespace {
+
+double milliseconds(const JsonReader& json) {
+  const double value = json.number();
+  if (!(value >= 0 && value <= 1e9)) json.fail("milliseconds, 0 to 1e9");
+  return value;
+}
+
+StageTimes::Stage* find_stage(std::vector<StageTimes::Stage>& stages, const std::string& name) {
+  const auto found = std::ranges::find(stages, name, &StageTimes::Stage::name);
+  return found == stages.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+StageTimes read_stage_times(const std::string& timings_path) {
+  const nlohmann::json document = parse_json(read_file(timings_path), timings_path);
+  const JsonReader json(document, timings_path);
+  json["format"].expect_text("glovebench-timings");
+  json["version"].integer(1, 1);
+  StageTimes times{json["processor"].text(), json["threads"].count(), {}};
+  const std::vector<JsonReader> experiments = json["experiments"].items();
+  std::vector<int> counts;
+  for (const JsonReader& experiment : experiments) {
+    for (const auto& [name, stage] : experiment["stages"].members()) {
+      if (stage["median_ms"].is_null()) continue;
+      StageTimes::Stage* known = find_stage(times.stages, name);
+      if (!known) {
+        known = &times.stages.emplace_back(StageTimes::Stage{name, 0});
+        counts.push_back(0);
+      }
+      known->median_ms += milliseconds(stage["median_ms"]);
+      ++counts[known - times.stages.data()];
+    }
+  }
+  for (size_t s = 0; s < counts.size(); ++s) times.stages[s].median_ms /= counts[s];
+  return times;
+}
+
+nlohmann::ordered_json stage_times_json(const StageTimes& times) {
+  nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+  for (const StageTimes::Stage& stage : times.stages) stages[stage.name] = rounded(stage.median_ms);
+  return {{"processor", times.processor}, {"threads", times.threads}, {"stage_median_ms", stages}};
+}
+
+StageTimes stage_times_from(const JsonReader& json) {
+  json.expect_keys({"processor", "threads", "stage_median_ms"});
+  StageTimes times{json["processor"].text(), json["threads"].count(), {}};
+  for (const auto& [name, value] : json["stage_median_ms"].members()) {
+    times.stages.push_back({name, milliseconds(value)});
+  }
+  return times;
+}
+
+StageTimeChanges compare_stage_times(const StageTimes& baseline, const StageTimes& candidate) {
+  StageTimeChanges changes{baseline.processor == candidate.processor && baseline.threads == candidate.threads, {}};
+  for (const StageTimes::Stage& before : baseline.stages) {
+    const auto now = std::ranges::find(candidate.stages, before.name, &StageTimes::Stage::name);
+    if (now != candidate.stages.end()) changes.stages.push_back({before.name, before.median_ms, now->median_ms});
+  }
+  return changes;
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,94 @@
+#include "reports/comparison/stage_times.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "reports/timings.h"
+
+namespace glovebench::reports {
+namespace {
+
+using testing::HasSubstr;
+
+class StageTimesFile : public testing::Test {
+ protected:
+  void SetUp() override { path_ = testing::TempDir() + "stage_times_" + std::to_string(getpid()) + ".json"; }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  std::string write(const std::string& text) {
+    write_file(path_, text);
+    return path_;
+  }
+  std::string path_;
+};
+
+Timings two_experiments() {
+  Timings timings;
+  timings.processor = "a processor";
+  timings.threads = 2;
+  ExperimentKey first, second;
+  first.trajectory = "Tr1";
+  second.trajectory = "Tr4";
+  timings.experiments = {{first, 1, {{"align", {10, 12, 90}}, {"look up", {1, 2, 3}}}},
+                         {second, 1, {{"align", {20, 20, 20}}}}};
+  return timings;
+}
+
+TEST_F(StageTimesFile, MeansOfTheExperimentsMedians) {
+  const StageTimes times = read_stage_times(write(timings_json(two_experiments())));
+  EXPECT_EQ(times.processor, "a processor");
+  EXPECT_EQ(times.threads, 2);
+  ASSERT_EQ(times.stages.size(), 2u);
+  EXPECT_EQ(times.stages[0].name, "align");
+  EXPECT_DOUBLE_EQ(times.stages[0].median_ms, 16);
+  EXPECT_DOUBLE_EQ(times.stages[1].median_ms, 2);
+}
+
+TEST_F(StageTimesFile, RoundTripsWithinAnotherFile) {
+  const StageTimes times = read_stage_times(write(timings_json(two_experiments())));
+  const nlohmann::json document = stage_times_json(times);
+  const std::string where = "provenance.json";
+  const StageTimes again = stage_times_from(JsonReader(document, where));
+  EXPECT_EQ(stage_times_json(again), stage_times_json(times));
+}
+
+TEST_F(StageTimesFile, RefusesWhatIsNoTime) {
+  nlohmann::json document = nlohmann::json::parse(timings_json(two_experiments()));
+  const auto error_of = [&](const nlohmann::json& changed) -> std::string {
+    try {
+      read_stage_times(write(changed.dump()));
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  nlohmann::json changed = document;
+  changed["experiments"][1]["stages"]["align"]["median_ms"] = -1;
+  EXPECT_THAT(error_of(changed), HasSubstr("experiments[1].stages.align.median_ms: found -1"));
+  changed = document;
+  changed["experiments"][0].erase("stages");
+  EXPECT_THAT(error_of(changed), HasSubstr("experiments[0].stages"));
+  changed = document;
+  changed["format"] = "other";
+  EXPECT_THAT(error_of(changed), HasSubstr("format"));
+}
+
+TEST(StageTimes, ComparesTheStagesOfBoth) {
+  const StageTimes before{"p", 2, {{"align", 10}, {"gone", 1}}};
+  const StageTimes now{"p", 2, {{"new", 1}, {"align", 12}}};
+  const StageTimeChanges changes = compare_stage_times(before, now);
+  EXPECT_TRUE(changes.same_machine);
+  ASSERT_EQ(changes.stages.size(), 1u);
+  EXPECT_EQ(changes.stages[0].stage, "align");
+  EXPECT_EQ(changes.stages[0].baseline_ms, 10);
+  EXPECT_EQ(changes.stages[0].candidate_ms, 12);
+  EXPECT_FALSE(compare_stage_times(before, {"q", 2, {}}).same_machine);
+  EXPECT_FALSE(compare_stage_times(before, {"p", 4, {}}).same_machine);
+}
+
+}  // namespace
+}  // namespace glovebench::reports
