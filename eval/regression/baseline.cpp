@@ -23,36 +23,10 @@ using reports::Incomparable;
 
 constexpr std::string_view kResults = "/results.json", kNoiseFloor = "/noise_floor.json", kSpeed = "/speed.json",
                            kProvenance = "/provenance.json";
-constexpr std::string_view kSpeedFormat = "glovebench-speed", kProvenanceFormat = "glovebench-provenance";
+constexpr std::string_view kProvenanceFormat = "glovebench-provenance";
 
 std::string in(const std::string& folder, std::string_view file) {
   return folder + std::string(file);
-}
-
-std::string speed_json(const std::vector<reports::SpeedRatio>& speed) {
-  Json ratios = Json::array();
-  for (const reports::SpeedRatio& ratio : speed) {
-    ratios.push_back({{"name", ratio.name},
-                      {"ratio", reports::rounded(ratio.ratio)},
-                      {"low", reports::rounded(ratio.low)},
-                      {"high", reports::rounded(ratio.high)}});
-  }
-  return reports::format_json({{"format", kSpeedFormat}, {"version", 1}, {"ratios", ratios}});
-}
-
-std::vector<reports::SpeedRatio> read_speed(const std::string& path) {
-  const nlohmann::json document = reports::parse_json(read_file(path), path);
-  const reports::JsonReader json(document, path);
-  json.expect_keys({"format", "version", "ratios"});
-  json["format"].expect_text(kSpeedFormat);
-  json["version"].integer(1, 1);
-  std::vector<reports::SpeedRatio> speed;
-  for (const reports::JsonReader& item : json["ratios"].items()) {
-    item.expect_keys({"name", "ratio", "low", "high"});
-    speed.push_back({item["name"].text(), item["ratio"].number(), item["low"].number(), item["high"].number()});
-    if (!(speed.back().ratio > 0)) item["ratio"].fail("a number above 0");
-  }
-  return speed;
 }
 
 /// What the baseline was made by. No name of a machine: the file is committed.
@@ -140,7 +114,7 @@ Baseline load_baseline(const std::string& folder) {
                        "the results of an earlier run (glovebench gate --update makes it)");
   }
   Baseline baseline{load_run(folder), load_noise_floor_beside(folder), {}};
-  if (fs::exists(in(folder, kSpeed))) baseline.speed = read_speed(in(folder, kSpeed));
+  if (fs::exists(in(folder, kSpeed))) baseline.speed = reports::read_speed_ratios(in(folder, kSpeed));
   return baseline;
 }
 
@@ -156,7 +130,7 @@ void update_baseline(const std::string& folder, const reports::NamedResult& run,
     files.back()->append(content);
   };
   write(kProvenance, provenance_json(run, hash_text(results), replaced));
-  if (!speed.empty()) write(kSpeed, speed_json(speed));
+  if (!speed.empty()) write(kSpeed, reports::speed_json(speed));
   write(kResults, results);
   for (const std::unique_ptr<WholeFile>& file : files) file->commit();
 }
