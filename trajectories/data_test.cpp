@@ -114,6 +114,39 @@ TEST_P(GroundTruth, stays_inside_both_images) {
   }
 }
 
+/// The share of the hand's vertices that both cameras see.
+double visible_share(const TrajectoryFrame& frame) {
+  const RgbdCalibration calibration = synthetic_calibration();
+  const std::vector<Eigen::Vector3f> vertices = right_hand().pose(frame.posture).vertices;
+  const auto is_inside = [](const Eigen::Vector2d& uv_px) {
+    return uv_px.minCoeff() >= 0 && uv_px.x() <= 639 && uv_px.y() <= 479;
+  };
+  const auto seen = std::ranges::count_if(vertices, [&](const Eigen::Vector3f& p_hand) {
+    const Eigen::Vector3d p_camera = frame.T_camera_hand * p_hand.cast<double>();
+    return is_inside(calibration.ir.project(p_camera)) &&
+           is_inside(calibration.rgb.project(calibration.T_rgb_ir * p_camera));
+  });
+  return static_cast<double>(seen) / static_cast<double>(vertices.size());
+}
+
+TEST(Exit, leaves_the_image_returns_and_comes_too_near) {
+  const Trajectory exit = source_trajectory(kFolder, "Exit");
+  std::string story;  // a letter a frame, one for a run of equal frames
+  int out = 0, near = 0;
+  for (const TrajectoryFrame& frame : exit.frames) {
+    const double share = visible_share(frame);
+    const bool is_near = frame.T_camera_hand.translation().z() < 0.40;  // where the working volume begins
+    const char letter = share == 0 ? 'o' : is_near ? 'n' : share < 1 ? 'c' : 'i';
+    if (story.empty() || story.back() != letter) story += letter;
+    out += letter == 'o';
+    near += letter == 'n';
+  }
+  EXPECT_EQ(story, "icocini") << "in, cut by the border, out, cut, in, near, in";
+  EXPECT_GE(out, 4);
+  EXPECT_GE(near, 4);
+  EXPECT_EQ(exit.frames.size(), 80U);
+}
+
 TEST(GroundTruths, tr4_opens_and_closes_once_and_is_mostly_settled) {
   const TrajectoryProperties properties =
       measure(source_trajectory(kFolder, "Tr4"), gesture("open"), gesture("power"));
