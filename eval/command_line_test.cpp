@@ -220,6 +220,40 @@ TEST_F(CommandLine, TrajectoriesOfBothSides) {
               AllOf(HasSubstr("left.json"), HasSubstr("side")));
 }
 
+TEST_F(CommandLine, SuiteSaysAllThatIsRun) {
+  for (const char* flag : {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject"}) {
+    const std::string value = flag == std::string("--truth")   ? "source"
+                              : flag == std::string("--noise") ? "kinect"
+                                                               : "1";
+    EXPECT_THAT(refusal({"run", "--suite", "quick", flag, value, "-o", output_}),
+                AllOf(HasSubstr("--suite"), HasSubstr(flag)));
+  }
+  EXPECT_THAT(refusal({"run", "-o", output_}), AllOf(HasSubstr("--suite"), HasSubstr("--trajectory")));
+  EXPECT_THAT(refusal({"run", "--suite", "bogus", "-o", output_}), AllOf(HasSubstr("bogus"), HasSubstr("quick")));
+  EXPECT_THAT(refusal({"run", "--suite", path("none.json"), "-o", output_}), HasSubstr("none.json"));
+  EXPECT_THAT(refusal({"run", "--suite", "quick", "--filter", "Tr9*", "-o", output_}), HasSubstr("Tr9*"));
+  EXPECT_THAT(refusal({"run", "--suite", "quick"}), HasSubstr("--output"));
+}
+
+TEST_F(CommandLine, ListsAndRehearsesARun) {
+  const auto said = [](const std::vector<std::string>& arguments) {
+    const ProgramRun run = run_glovebench(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.out;
+  };
+  EXPECT_THAT(said({"run", "--suite", "quick", "--list"}), HasSubstr("80 frames x 2 seeds"));
+  EXPECT_THAT(said({"run", "--suite", "quick", "--list", "--seeds", "3"}), HasSubstr("80 frames x 3 seeds"));
+  EXPECT_THAT(said({"run", "--suite", "quick", "--dry-run", "--seed", "7"}), HasSubstr("seeds 7, 8:"));
+  EXPECT_EQ(said({"run", "--trajectory", "Tr4", "--database", "DB_open_power", "--list"}),
+            "Tr4_DB_open_power_source_subject1_gradient_1   117 frames x 1 seeds\n");
+  const std::string text = said({"run", "--suite", "quick", "--filter", "Exit*", "--dry-run", "--cache",
+                                 path("cache"), "--output", path("nothing")});
+  EXPECT_THAT(text, AllOf(HasSubstr("seeds 1, 2: 160 frames"), HasSubstr("DB_open_power: to be built"),
+                          HasSubstr("report: " + path("nothing"))));
+  EXPECT_FALSE(fs::exists(path("cache")));
+  EXPECT_FALSE(fs::exists(path("nothing")));
+}
+
 TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   const std::vector<std::string> tracker = {"--profile", "--config", "--cascade"};
   const std::vector<std::string> machine = {"--threads", "--cache", "--quiet"};
@@ -239,7 +273,7 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
                          machine,
                          random,
                          {"--output", "--trajectory", "--database", "--truth", "--noise", "--gain", "--subject",
-                          "--seeds", "--robot-out"}});
+                          "--seeds", "--robot-out", "--suite", "--filter", "--list", "--dry-run"}});
   expect_flags({"record"}, {tracker, machine, random, {"--output", "--trajectory", "--database"}});
   expect_flags({"render"},
                {tracker, machine, random, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
@@ -247,12 +281,13 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});
   expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});
-  expect_flags({"list"}, {{"trajectories", "databases", "angles", "config"}});
+  expect_flags({"list"}, {{"trajectories", "databases", "suites", "angles", "config"}});
 }
 
 TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list", "trajectories"}).out, AllOf(HasSubstr("Tr1"), HasSubstr("recorded")));
   EXPECT_THAT(run_glovebench({"list", "databases"}).out, HasSubstr("DB_20_postures"));
+  EXPECT_THAT(run_glovebench({"list", "suites"}).out, AllOf(HasSubstr("quick"), HasSubstr("full")));
   EXPECT_THAT(run_glovebench({"list", "angles"}).out, HasSubstr("little_dip_flexion"));
   const ProgramRun config = run_glovebench({"list", "config", "--cascade", "8:9"});
   EXPECT_EQ(json::parse(config.out).at("lookup").at("cascade"), "8:9");
