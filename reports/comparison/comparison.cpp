@@ -46,7 +46,8 @@ std::map<std::string, std::string> flat_configuration(const RunResult& result) {
   std::map<std::string, std::string> fields;
   const auto tracker = result.configuration.find("tracker");
   if (tracker == result.configuration.end() || !tracker->is_object()) return fields;
-  for (const auto& [pointer, value] : tracker->flatten().items()) {
+  const json flat = tracker->flatten();
+  for (const auto& [pointer, value] : flat.items()) {
     std::string field = pointer.substr(std::min<size_t>(1, pointer.size()));
     std::ranges::replace(field, '/', '.');
     fields[field] = value.dump(-1, ' ', true, json::error_handler_t::replace);

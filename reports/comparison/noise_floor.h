@@ -45,5 +45,7 @@ NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, do
 std::string noise_floor_json(const NoiseFloor& floor);
 /// Throws Error for whatever noise_floor_json does not write.
 NoiseFloor read_noise_floor(const std::string& path);
+/// The same for the file's text; `where` names it in errors.
+NoiseFloor parse_noise_floor(const std::string& text, const std::string& where);
 
 }  // namespace glovebench::reports

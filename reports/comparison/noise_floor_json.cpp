@@ -69,8 +69,12 @@ std::string noise_floor_json(const NoiseFloor& floor) {
 }
 
 NoiseFloor read_noise_floor(const std::string& path) {
-  const nlohmann::json document = parse_json(read_file(path), path);
-  const JsonReader json(document, path);
+  return parse_noise_floor(read_file(path), path);
+}
+
+NoiseFloor parse_noise_floor(const std::string& text, const std::string& where) {
+  const nlohmann::json document = parse_json(text, where);
+  const JsonReader json(document, where);
   json["format"].expect_text(kFormat);
   json["version"].integer(kVersion, kVersion);
   json.expect_keys(

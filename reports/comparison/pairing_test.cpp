@@ -50,7 +50,7 @@ TEST(Pairing, EqualResultsArePairedWithAllTheyHave) {
 TEST(Pairing, OtherProtocolsAreRefusedByTheMemberThatDiffers) {
   EXPECT_EQ(refusal_of_change([](RunResult& r) { ++r.protocol.metric_definitions; }),
             "out/new: protocol.metric_definitions: found 2, expected 1");
-  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.joint_order[3] = "elbow"; }),
+  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.joint_order[3] = std::string("elbow"); }),
               HasSubstr("protocol.joint_order[3]: found elbow, expected "));
   EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.metric_keys.pop_back(); }),
               HasSubstr("protocol.metric_keys[13]: found nothing, expected icp_residual_mm"));

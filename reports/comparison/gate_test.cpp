@@ -1,0 +1,99 @@
+#include "reports/comparison/gate.h"
+
+#include <gmock/gmock.h>
+
+#include "reports/comparison/example_comparison.h"
+
+namespace glovebench::reports {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr int kPosition = 0, kUncovered = 6;
+
+ComparisonRow row(int quantity, double difference, Verdict verdict) {
+  return {"Tr4_x",           quantity,          200, 200,  2.98,   2.98 + difference, difference,
+          difference - 0.21, difference + 0.21, 8,   0.12, verdict};
+}
+
+Comparison of_rows(std::vector<ComparisonRow> rows) {
+  Comparison comparison;
+  comparison.has_noise_floor = true;
+  comparison.rows = std::move(rows);
+  return comparison;
+}
+
+TEST(Gate, WorseStops) {
+  EXPECT_TRUE(stops(row(kPosition, 0.52, Verdict::worse)));
+  EXPECT_FALSE(stops(row(kPosition, -0.52, Verdict::better)));
+  EXPECT_FALSE(stops(row(kPosition, 0.01, Verdict::same)));
+  EXPECT_FALSE(stops(row(kPosition, 0.52, Verdict::not_enough_data)));
+}
+
+TEST(Gate, AShareThatRoseByItsMinimumEffectStopsWithoutSignificance) {
+  EXPECT_TRUE(stops(row(kUncovered, 0.12, Verdict::not_enough_data)));
+  EXPECT_TRUE(stops(row(kUncovered, 0.12 - 4e-7, Verdict::not_enough_data))) << "rounded in a file";
+  EXPECT_FALSE(stops(row(kUncovered, 0.119, Verdict::not_enough_data)));
+  EXPECT_FALSE(stops(row(kUncovered, -0.5, Verdict::better)));
+  ComparisonRow brief = row(kUncovered, 5, Verdict::not_enough_data);
+  brief.low.reset();
+  brief.high.reset();
+  EXPECT_TRUE(stops(brief)) << "too short for an interval";
+  brief.difference.reset();
+  EXPECT_FALSE(stops(brief));
+}
+
+TEST(Gate, LinesHoldTheNumbers) {
+  const GateDecision decision =
+      decide(of_rows({row(kPosition, 0.52, Verdict::worse), row(kPosition, 0.15, Verdict::not_enough_data),
+                      row(kPosition, 0.05, Verdict::not_enough_data), row(kPosition, -0.5, Verdict::better)}),
+             {});
+  EXPECT_FALSE(decision.passed());
+  EXPECT_THAT(decision.failures,
+              ElementsAre("Tr4_x, position_error_mm: worse by 0.52 mm [0.31, 0.73] (2.98 -> 3.50), minimum effect "
+                          "0.12"));
+  EXPECT_THAT(decision.warnings,
+              ElementsAre("Tr4_x, position_error_mm: not enough data to tell, up by 0.15 mm [-0.06, 0.36] (2.98 -> "
+                          "3.13), minimum effect 0.12"));
+}
+
+TEST(Gate, NothingWorsePasses) {
+  const GateDecision decision =
+      decide(of_rows({row(kPosition, 0.01, Verdict::same)}), {{"look_up", 4, 3.9, 2.8, false}});
+  EXPECT_TRUE(decision.passed());
+  EXPECT_THAT(decision.warnings, IsEmpty());
+}
+
+TEST(Gate, WithoutANoiseFloorItWarns) {
+  Comparison comparison = of_rows({});
+  comparison.has_noise_floor = false;
+  const GateDecision decision = decide(comparison, {});
+  EXPECT_TRUE(decision.passed());
+  EXPECT_THAT(decision.warnings, ElementsAre(testing::HasSubstr("no noise floor")));
+}
+
+TEST(Gate, ASlowerRatioStops) {
+  const GateDecision decision = decide(of_rows({}), {{"look_up", 4, 2, 2.8, true}, {"icp", 3, 3, 2.1, false}});
+  EXPECT_THAT(
+      decision.failures,
+      ElementsAre("look_up: slower: 2.00 times as fast as the plain implementation (it was 4.00), limit 2.80"));
+}
+
+TEST(Gate, ARunOfLostFramesStops) {
+  const auto experiment = [](int lost) {
+    return example_experiment("Exit", {1, 2}, 100, [lost](uint64_t, int f) {
+      return f >= 50 && f < 50 + lost ? example_lost_frame(f) : example_frame(f, 3, 5, 2);
+    });
+  };
+  const NamedResult before = example_named("before", {experiment(4)});
+  const auto gate = [&](int lost) {
+    return decide(compare_results(before, example_named("after", {experiment(lost)}), nullptr), {});
+  };
+  EXPECT_TRUE(gate(4).passed());
+  EXPECT_TRUE(gate(3).passed());
+  EXPECT_FALSE(gate(5).passed()) << "one frame in both seeds: two of 200, the default of 1%";
+}
+
+}  // namespace
+}  // namespace glovebench::reports
