@@ -46,7 +46,7 @@ Json row_json(const ComparisonRow& row) {
           {"minimum_effect", rounded(row.minimum_effect)}};
 }
 
-Json speed_json(const SpeedRow& row) {
+Json speed_row_json(const SpeedRow& row) {
   return {{"name", row.name},
           {"baseline", rounded(row.baseline)},
           {"candidate", rounded(row.candidate)},
@@ -100,7 +100,7 @@ std::string comparison_json(const ComparisonReport& report) {
                       {"candidate", result_json(comparison.candidate)},
                       {"method", method_json(comparison)},
                       {"rows", array_of(comparison.rows, row_json)},
-                      {"speed", array_of(report.speed, speed_json)},
+                      {"speed", array_of(report.speed, speed_row_json)},
                       {"configuration_changes", array_of(comparison.configuration, change_json)},
                       {"only_in_baseline", comparison.only_in_baseline},
                       {"only_in_candidate", comparison.only_in_candidate},

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "reports/comparison/comparison_rows.h"
-#include "reports/comparison/example_comparison.h"
+#include "reports/comparison/example_runs.h"
 
 namespace glovebench::reports {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "reports/comparison/example_comparison.h"
+#include "reports/comparison/example_runs.h"
 
 namespace glovebench::reports {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/base/file.h"
 #include "reports/comparison/comparison.h"
-#include "reports/comparison/example_comparison.h"
+#include "reports/comparison/example_runs.h"
 #include "reports/comparison/gate.h"
 #include "reports/comparison/quantities.h"
 
