@@ -158,16 +158,19 @@ TEST(HostileResults, FilesThatCannotBeRead) {
   fs::permissions(secret, fs::perms::none);
   // Permissions do not bind the superuser, as whom some machines test.
   const uid_t self = geteuid();
-  if (self == 0) ASSERT_EQ(seteuid(65534), 0);
+  ASSERT_TRUE(self != 0 || seteuid(65534) == 0);
   EXPECT_THAT(error_of_reading(secret), HasSubstr("Permission denied"));
-  if (self == 0) ASSERT_EQ(seteuid(0), 0);
+  ASSERT_EQ(seteuid(self), 0);
   fs::remove_all(folder);
 }
 
 TEST(HostileResults, TruncatedAnywhere) {
-  const std::string text = results_json(full_result());
-  for (size_t length = 0; length < text.size(); length += 1000)
-    EXPECT_THAT(error_of(text.substr(0, length)), HasSubstr("expected JSON")) << length;
+  const std::string& small = example_text();
+  for (size_t length = 0; length < small.size(); length += 100)
+    EXPECT_THAT(error_of(small.substr(0, length)), HasSubstr("expected JSON")) << length;
+  const std::string full = results_json(full_result());
+  for (size_t length = 1000; length < full.size(); length += 99'000)
+    EXPECT_THAT(error_of(full.substr(0, length)), HasSubstr("expected JSON")) << length;
 }
 
 /// One of the document's values, all the way down.
@@ -196,7 +199,8 @@ std::string damaged(RandomStream& random) {
                                               json::object(),
                                               json::array({1, 2}),
                                               "\xc3\xa9"};
-  json document = json::parse(example_text());
+  static const json undamaged = json::parse(example_text());
+  json document = undamaged;
   json& value = random_value(document, random);
   switch (random.index(4)) {
     case 0:
@@ -221,7 +225,7 @@ std::string damaged(RandomStream& random) {
 
 TEST(HostileResults, ExchangedValuesGiveAnErrorOrAResultThatCanBeWrittenAgain) {
   int refused = 0, accepted = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < 1000; ++trial) {
     RandomStream random(1, "hostile_results_test", trial, "damage");
     const std::string text = damaged(random);
     try {
@@ -236,8 +240,8 @@ TEST(HostileResults, ExchangedValuesGiveAnErrorOrAResultThatCanBeWrittenAgain) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   }
-  EXPECT_GT(refused, 1000);
-  EXPECT_GT(accepted, 100) << "another commit, say, is another result: the damage reaches the values";
+  EXPECT_GT(refused, 300);
+  EXPECT_GT(accepted, 30) << "another commit, say, is another result: the damage reaches the values";
 }
 
 }  // namespace
