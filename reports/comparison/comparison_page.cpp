@@ -37,24 +37,24 @@ std::string verdict_cell(const std::string& style, const std::string& words) {
   return fmt::format("<td class=\"name\"><span class=\"verdict {}\">{}</span></td>", style, escape_html(words));
 }
 
-/// The verdict stands beside the name: a narrow screen cuts the numbers, not it.
+/// The verdict stands beside the name: a narrow screen cuts off numbers, not the answer.
 std::string row_html(const ComparisonRow& row, bool with_experiment) {
   const std::vector<std::string> cells = row_cells(row);
   std::string html = "<tr>";
   if (with_experiment)
     html += fmt::format("<td class=\"name\">{}</td>", escape_html(readable_experiment(row.experiment)));
-  html +=
-      fmt::format("<td class=\"name\">{}</td>", escape_html(cells[0])) + verdict_cell(style_of(row), cells.back());
+  html += fmt::format("<td class=\"name\">{}</td>", escape_html(cells[0])) +
+          verdict_cell(style_of(row), cells.back()) + fmt::format("<td>{}</td>", interval_plot(row));
   for (size_t c = 1; c + 1 < cells.size(); ++c) html += fmt::format("<td>{}</td>", escape_html(cells[c]));
-  return html + fmt::format("<td>{}</td></tr>\n", interval_plot(row));
+  return html + "</tr>\n";
 }
 
 std::string rows_html(const std::vector<ComparisonRow>& rows, bool with_experiment) {
   std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
   if (with_experiment) html += "<th class=\"name\">experiment</th>";
   html +=
-      "<th class=\"name\">quantity</th><th class=\"name\">verdict</th><th>baseline</th><th>candidate</th>"
-      "<th>difference</th><th>interval</th><th>minimum effect</th><th></th></tr></thead>\n<tbody>\n";
+      "<th class=\"name\">quantity</th><th class=\"name\">verdict</th><th></th><th>baseline</th>"
+      "<th>candidate</th><th>difference</th><th>interval</th><th>minimum effect</th></tr></thead>\n<tbody>\n";
   for (const ComparisonRow& row : rows) html += row_html(row, with_experiment);
   return html + "</tbody></table></div>\n";
 }
