@@ -39,6 +39,8 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+using TrackedReplays = std::vector<TrackedReplay>;  // of one replay: one a database
+
 /// The passes of one experiment: one a seed.
 struct Gathered {
   ExperimentKey key;
@@ -46,7 +48,7 @@ struct Gathered {
   std::vector<const TrackedReplay*> passes;
 };
 
-std::vector<Gathered> gather(const Plan& plan, const std::vector<std::vector<TrackedReplay>>& outputs) {
+std::vector<Gathered> gather(const Plan& plan, const std::vector<TrackedReplays>& outputs) {
   std::vector<Gathered> experiments;
   for (size_t r = 0; r < plan.replays.size(); ++r) {
     for (const TrackedReplay& pass : outputs[r]) {
@@ -141,25 +143,52 @@ reports::ExperimentEstimates estimates_of(const Gathered& experiment) {
   return estimates;
 }
 
-/// The replay, or what an interrupted run stored of it.
-std::vector<TrackedReplay> replay_once(Workbench& workbench, const Plan& plan, const Replay& one,
-                                       const RunFolder* run_folder, const std::function<void()>& frame_done) {
-  if (!run_folder) return replay(workbench, one, plan.tracker, frame_done);
-  const std::string key = replay_key(workbench, one, plan.tracker);
-  if (std::optional<std::vector<TrackedReplay>> stored = run_folder->load(key)) {
-    for (size_t i = 0; i < frames_of(one).size(); ++i) frame_done();
-    return *std::move(stored);
+/// Replays that share their images, or what an interrupted run stored of them.
+std::vector<TrackedReplays> replay_group(Workbench& workbench, const Plan& plan, std::span<const Replay> group,
+                                         const RunFolder* run_folder, const std::function<void()>& frame_done) {
+  std::vector<TrackedReplays> outputs(group.size());
+  std::vector<Replay> left;
+  std::vector<size_t> places;
+  for (size_t i = 0; i < group.size(); ++i) {
+    if (run_folder) {
+      if (auto stored = run_folder->load(replay_key(workbench, group[i], plan.tracker))) {
+        outputs[i] = *std::move(stored);
+        for (size_t f = 0; f < frames_of(group[i]).size(); ++f) frame_done();
+        continue;
+      }
+    }
+    left.push_back(group[i]);
+    places.push_back(i);
   }
-  std::vector<TrackedReplay> made = replay(workbench, one, plan.tracker, frame_done);
-  run_folder->store(key, made);
-  return made;
+  if (left.empty()) return outputs;
+  std::vector<TrackedReplays> made = replay_together(workbench, left, plan.tracker, frame_done);
+  for (size_t i = 0; i < left.size(); ++i) {
+    if (run_folder) run_folder->store(replay_key(workbench, left[i], plan.tracker), made[i]);
+    outputs[places[i]] = std::move(made[i]);
+  }
+  return outputs;
 }
 
-std::vector<std::vector<TrackedReplay>> run_replays(Workbench& workbench, const Plan& plan,
-                                                    const RunFolder* run_folder) {
+/// Where each group of replays that are rendered once begins, and the end. Larger groups save rendering, but there
+/// must be enough of them for all threads.
+std::vector<size_t> group_begins(const std::vector<Replay>& replays, int threads) {
+  constexpr size_t kLargest = 4;  // each replay of a group has trackers of its own in memory
+  const size_t size = std::clamp<size_t>(replays.size() / (2 * static_cast<size_t>(threads)), 1, kLargest);
+  std::vector<size_t> begins;
+  for (size_t r = 0; r < replays.size(); ++r) {
+    const bool joins =
+        !begins.empty() && r - begins.back() < size && share_images(replays[begins.back()], replays[r]);
+    if (!joins) begins.push_back(r);
+  }
+  begins.push_back(replays.size());
+  return begins;
+}
+
+std::vector<TrackedReplays> run_replays(Workbench& workbench, const Plan& plan, const RunFolder* run_folder) {
   size_t frames = 0;
   for (const Replay& replay : plan.replays) frames += frames_of(replay).size();
-  std::vector<std::vector<TrackedReplay>> outputs(plan.replays.size());
+  std::vector<TrackedReplays> outputs(plan.replays.size());
+  const std::vector<size_t> begins = group_begins(plan.replays, workbench.config().threads);
   Progress progress("replaying", workbench.config().quiet);
   std::atomic<size_t> done{0};
   const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
@@ -167,10 +196,12 @@ std::vector<std::vector<TrackedReplay>> run_replays(Workbench& workbench, const 
   tbb::task_arena arena(workbench.config().threads);
   arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, plan.replays.size(), 1),
+        tbb::blocked_range<size_t>(0, begins.size() - 1, 1),
         [&](const tbb::blocked_range<size_t>& range) {
-          for (size_t r = range.begin(); r != range.end(); ++r) {
-            outputs[r] = replay_once(workbench, plan, plan.replays[r], run_folder, frame_done);
+          for (size_t g = range.begin(); g != range.end(); ++g) {
+            const std::span<const Replay> group(&plan.replays[begins[g]], begins[g + 1] - begins[g]);
+            std::ranges::move(replay_group(workbench, plan, group, run_folder, frame_done),
+                              outputs.begin() + static_cast<std::ptrdiff_t>(begins[g]));
           }
         },
         tbb::simple_partitioner());
@@ -234,7 +265,7 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
                         const RunFolder* run_folder) {
   const auto start = std::chrono::steady_clock::now();
   prepare(workbench, plan);
-  const std::vector<std::vector<TrackedReplay>> outputs = run_replays(workbench, plan, run_folder);
+  const std::vector<TrackedReplays> outputs = run_replays(workbench, plan, run_folder);
   const std::vector<Gathered> experiments = gather(plan, outputs);
   Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads), {}};
   if (!robot.folder.empty()) remove_leftovers(robot.folder, is_of_robot_output);

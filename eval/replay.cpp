@@ -79,11 +79,9 @@ std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay) {
   return all.subspan(range.first, count);
 }
 
-render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) {
-  std::vector<render::HandFrame> frames;
-  for (const trajectories::TrajectoryFrame& frame : frames_of(replay)) {
-    frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
-  }
+namespace {
+
+render::SyntheticKinectConfig kinect_config(const Replay& replay) {
   render::SyntheticKinectConfig config;
   config.scene.shader = replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
   config.noise.depth = render::depth_noise_from_string(replay.noise.model);
@@ -91,38 +89,97 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) 
   config.seed = replay.seed;
   config.sequence = replay.truth->name;
   config.first_frame = replay.range.first;
+  return config;
+}
+
+/// The trackers of one replay and what they made so far.
+class Pass {
+ public:
+  Pass(Workbench& workbench, const Replay& replay, const TrackerConfig& config)
+      : kinect_(kinect_config(replay)), model_(workbench.model()) {
+    for (const std::string& database : replay.databases) {
+      trackers_.push_back(workbench.make_tracker(config, database));
+      tracked_.push_back({database, {}, {}, {}});
+    }
+    timers_.resize(trackers_.size());
+  }
+
+  /// The device frame of these images, under this replay's noise.
+  DeviceFrame frame_of(const render::RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
+                       int number) const {
+    return render::make_device_frame(images, calibration, timestamp_us, kinect_.noise,
+                                     {kinect_.seed, kinect_.sequence, number});
+  }
+  void track(const DeviceFrame& frame, const FrameTruth& truth, int number) {
+    for (size_t t = 0; t < trackers_.size(); ++t) {
+      const TrackResult result =
+          trackers_[t].track(frame, [&](std::string_view stage) { timers_[t].begin(stage); });
+      tracked_[t].errors.push_back(measure_frame(number, result, truth, *model_));
+      tracked_[t].results.push_back(result);
+    }
+  }
+  std::vector<TrackedReplay> take() {
+    for (size_t t = 0; t < tracked_.size(); ++t) tracked_[t].stages = timers_[t].take();
+    return std::move(tracked_);
+  }
+
+ private:
+  render::SyntheticKinectConfig kinect_;
+  std::shared_ptr<const HandModel> model_;
+  std::vector<Tracker> trackers_;
+  std::vector<TrackedReplay> tracked_;
+  std::vector<StageTimer> timers_;
+};
+
+}  // namespace
+
+bool share_images(const Replay& a, const Replay& b) {
+  return a.truth == b.truth && a.subject == b.subject && a.range == b.range;
+}
+
+render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) {
+  std::vector<render::HandFrame> frames;
+  for (const trajectories::TrajectoryFrame& frame : frames_of(replay)) {
+    frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
+  }
   return render::SyntheticKinect(workbench.calibration(), workbench.subject(replay.subject), std::move(frames),
-                                 config);
+                                 kinect_config(replay));
+}
+
+std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, std::span<const Replay> replays,
+                                                        const TrackerConfig& config,
+                                                        const std::function<void()>& frame_done) {
+  const Replay& first = replays.front();
+  std::vector<Pass> passes;
+  for (const Replay& replay : replays) {
+    check(share_images(first, replay), "replays that are rendered once differ in noise and databases alone");
+    passes.emplace_back(workbench, replay, config);
+  }
+  const std::shared_ptr<const HandModel> subject = workbench.subject(first.subject);
+
+  render::SyntheticKinect kinect = make_kinect(workbench, first);
+  int number = first.range.first;
+  for (const trajectories::TrajectoryFrame& true_frame : frames_of(first)) {
+    const std::optional<DeviceFrame> frame = kinect.next_frame();
+    check(frame.has_value(), "the device plays every frame of the trajectory");
+    const render::RgbdImages& images = kinect.truth();
+    const FrameTruth truth = truth_of(true_frame, *subject, images, config);
+    for (Pass& pass : passes) {
+      const bool is_first = &pass == &passes.front();
+      pass.track(is_first ? *frame : pass.frame_of(images, kinect.calibration(), true_frame.timestamp_us, number),
+                 truth, number);
+      if (frame_done) frame_done();
+    }
+    ++number;
+  }
+  std::vector<std::vector<TrackedReplay>> tracked;
+  for (Pass& pass : passes) tracked.push_back(pass.take());
+  return tracked;
 }
 
 std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, const TrackerConfig& config,
                                   const std::function<void()>& frame_done) {
-  std::vector<Tracker> trackers;
-  std::vector<TrackedReplay> tracked;
-  for (const std::string& database : replay.databases) {
-    trackers.push_back(workbench.make_tracker(config, database));
-    tracked.push_back({database, {}, {}, {}});
-  }
-  std::vector<StageTimer> timers(trackers.size());
-  const std::shared_ptr<const HandModel> model = workbench.model();
-  const std::shared_ptr<const HandModel> subject = workbench.subject(replay.subject);
-
-  render::SyntheticKinect kinect = make_kinect(workbench, replay);
-  int number = replay.range.first;
-  for (const trajectories::TrajectoryFrame& true_frame : frames_of(replay)) {
-    const std::optional<DeviceFrame> frame = kinect.next_frame();
-    check(frame.has_value(), "the device plays every frame of the trajectory");
-    const FrameTruth truth = truth_of(true_frame, *subject, kinect.truth(), config);
-    for (size_t t = 0; t < trackers.size(); ++t) {
-      const TrackResult result = trackers[t].track(*frame, [&](std::string_view stage) { timers[t].begin(stage); });
-      tracked[t].errors.push_back(measure_frame(number, result, truth, *model));
-      tracked[t].results.push_back(result);
-    }
-    ++number;
-    if (frame_done) frame_done();
-  }
-  for (size_t t = 0; t < trackers.size(); ++t) tracked[t].stages = timers[t].take();
-  return tracked;
+  return replay_together(workbench, {&replay, 1}, config, frame_done).front();
 }
 
 }  // namespace glovebench::eval

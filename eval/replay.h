@@ -21,6 +21,8 @@ namespace glovebench::eval {
 struct FrameRange {
   int first = 0;             ///< >= 0
   std::optional<int> count;  ///< >= 1; empty: all that follow
+
+  friend bool operator==(const FrameRange&, const FrameRange&) = default;
 };
 
 /// One pass over a trajectory: rendered once, tracked against each of the databases.
@@ -50,5 +52,13 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay);
 /// device frames and calibration only. `frame_done` is called after each frame.
 std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, const TrackerConfig& config,
                                   const std::function<void()>& frame_done = {});
+
+/// Do they show the same hand in the same frames, so that they differ in noise and databases alone?
+bool share_images(const Replay& a, const Replay& b);
+/// The same for replays that share their images, which are rendered once: an output for each, equal to its own
+/// replay's. `frame_done` is called after each frame of each.
+std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, std::span<const Replay> replays,
+                                                        const TrackerConfig& config,
+                                                        const std::function<void()>& frame_done = {});
 
 }  // namespace glovebench::eval

@@ -104,6 +104,13 @@ reports::Picture draw(Scene& scene, const ChangedFrame& change, const std::optio
           render::encode_png(sheet)};
 }
 
+/// For its hands alone: no database is asked for.
+std::unique_ptr<Workbench> make_workbench(Side side) {
+  WorkbenchConfig config;
+  config.side = side;
+  return std::make_unique<Workbench>(config);
+}
+
 }  // namespace
 
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
@@ -116,8 +123,7 @@ std::vector<reports::Picture> picture_changes(const reports::Comparison& compari
     const std::shared_ptr<const trajectories::Trajectory> truth = find_truth(change.key);
     if (!truth || change.frame >= static_cast<int>(truth->frames.size())) continue;
     std::unique_ptr<Workbench>& workbench = workbenches[truth->side];
-    if (!workbench)
-      workbench = std::make_unique<Workbench>(WorkbenchConfig{.cache_folder = {}, .side = truth->side});
+    if (!workbench) workbench = make_workbench(truth->side);
     Scene scene(*workbench, change, truth);
     pictures.push_back(draw(scene, change, baseline.find(change.key, change.baseline_seed, change.frame),
                             candidate.find(change.key, change.candidate_seed, change.frame)));

@@ -230,6 +230,7 @@ TEST(ComparisonPage, ShowsVerdictsChartsAndPictures) {
   const std::string page = comparison_page(report);
   EXPECT_THAT(page, HasSubstr("<span class=\"verdict worse\">worse</span>"));
   EXPECT_THAT(page, HasSubstr("<span class=\"verdict better\">better</span>"));
+  EXPECT_THAT(page, HasSubstr("<svg class=\"interval worse\""));
   EXPECT_THAT(page, HasSubstr("<details open><summary>Tr4 open_power, source"));
   EXPECT_THAT(page, HasSubstr("<title>position_error_mm</title>"));
   EXPECT_THAT(page, HasSubstr("<figcaption>Frame 57 &lt;lost&gt;</figcaption>"));
