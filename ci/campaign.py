@@ -14,7 +14,7 @@ import pathlib
 import sys
 
 VALUES = ["position_error_mm", "rotation_error_deg", "posture_rms_deg", "posture_rms_unfiltered_deg",
-          "vertex_error_mm", "fingertip_error_mm"]
+          "vertex_error_mm", "fingertip_error_mm", "icp_residual_mm"]
 SHARES = {"uncovered_percent": lambda frame: not frame["covered"],
           "false_tracked_percent": lambda frame: frame["false_tracked"],
           "false_lost_percent": lambda frame: frame["false_lost"]}
@@ -79,8 +79,16 @@ def coverage_of(runs, columns):
     return counts | {"share": counts["covered"] / counts["frames"] if frames else None}
 
 
+def recount(aggregates, runs, columns):
+    """Counts and means of these runs; what else there is stays that of the whole and is read by nobody."""
+    for key, aggregate in aggregates.items():
+        values = [row[columns.index(key)] for run in runs for row in run["frames"]]
+        values = [value for value in values if value is not None]
+        aggregate["count"] = len(values)
+        aggregate["mean"] = math.fsum(values) / len(values) if values else None
+
+
 def split(path, seeds, folder):
-    """Aggregates stay those of the whole: a comparison is made from the frames."""
     whole = load(path)
     runs = [experiment.pop("runs") for experiment in whole["experiments"]]
     for part in range(min(map(len, runs)) // seeds):
@@ -88,6 +96,7 @@ def split(path, seeds, folder):
         for experiment, all_runs in zip(result["experiments"], runs):
             experiment["runs"] = all_runs[part * seeds:(part + 1) * seeds]
             experiment["coverage"] = coverage_of(experiment["runs"], whole["frame_columns"])
+            recount(experiment["aggregates"], experiment["runs"], whole["frame_columns"])
         target = pathlib.Path(folder, f"{part:03d}", "results.json")
         target.parent.mkdir(parents=True)
         target.write_text(json.dumps(result), encoding="utf-8")

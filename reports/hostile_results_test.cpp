@@ -119,9 +119,8 @@ TEST(HostileResults, FramesThatDoNotFollowEachOther) {
   const auto frame = [](json& r, int run, int row) -> json& {
     return r["experiments"][0]["runs"][run]["frames"][row];
   };
-  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[0] = 2; }),
-              HasSubstr("frames[1]: found 23 items, expected frame 1"));
-  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[0] = 0; }), HasSubstr("expected frame 1"));
+  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[0] = 0; }),
+              HasSubstr("frames[1]: found 23 items, expected a frame after 0"));
   EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[1] = 0; }), HasSubstr("expected a time stamp after 0"));
   EXPECT_THAT(error_of_change([&](json& r) { frame(r, 1, 1)[1] = 7; }), HasSubstr("runs[1].frames[1]"));
   EXPECT_THAT(error_of_change([&](json& r) {

@@ -45,6 +45,7 @@ struct CalibrateNoise {
     Suite suite = load_suite(name);
     suite.seeds.clear();
     for (int s = 0; s < seed_count; ++s) suite.seeds.push_back(kFirstSeed + s);
+    common.left = side_of(suite) == Side::left;
     Workbench workbench = common.workbench();
     return run_experiments(workbench, plan_suite(workbench, common.tracker_config(), suite, "")).result;
   }

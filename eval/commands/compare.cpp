@@ -17,6 +17,8 @@ struct Compare {
   bool all_rows = false;
 
   void run() const {
+    require_own_folder(output, candidate_path);
+    require_own_folder(output, baseline_path);
     const reports::NamedResult baseline = load_run(baseline_path);
     const reports::NamedResult candidate = load_run(candidate_path);
     const std::optional<reports::NoiseFloor> floor = noise_floor_path.empty()
@@ -24,6 +26,8 @@ struct Compare {
                                                          : reports::read_noise_floor(noise_floor_path);
     reports::ComparisonReport report;
     report.comparison = reports::compare_results(baseline, candidate, floor ? &*floor : nullptr, pairing);
+    report.times = reports::compare_stage_times(load_stage_times_beside(baseline_path),
+                                                load_stage_times_beside(candidate_path));
     if (!output.empty()) {
       report.pictures = picture_changes(report.comparison, baseline_path, candidate_path);
       reports::write_comparison(output, report);

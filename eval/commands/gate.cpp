@@ -21,11 +21,12 @@ struct Gate {
 
   /// The exit code.
   int run() const {
+    require_own_folder(output, candidate_path);
     const reports::NamedResult candidate = load_run(candidate_path);
     const std::string folder =
         baseline_folder.empty() ? default_baseline_folder(suite_of(candidate)) : baseline_folder;
     if (update) {
-      update_baseline(folder, candidate, measured_speed());
+      update_baseline(folder, candidate, measured_speed(), load_stage_times_beside(candidate_path));
       fmt::print("{} is the baseline of suite {} now, in {}\n", candidate.result.commit, candidate.result.suite,
                  folder);
       return 0;
@@ -44,6 +45,7 @@ struct Gate {
     report.comparison = reports::compare_results(baseline.results, candidate,
                                                  baseline.noise_floor ? &*baseline.noise_floor : nullptr, pairing);
     require_baseline_for_all(report.comparison, folder);
+    report.times = reports::compare_stage_times(baseline.times, load_stage_times_beside(candidate_path));
     if (!speed_path.empty()) report.speed = compare_with(baseline, folder);
     if (!output.empty()) {
       report.pictures = picture_changes(report.comparison, folder, candidate_path);

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 using reports::Incomparable;
 
 constexpr std::string_view kResults = "/results.json", kNoiseFloor = "/noise_floor.json", kSpeed = "/speed.json",
-                           kProvenance = "/provenance.json";
+                           kProvenance = "/provenance.json", kTimings = "/timings.json";
 constexpr std::string_view kProvenanceFormat = "glovebench-provenance";
 
 std::string in(const std::string& folder, std::string_view file) {
@@ -31,7 +31,7 @@ std::string in(const std::string& folder, std::string_view file) {
 
 /// What the baseline was made by. No name of a machine: the file is committed.
 std::string provenance_json(const reports::NamedResult& run, const std::string& results_hash,
-                            const Json& replaced) {
+                            const reports::StageTimes& times, const Json& replaced) {
   const reports::Timings here = host_timings(1);
   return reports::format_json({{"format", kProvenanceFormat},
                                {"version", 1},
@@ -40,10 +40,18 @@ std::string provenance_json(const reports::NamedResult& run, const std::string& 
                                {"program_version", run.result.program_version},
                                {"commit", run.result.commit},
                                {"updated", here.date},
-                               {"processor", here.processor},
                                {"compiler", here.compiler},
                                {"build_type", here.build_type},
+                               {"times", reports::stage_times_json(times)},
                                {"replaced", replaced}});
+}
+
+reports::StageTimes read_provenance_times(const std::string& path) {
+  const nlohmann::json document = reports::parse_json(read_file(path), path);
+  const reports::JsonReader json(document, path);
+  json["format"].expect_text(kProvenanceFormat);
+  json["version"].integer(1, 1);
+  return reports::stage_times_from(json["times"]);
 }
 
 /// The replaced baseline in a few words; null if there was none.
@@ -84,6 +92,13 @@ void require_same_truths(const std::string& folder, const reports::NamedResult& 
   }
 }
 
+std::string folder_of(const std::string& folder_or_file) {
+  std::error_code error;
+  if (fs::is_directory(folder_or_file, error)) return folder_or_file;
+  const std::string parent = fs::path(folder_or_file).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
 }  // namespace
 
 std::string default_baseline_folder(const std::string& suite) {
@@ -98,13 +113,25 @@ reports::NamedResult load_run(const std::string& folder_or_file) {
   return {path, reports::read_results(path)};
 }
 
-std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& folder_or_file) {
+void require_own_folder(const std::string& output, const std::string& run) {
+  if (output.empty()) return;
   std::error_code error;
-  const fs::path folder =
-      fs::is_directory(folder_or_file, error) ? fs::path(folder_or_file) : fs::path(folder_or_file).parent_path();
-  const std::string path = in(folder.empty() ? "." : folder.string(), kNoiseFloor);
+  if (fs::equivalent(output, folder_of(run), error)) {
+    throw Error("--output", "folder", output, "another than that of the run itself");
+  }
+}
+
+std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& folder_or_file) {
+  const std::string path = in(folder_of(folder_or_file), kNoiseFloor);
   if (!fs::exists(path)) return std::nullopt;
   return reports::read_noise_floor(path);
+}
+
+reports::StageTimes load_stage_times_beside(const std::string& folder_or_file) {
+  const std::string folder = folder_of(folder_or_file);
+  if (fs::exists(in(folder, kTimings))) return reports::read_stage_times(in(folder, kTimings));
+  if (fs::exists(in(folder, kProvenance))) return read_provenance_times(in(folder, kProvenance));
+  return {};
 }
 
 Baseline load_baseline(const std::string& folder) {
@@ -113,13 +140,13 @@ Baseline load_baseline(const std::string& folder) {
     throw Incomparable(path, "baseline", "none",
                        "the results of an earlier run (glovebench gate --update makes it)");
   }
-  Baseline baseline{load_run(folder), load_noise_floor_beside(folder), {}};
+  Baseline baseline{load_run(folder), load_noise_floor_beside(folder), {}, load_stage_times_beside(folder)};
   if (fs::exists(in(folder, kSpeed))) baseline.speed = reports::read_speed_ratios(in(folder, kSpeed));
   return baseline;
 }
 
 void update_baseline(const std::string& folder, const reports::NamedResult& run,
-                     const std::vector<reports::SpeedRatio>& speed) {
+                     const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times) {
   require_whole_suite(run);
   require_same_truths(folder, run);
   const Json replaced = describe_replaced(folder);
@@ -129,7 +156,7 @@ void update_baseline(const std::string& folder, const reports::NamedResult& run,
     files.push_back(std::make_unique<WholeFile>(in(folder, name)));
     files.back()->append(content);
   };
-  write(kProvenance, provenance_json(run, hash_text(results), replaced));
+  write(kProvenance, provenance_json(run, hash_text(results), times, replaced));
   if (!speed.empty()) write(kSpeed, reports::speed_json(speed));
   write(kResults, results);
   for (const std::unique_ptr<WholeFile>& file : files) file->commit();

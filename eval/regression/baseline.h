@@ -7,6 +7,7 @@
 #include "reports/comparison/noise_floor.h"
 #include "reports/comparison/pairing.h"
 #include "reports/comparison/speed.h"
+#include "reports/comparison/stage_times.h"
 
 namespace glovebench::eval {
 
@@ -14,11 +15,14 @@ namespace glovebench::eval {
 ///   results.json      of the run that became the baseline
 ///   noise_floor.json  what other seeds do (glovebench calibrate noise); may be missing
 ///   speed.json        ratios to the plain implementations; may be missing
-///   provenance.json   what made it: commit, date, processor, compiler, and the baseline that it replaced
+///   provenance.json   what made it: commit, date, compiler, processor with the times of the tracker's stages, and
+///   the
+///                     baseline that it replaced
 struct Baseline {
   reports::NamedResult results;
   std::optional<reports::NoiseFloor> noise_floor;
   std::vector<reports::SpeedRatio> speed;
+  reports::StageTimes times;
 };
 
 /// "ci/baselines/quick", below the current folder.
@@ -27,8 +31,12 @@ std::string default_baseline_folder(const std::string& suite);
 /// The results of a finished run: its folder, or the results.json itself. Throws Error, or Incomparable if the run
 /// is unfinished.
 reports::NamedResult load_run(const std::string& folder_or_file);
+/// Throws Error if the output of a comparison would replace files of a run: both write an index.html.
+void require_own_folder(const std::string& output, const std::string& run);
 /// The noise floor beside results, if there is one.
 std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& folder_or_file);
+/// How long the stages of a run took; empty where its folder does not say.
+reports::StageTimes load_stage_times_beside(const std::string& folder_or_file);
 /// Throws Incomparable if there is no baseline.
 Baseline load_baseline(const std::string& folder);
 
@@ -36,6 +44,6 @@ Baseline load_baseline(const std::string& folder);
 /// is no whole suite, or a truth is another than that of the baseline that it would replace: whoever means that
 /// deletes the old one.
 void update_baseline(const std::string& folder, const reports::NamedResult& run,
-                     const std::vector<reports::SpeedRatio>& speed);
+                     const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times);
 
 }  // namespace glovebench::eval

@@ -54,6 +54,12 @@ Json speed_row_json(const SpeedRow& row) {
           {"slower", row.slower}};
 }
 
+Json stage_time_json(const StageTimeChange& stage) {
+  return {{"stage", stage.stage},
+          {"baseline_median_ms", rounded(stage.baseline_ms)},
+          {"candidate_median_ms", rounded(stage.candidate_ms)}};
+}
+
 Json changed_frame_json(const ChangedFrame& frame) {
   return {{"experiment", to_string(frame.key)},
           {"baseline_seed", frame.baseline_seed},
@@ -92,20 +98,23 @@ Json array_of(const Items& items, ToJson to_json) {
 
 std::string comparison_json(const ComparisonReport& report) {
   const Comparison& comparison = report.comparison;
-  return format_json({{"format", "glovebench-comparison"},
-                      {"version", 1},
-                      {"outcome", outcome_line(report)},
-                      {"explanation", comparison_explanation(comparison)},
-                      {"baseline", result_json(comparison.baseline)},
-                      {"candidate", result_json(comparison.candidate)},
-                      {"method", method_json(comparison)},
-                      {"rows", array_of(comparison.rows, row_json)},
-                      {"speed", array_of(report.speed, speed_row_json)},
-                      {"configuration_changes", array_of(comparison.configuration, change_json)},
-                      {"only_in_baseline", comparison.only_in_baseline},
-                      {"only_in_candidate", comparison.only_in_candidate},
-                      {"worst_frames", array_of(comparison.worst, changed_frame_json)},
-                      {"frame_differences", array_of(comparison.frames, differences_json)}});
+  return format_json(
+      {{"format", "glovebench-comparison"},
+       {"version", 1},
+       {"outcome", outcome_line(report)},
+       {"explanation", comparison_explanation(comparison)},
+       {"baseline", result_json(comparison.baseline)},
+       {"candidate", result_json(comparison.candidate)},
+       {"method", method_json(comparison)},
+       {"rows", array_of(comparison.rows, row_json)},
+       {"speed", array_of(report.speed, speed_row_json)},
+       {"stage_times",
+        {{"same_machine", report.times.same_machine}, {"stages", array_of(report.times.stages, stage_time_json)}}},
+       {"configuration_changes", array_of(comparison.configuration, change_json)},
+       {"only_in_baseline", comparison.only_in_baseline},
+       {"only_in_candidate", comparison.only_in_candidate},
+       {"worst_frames", array_of(comparison.worst, changed_frame_json)},
+       {"frame_differences", array_of(comparison.frames, differences_json)}});
 }
 
 std::string comparison_csv(const ComparisonReport& report) {

@@ -171,6 +171,8 @@ std::string comparison_page(const ComparisonReport& report) {
                      fmt::format("<p>{} In the plots the band is the minimum effect, the bar the interval.</p>\n",
                                  escape_html(comparison_explanation(comparison))) +
                      rows_section(comparison) + speed_section(report.speed);
+  if (!report.times.stages.empty())
+    body += "<h2>Times</h2>\n<p>" + times_sentence(report.times) + "</p>\n" + to_html(times_table(report.times));
   if (!comparison.configuration.empty())
     body += "<h2>Configuration</h2>\n" + to_html(configuration_table(comparison.configuration));
   body += names_html("Only in the baseline", comparison.only_in_baseline) +

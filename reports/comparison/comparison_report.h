@@ -5,6 +5,7 @@
 
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/gate.h"
+#include "reports/comparison/stage_times.h"
 #include "reports/page_frame.h"
 
 namespace glovebench::reports {
@@ -13,6 +14,7 @@ namespace glovebench::reports {
 struct ComparisonReport {
   Comparison comparison;
   std::vector<SpeedRow> speed;    ///< empty where none was measured
+  StageTimeChanges times;         ///< for information; empty where a run has none
   std::vector<Picture> pictures;  ///< of the worst frames
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/check.h"
 
@@ -119,9 +120,16 @@ double least_effect(const Quantity& quantity, int frames) {
   return std::max(quantity.tolerance, kPercent * kFewestFrames / frames);
 }
 
-double minimum_effect(const Quantity& quantity, std::string_view experiment, int frames, const NoiseFloor* floor) {
+double minimum_effect(const Quantity& quantity, std::string_view experiment, int frames, int seeds,
+                      const NoiseFloor* floor) {
   const NoiseFloorEntry* entry = floor ? floor->find(experiment, quantity.key) : nullptr;
-  return std::max(entry ? entry->minimum_effect : quantity.default_minimum_effect, least_effect(quantity, frames));
+  double effect = quantity.default_minimum_effect;
+  if (entry) {
+    // A mean over fewer seeds than the floor was measured for is noisier.
+    const double fewer = static_cast<double>(floor->seeds_per_result) / std::max(1, seeds);
+    effect = entry->minimum_effect * std::sqrt(std::max(1.0, fewer));
+  }
+  return std::max(effect, least_effect(quantity, frames));
 }
 
 int row_count(size_t experiments) {
@@ -145,8 +153,11 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
       rows[(e + 1) * kQuantityCount + q] = row;
     }
   }
+  int seeds = std::numeric_limits<int>::max();
+  for (const auto& [baseline, candidate] : pairing.experiments)
+    seeds = std::min(seeds, static_cast<int>(baseline->runs.size()));
   for (ComparisonRow& row : rows) {
-    row.minimum_effect = minimum_effect(quantities()[row.quantity], row.experiment, row.frames, floor);
+    row.minimum_effect = minimum_effect(quantities()[row.quantity], row.experiment, row.frames, seeds, floor);
     row.verdict = verdict_of(row);
   }
   return rows;

@@ -82,6 +82,9 @@ std::string comparison_table(const ComparisonReport& report, bool all_rows) {
     text += fmt::format("  {:<44} {:>14} {:>14} {:>14}\n", "times faster than plain", "baseline", "candidate",
                         "limit") +
             lines_of(speed_table(report.speed)) + "\n";
+  if (!report.times.stages.empty())
+    text += fmt::format("  {:<44} {:>14} {:>14}\n", "median time of a stage", "baseline (ms)", "candidate (ms)") +
+            lines_of(times_table(report.times)) + wrapped(times_sentence(report.times)) + "\n";
   if (!comparison.configuration.empty())
     text +=
         "configuration, baseline and candidate\n" + lines_of(configuration_table(comparison.configuration)) + "\n";

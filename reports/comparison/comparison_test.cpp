@@ -71,8 +71,8 @@ TEST(Comparison, HandComputed) {
     EXPECT_DOUBLE_EQ(*row.candidate, 4);
     EXPECT_DOUBLE_EQ(*row.difference, 2);
     // One block of two is drawn, so a mean is 1 or 3: standard error 1. Student's t of one degree of freedom is a
-    // Cauchy distribution, 1 / tan(pi p) above p = 0.01 / (2 * 18 rows).
-    const double half_width = 1 / std::tan(std::numbers::pi * 0.01 / 36);
+    // Cauchy distribution, 1 / tan(pi p) above p = 0.01 / (2 * 20 rows).
+    const double half_width = 1 / std::tan(std::numbers::pi * 0.01 / 40);
     EXPECT_NEAR(*row.high, 2 + half_width, 0.001 * half_width);
     EXPECT_NEAR(*row.low, 2 - half_width, 0.001 * half_width);
     EXPECT_EQ(row.verdict, Verdict::not_enough_data);
@@ -218,14 +218,18 @@ TEST(Comparison, DustIsNoDifference) {
 TEST(Comparison, MinimumEffectsComeFromTheNoiseFloorWithinBounds) {
   const Quantity &position = quantities()[0], &uncovered = quantities()[kUncovered];
   NoiseFloor floor;
+  floor.seeds_per_result = 2;
   floor.entries = {{"a", "position_error_mm", 0, 0.07, 0}, {"b", "position_error_mm", 0, 0.001, 0}};
-  EXPECT_EQ(minimum_effect(position, "a", 200, nullptr), 0.2);
-  EXPECT_EQ(minimum_effect(position, "a", 200, &floor), 0.07);
-  EXPECT_EQ(minimum_effect(position, "b", 200, &floor), 0.01) << "never below what another machine does";
-  EXPECT_EQ(minimum_effect(position, "c", 200, &floor), 0.2);
-  EXPECT_EQ(minimum_effect(uncovered, "a", 1000, &floor), 1);
-  EXPECT_EQ(minimum_effect(uncovered, "a", 50, &floor), 4) << "two frames";
-  EXPECT_EQ(minimum_effect(uncovered, "a", 0, &floor), 1);
+  EXPECT_EQ(minimum_effect(position, "a", 200, 2, nullptr), 0.2);
+  EXPECT_EQ(minimum_effect(position, "a", 200, 2, &floor), 0.07);
+  EXPECT_EQ(minimum_effect(position, "b", 200, 2, &floor), 0.01) << "never below what another machine does";
+  EXPECT_EQ(minimum_effect(position, "c", 200, 2, &floor), 0.2);
+  EXPECT_DOUBLE_EQ(minimum_effect(position, "a", 200, 1, &floor), 0.07 * std::sqrt(2.0))
+      << "one seed instead of two";
+  EXPECT_EQ(minimum_effect(position, "a", 200, 8, &floor), 0.07);
+  EXPECT_EQ(minimum_effect(uncovered, "a", 1000, 2, &floor), 1);
+  EXPECT_EQ(minimum_effect(uncovered, "a", 50, 2, &floor), 4) << "two frames";
+  EXPECT_EQ(minimum_effect(uncovered, "a", 0, 2, &floor), 1);
 }
 
 TEST(Comparison, WorstFramesAreDistinct) {
@@ -277,7 +281,7 @@ TEST(Comparison, SaysWhatWasCompared) {
   EXPECT_TRUE(comparison.other_seeds);
   EXPECT_TRUE(comparison.has_noise_floor);
   EXPECT_THAT(comparison_explanation(comparison),
-              AllOf(HasSubstr("For these trajectories"), HasSubstr("all 36 of them"), HasSubstr("99%"),
+              AllOf(HasSubstr("For these trajectories"), HasSubstr("all 40 of them"), HasSubstr("99%"),
                     HasSubstr("other noise seeds, so"), HasSubstr("at least 16 successive")));
 }
 

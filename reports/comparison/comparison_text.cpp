@@ -154,6 +154,19 @@ TextTable speed_table(const std::vector<SpeedRow>& speed) {
   return table;
 }
 
+TextTable times_table(const StageTimeChanges& times) {
+  TextTable table{{"median time of a stage", "baseline (ms)", "candidate (ms)"}, {}, 1};
+  for (const StageTimeChange& stage : times.stages)
+    table.rows.push_back({stage.stage, fixed(stage.baseline_ms, 2), fixed(stage.candidate_ms, 2)});
+  return table;
+}
+
+std::string times_sentence(const StageTimeChanges& times) {
+  return times.same_machine
+             ? "Wall times of the same processor and number of threads, for information: other work slows them."
+             : "Wall times of different processors or numbers of threads, for information only.";
+}
+
 TextTable configuration_table(const std::vector<ConfigurationChange>& changes) {
   TextTable table{{"configuration", "baseline", "candidate"}, {}, 3};
   for (const ConfigurationChange& change : changes)

@@ -45,6 +45,10 @@ std::vector<std::string> row_cells(const ComparisonRow& row);
 /// Every row with its experiment; names are readable.
 TextTable rows_table(std::span<const ComparisonRow> rows);
 TextTable speed_table(const std::vector<SpeedRow>& speed);
+/// The tracker's stages; empty where no times were kept.
+TextTable times_table(const StageTimeChanges& times);
+/// What wall times say, and what not.
+std::string times_sentence(const StageTimeChanges& times);
 TextTable configuration_table(const std::vector<ConfigurationChange>& changes);
 
 }  // namespace glovebench::reports

@@ -24,6 +24,7 @@ const std::array<Quantity, kQuantityCount>& quantities() {
       {"uncovered_percent", "%", true, 1, 0},
       {"false_tracked_percent", "%", true, 1, 0},
       {"false_lost_percent", "%", true, 1, 0},
+      {"icp_residual_mm", "mm", false, 0.1, kTolerance_mm},
   }};
   return all;
 }
