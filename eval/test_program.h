@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -130,7 +131,7 @@ inline nlohmann::json make_trajectory_json(const std::string& name, int frame_co
   nlohmann::json names = nlohmann::json::array(), frames = nlohmann::json::array();
   for (const AngleInfo& info : angle_infos()) names.push_back(info.name);
   for (int i = 0; i < frame_count; ++i) {
-    const double bend = 4 * i;
+    const double bend = std::min(4 * i, 80);
     frames.push_back({{"timestamp_us", 66667 * i},
                       {"position_mm", {5 * i, 20, 700}},
                       {"quaternion_wxyz", {0.7071, -0.7071, 0, 0}},

@@ -24,11 +24,12 @@ struct CalibrateNoise {
   int seed_count = 16;
 
   void run() {
-    if (suites.empty() == runs.empty())
-      throw Error("calibrate noise", "--suite, --run", suites.empty() ? "neither" : "both", "one of them");
+    if (suites.empty() && runs.empty()) throw Error("calibrate noise", "--suite, --run", "neither", "one of them");
     std::vector<reports::NoiseFloor> floors;
-    for (const std::string& run : runs) floors.push_back(measure(load_run(run)));
-    for (const std::string& suite : suites) floors.push_back(measure({suite, replay_suite(suite)}));
+    for (const std::string& run : runs) floors.push_back(measure_run(load_run(run)));
+    if (runs.empty()) {
+      for (const std::string& suite : suites) floors.push_back(measure_suite(load_suite(suite)));
+    }
     for (const reports::NoiseFloor& floor : floors) {
       const std::string path = fmt::format("{}/{}/noise_floor.json", common.output, floor.suite);
       write_file(path, reports::noise_floor_json(floor));
@@ -41,22 +42,29 @@ struct CalibrateNoise {
         "others.\nA change is taken to add the same to every frame.\n");
   }
 
-  reports::RunResult replay_suite(const std::string& name) {
-    Suite suite = load_suite(name);
-    suite.seeds.clear();
-    for (int s = 0; s < seed_count; ++s) suite.seeds.push_back(kFirstSeed + s);
-    common.left = side_of(suite) == Side::left;
-    Workbench workbench = common.workbench();
-    return run_experiments(workbench, plan_suite(workbench, common.tracker_config(), suite, "")).result;
+  reports::NoiseFloor measure_suite(const Suite& suite) const {
+    Suite many_seeds = suite;
+    many_seeds.seeds.clear();
+    for (int s = 0; s < seed_count; ++s) many_seeds.seeds.push_back(kFirstSeed + s);
+    CommonFlags flags = common;
+    flags.left = side_of(suite) == Side::left;
+    Workbench workbench = flags.workbench();
+    const Plan plan = plan_suite(workbench, common.tracker_config(), many_seeds, "");
+    return measure(run_experiments(workbench, plan).result, suite);
   }
 
-  static reports::NoiseFloor measure(const reports::NamedResult& run) {
-    if (run.result.suite.empty())
-      throw Error(run.name, "suite", "none", "the run of a suite (run --suite --seeds)");
-    const Suite suite = load_suite(run.result.suite);
-    reports::NoiseFloor floor = reports::measure_noise_floor(run.result, static_cast<int>(suite.seeds.size()));
+  reports::NoiseFloor measure_run(const reports::NamedResult& run) const {
+    for (const std::string& own : suites) {
+      const Suite suite = load_suite(own);
+      if (suite.name == run.result.suite) return measure(run.result, suite);
+    }
+    return measure(run.result, suite_of(run, ""));
+  }
+
+  static reports::NoiseFloor measure(const reports::RunResult& result, const Suite& suite) {
+    reports::NoiseFloor floor = reports::measure_noise_floor(result, static_cast<int>(suite.seeds.size()));
     floor.suite = suite.name;
-    floor.commit = run.result.commit;
+    floor.commit = result.commit;
     floor.date = host_timings(1).date;
     return floor;
   }
@@ -104,7 +112,9 @@ void add_calibrate(CLI::App& program) {
       "Measure what other noise seeds do to the results of a suite, and propose the smallest effect that counts.\n"
       "The gate and compare take it from the baseline's folder.");
   const auto state = std::make_shared<CalibrateNoise>();
-  command->add_option("--suite", state->suites, "to run with many seeds: quick, full, or a file");
+  command->add_option(
+      "--suite", state->suites,
+      "to run with many seeds: quick, full, or a file; with --run only what the file of an own suite is");
   command->add_option("--run", state->runs,
                       "instead: folder of a run of a suite with many seeds (run --suite --seeds)");
   command->add_option("--seeds", state->seed_count, "noise seeds to measure, four times those of the suite or more")

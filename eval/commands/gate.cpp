@@ -14,6 +14,7 @@ constexpr int kGateFailed = 1;
 struct Gate {
   std::string candidate_path;
   std::string baseline_folder;
+  std::string suite;
   std::string speed_path;
   std::string output;
   reports::PairingOptions pairing;
@@ -24,9 +25,10 @@ struct Gate {
     require_own_folder(output, candidate_path);
     const reports::NamedResult candidate = load_run(candidate_path);
     const std::string folder =
-        baseline_folder.empty() ? default_baseline_folder(suite_of(candidate)) : baseline_folder;
+        baseline_folder.empty() ? default_baseline_folder(suite_name(candidate)) : baseline_folder;
     if (update) {
-      update_baseline(folder, candidate, measured_speed(), load_stage_times_beside(candidate_path));
+      update_baseline(folder, candidate, suite_of(candidate, suite), measured_speed(),
+                      load_stage_times_beside(candidate_path));
       fmt::print("{} is the baseline of suite {} now, in {}\n", candidate.result.commit, candidate.result.suite,
                  folder);
       return 0;
@@ -69,14 +71,15 @@ struct Gate {
   }
 
   std::vector<reports::SpeedRow> compare_with(const Baseline& baseline, const std::string& folder) const {
+    const std::vector<reports::SpeedRatio> measured = measured_speed();
     if (baseline.speed.empty()) {
       throw reports::Incomparable(folder + "/speed.json", "baseline", "none",
                                   "the speed ratios of an earlier run (glovebench gate --speed FILE --update)");
     }
-    return reports::compare_speed(baseline.speed, measured_speed(), speed_path);
+    return reports::compare_speed(baseline.speed, measured, speed_path);
   }
 
-  static std::string suite_of(const reports::NamedResult& candidate) {
+  static std::string suite_name(const reports::NamedResult& candidate) {
     if (!candidate.result.suite.empty()) return candidate.result.suite;
     throw Error(candidate.name, "suite", "none", "the run of a suite (run --suite), or --baseline FOLDER");
   }
@@ -102,6 +105,7 @@ void add_gate(CLI::App& program, int& exit_code) {
       "--speed", state->speed_path,
       "file of `glovebench_bench --benchmark_repetitions=5 --benchmark_out=FILE`: the ratios to the "
       "plain implementations are gated, too");
+  command->add_option("--suite", state->suite, "with --update: the file of the suite, if it is one of your own");
   command->add_option("-o,--output", state->output,
                       "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures");
   command->add_flag("--other-seeds", state->pairing.other_seeds,

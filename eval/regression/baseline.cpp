@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -61,10 +62,7 @@ Json describe_replaced(const std::string& folder) {
   return {{"commit", old.commit}, {"results_hash", hash_file(in(folder, kResults))}};
 }
 
-void require_whole_suite(const reports::NamedResult& run) {
-  const std::string field = "suite";
-  if (run.result.suite.empty()) throw Error(run.name, field, "none", "the run of a whole suite (run --suite)");
-  const Suite suite = load_suite(run.result.suite);
+void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
   size_t expected = 0;
   for (const SuiteEntry& entry : suite.entries) expected += entry.databases.size();
   if (run.result.experiments.size() != expected) {
@@ -145,9 +143,22 @@ Baseline load_baseline(const std::string& folder) {
   return baseline;
 }
 
-void update_baseline(const std::string& folder, const reports::NamedResult& run,
+Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file) {
+  const std::string& name = run.result.suite;
+  if (name.empty()) throw Error(run.name, "suite", "none", "the run of a suite (run --suite)");
+  const std::vector<std::string> known = suite_names();
+  const bool is_known = std::ranges::find(known, name) != known.end();
+  if (name_or_file.empty() && !is_known) {
+    throw Error(run.name, "suite", name, fmt::format("{}, or the suite's file as --suite", fmt::join(known, ", ")));
+  }
+  Suite suite = load_suite(name_or_file.empty() ? name : name_or_file);
+  if (suite.name != name) throw Error(run.name, "suite", name, suite.name);
+  return suite;
+}
+
+void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times) {
-  require_whole_suite(run);
+  require_whole_suite(run, suite);
   require_same_truths(folder, run);
   const Json replaced = describe_replaced(folder);
   const std::string results = reports::results_json(run.result);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "eval/suite.h"
 #include "reports/comparison/noise_floor.h"
 #include "reports/comparison/pairing.h"
 #include "reports/comparison/speed.h"
@@ -40,10 +41,14 @@ reports::StageTimes load_stage_times_beside(const std::string& folder_or_file);
 /// Throws Incomparable if there is no baseline.
 Baseline load_baseline(const std::string& folder);
 
+/// The suite of a run: the given one (a name or file) or, if that is empty, the program's own of that name. Throws
+/// Error if the run is of none, or of another.
+Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file);
+
 /// Makes a run the baseline; the noise floor stays as it is. Writes into the folder alone. Throws Error if the run
-/// is no whole suite, or a truth is another than that of the baseline that it would replace: whoever means that
-/// deletes the old one.
-void update_baseline(const std::string& folder, const reports::NamedResult& run,
+/// is not the whole suite, or a truth is another than that of the baseline that it would replace: whoever means
+/// that deletes the old one.
+void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times);
 
 }  // namespace glovebench::eval

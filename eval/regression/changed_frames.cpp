@@ -22,7 +22,8 @@ using reports::ChangedFrame;
 using reports::Estimate;
 
 constexpr Rgb kTruth = {255, 255, 255}, kBaseline = {90, 170, 255}, kCandidate = {255, 150, 40};
-constexpr int kMargin = 20;  // px around the hand
+constexpr int kMargin = 20;      // px around the hand
+constexpr int kPanelSize = 300;  // px
 
 /// The estimates of a run's folder, read when they are asked for.
 class EstimateFolder {
@@ -85,23 +86,28 @@ class Scene {
   LabelImage true_hand_;
 };
 
-std::string describe(const std::optional<double>& vertex_error_mm, const std::optional<Estimate>& estimate) {
-  if (!vertex_error_mm) return "lost";
-  return fmt::format("{} mm{}", reports::fixed(vertex_error_mm, 1), estimate ? "" : " (estimate not kept)");
+std::string error_text(const std::optional<double>& vertex_error_mm) {
+  return vertex_error_mm ? reports::fixed(vertex_error_mm, 1) + " mm" : "lost";
+}
+
+/// The panel of one of the two runs; none if it tracked the frame and did not keep what it said.
+void add_panel(std::vector<render::Panel>& panels, Scene& scene, const std::string& run, const Rgb& color,
+               const std::optional<double>& vertex_error_mm, const std::optional<Estimate>& estimate) {
+  if (vertex_error_mm && !estimate) return;
+  panels.push_back({run + ": " + error_text(vertex_error_mm), scene.with_outlines(estimate, color)});
 }
 
 reports::Picture draw(Scene& scene, const ChangedFrame& change, const std::optional<Estimate>& baseline,
                       const std::optional<Estimate>& candidate) {
-  const ColorImage sheet = render::montage({{"what the depth camera's pixels saw", scene.picture()},
-                                            {"baseline: " + describe(change.baseline_vertex_error_mm, baseline),
-                                             scene.with_outlines(baseline, kBaseline)},
-                                            {"candidate: " + describe(change.candidate_vertex_error_mm, candidate),
-                                             scene.with_outlines(candidate, kCandidate)}},
-                                           3, 300, 300);
-  return {fmt::format("{}, frame {}, seed {}: mean vertex error {} before, {} now", to_string(change.key),
-                      change.frame, change.candidate_seed, describe(change.baseline_vertex_error_mm, baseline),
-                      describe(change.candidate_vertex_error_mm, candidate)),
-          render::encode_png(sheet)};
+  std::vector<render::Panel> panels = {{"what the depth camera's pixels saw", scene.picture()}};
+  add_panel(panels, scene, "baseline", kBaseline, change.baseline_vertex_error_mm, baseline);
+  add_panel(panels, scene, "candidate", kCandidate, change.candidate_vertex_error_mm, candidate);
+  return {
+      fmt::format("{}, frame {}, seed {}: mean vertex error {} before, {} now. Outlines: the true hand white, the "
+                  "baseline's blue, the candidate's orange.",
+                  to_string(change.key), change.frame, change.candidate_seed,
+                  error_text(change.baseline_vertex_error_mm), error_text(change.candidate_vertex_error_mm)),
+      render::encode_png(render::montage(panels, static_cast<int>(panels.size()), kPanelSize, kPanelSize))};
 }
 
 /// For its hands alone: no database is asked for.

@@ -10,8 +10,8 @@ namespace glovebench::eval {
 
 /// The most changed frames of a comparison: what the camera saw, and over it the outlines of the true hand (white),
 /// of the baseline's (blue) and of the candidate's (orange). The estimates are read from the folders of the two
-/// runs; where one has none (a baseline keeps the results only), its outline is missing and the caption says so.
-/// Frames of trajectories that are not the program's own, or have changed since, have no picture.
+/// runs; where one has none (a baseline keeps the results only), its panel is left out. Frames of trajectories that
+/// are not the program's own, or have changed since, have no picture.
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
                                               const std::string& baseline_folder,
                                               const std::string& candidate_folder);

@@ -1,0 +1,265 @@
+// compare, gate and calibrate noise as a user runs them, on a suite of one's own.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "eval/share.h"
+#include "eval/test_program.h"
+#include "reports/results_json.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using reports::RunResult;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int kFrames = 33;  // two blocks
+
+class RegressionLong : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = testing::TempDir() + "glovebench-regression-" + std::to_string(getpid());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write_file(path("wave.json"), make_trajectory_json("wave", kFrames).dump());
+    const nlohmann::json suite = {
+        {"format", "glovebench-suite"},
+        {"version", 1},
+        {"name", "mine"},
+        {"description", "a suite of one's own"},
+        {"seeds", {1, 2}},
+        {"experiments",
+         {{{"trajectory", "wave.json"}, {"truth", "source"}, {"databases", {"DB_open_power", "DB_open_pinch"}}}}}};
+    write_file(path("mine.json"), suite.dump());
+    for (const char* output : {"run", "same"}) {
+      const ProgramRun run = run_suite(output);
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static std::string path(const std::string& name) { return folder_ + "/" + name; }
+  static ProgramRun run_suite(const std::string& output, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"run", "--suite", path("mine.json"), "-q", "-o", path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  }
+  /// The results of "run" with a change that leaves them whole.
+  static std::string write_changed(const std::string& name, const std::function<void(RunResult&)>& change) {
+    RunResult result = reports::read_results(path("run/results.json"));
+    change(result);
+    for (reports::ExperimentResult& e : result.experiments) e = summarize(e.key, e.runs, e.pck, e.sequence);
+    reports::write_results(path(name + "/results.json"), result);
+    return path(name);
+  }
+  static void add_position_error(RunResult& result, double mm) {
+    for (reports::ExperimentResult& experiment : result.experiments)
+      for (reports::SeedRun& run : experiment.runs)
+        for (reports::FrameRecord& frame : run.frames)
+          if (frame.position_error_mm) *frame.position_error_mm += mm;
+  }
+  static ProgramRun gate(const std::string& candidate, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"gate", candidate, "--baseline", path("baseline")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  }
+  static void copy_baseline() {
+    fs::create_directories(path("baseline"));
+    fs::copy_file(path("run/results.json"), path("baseline/results.json"), fs::copy_options::overwrite_existing);
+  }
+
+ private:
+  static inline std::string folder_;
+};
+
+TEST_F(RegressionLong, EqualRunsAreTheSame) {
+  const ProgramRun run = run_glovebench({"compare", path("run"), path("same"), "-o", path("report")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("0 worse, 0 better, 30 same, 0 not enough data"),
+                             HasSubstr("For these trajectories"), HasSubstr("a default: no noise floor")));
+  for (const char* file :
+       {"comparison.json", "comparison.md", "comparison.csv", "comparison.tex", "junit.xml", "index.html"})
+    EXPECT_TRUE(fs::exists(path("report/") + file)) << file;
+}
+
+TEST_F(RegressionLong, WithoutABaselineNothingPasses) {
+  fs::remove_all(path("baseline"));
+  const ProgramRun run = gate(path("run"), {"-o", path("refused")});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("baseline/results.json"), HasSubstr("--update")));
+  EXPECT_THAT(read_file(path("refused/junit.xml")), HasSubstr("<error"));
+}
+
+TEST_F(RegressionLong, GatePassesWhatIsTheSameAndStopsWhatIsWorse) {
+  copy_baseline();
+  EXPECT_EQ(gate(path("same")).exit_code, 0);
+
+  const std::string worse = write_changed("worse", [](RunResult& r) { add_position_error(r, 1); });
+  const ProgramRun stopped = gate(worse, {"-o", path("stopped")});
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_THAT(stopped.out, HasSubstr("FAILED: all, position_error_mm: worse by 1.00 mm"));
+  EXPECT_THAT(read_file(path("stopped/junit.xml")), HasSubstr("<failure"));
+
+  const ProgramRun better = run_glovebench({"compare", worse, path("run")});
+  EXPECT_EQ(better.exit_code, 0);
+  EXPECT_THAT(better.out, HasSubstr("0 worse, 3 better"));
+  const std::string slightly = write_changed("slightly", [](RunResult& r) { add_position_error(r, 0.19); });
+  EXPECT_EQ(gate(slightly).exit_code, 0) << "below the minimum effect";
+}
+
+TEST_F(RegressionLong, LostFramesStopAChangeAndMissingOnesAreNamed) {
+  copy_baseline();
+  const auto lose = [](RunResult& r, int from, int to) {
+    for (reports::SeedRun& run : r.experiments[0].runs) {
+      for (reports::FrameRecord& frame : run.frames) {
+        if (frame.frame < from || frame.frame >= to) continue;
+        reports::FrameRecord lost;
+        lost.frame = frame.frame;
+        lost.timestamp_us = frame.timestamp_us;
+        lost.status = TrackStatus::poor_match;
+        lost.false_lost = true;
+        frame = lost;
+      }
+    }
+  };
+  const ProgramRun lost = gate(write_changed("lost", [&](RunResult& r) { lose(r, 20, 25); }));
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_THAT(lost.out, HasSubstr("FAILED: wave_DB_open_power_source_subject1_gradient_1, uncovered_percent"));
+
+  const ProgramRun missing = gate(write_changed("missing", [](RunResult& r) {
+    for (reports::SeedRun& run : r.experiments[0].runs) run.frames.erase(run.frames.begin() + 20);
+  }));
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("frame"), HasSubstr("20"), HasSubstr("wave_DB_open_power")));
+}
+
+TEST_F(RegressionLong, RefusesWhatIsNotComparableAndSaysWhy) {
+  const auto refusal = [&](const std::string& candidate, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"compare", path("run"), candidate};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun run = run_glovebench(arguments);
+    EXPECT_EQ(run.exit_code, 3) << run.out;
+    return run.err;
+  };
+  EXPECT_THAT(refusal(write_changed("truth", [](RunResult& r) { r.inputs.truths["source/wave"] = "0f"; })),
+              HasSubstr("inputs.truths.source/wave: found 0f"));
+  EXPECT_THAT(refusal(write_changed("database", [](RunResult& r) { r.inputs.databases["DB_open_power"] = "0f"; })),
+              HasSubstr("inputs.databases.DB_open_power: found 0f"));
+  EXPECT_THAT(refusal(write_changed("metrics", [](RunResult& r) { ++r.protocol.metric_definitions; })),
+              HasSubstr("metric_definitions"));
+  EXPECT_THAT(refusal(write_changed("part", [](RunResult& r) { r.experiments.pop_back(); })),
+              HasSubstr("wave_DB_open_pinch"));
+  EXPECT_EQ(run_glovebench({"compare", path("run"), path("part"), "--partial"}).exit_code, 0);
+  const std::string seeds = write_changed("seeds", [](RunResult& r) {
+    for (reports::ExperimentResult& experiment : r.experiments) experiment.runs[1].seed = 7;
+  });
+  EXPECT_THAT(refusal(seeds), HasSubstr("seed"));
+  EXPECT_EQ(run_glovebench({"compare", path("run"), seeds, "--other-seeds"}).exit_code, 0);
+}
+
+TEST_F(RegressionLong, BadInputIsOneLineAndLosesNothing) {
+  const auto refusal = [&](const std::vector<std::string>& arguments) {
+    const ProgramRun run = run_glovebench(arguments);
+    EXPECT_EQ(run.exit_code, 2) << run.out;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(refusal({"compare", path("run"), path("none")}), HasSubstr("none"));
+  const std::string results = read_file(path("run/results.json"));
+  write_file(path("short/results.json"), results.substr(0, results.size() / 2));
+  EXPECT_THAT(refusal({"compare", path("run"), path("short")}), HasSubstr("short/results.json"));
+  const std::string page = read_file(path("run/index.html"));
+  EXPECT_THAT(refusal({"compare", path("same"), path("run"), "-o", path("run")}), HasSubstr("--output"));
+  EXPECT_EQ(read_file(path("run/index.html")), page);
+  write_file(path("floor.json"), "{\"format\": \"glovebench-noise-floor\"}");
+  EXPECT_THAT(refusal({"compare", path("run"), path("same"), "--noise-floor", path("floor.json")}),
+              HasSubstr("floor.json"));
+  write_file(path("bench.json"), "[]");
+  copy_baseline();
+  EXPECT_THAT(refusal({"gate", path("run"), "--baseline", path("baseline"), "--speed", path("bench.json")}),
+              HasSubstr("bench.json"));
+  EXPECT_THAT(refusal({"calibrate", "noise", "-o", path("x")}), HasSubstr("neither"));
+  EXPECT_THAT(refusal({"calibrate", "noise", "--run", path("run"), "-o", path("x")}), HasSubstr("mine"));
+}
+
+TEST_F(RegressionLong, AnUnfinishedRunIsNoResult) {
+  fs::copy(path("run"), path("killed"), fs::copy_options::recursive);
+  fs::create_directories(path("killed/.unfinished"));
+  copy_baseline();
+  for (const ProgramRun& run : {gate(path("killed")), run_glovebench({"compare", path("run"), path("killed")})}) {
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_THAT(run.err, AllOf(HasSubstr("killed"), HasSubstr("unfinished")));
+  }
+}
+
+TEST_F(RegressionLong, OnlyAWholeSuiteOnTheSameTruthBecomesTheBaseline) {
+  const std::string baseline = path("updated");
+  const auto update = [&](const std::string& candidate) {
+    return run_glovebench({"gate", candidate, "--baseline", baseline, "--update", "--suite", path("mine.json")});
+  };
+  const std::map<std::string, std::string> truths = read_folder(trajectory_folder());
+  const ProgramRun unknown = run_glovebench({"gate", path("run"), "--baseline", baseline, "--update"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("suite: found mine, expected full, quick"));
+  const std::string part = write_changed("half", [](RunResult& r) { r.experiments.pop_back(); });
+  EXPECT_EQ(update(part).exit_code, 2);
+  EXPECT_FALSE(fs::exists(baseline));
+
+  for (int i = 0; i < 2; ++i) {
+    const ProgramRun fine = update(path("run"));
+    EXPECT_EQ(fine.exit_code, 0) << fine.err;
+  }
+  EXPECT_EQ(read_file(baseline + "/results.json"), read_file(path("run/results.json")));
+  const nlohmann::json provenance = nlohmann::json::parse(read_file(baseline + "/provenance.json"));
+  EXPECT_EQ(provenance.at("replaced").at("results_hash"), provenance.at("results_hash"));
+  EXPECT_FALSE(provenance.at("times").at("stage_median_ms").empty());
+
+  const ProgramRun refused =
+      update(write_changed("edited", [](RunResult& r) { r.inputs.truths.at("source/wave") = "0f"; }));
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("source/wave"), HasSubstr("delete")));
+  EXPECT_EQ(read_file(baseline + "/results.json"), read_file(path("run/results.json")));
+  EXPECT_EQ(read_folder(trajectory_folder()), truths) << "truths are not touched";
+}
+
+TEST_F(RegressionLong, MeasuresTheNoiseFloorOfAnOwnSuite) {
+  ASSERT_EQ(run_suite("many", {"--seed", "101", "--seeds", "8"}).exit_code, 0);
+  const ProgramRun run = run_glovebench(
+      {"calibrate", "noise", "--run", path("many"), "--suite", path("mine.json"), "-o", path("floors")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("mine: all, other seeds"));
+  const ProgramRun compared =
+      run_glovebench({"compare", path("run"), path("same"), "--noise-floor", path("floors/mine/noise_floor.json")});
+  EXPECT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_THAT(compared.out, HasSubstr("measured over other noise seeds"));
+  const ProgramRun few = run_glovebench(
+      {"calibrate", "noise", "--run", path("run"), "--suite", path("mine.json"), "-o", path("floors")});
+  EXPECT_EQ(few.exit_code, 2);
+  EXPECT_THAT(few.err, HasSubstr("at least 8"));
+}
+
+TEST_F(RegressionLong, PicturesTheWorstFrames) {
+  // One of the program's own trajectories: others are not at hand when results are compared.
+  const std::vector<std::string> arguments = {"run",     "--suite", "quick", "--filter", "Exit_*",
+                                              "--seeds", "1",       "-q",    "-o",       path("exit")};
+  ASSERT_EQ(run_glovebench(arguments).exit_code, 0);
+  fs::copy(path("exit"), path("exit-worse"), fs::copy_options::recursive);
+  RunResult result = reports::read_results(path("exit/results.json"));
+  reports::ExperimentResult& e = result.experiments[0];
+  *e.runs[0].frames[5].vertex_error_mm += 20;
+  e = summarize(e.key, e.runs, e.pck, e.sequence);
+  reports::write_results(path("exit-worse/results.json"), result);
+  const ProgramRun run = run_glovebench({"compare", path("exit"), path("exit-worse"), "-o", path("pictures")});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(
+      read_file(path("pictures/index.html")),
+      AllOf(HasSubstr("data:image/png"), HasSubstr("Exit_DB_open_power_source_subject1_gradient_1, frame 5")));
+}
+
+}  // namespace
+}  // namespace glovebench::eval
