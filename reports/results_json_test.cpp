@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "reports/example_result.h"
@@ -98,26 +99,6 @@ TEST(ResultsJson, MissingFileIsAnError) {
   EXPECT_THROW(read_results(testing::TempDir() + "/no_such_results.json"), Error);
 }
 
-/// Overwrites, removes or doubles a few bytes, or cuts the end off.
-std::string damaged(std::string text, RandomStream& random) {
-  const size_t place = random.index(text.size());
-  const size_t length = 1 + random.index(40);
-  switch (random.index(4)) {
-    case 0:
-      text[place] = static_cast<char>(random.index(256));
-      break;
-    case 1:
-      text.erase(place, length);
-      break;
-    case 2:
-      text.insert(place, text.substr(place, length));
-      break;
-    default:
-      text.resize(place);
-  }
-  return text;
-}
-
 TEST(ResultsJson, DamageGivesAnErrorOrAReadableResultButNothingElse) {
   const std::string text = results_json(small_result());
   int refused = 0;
@@ -125,7 +106,7 @@ TEST(ResultsJson, DamageGivesAnErrorOrAReadableResultButNothingElse) {
     RandomStream random(20, "results_json_test", trial, "damage");
     try {
       // What is accepted (another digit in an error, say) is a whole result: it can be written again.
-      EXPECT_FALSE(results_json(parse_results(damaged(text, random), "results.json")).empty());
+      EXPECT_FALSE(results_json(parse_results(damaged_text(text, random), "results.json")).empty());
     } catch (const Error&) {
       ++refused;
     }

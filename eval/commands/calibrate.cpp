@@ -10,6 +10,7 @@
 #include "eval/suite.h"
 #include "reports/comparison/comparison.h"
 #include "reports/summary.h"
+#include "reports/tables.h"
 
 namespace glovebench::eval {
 namespace {
@@ -35,7 +36,9 @@ struct CalibrateNoise {
       write_file(path, reports::noise_floor_json(floor));
       fmt::print("{}: {} seeds, for results of {} seeds\n", path, floor.seeds, floor.seeds_per_result);
     }
-    fmt::print("\n{}", reports::to_markdown(smallest_changes(floors)));
+    for (const reports::NoiseFloor& floor : floors) {
+      fmt::print("\n{}", reports::to_markdown(smallest_changes(floor)));
+    }
     fmt::print(
         "\nThe smallest change that the gate calls worse: on the baseline's own noise seeds, and, with 90% power, "
         "on "
@@ -69,36 +72,29 @@ struct CalibrateNoise {
     return floor;
   }
 
-  /// A row for each quantity; for each suite the mean over all its experiments, and the least sensitive of them.
-  static reports::TextTable smallest_changes(const std::vector<reports::NoiseFloor>& floors) {
+  /// A row for each quantity: the mean over all experiments, and the least sensitive of them.
+  static reports::TextTable smallest_changes(const reports::NoiseFloor& floor) {
     reports::TextTable table;
-    table.heading = {"quantity"};
+    table.heading = {"suite " + floor.suite, "all, same seeds", "all, other seeds", "worst experiment, same seeds",
+                     "worst experiment, other seeds"};
     table.name_columns = 1;
-    for (const reports::NoiseFloor& floor : floors) {
-      for (const char* what :
-           {"all, same seeds", "all, other seeds", "one experiment, same seeds", "one experiment, other seeds"})
-        table.heading.push_back(fmt::format("{}: {}", floor.suite, what));
-    }
     for (const reports::Quantity& quantity : reports::quantities()) {
-      std::vector<std::string> row = {std::string(quantity.key)};
-      for (const reports::NoiseFloor& floor : floors) add_cells(row, floor, quantity.key);
-      table.rows.push_back(row);
+      std::optional<double> all_effect, all_detectable, effect, detectable;
+      for (const reports::NoiseFloorEntry& entry : floor.entries) {
+        if (entry.quantity != quantity.key) continue;
+        const bool is_all = entry.experiment == reports::kAllExperiments;
+        raise(is_all ? all_effect : effect, entry.minimum_effect);
+        raise(is_all ? all_detectable : detectable, entry.detectable);
+      }
+      table.rows.push_back({std::string(quantity.key), reports::fixed(all_effect, 3),
+                            reports::fixed(all_detectable, 3), reports::fixed(effect, 3),
+                            reports::fixed(detectable, 3)});
     }
     return table;
   }
 
-  static void add_cells(std::vector<std::string>& row, const reports::NoiseFloor& floor,
-                        std::string_view quantity) {
-    const reports::NoiseFloorEntry* all = floor.find(reports::kAllExperiments, quantity);
-    double effect = 0, detectable = 0;
-    for (const reports::NoiseFloorEntry& entry : floor.entries) {
-      if (entry.quantity != quantity || &entry == all) continue;
-      effect = std::max(effect, entry.minimum_effect);
-      detectable = std::max(detectable, entry.detectable);
-    }
-    for (const double value : {all ? all->minimum_effect : 0, all ? all->detectable : 0, effect, detectable}) {
-      row.push_back(fmt::format("{:.3f}", value));
-    }
+  static void raise(std::optional<double>& largest, double value) {
+    largest = std::max(largest.value_or(0), value);
   }
 };
 

@@ -232,7 +232,7 @@ TEST_F(RegressionLong, MeasuresTheNoiseFloorOfAnOwnSuite) {
   const ProgramRun run = run_glovebench(
       {"calibrate", "noise", "--run", path("many"), "--suite", path("mine.json"), "-o", path("floors")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("mine: all, other seeds"));
+  EXPECT_THAT(run.out, HasSubstr("| suite mine | all, same seeds |"));
   const ProgramRun compared =
       run_glovebench({"compare", path("run"), path("same"), "--noise-floor", path("floors/mine/noise_floor.json")});
   EXPECT_EQ(compared.exit_code, 0) << compared.err;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/damaged_text.h"
 #include "core/base/file.h"
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/example_runs.h"
@@ -181,35 +182,12 @@ TEST(NoiseFloor, ErrorsNameTheField) {
   EXPECT_THAT(refused([](json& j) { j["entries"][1] = j["entries"][0]; }), HasSubstr("entries[1]"));
 }
 
-/// Overwrites, removes or doubles a few bytes, or cuts the end off.
-std::string damaged(std::string text, RandomStream& random) {
-  const size_t place = random.index(text.size());
-  const size_t length = 1 + random.index(20);
-  switch (random.index(5)) {
-    case 0:
-      text[place] = static_cast<char>(random.index(256));
-      break;
-    case 1:
-      text.erase(place, length);
-      break;
-    case 2:
-      text.insert(place, text.substr(place, length));
-      break;
-    case 3:
-      text.insert(place, std::to_string(random.index(10)));
-      break;
-    default:
-      text.resize(place);
-  }
-  return text;
-}
-
 TEST(NoiseFloor, DamageGivesAnErrorOrAReadableFloorButNothingElse) {
   int refused = 0, accepted = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     RandomStream random(3, "noise_floor_test", trial, "damage");
     try {
-      const NoiseFloor floor = read_text(damaged(noise_floor_json(small_floor()), random));
+      const NoiseFloor floor = read_text(damaged_text(noise_floor_json(small_floor()), random));
       EXPECT_NO_THROW(read_text(noise_floor_json(floor)));
       ++accepted;
     } catch (const Error& error) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "reports/timings.h"
@@ -75,6 +76,24 @@ TEST_F(StageTimesFile, RefusesWhatIsNoTime) {
   changed = document;
   changed["format"] = "other";
   EXPECT_THAT(error_of(changed), HasSubstr("format"));
+}
+
+TEST_F(StageTimesFile, DamageGivesAnErrorOrTimesButNothingElse) {
+  int refused = 0, accepted = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    RandomStream random(1, "stage_times_test", trial, "damage");
+    write(damaged_text(timings_json(two_experiments()), random));
+    try {
+      const nlohmann::json document = stage_times_json(read_stage_times(path_));
+      EXPECT_NO_THROW(stage_times_from(JsonReader(document, path_)));
+      ++accepted;
+    } catch (const Error& error) {
+      ++refused;
+      EXPECT_THAT(error.what(), HasSubstr(path_));
+    }
+  }
+  EXPECT_GT(refused, 300);
+  EXPECT_GT(accepted, 20) << "another digit is another time";
 }
 
 TEST(StageTimes, ComparesTheStagesOfBoth) {
