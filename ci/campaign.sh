@@ -48,7 +48,7 @@ run_suite() {
 # make_baseline SUITE: the undisturbed result, with the noise floor that the project's own baseline has.
 make_baseline() {
   local floor="ci/baselines/$1/noise_floor.json"
-  [[ -f "$floor" ]] || fail "$floor is missing; run: glovebench calibrate noise --suite $1 --output $floor"
+  [[ -f "$floor" ]] || fail "$floor is missing; run: glovebench calibrate noise --suite $1 --output ci/baselines"
   run_suite "$1" "$work/undisturbed/$1"
   mkdir -p "$work/baseline/$1"
   cp "$work/undisturbed/$1/results.json" "$floor" "$work/baseline/$1/"

@@ -81,10 +81,7 @@ void RunFolder::lock() {
 
 RunFolder::~RunFolder() {
   if (lock_ < 0) return;
-  if (!keep_mark_) {
-    std::error_code ignored;
-    fs::remove_all(mark_, ignored);
-  }
+  if (!keep_mark_) put_mark_away();
   ::close(lock_);
 }
 
@@ -103,12 +100,17 @@ void RunFolder::store(const std::string& key, const std::vector<TrackedReplay>& 
   write_file(fmt::format("{}/{}.replay", mark_, key), to_bytes(key, replay));
 }
 
-void RunFolder::finish() {
+bool RunFolder::put_mark_away() {
+  // In one step: nobody can come in between and lock what is about to go.
   const std::string done = fmt::format("{}/{}{}", folder_, kDone, getpid());
-  if (::rename(mark_.c_str(), done.c_str()) != 0)
-    throw Error(mark_, "folder", std::strerror(errno), "a mark that can be removed");
+  if (::rename(mark_.c_str(), done.c_str()) != 0) return false;
   std::error_code ignored;  // the next run removes what stays
   fs::remove_all(done, ignored);
+  return true;
+}
+
+void RunFolder::finish() {
+  if (!put_mark_away()) throw Error(mark_, "folder", std::strerror(errno), "a mark that can be removed");
   ::close(lock_);
   lock_ = -1;
 }

@@ -36,6 +36,7 @@ class RunFolder {
 
  private:
   void lock();
+  bool put_mark_away();
 
   std::string folder_;
   std::string mark_;

@@ -26,6 +26,7 @@ struct CalibrateNoise {
 
   void run() {
     if (suites.empty() && runs.empty()) throw Error("calibrate noise", "--suite, --run", "neither", "one of them");
+    common.check_output_folder();
     std::vector<reports::NoiseFloor> floors;
     for (const std::string& run : runs) floors.push_back(measure_run(load_run(run)));
     if (runs.empty()) {
@@ -40,7 +41,7 @@ struct CalibrateNoise {
       fmt::print("\n{}", reports::to_markdown(smallest_changes(floor)));
     }
     fmt::print(
-        "\nThe smallest change that the gate calls worse: on the baseline's own noise seeds, and, with 90% power, "
+        "\nThe smallest change that the gate stops: on the baseline's own noise seeds, and, with 90% power, "
         "on "
         "others.\nA change is taken to add the same to every frame.\n");
   }

@@ -21,9 +21,7 @@ struct Compare {
     require_own_folder(output, baseline_path);
     const reports::NamedResult baseline = load_run(baseline_path);
     const reports::NamedResult candidate = load_run(candidate_path);
-    const std::optional<reports::NoiseFloor> floor = noise_floor_path.empty()
-                                                         ? load_noise_floor_beside(baseline_path)
-                                                         : reports::read_noise_floor(noise_floor_path);
+    const std::optional<reports::NoiseFloor> floor = noise_floor(candidate.result.suite);
     reports::ComparisonReport report;
     report.comparison = reports::compare_results(baseline, candidate, floor ? &*floor : nullptr, pairing);
     report.times = reports::compare_stage_times(load_stage_times_beside(baseline_path),
@@ -34,6 +32,13 @@ struct Compare {
     }
     fmt::print("{}", reports::comparison_table(report, all_rows));
     if (!output.empty()) fmt::print("Report: {}/index.html\n", output);
+  }
+
+  /// The given one; or the one beside the baseline, if it is of the candidate's suite.
+  std::optional<reports::NoiseFloor> noise_floor(const std::string& suite) const {
+    if (!noise_floor_path.empty()) return reports::read_noise_floor(noise_floor_path);
+    std::optional<reports::NoiseFloor> floor = load_noise_floor_beside(baseline_path);
+    return floor && floor->suite == suite ? floor : std::nullopt;
   }
 };
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/base/file.h"
+#include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
@@ -20,50 +20,76 @@ struct Gate {
   reports::PairingOptions pairing;
   bool update = false;
 
-  /// The exit code.
+  /// The exit code. A report of an earlier gate does not stay beside a refusal.
   int run() const {
     require_own_folder(output, candidate_path);
-    const reports::NamedResult candidate = load_run(candidate_path);
-    const std::string folder =
-        baseline_folder.empty() ? default_baseline_folder(suite_name(candidate)) : baseline_folder;
-    if (update) {
-      update_baseline(folder, candidate, suite_of(candidate, suite), measured_speed(),
-                      load_stage_times_beside(candidate_path));
-      fmt::print("{} is the baseline of suite {} now, in {}\n", candidate.result.commit, candidate.result.suite,
-                 folder);
-      return 0;
-    }
+    if (!output.empty()) reports::remove_comparison(output);
     try {
-      return judge(folder, candidate);
-    } catch (const reports::Incomparable& e) {
-      if (!output.empty()) write_file(output + "/junit.xml", reports::incomparable_junit(e.what()));
+      const reports::NamedResult candidate = load_run(candidate_path);
+      const std::string folder =
+          baseline_folder.empty() ? default_baseline_folder(suite_name(candidate)) : baseline_folder;
+      require_own_folder(output, folder);
+      return update ? replace(folder, candidate) : judge(folder, candidate);
+    } catch (const Error& e) {
+      if (!output.empty()) reports::write_refusal(output, e.what());
       throw;
     }
   }
 
-  int judge(const std::string& folder, const reports::NamedResult& candidate) const {
-    const Baseline baseline = load_baseline(folder);
-    reports::ComparisonReport report;
-    report.comparison = reports::compare_results(baseline.results, candidate,
-                                                 baseline.noise_floor ? &*baseline.noise_floor : nullptr, pairing);
-    require_baseline_for_all(report.comparison, folder);
-    report.times = reports::compare_stage_times(baseline.times, load_stage_times_beside(candidate_path));
-    if (!speed_path.empty()) report.speed = compare_with(baseline, folder);
-    if (!output.empty()) {
-      report.pictures = picture_changes(report.comparison, folder, candidate_path);
-      reports::write_comparison(output, report);
+  /// Says what the new baseline changes, then makes it the baseline.
+  int replace(const std::string& folder, const reports::NamedResult& candidate) const {
+    try {
+      const Baseline old = load_baseline(folder);
+      report(old, folder, compare(old, candidate));
+    } catch (const reports::Incomparable& e) {
+      fmt::print("Not compared with an older baseline: {}\n", e.what());
     }
-    return say(report, folder);
+    update_baseline(folder, candidate, suite_of(candidate, suite), measured_speed(),
+                    load_stage_times_beside(candidate_path));
+    if (candidate.result.commit.ends_with("-dirty")) {
+      fmt::print("warning: built from a tree with changes: nobody else has this program\n");
+    }
+    fmt::print("{} is the baseline of suite {} now, in {}\n", candidate.result.commit, candidate.result.suite,
+               folder);
+    return 0;
   }
 
-  int say(const reports::ComparisonReport& report, const std::string& folder) const {
-    const reports::GateDecision decision = decide(report.comparison, report.speed);
-    fmt::print("{}", reports::comparison_table(report, false));
+  int judge(const std::string& folder, const reports::NamedResult& candidate) const {
+    const Baseline baseline = load_baseline(folder);
+    reports::ComparisonReport made = compare(baseline, candidate);
+    require_baseline_for_all(made.comparison, folder);
+    const bool is_fine = report(baseline, folder, made);
+    fmt::print("Gate {} against {}{}\n", is_fine ? "passed" : "failed", folder,
+               output.empty() ? "" : fmt::format(". Report: {}/index.html", output));
+    return is_fine ? 0 : kGateFailed;
+  }
+
+  reports::ComparisonReport compare(const Baseline& baseline, const reports::NamedResult& candidate) const {
+    reports::ComparisonReport made;
+    made.comparison = reports::compare_results(baseline.results, candidate,
+                                               baseline.noise_floor ? &*baseline.noise_floor : nullptr, pairing);
+    made.times = reports::compare_stage_times(baseline.times, load_stage_times_beside(candidate_path));
+    return made;
+  }
+
+  /// Writes and prints; returns whether nothing stops the change. The accuracy is written before a missing speed
+  /// can be an error.
+  bool report(const Baseline& baseline, const std::string& folder, reports::ComparisonReport made) const {
+    if (!output.empty()) {
+      made.pictures = picture_changes(made.comparison, folder, candidate_path);
+      reports::write_comparison(output, made);
+    }
+    if (!speed_path.empty()) {
+      made.speed = compare_with(baseline, folder);
+      if (!output.empty()) reports::write_comparison(output, made);
+    }
+    const reports::GateDecision decision = decide(made.comparison, made.speed);
+    fmt::print("{}", reports::comparison_table(made, false));
+    if (speed_path.empty() && !baseline.speed.empty())
+      fmt::print("warning: no --speed: only the accuracy is gated\n");
     for (const std::string& warning : decision.warnings) fmt::print("warning: {}\n", warning);
     for (const std::string& failure : decision.failures) fmt::print("FAILED: {}\n", failure);
-    fmt::print("Gate {} against {}{}\n", decision.passed() ? "passed" : "failed", folder,
-               output.empty() ? "" : fmt::format(". Report: {}/index.html", output));
-    return decision.passed() ? 0 : kGateFailed;
+    return decision.passed();
   }
 
   std::vector<reports::SpeedRatio> measured_speed() const {

@@ -47,12 +47,13 @@ std::string provenance_json(const reports::NamedResult& run, const std::string& 
                                {"replaced", replaced}});
 }
 
-reports::StageTimes read_provenance_times(const std::string& path) {
+template <typename Read>
+auto read_provenance(const std::string& path, const Read& read) {
   const nlohmann::json document = reports::parse_json(read_file(path), path);
   const reports::JsonReader json(document, path);
   json["format"].expect_text(kProvenanceFormat);
   json["version"].integer(1, 1);
-  return reports::stage_times_from(json["times"]);
+  return read(json);
 }
 
 /// The replaced baseline in a few words; null if there was none.
@@ -97,6 +98,19 @@ std::string folder_of(const std::string& folder_or_file) {
   return parent.empty() ? "." : parent;
 }
 
+/// The results are those that the provenance speaks of: an update that was killed, or a change by hand, is found.
+void require_same_bytes(const std::string& folder) {
+  const std::string path = in(folder, kProvenance);
+  if (!fs::exists(path)) return;
+  const std::string expected =
+      read_provenance(path, [](const reports::JsonReader& json) { return json["results_hash"].text(); });
+  const std::string found = hash_file(in(folder, kResults));
+  if (found != expected) {
+    throw Incomparable(in(folder, kResults), "hash", found,
+                       expected + ", as provenance.json says (update it again)");
+  }
+}
+
 }  // namespace
 
 std::string default_baseline_folder(const std::string& suite) {
@@ -104,10 +118,9 @@ std::string default_baseline_folder(const std::string& suite) {
 }
 
 reports::NamedResult load_run(const std::string& folder_or_file) {
+  require_finished(folder_of(folder_or_file));
   std::error_code error;
-  if (!fs::is_directory(folder_or_file, error)) return {folder_or_file, reports::read_results(folder_or_file)};
-  require_finished(folder_or_file);
-  const std::string path = in(folder_or_file, kResults);
+  const std::string path = fs::is_directory(folder_or_file, error) ? in(folder_or_file, kResults) : folder_or_file;
   return {path, reports::read_results(path)};
 }
 
@@ -128,7 +141,11 @@ std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& fo
 reports::StageTimes load_stage_times_beside(const std::string& folder_or_file) {
   const std::string folder = folder_of(folder_or_file);
   if (fs::exists(in(folder, kTimings))) return reports::read_stage_times(in(folder, kTimings));
-  if (fs::exists(in(folder, kProvenance))) return read_provenance_times(in(folder, kProvenance));
+  if (fs::exists(in(folder, kProvenance))) {
+    return read_provenance(in(folder, kProvenance), [](const reports::JsonReader& json) {
+      return reports::stage_times_from(json["times"]);
+    });
+  }
   return {};
 }
 
@@ -138,6 +155,7 @@ Baseline load_baseline(const std::string& folder) {
     throw Incomparable(path, "baseline", "none",
                        "the results of an earlier run (glovebench gate --update makes it)");
   }
+  require_same_bytes(folder);
   Baseline baseline{load_run(folder), load_noise_floor_beside(folder), {}, load_stage_times_beside(folder)};
   if (fs::exists(in(folder, kSpeed))) baseline.speed = reports::read_speed_ratios(in(folder, kSpeed));
   return baseline;

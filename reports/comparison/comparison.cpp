@@ -91,6 +91,8 @@ Comparison compare_results(const NamedResult& baseline, const NamedResult& candi
   comparison.config = config;
   comparison.other_seeds = have_other_seeds(pairing);
   comparison.has_noise_floor = floor != nullptr;
+  if (floor && floor->suite != candidate.result.suite)
+    throw Incomparable("noise floor", "suite", floor->suite, candidate.result.suite + ", as the candidate's");
   comparison.rows = comparison_rows(pairing, floor, config, draws);
   for (const auto& [before, after] : pairing.experiments) {
     comparison.seeds = std::max(comparison.seeds, static_cast<int>(before->runs.size()));
@@ -103,6 +105,19 @@ Comparison compare_results(const NamedResult& baseline, const NamedResult& candi
   return comparison;
 }
 
+namespace {
+
+std::string floor_sentence(const Comparison& comparison) {
+  const auto measured = std::ranges::count(comparison.rows, true, &ComparisonRow::is_measured);
+  const auto rows = std::ssize(comparison.rows);
+  if (measured == rows) return "measured over other noise seeds";
+  if (measured == 0) return "a default: no noise floor was measured";
+  return fmt::format("measured over other noise seeds for {} rows, a default for the other {}", measured,
+                     rows - measured);
+}
+
+}  // namespace
+
 std::string comparison_explanation(const Comparison& comparison) {
   const CompareConfig& config = comparison.config;
   const std::string noise =
@@ -112,12 +127,16 @@ std::string comparison_explanation(const Comparison& comparison) {
   return fmt::format(
       "Differences are candidate minus baseline, frame by frame and seed by seed, over the frames that have the "
       "value in both; above zero is worse. For these trajectories: intervals are Student's t times the standard "
-      "error of a paired bootstrap over blocks of at least {} successive frames and over noise seeds ({}), and all "
-      "{} of them hold together with {:g}% probability; they say nothing about other movements or hands. {}Better "
-      "or worse: the interval excludes zero and the difference is at least the minimum effect ({}). Same: the "
-      "whole interval lies within the minimum effect. Not enough data: neither.",
-      config.block_frames, comparison.seeds, comparison.rows.size(), 100 * (1 - config.family_error), noise,
-      comparison.has_noise_floor ? "measured over other noise seeds" : "a default: no noise floor was measured");
+      "error of a paired bootstrap over blocks of at least {} successive frames and over noise seeds ({}), each "
+      "wide "
+      "enough for all {} together to err in {:g}% of comparisons of equal programs as far as blocks tell; what "
+      "other "
+      "seeds do is for the minimum effect ({}). They say nothing about other movements or hands. {}Better or "
+      "worse: "
+      "the interval excludes zero and the difference is at least the minimum effect. Same: the whole interval lies "
+      "within the minimum effect. Not enough data: neither.",
+      config.block_frames, comparison.seeds, comparison.rows.size(), 100 * config.family_error,
+      floor_sentence(comparison), noise);
 }
 
 }  // namespace glovebench::reports

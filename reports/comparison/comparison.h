@@ -41,6 +41,7 @@ struct ComparisonRow {
   std::optional<double> low, high;   ///< simultaneous interval of the difference
   int blocks = 0;                    ///< of frames, that were resampled
   double minimum_effect = 0;
+  bool is_measured = false;  ///< the minimum effect: by a noise floor; otherwise it is a default
   Verdict verdict = Verdict::not_enough_data;
 };
 

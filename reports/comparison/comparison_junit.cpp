@@ -77,14 +77,16 @@ std::string junit(const std::vector<TestSuite>& suites) {
 TestCase row_case(const ComparisonRow& row) {
   TestCase test;
   test.name = quantities()[row.quantity].key;
-  test.class_name = "glovebench." + row.experiment;
+  std::string experiment = row.experiment;
+  std::ranges::replace(experiment, '.', '_');  // a dot would begin another package
+  test.class_name = "glovebench." + experiment;
   test.output = row_sentence(row);
   if (stops(row)) {
     test.outcome = "failure";
     test.message = fmt::format("{}: {}", verdict_text(row), row_sentence(row));
   } else if (row.verdict == Verdict::not_enough_data) {
     test.outcome = "skipped";
-    test.message = to_string(row.verdict);
+    test.message = fmt::format("{}: {}", to_string(row.verdict), row_sentence(row));
   }
   return test;
 }

@@ -75,4 +75,8 @@ std::string comparison_markdown(const ComparisonReport& report) {
   return text.append("\n") + escape_markdown(comparison_explanation(comparison)) + "\n";
 }
 
+std::string incomparable_markdown(const std::string& message) {
+  return fmt::format("**Not compared**\n\n{}\n", escape_markdown(message));
+}
+
 }  // namespace glovebench::reports

@@ -31,10 +31,16 @@ std::string comparison_latex(const ComparisonReport& report);  ///< a tabular (b
 std::string comparison_junit(const ComparisonReport& report);
 /// The same for results that could not be compared: one case with an error.
 std::string incomparable_junit(const std::string& message);
+std::string incomparable_markdown(const std::string& message);
 std::string comparison_page(const ComparisonReport& report);
 
 /// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html, each file whole, all or none, and returns
 /// their names. Throws Error if the folder cannot be written.
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report);
+/// Removes such files of an earlier comparison: no reader takes them for those of one that failed since.
+void remove_comparison(const std::string& folder);
+/// What stands in place of a comparison that could not be made: comparison.md and junit.xml with the message. Other
+/// files stay as they are.
+void write_refusal(const std::string& folder, const std::string& message);
 
 }  // namespace glovebench::reports

@@ -157,7 +157,14 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
   for (const auto& [baseline, candidate] : pairing.experiments)
     seeds = std::min(seeds, static_cast<int>(baseline->runs.size()));
   for (ComparisonRow& row : rows) {
-    row.minimum_effect = minimum_effect(quantities()[row.quantity], row.experiment, row.frames, seeds, floor);
+    const bool is_all = row.experiment == kAllExperiments;
+    // The mean over all experiments bears two frames in each of them: one experiment's own row bears no more.
+    const int frames = is_all ? row.frames / static_cast<int>(std::max<size_t>(1, experiments)) : row.frames;
+    // Where an experiment is missing, the mean over all is another one than the noise floor's.
+    const bool has_entry = floor && !(is_all && !pairing.only_in_baseline.empty());
+    row.minimum_effect =
+        minimum_effect(quantities()[row.quantity], row.experiment, frames, seeds, has_entry ? floor : nullptr);
+    row.is_measured = has_entry && floor->find(row.experiment, quantities()[row.quantity].key) != nullptr;
     row.verdict = verdict_of(row);
   }
   return rows;

@@ -280,9 +280,10 @@ TEST(Comparison, SaysWhatWasCompared) {
   EXPECT_EQ(comparison.candidate.commit, "abc");
   EXPECT_TRUE(comparison.other_seeds);
   EXPECT_TRUE(comparison.has_noise_floor);
-  EXPECT_THAT(comparison_explanation(comparison),
-              AllOf(HasSubstr("For these trajectories"), HasSubstr("all 40 of them"), HasSubstr("99%"),
-                    HasSubstr("other noise seeds, so"), HasSubstr("at least 16 successive")));
+  EXPECT_THAT(
+      comparison_explanation(comparison),
+      AllOf(HasSubstr("For these trajectories"), HasSubstr("all 40 together"), HasSubstr("1% of comparisons"),
+            HasSubstr("other noise seeds, so"), HasSubstr("at least 16 successive")));
 }
 
 TEST(Comparison, IsTheSameEveryTime) {

@@ -24,6 +24,11 @@ std::string name(const ComparisonRow& row) {
   return fmt::format("{}, {}", row.experiment, quantities()[row.quantity].key);
 }
 
+/// A change that the interval cannot tell from chance sits in a few stretches: the page shows where.
+std::string how(const ComparisonRow& row) {
+  return row.verdict == Verdict::worse ? "worse by" : "worse in places, up by";
+}
+
 std::string failure_line(const SpeedRow& row) {
   return fmt::format("{}: slower: {:.2f} times as fast as the plain implementation (it was {:.2f}), limit {:.2f}",
                      row.name, row.candidate, row.baseline, row.limit);
@@ -31,9 +36,13 @@ std::string failure_line(const SpeedRow& row) {
 
 }  // namespace
 
+double sure_effect(const ComparisonRow& row) {
+  return (quantities()[row.quantity].is_share ? 1 : kSurely) * row.minimum_effect;
+}
+
 bool stops(const ComparisonRow& row) {
   if (row.verdict == Verdict::worse) return true;
-  return quantities()[row.quantity].is_share && row.difference && reaches(*row.difference, row.minimum_effect);
+  return row.difference && reaches(*row.difference, sure_effect(row));
 }
 
 GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& speed) {
@@ -42,7 +51,7 @@ GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& s
     decision.warnings.emplace_back("no noise floor: the minimum effects are defaults, not measured");
   for (const ComparisonRow& row : comparison.rows) {
     if (stops(row))
-      decision.failures.push_back(fmt::format("{}: worse by {}", name(row), numbers(row)));
+      decision.failures.push_back(fmt::format("{}: {} {}", name(row), how(row), numbers(row)));
     else if (row.verdict == Verdict::not_enough_data && row.difference &&
              reaches(*row.difference, row.minimum_effect))
       decision.warnings.push_back(fmt::format("{}: not enough data to tell, up by {}", name(row), numbers(row)));

@@ -15,9 +15,13 @@ struct GateDecision {
   bool passed() const { return failures.empty(); }
 };
 
-/// Does this row stop a change? If it is worse. And if it is a share of frames that rose by its minimum effect,
-/// even where the interval includes zero: lost frames come in runs, about which an interval over a few blocks says
-/// little, and the noise floor already holds what other seeds do.
+/// The difference that stops a change whatever the interval says, even if there is none: kSurely minimum effects,
+/// and of a share of frames one. What went wrong in one stretch of a movement is nothing that an interval over its
+/// few blocks can tell from chance; on the same frames it is a fact, and the minimum effect already holds what
+/// other seeds do.
+double sure_effect(const ComparisonRow& row);
+inline constexpr double kSurely = 2;
+/// Does this row stop a change? If it is worse, or rose by its sure effect.
 bool stops(const ComparisonRow& row);
 GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& speed);
 

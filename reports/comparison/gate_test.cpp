@@ -13,8 +13,19 @@ using testing::IsEmpty;
 constexpr int kPosition = 0, kUncovered = 6;
 
 ComparisonRow row(int quantity, double difference, Verdict verdict) {
-  return {"Tr4_x",           quantity,          200, 200,  2.98,   2.98 + difference, difference,
-          difference - 0.21, difference + 0.21, 8,   0.12, verdict};
+  ComparisonRow row;
+  row.experiment = "Tr4_x";
+  row.quantity = quantity;
+  row.pairs = row.frames = 200;
+  row.blocks = 8;
+  row.baseline = 2.98;
+  row.candidate = 2.98 + difference;
+  row.difference = difference;
+  row.low = difference - 0.21;
+  row.high = difference + 0.21;
+  row.minimum_effect = 0.12;
+  row.verdict = verdict;
+  return row;
 }
 
 Comparison of_rows(std::vector<ComparisonRow> rows) {
@@ -28,7 +39,31 @@ TEST(Gate, WorseStops) {
   EXPECT_TRUE(stops(row(kPosition, 0.52, Verdict::worse)));
   EXPECT_FALSE(stops(row(kPosition, -0.52, Verdict::better)));
   EXPECT_FALSE(stops(row(kPosition, 0.01, Verdict::same)));
-  EXPECT_FALSE(stops(row(kPosition, 0.52, Verdict::not_enough_data)));
+  EXPECT_FALSE(stops(row(kPosition, 0.23, Verdict::not_enough_data)));
+}
+
+TEST(Gate, TwiceTheMinimumEffectStopsWithoutSignificance) {
+  ComparisonRow in_places = row(kPosition, 0.24, Verdict::not_enough_data);
+  EXPECT_TRUE(stops(in_places));
+  EXPECT_THAT(decide(of_rows({in_places}), {}).failures,
+              ElementsAre("Tr4_x, position_error_mm: worse in places, up by 0.24 mm [0.03, 0.45] (2.98 -> 3.22), "
+                          "minimum effect 0.12"));
+  in_places.low.reset();
+  in_places.high.reset();
+  EXPECT_TRUE(stops(in_places)) << "too short for an interval";
+  EXPECT_FALSE(stops(row(kPosition, -0.5, Verdict::not_enough_data)));
+}
+
+TEST(Gate, AStretchThatWentWrongStops) {
+  const auto errors = [](double extra_mm) {
+    return example_experiment("Tr4", {1, 2}, 117, [extra_mm](uint64_t, int f) {
+      return example_frame(f, f >= 40 && f < 46 ? 3 + extra_mm : 3, 5, 3);
+    });
+  };
+  const NamedResult before = example_named("before", {errors(0)}), after = example_named("after", {errors(10)});
+  const Comparison comparison = compare_results(before, after, nullptr);
+  EXPECT_FALSE(decide(comparison, {}).passed()) << "six frames of 117 are 0.5 mm of the mean";
+  EXPECT_TRUE(decide(compare_results(before, before, nullptr), {}).passed());
 }
 
 TEST(Gate, AShareThatRoseByItsMinimumEffectStopsWithoutSignificance) {

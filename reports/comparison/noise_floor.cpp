@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "reports/comparison/comparison_rows.h"
+#include "reports/comparison/gate.h"
 
 namespace glovebench::reports {
 namespace {
@@ -92,7 +93,8 @@ std::vector<NoiseFloorEntry> measure_effects(const RunResult& result, const Nois
       all_frames += frames;
       add(to_string(experiment.key), *spreads.experiments[e], spreads.measured * (floor.seeds - 1), frames);
     }
-    if (spreads.all) add(std::string(kAllExperiments), *spreads.all, floor.seeds - 1, all_frames);
+    if (spreads.all)
+      add(std::string(kAllExperiments), *spreads.all, floor.seeds - 1, all_frames / spreads.measured);
   }
   return entries;
 }
@@ -116,13 +118,14 @@ std::pair<RunResult, RunResult> draw_results(const RunResult& result, int seeds,
   return drawn;
 }
 
-/// What must be added to every frame of the candidate to have the row called worse.
+/// What must be added to every frame of the candidate for the row to stop the change (gate.h).
 double needed_change(const ComparisonRow& row) {
-  const double half_width = *row.high - *row.difference;
-  return std::max(row.minimum_effect, half_width) - *row.difference;
+  double enough = sure_effect(row);
+  if (row.high) enough = std::min(enough, std::max(row.minimum_effect, *row.high - *row.difference));
+  return enough - *row.difference;
 }
 
-/// The entries that a comparison has an interval for, with the change that it detects.
+/// The entries that a comparison has a difference for, with the change that it detects.
 std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const NoiseFloor& floor) {
   const CompareConfig config = {.family_error = floor.family_error, .resamples = kResamples};
   Draws draws(config.seed, config.resamples);
@@ -133,7 +136,7 @@ std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const Nois
     for (size_t e = 0; e < baseline.experiments.size(); ++e)
       pairing.experiments.emplace_back(&baseline.experiments[e], &candidate.experiments[e]);
     for (const ComparisonRow& row : comparison_rows(pairing, &floor, config, draws))
-      if (row.high)
+      if (row.difference)
         needed[{row.experiment, std::string(quantities()[row.quantity].key)}].push_back(needed_change(row));
   }
   std::vector<NoiseFloorEntry> entries;

@@ -14,7 +14,7 @@ struct NoiseFloorEntry {
   std::string quantity;       ///< its key
   double spread = 0;          ///< standard deviation over seeds of the mean of one seed
   double minimum_effect = 0;  ///< the smallest difference that counts, in the quantity's unit
-  double detectable = 0;      ///< the smallest change that is called worse in 90% of runs with other seeds
+  double detectable = 0;      ///< the smallest change that the gate stops in 90% of runs with other seeds
 
   friend bool operator==(const NoiseFloorEntry&, const NoiseFloorEntry&) = default;
 };

@@ -32,7 +32,8 @@ struct SpeedRow {
   double limit = 0;  ///< below it the fast implementation has become slower: kSpeedShare of the baseline's
   bool slower = false;
 };
-/// Another processor or a busy one moves a ratio by a third; a fast path that stopped being one is far below a half.
+/// Another processor or a busy one moves a ratio by a third; a fast path that stopped being one is far below a
+/// half.
 inline constexpr double kSpeedShare = 0.5;
 /// In the baseline's order; ratios that only the candidate has are new and not compared. Throws Incomparable if the
 /// candidate lacks a ratio of the baseline's.
