@@ -16,9 +16,8 @@ namespace glovebench::eval {
 ///   results.json      of the run that became the baseline
 ///   noise_floor.json  what other seeds do (glovebench calibrate noise); may be missing
 ///   speed.json        ratios to the plain implementations; may be missing
-///   provenance.json   what made it: commit, date, compiler, processor with the times of the tracker's stages, and
-///   the
-///                     baseline that it replaced
+///   provenance.json   what made it: commit, date, compiler, processor with the times of the tracker's stages; and
+///                     what it replaced
 struct Baseline {
   reports::NamedResult results;
   std::optional<reports::NoiseFloor> noise_floor;

@@ -28,7 +28,7 @@ std::string readable_experiment(const std::string& experiment);
 std::string number_text(const std::optional<double>& value);
 std::string signed_number_text(const std::optional<double>& value);
 std::string interval_text(const ComparisonRow& row);  ///< "[-0.120, +0.400]", or "-"
-/// The verdict; with "stops the change" where that does not follow from it.
+/// The verdict; with ", stops" where it does not follow from it that the row stops the change.
 std::string verdict_text(const ComparisonRow& row);
 
 /// "2.980 -> 3.400 mm, difference +0.420 [+0.300, +0.540], minimum effect 0.100, 234 of 234 frames"
