@@ -41,8 +41,7 @@ struct CalibrateNoise {
       fmt::print("\n{}", reports::to_markdown(smallest_changes(floor)));
     }
     fmt::print(
-        "\nThe smallest change that the gate stops: on the baseline's own noise seeds, and, with 90% power, "
-        "on "
+        "\nThe smallest change that the gate stops: on the baseline's own noise seeds, and, with 90% power, on "
         "others.\nA change is taken to add the same to every frame.\n");
   }
 

@@ -91,13 +91,6 @@ void require_same_truths(const std::string& folder, const reports::NamedResult& 
   }
 }
 
-std::string folder_of(const std::string& folder_or_file) {
-  std::error_code error;
-  if (fs::is_directory(folder_or_file, error)) return folder_or_file;
-  const std::string parent = fs::path(folder_or_file).parent_path().string();
-  return parent.empty() ? "." : parent;
-}
-
 /// The results are those that the provenance speaks of: an update that was killed, or a change by hand, is found.
 void require_same_bytes(const std::string& folder) {
   const std::string path = in(folder, kProvenance);
@@ -112,6 +105,13 @@ void require_same_bytes(const std::string& folder) {
 }
 
 }  // namespace
+
+std::string folder_of(const std::string& folder_or_file) {
+  std::error_code error;
+  if (fs::is_directory(folder_or_file, error)) return folder_or_file;
+  const std::string parent = fs::path(folder_or_file).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
 
 std::string default_baseline_folder(const std::string& suite) {
   return "ci/baselines/" + suite;

@@ -28,6 +28,8 @@ struct Baseline {
 /// "ci/baselines/quick", below the current folder.
 std::string default_baseline_folder(const std::string& suite);
 
+/// The folder of a run, of which the results.json may be given instead.
+std::string folder_of(const std::string& folder_or_file);
 /// The results of a finished run: its folder, or the results.json itself. Throws Error, or Incomparable if the run
 /// is unfinished.
 reports::NamedResult load_run(const std::string& folder_or_file);

@@ -120,6 +120,7 @@ std::unique_ptr<Workbench> make_workbench(Side side) {
 }  // namespace
 
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
+                                              const reports::InputHashes& inputs,
                                               const std::string& baseline_folder,
                                               const std::string& candidate_folder) {
   EstimateFolder baseline(baseline_folder), candidate(candidate_folder);
@@ -127,7 +128,8 @@ std::vector<reports::Picture> picture_changes(const reports::Comparison& compari
   std::vector<reports::Picture> pictures;
   for (const ChangedFrame& change : comparison.worst) {
     const std::shared_ptr<const trajectories::Trajectory> truth = find_truth(change.key);
-    if (!truth || change.frame >= static_cast<int>(truth->frames.size())) continue;
+    const auto hash = inputs.truths.find(truth_name(change.key));
+    if (!truth || hash == inputs.truths.end() || hash->second != trajectories::hash(*truth)) continue;
     std::unique_ptr<Workbench>& workbench = workbenches[truth->side];
     if (!workbench) workbench = make_workbench(truth->side);
     Scene scene(*workbench, change, truth);
