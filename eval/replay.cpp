@@ -65,22 +65,6 @@ FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel&
   return truth;
 }
 
-}  // namespace
-
-std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay) {
-  const std::span<const trajectories::TrajectoryFrame> all = replay.truth->frames;
-  const FrameRange& range = replay.range;
-  const auto have = static_cast<int>(all.size());
-  const int count = range.count.value_or(have - range.first);
-  if (range.first < 0 || count < 1 || range.first > have - count) {
-    throw Error(replay.truth->name, "frames", fmt::format("{} from {} on", count, range.first),
-                fmt::format("some of 0 to {}", have - 1));
-  }
-  return all.subspan(range.first, count);
-}
-
-namespace {
-
 render::SyntheticKinectConfig kinect_config(const Replay& replay) {
   render::SyntheticKinectConfig config;
   config.scene.shader = replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
@@ -132,6 +116,18 @@ class Pass {
 };
 
 }  // namespace
+
+std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay) {
+  const std::span<const trajectories::TrajectoryFrame> all = replay.truth->frames;
+  const FrameRange& range = replay.range;
+  const auto have = static_cast<int>(all.size());
+  const int count = range.count.value_or(have - range.first);
+  if (range.first < 0 || count < 1 || range.first > have - count) {
+    throw Error(replay.truth->name, "frames", fmt::format("{} from {} on", count, range.first),
+                fmt::format("some of 0 to {}", have - 1));
+  }
+  return all.subspan(range.first, count);
+}
 
 bool share_images(const Replay& a, const Replay& b) {
   return a.truth == b.truth && a.subject == b.subject && a.range == b.range;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <regex>
 
 #include "core/base/file.h"
@@ -77,27 +76,19 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
   for (const std::string part : kFolders)
     remove_leftovers(folder + "/" + part, [&](const std::string& name) { return is_of_a_report(part + name); });
   const PaperNumbers& paper = paper_numbers();
-  std::vector<std::string> names;
-  std::vector<std::unique_ptr<WholeFile>> files;
-  const auto write = [&](const std::string& name, const std::string& content) {
-    files.push_back(std::make_unique<WholeFile>(folder + "/" + name));
-    files.back()->append(content);
-    names.push_back(name);
-  };
-  write("config.json", format_json(result.configuration));
-  write("summary.md", summary_markdown(result, paper));
-  write("index.html", html_page(result, paper, pictures));
-  write("timings.json", timings_json(timings));
-  for (const NamedFile& table : other_files(result)) write(table.name, table.content);
+  WholeFiles files(folder);
+  files.add("config.json", format_json(result.configuration));
+  files.add("summary.md", summary_markdown(result, paper));
+  files.add("index.html", html_page(result, paper, pictures));
+  files.add("timings.json", timings_json(timings));
+  for (const NamedFile& table : other_files(result)) files.add(table.name, table.content);
   for (const ExperimentEstimates& experiment : estimates)
-    write(estimates_file(experiment.key), estimates_csv(experiment));
-  write("results.json", results_json(result));
-  // Only now that there was room for all of them; results.json, whose numbers are compared, is the last.
-  for (const std::unique_ptr<WholeFile>& file : files) {
-    if (file == files.back()) remove_stale_files(folder, names);
-    file->commit();
-  }
-  return names;
+    files.add(estimates_file(experiment.key), estimates_csv(experiment));
+  files.add("results.json", results_json(result));
+  // results.json, whose numbers are compared, is the last; what it has no experiments for goes before it comes.
+  remove_stale_files(folder, files.names());
+  files.commit();
+  return files.names();
 }
 
 }  // namespace glovebench::reports

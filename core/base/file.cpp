@@ -88,6 +88,16 @@ void WholeFile::commit() {
   descriptor_ = -1;
 }
 
+void WholeFiles::add(const std::string& name, std::string_view content) {
+  files_.push_back(std::make_unique<WholeFile>(folder_ + "/" + name));
+  files_.back()->append(content);
+  names_.push_back(name);
+}
+
+void WholeFiles::commit() {
+  for (const std::unique_ptr<WholeFile>& file : files_) file->commit();
+}
+
 void write_file(const std::string& path, std::string_view content) {
   WholeFile file(path);
   file.append(content);

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace glovebench {
 
@@ -28,6 +30,23 @@ class WholeFile {
   std::string path_;
   std::string temporary_;
   int descriptor_ = -1;
+};
+
+/// Files of one folder, none of which replaces an older one before there was room for all.
+class WholeFiles {
+ public:
+  explicit WholeFiles(std::string folder) : folder_(std::move(folder)) {}
+
+  /// Throws Error.
+  void add(const std::string& name, std::string_view content);
+  const std::vector<std::string>& names() const { return names_; }
+  /// In the order in which they were added. Throws Error.
+  void commit();
+
+ private:
+  std::string folder_;
+  std::vector<std::string> names_;
+  std::vector<std::unique_ptr<WholeFile>> files_;
 };
 
 /// Writes all of a file through WholeFile.

@@ -2,28 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/robot/robot_command.h"
 #include "eval/share.h"
+#include "reports/json_reader.h"
 
 namespace glovebench::eval {
-namespace {
-
-nlohmann::json parse_json_file(const std::string& path) {
-  try {
-    return nlohmann::json::parse(read_file(path));
-  } catch (const nlohmann::json::parse_error& e) {
-    throw Error(path, "content", "byte " + std::to_string(e.byte) + " that is no JSON", "a JSON object");
-  } catch (const nlohmann::json::out_of_range&) {
-    throw Error(path, "content", "a number beyond the range of double", "a JSON object");
-  }
-}
-
-}  // namespace
 
 void CommonFlags::add_output(CLI::App& command, const std::string& what, bool required) {
   CLI::Option* option = command.add_option("-o,--output", output, what);
@@ -53,7 +40,8 @@ void CommonFlags::add_machine(CLI::App& command) {
 TrackerConfig CommonFlags::tracker_config() const {
   TrackerConfig config = glovebench::profile(profile);
   if (!config_json.is_null()) config = config_from_json(config_json, config, "configuration of the run");
-  if (!config_file.empty()) config = config_from_json(parse_json_file(config_file), config, config_file);
+  if (!config_file.empty())
+    config = config_from_json(reports::parse_json(read_file(config_file), config_file), config, config_file);
   if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
   return config;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 
 #include "core/base/file.h"
 #include "core/base/hash.h"
@@ -22,12 +21,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using reports::Incomparable;
 
-constexpr std::string_view kResults = "/results.json", kNoiseFloor = "/noise_floor.json", kSpeed = "/speed.json",
-                           kProvenance = "/provenance.json", kTimings = "/timings.json";
+constexpr const char *kResults = "results.json", *kNoiseFloor = "noise_floor.json", *kSpeed = "speed.json",
+                     *kProvenance = "provenance.json", *kTimings = "timings.json";
 constexpr std::string_view kProvenanceFormat = "glovebench-provenance";
 
-std::string in(const std::string& folder, std::string_view file) {
-  return folder + std::string(file);
+std::string in(const std::string& folder, const char* file) {
+  return folder + "/" + file;
 }
 
 /// What the baseline was made by. No name of a machine: the file is committed.
@@ -180,15 +179,11 @@ void update_baseline(const std::string& folder, const reports::NamedResult& run,
   require_same_truths(folder, run);
   const Json replaced = describe_replaced(folder);
   const std::string results = reports::results_json(run.result);
-  std::vector<std::unique_ptr<WholeFile>> files;
-  const auto write = [&](std::string_view name, const std::string& content) {
-    files.push_back(std::make_unique<WholeFile>(in(folder, name)));
-    files.back()->append(content);
-  };
-  write(kProvenance, provenance_json(run, hash_text(results), times, replaced));
-  if (!speed.empty()) write(kSpeed, reports::speed_json(speed));
-  write(kResults, results);
-  for (const std::unique_ptr<WholeFile>& file : files) file->commit();
+  WholeFiles files(folder);
+  files.add(kProvenance, provenance_json(run, hash_text(results), times, replaced));
+  if (!speed.empty()) files.add(kSpeed, reports::speed_json(speed));
+  files.add(kResults, results);
+  files.commit();
 }
 
 }  // namespace glovebench::eval

@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <memory>
 
 #include "core/base/file.h"
 #include "reports/comparison/comparison_report.h"
@@ -13,22 +12,15 @@ constexpr const char *kJson = "comparison.json", *kMarkdown = "comparison.md", *
 }  // namespace
 
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report) {
-  std::vector<std::string> names;
-  std::vector<std::unique_ptr<WholeFile>> files;
-  const auto write = [&](const std::string& name, const std::string& content) {
-    files.push_back(std::make_unique<WholeFile>(folder + "/" + name));
-    files.back()->append(content);
-    names.push_back(name);
-  };
-  write(kJson, comparison_json(report));
-  write(kMarkdown, comparison_markdown(report));
-  write(kCsv, comparison_csv(report));
-  write(kLatex, comparison_latex(report));
-  write(kJunit, comparison_junit(report));
-  write(kPage, comparison_page(report));
-  // Only now that there was room for all of them.
-  for (const std::unique_ptr<WholeFile>& file : files) file->commit();
-  return names;
+  WholeFiles files(folder);
+  files.add(kJson, comparison_json(report));
+  files.add(kMarkdown, comparison_markdown(report));
+  files.add(kCsv, comparison_csv(report));
+  files.add(kLatex, comparison_latex(report));
+  files.add(kJunit, comparison_junit(report));
+  files.add(kPage, comparison_page(report));
+  files.commit();
+  return files.names();
 }
 
 void remove_comparison(const std::string& folder) {
