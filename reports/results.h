@@ -11,6 +11,7 @@
 
 #include "core/tracker/track_result.h"
 #include "reports/statistics.h"
+#include "reports/study.h"
 
 namespace glovebench::reports {
 
@@ -165,6 +166,7 @@ struct RunResult {
   std::string commit;
   nlohmann::json configuration = nlohmann::json::object();  ///< effective
   std::vector<ExperimentResult> experiments;
+  std::vector<StudyResult> studies;  ///< of a reproduction; empty for other runs
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };

@@ -56,6 +56,19 @@ std::optional<double> resampled_mean(const std::vector<std::vector<BlockSum>>& s
   return total.sum / total.count;
 }
 
+/// Whole blocks of consecutive frames; the last block of a stratum may be shorter.
+Draw draw(const StratumShape& stratum, int block_frames, RandomStream& random) {
+  Draw draw;
+  for (int s = 0; s < stratum.seeds; ++s) draw.seeds.push_back(static_cast<int>(random.index(stratum.seeds)));
+  const int blocks = (stratum.frames + block_frames - 1) / block_frames;
+  for (int b = 0; b < blocks; ++b) {
+    const int first = static_cast<int>(random.index(blocks)) * block_frames;
+    const int end = std::min(first + block_frames, stratum.frames);
+    for (int frame = first; frame < end; ++frame) draw.frames.push_back(frame);
+  }
+  return draw;
+}
+
 }  // namespace
 
 std::optional<double> mean(std::span<const double> values) {
@@ -132,6 +145,37 @@ std::optional<ConfidenceInterval> confidence_interval(
   interval.block_frames = config.block_frames;
   interval.over = interval.seeds > 1 ? "noise seeds and blocks of frames of this movement"
                                      : "blocks of frames of this movement, one noise seed";
+  return interval;
+}
+
+std::optional<ConfidenceInterval> stratified_interval(
+    std::span<const StratumShape> strata,
+    const std::function<std::optional<double>(std::span<const Draw>)>& statistic, const BootstrapConfig& config) {
+  check(config.block_frames >= 1 && config.resamples >= 1 && config.level > 0 && config.level < 1,
+        "a bootstrap has blocks, resamples and a level between 0 and 1");
+  ConfidenceInterval interval;
+  interval.level = config.level;
+  interval.block_frames = config.block_frames;
+  for (const StratumShape& stratum : strata) {
+    interval.seeds = std::max(interval.seeds, stratum.seeds);
+    interval.blocks += (stratum.frames + config.block_frames - 1) / config.block_frames;
+  }
+  if (interval.blocks < 2) return std::nullopt;
+
+  RandomStream random(config.seed, "stratified_interval", 0, "bootstrap");
+  std::vector<double> values;
+  std::vector<Draw> draws(strata.size());
+  for (int i = 0; i < config.resamples; ++i) {
+    for (size_t s = 0; s < strata.size(); ++s) draws[s] = draw(strata[s], config.block_frames, random);
+    if (const auto value = statistic(draws)) values.push_back(*value);
+  }
+  if (values.empty()) return std::nullopt;
+  check_finite(values);
+  std::ranges::sort(values);
+  interval.low = sorted_percentile(values, (1 - config.level) / 2);
+  interval.high = sorted_percentile(values, (1 + config.level) / 2);
+  interval.over = interval.seeds > 1 ? "noise seeds and blocks of frames of these movements"
+                                     : "blocks of frames of these movements, one noise seed";
   return interval;
 }
 

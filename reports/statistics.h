@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -69,5 +70,23 @@ struct BootstrapConfig {
 /// there are fewer than two blocks or no values.
 std::optional<ConfidenceInterval> confidence_interval(
     const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config = {});
+
+/// A fixed part of what is measured, e.g. a trajectory: seeds (rows) and frames (columns) that can be drawn again.
+struct StratumShape {
+  int seeds = 1;   ///< >= 1
+  int frames = 0;  ///< >= 0
+};
+/// One resample of a stratum: its seeds and its frames, some of them repeated, others missing.
+struct Draw {
+  std::vector<int> seeds;
+  std::vector<int> frames;
+};
+/// Interval of any statistic over fixed strata: in each, noise seeds and blocks of frames are drawn again, with
+/// replacement. `statistic` gets one draw a stratum, in their order, and may have no value. Empty when it never has
+/// one, or when fewer than two blocks can be drawn in all.
+std::optional<ConfidenceInterval> stratified_interval(
+    std::span<const StratumShape> strata,
+    const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
+    const BootstrapConfig& config = {});
 
 }  // namespace glovebench::reports

@@ -109,5 +109,53 @@ TEST(Statistics, ConstantValuesHaveAnIntervalOfNoWidth) {
   EXPECT_EQ(interval->high, 2);
 }
 
+/// The mean over everything that was drawn of one table a stratum.
+auto mean_of(const std::vector<std::vector<Values>>& strata) {
+  return [&strata](std::span<const Draw> draws) -> std::optional<double> {
+    Values drawn;
+    for (size_t s = 0; s < strata.size(); ++s)
+      for (const int seed : draws[s].seeds)
+        for (const int frame : draws[s].frames) drawn.push_back(strata[s][seed][frame]);
+    return mean(drawn);
+  };
+}
+
+TEST(Statistics, StrataAreNotMixed) {
+  // Two strata that differ, each constant: however it is drawn, the mean stays.
+  const std::vector<std::vector<Values>> strata = {{Values(40, 1.0)}, {Values(20, 7.0)}};
+  const auto interval =
+      stratified_interval(std::vector<StratumShape>{{1, 40}, {1, 20}}, mean_of(strata), {.block_frames = 10});
+  ASSERT_TRUE(interval);
+  EXPECT_DOUBLE_EQ(interval->low, 3);
+  EXPECT_DOUBLE_EQ(interval->high, 3);
+  EXPECT_EQ(interval->blocks, 6);
+}
+
+TEST(Statistics, AStratifiedIntervalHoldsTheTrueMeanAboutAsOftenAsItsLevelSays) {
+  int held = 0;
+  constexpr int kTrials = 200;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    RandomStream random(trial, "test", 0, "values");
+    std::vector<std::vector<Values>> strata(2, std::vector<Values>(1));
+    for (auto& stratum : strata)
+      for (int i = 0; i < 100; ++i) stratum[0].push_back(random.normal());
+    const auto interval = stratified_interval(std::vector<StratumShape>(2, {1, 100}), mean_of(strata),
+                                              {.block_frames = 4, .resamples = 400});
+    held += interval->low <= 0 && 0 <= interval->high;
+  }
+  // 95% of 200 are 190; a percentile interval over 50 blocks holds a little less, and chance takes up to 11.
+  EXPECT_GE(held, 175);
+  EXPECT_LE(held, 199);
+}
+
+TEST(Statistics, NoStratifiedIntervalOfTooLittle) {
+  const auto none = [](std::span<const Draw>) { return std::optional<double>(); };
+  const auto one = [](std::span<const Draw>) { return std::optional<double>(1); };
+  EXPECT_EQ(stratified_interval({}, one), std::nullopt);
+  EXPECT_EQ(stratified_interval(std::vector<StratumShape>{{1, 15}}, one), std::nullopt);
+  EXPECT_EQ(stratified_interval(std::vector<StratumShape>{{1, 60}}, none), std::nullopt);
+  EXPECT_TRUE(stratified_interval(std::vector<StratumShape>{{1, 15}, {1, 1}}, one));
+}
+
 }  // namespace
 }  // namespace glovebench::reports
