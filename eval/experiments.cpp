@@ -3,9 +3,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -16,7 +13,7 @@
 #include "core/robot/json_lines_sink.h"
 #include "eval/explain.h"
 #include "eval/program_info.h"
-#include "eval/progress.h"
+#include "eval/replay_all.h"
 #include "eval/share.h"
 #include "reports/report.h"
 #include "trajectories/catalog.h"
@@ -38,8 +35,6 @@ double peak_memory_mb() {
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
-
-using TrackedReplays = std::vector<TrackedReplay>;  // of one replay: one a database
 
 /// The passes of one experiment: one a seed.
 struct Gathered {
@@ -143,72 +138,6 @@ reports::ExperimentEstimates estimates_of(const Gathered& experiment) {
   return estimates;
 }
 
-/// Replays that share their images, or what an interrupted run stored of them.
-std::vector<TrackedReplays> replay_group(Workbench& workbench, const Plan& plan, std::span<const Replay> group,
-                                         const RunFolder* run_folder, const std::function<void()>& frame_done) {
-  std::vector<TrackedReplays> outputs(group.size());
-  std::vector<Replay> left;
-  std::vector<size_t> places;
-  for (size_t i = 0; i < group.size(); ++i) {
-    if (run_folder) {
-      if (auto stored = run_folder->load(replay_key(workbench, group[i], plan.tracker))) {
-        outputs[i] = *std::move(stored);
-        for (size_t f = 0; f < frames_of(group[i]).size(); ++f) frame_done();
-        continue;
-      }
-    }
-    left.push_back(group[i]);
-    places.push_back(i);
-  }
-  if (left.empty()) return outputs;
-  std::vector<TrackedReplays> made = replay_together(workbench, left, plan.tracker, frame_done);
-  for (size_t i = 0; i < left.size(); ++i) {
-    if (run_folder) run_folder->store(replay_key(workbench, left[i], plan.tracker), made[i]);
-    outputs[places[i]] = std::move(made[i]);
-  }
-  return outputs;
-}
-
-/// Where each group of replays that are rendered once begins, and the end. Larger groups save rendering, but there
-/// must be enough of them for all threads.
-std::vector<size_t> group_begins(const std::vector<Replay>& replays, int threads) {
-  constexpr size_t kLargest = 4;  // each replay of a group has trackers of its own in memory
-  const size_t size = std::clamp<size_t>(replays.size() / (2 * static_cast<size_t>(threads)), 1, kLargest);
-  std::vector<size_t> begins;
-  for (size_t r = 0; r < replays.size(); ++r) {
-    const bool joins =
-        !begins.empty() && r - begins.back() < size && share_images(replays[begins.back()], replays[r]);
-    if (!joins) begins.push_back(r);
-  }
-  begins.push_back(replays.size());
-  return begins;
-}
-
-std::vector<TrackedReplays> run_replays(Workbench& workbench, const Plan& plan, const RunFolder* run_folder) {
-  size_t frames = 0;
-  for (const Replay& replay : plan.replays) frames += frames_of(replay).size();
-  std::vector<TrackedReplays> outputs(plan.replays.size());
-  const std::vector<size_t> begins = group_begins(plan.replays, workbench.config().threads);
-  Progress progress("replaying", workbench.config().quiet);
-  std::atomic<size_t> done{0};
-  const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workbench.config().threads);
-  tbb::task_arena arena(workbench.config().threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, begins.size() - 1, 1),
-        [&](const tbb::blocked_range<size_t>& range) {
-          for (size_t g = range.begin(); g != range.end(); ++g) {
-            const std::span<const Replay> group(&plan.replays[begins[g]], begins[g + 1] - begins[g]);
-            std::ranges::move(replay_group(workbench, plan, group, run_folder, frame_done),
-                              outputs.begin() + static_cast<std::ptrdiff_t>(begins[g]));
-          }
-        },
-        tbb::simple_partitioner());
-  });
-  return outputs;
-}
-
 reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& experiments, Workbench& workbench) {
   reports::RunResult result;
   result.protocol = reports::make_protocol("by time stamp, exact");
@@ -243,29 +172,27 @@ Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
       const std::vector<std::string> databases = trajectories::databases_of(name);
       const auto recorded = std::make_shared<const Trajectory>(trajectories::recorded_trajectory(folder, name));
       const auto source = std::make_shared<const Trajectory>(trajectories::source_trajectory(folder, name));
-      for (const uint64_t seed : options.seeds) plan.replays.push_back({recorded, 1, noise, seed, databases});
-      for (const uint64_t seed : options.seeds) plan.replays.push_back({source, 1, noise, seed, databases});
-      for (const uint64_t seed : options.seeds) plan.replays.push_back({source, 2, noise, seed, databases});
+      const auto add = [&](const std::shared_ptr<const Trajectory>& truth, int subject, uint64_t seed) {
+        plan.replays.push_back({truth, subject, noise, seed, databases, options.frames, tracker});
+      };
+      for (const uint64_t seed : options.seeds) add(recorded, 1, seed);
+      for (const uint64_t seed : options.seeds) add(source, 1, seed);
+      for (const uint64_t seed : options.seeds) add(source, 2, seed);
     }
   }
   return plan;
 }
 
 void prepare(Workbench& workbench, const Plan& plan) {
-  for (const Replay& replay : plan.replays) {
-    frames_of(replay);
-    workbench.subject(replay.subject);
-    // Before the threads start: building a database uses all of them itself.
-    for (const std::string& name : replay.databases) workbench.database(name);
-  }
-  workbench.color_table();
+  prepare(workbench, plan.replays);
 }
 
 Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot,
                         const RunFolder* run_folder) {
   const auto start = std::chrono::steady_clock::now();
   prepare(workbench, plan);
-  const std::vector<TrackedReplays> outputs = run_replays(workbench, plan, run_folder);
+  const std::vector<TrackedReplays> outputs =
+      replay_all(workbench, plan.replays, workbench.config().threads, run_folder);
   const std::vector<Gathered> experiments = gather(plan, outputs);
   Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads), {}};
   if (!robot.folder.empty()) remove_leftovers(robot.folder, is_of_robot_output);

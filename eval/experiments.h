@@ -12,7 +12,7 @@ namespace glovebench::eval {
 
 /// What is replayed, and how.
 struct Plan {
-  TrackerConfig tracker;
+  TrackerConfig tracker;  ///< of all replays
   std::vector<Replay> replays;
   std::string suite = {};  ///< the name of the suite that this is; empty if it is none
 };
@@ -24,6 +24,7 @@ struct Figure4Options {
   std::vector<std::string> trajectories;  ///< empty: all five
   std::vector<uint64_t> seeds = {1};
   std::vector<reports::NoiseSetting> noises = {{}};
+  FrameRange frames;  ///< of each trajectory
 };
 /// The experiments of Figure 4: each ground truth with the databases that contain its grasp, against the recorded
 /// and the source truth, and the latter with the second subject.

@@ -16,6 +16,7 @@ Plan make_plan() {
       trajectories::parse_trajectory(make_trajectory_json("six", 6).dump(), "test"));
   Plan plan{profile("paper"), {}};
   Replay replay;
+  replay.tracker = plan.tracker;
   replay.truth = trajectory;
   replay.databases = {"DB_open_pinch", "DB_open_power"};
   for (const uint64_t seed : {1, 2}) {

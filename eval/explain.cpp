@@ -44,14 +44,14 @@ std::string depth_title(const TrackResult& result) {
 
 }  // namespace
 
-ColorImage explain_frame(Workbench& workbench, const Replay& replay, const TrackerConfig& config, int frame) {
+ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) {
   const int count = static_cast<int>(replay.truth->frames.size());
   if (frame < 0 || frame >= count) {
     throw Error(replay.truth->name, "frame", std::to_string(frame), fmt::format("0 to {}", count - 1));
   }
   const OneFrame taken = take_frame(workbench, replay, frame);
   const std::shared_ptr<const Database> database = workbench.database(replay.databases.front());
-  Tracker tracker = workbench.make_tracker(config, replay.databases.front());
+  Tracker tracker = workbench.make_tracker(replay.tracker, replay.databases.front());
   FrameTrace trace;
   const TrackResult result = tracker.track(taken.frame, {}, &trace);
 
@@ -98,7 +98,7 @@ std::vector<reports::Picture> sample_pictures(Workbench& workbench, const Plan& 
     pictures.push_back({fmt::format("{} ({}), subject {}, frame {}, tracked with {}: every stage of the tracker",
                                     replay->truth->name, to_string(replay->truth->kind), replay->subject, frame,
                                     replay->databases.front()),
-                        render::encode_png(explain_frame(workbench, *replay, plan.tracker, frame))});
+                        render::encode_png(explain_frame(workbench, *replay, frame))});
     if (plan.replays.size() == 1) break;
   }
   return pictures;

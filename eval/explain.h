@@ -10,7 +10,7 @@ namespace glovebench::eval {
 /// One frame of a replay with every stage of the tracker as a picture: what the cameras saw, the mapped image M,
 /// the labels L, the tiny image, the k matches, the alignment before and after. The filter is not part of it: the
 /// frame is tracked by itself.
-ColorImage explain_frame(Workbench& workbench, const Replay& replay, const TrackerConfig& config, int frame);
+ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame);
 
 /// A few such pictures for the report's page: the middle frame of the first and the last replay of a plan.
 std::vector<reports::Picture> sample_pictures(Workbench& workbench, const Plan& plan);

@@ -30,7 +30,7 @@ TEST(TrackerIsolationLong, EqualsTheReplay) {
   const Replay pass = make_replay();
   std::string expected;
   int tracked = 0;
-  const std::vector<TrackedReplay> replayed = replay(workbench, pass, profile("paper"));
+  const std::vector<TrackedReplay> replayed = replay(workbench, pass);
   for (const TrackResult& result : replayed.front().results) {
     expected += estimate_line(tracked, result) + "\n";
     tracked += result.status == TrackStatus::tracked;

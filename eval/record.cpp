@@ -18,11 +18,11 @@ trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::
   pass.noise = {"kinect", 1};  // the paper recorded with a real Kinect
   pass.seed = seed;
   pass.databases = {database};
+  pass.tracker = config;
   Progress progress("recording " + source.name, workbench.config().quiet);
   size_t done = 0;
-  const TrackedReplay tracked = replay(workbench, pass, config, [&] {
-                                  progress.show(static_cast<double>(++done) / source.frames.size());
-                                }).front();
+  const TrackedReplay tracked =
+      replay(workbench, pass, [&] { progress.show(static_cast<double>(++done) / source.frames.size()); }).front();
 
   trajectories::Trajectory recorded = source;
   recorded.kind = trajectories::TrajectoryKind::recorded;

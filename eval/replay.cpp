@@ -12,20 +12,24 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Collects the times of a tracker's stages as the tracker names them.
+/// Collects the times of a tracker's frames and of their stages as the tracker names them.
 class StageTimer {
  public:
   void begin(std::string_view stage) {
     const Clock::time_point now = Clock::now();
-    if (current_ >= 0) {
-      stages_[current_].frame_ms.push_back(std::chrono::duration<double, std::milli>(now - start_).count());
-    }
+    if (current_ < 0) frame_start_ = now;
+    if (current_ >= 0) stages_[current_].frame_ms.push_back(ms_between(start_, now));
+    if (stage.empty()) frame_ms_.push_back(ms_between(frame_start_, now));
     current_ = stage.empty() ? -1 : index_of(stage);
     start_ = now;
   }
-  std::vector<reports::StageTiming> take() { return std::move(stages_); }
+  std::vector<reports::StageTiming> take_stages() { return std::move(stages_); }
+  std::vector<double> take_frames() { return std::move(frame_ms_); }
 
  private:
+  static double ms_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double, std::milli>(to - from).count();
+  }
   int index_of(std::string_view stage) {
     for (size_t i = 0; i < stages_.size(); ++i) {
       if (stages_[i].stage == stage) return static_cast<int>(i);
@@ -35,8 +39,9 @@ class StageTimer {
   }
 
   std::vector<reports::StageTiming> stages_;
+  std::vector<double> frame_ms_;
   int current_ = -1;
-  Clock::time_point start_;
+  Clock::time_point start_, frame_start_;
 };
 
 /// Could a tracker be asked for this frame? Most of the visible glove lies within the working volume, is enough to
@@ -55,13 +60,12 @@ bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config)
 }
 
 FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel& subject,
-                    const render::RgbdImages& images, const TrackerConfig& config) {
+                    const render::RgbdImages& images) {
   FrameTruth truth;
   truth.posture = frame.posture;
   truth.T_camera_hand = frame.T_camera_hand;
   truth.T_hand_joint = subject.pose(frame.posture).T_hand_joint;
   truth.visible_pixels = count_patches(images.patch);
-  truth.trackable = is_trackable(images, config);
   return truth;
 }
 
@@ -72,22 +76,30 @@ render::SyntheticKinectConfig kinect_config(const Replay& replay) {
   config.noise.gain_factor = replay.noise.factor;
   config.seed = replay.seed;
   config.sequence = replay.truth->name;
+  config.lighting = replay.lighting;
   config.first_frame = replay.range.first;
   return config;
+}
+
+/// Of replays that share their images: do they share their device frames, too?
+bool share_noise(const Replay& a, const Replay& b) {
+  return a.noise == b.noise && a.seed == b.seed;
 }
 
 /// The trackers of one replay and what they made so far.
 class Pass {
  public:
-  Pass(Workbench& workbench, const Replay& replay, const TrackerConfig& config)
-      : kinect_(kinect_config(replay)), model_(workbench.model()) {
+  Pass(Workbench& workbench, const Replay& replay)
+      : replay_(&replay), config_(replay.tracker), kinect_(kinect_config(replay)), model_(workbench.model()) {
     for (const std::string& database : replay.databases) {
-      trackers_.push_back(workbench.make_tracker(config, database));
-      tracked_.push_back({database, {}, {}, {}});
+      trackers_.push_back(workbench.make_tracker(config_, database));
+      tracked_.push_back({database, {}, {}, {}, {}});
     }
     timers_.resize(trackers_.size());
   }
 
+  const Replay& replay() const { return *replay_; }
+  const TrackerConfig& config() const { return config_; }
   /// The device frame of these images, under this replay's noise.
   DeviceFrame frame_of(const render::RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                        int number) const {
@@ -103,11 +115,16 @@ class Pass {
     }
   }
   std::vector<TrackedReplay> take() {
-    for (size_t t = 0; t < tracked_.size(); ++t) tracked_[t].stages = timers_[t].take();
+    for (size_t t = 0; t < tracked_.size(); ++t) {
+      tracked_[t].stages = timers_[t].take_stages();
+      tracked_[t].frame_ms = timers_[t].take_frames();
+    }
     return std::move(tracked_);
   }
 
  private:
+  const Replay* replay_;
+  TrackerConfig config_;
   render::SyntheticKinectConfig kinect_;
   std::shared_ptr<const HandModel> model_;
   std::vector<Tracker> trackers_;
@@ -130,7 +147,7 @@ std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay) {
 }
 
 bool share_images(const Replay& a, const Replay& b) {
-  return a.truth == b.truth && a.subject == b.subject && a.range == b.range;
+  return a.truth == b.truth && a.subject == b.subject && a.range == b.range && a.lighting == b.lighting;
 }
 
 render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) {
@@ -143,27 +160,30 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) 
 }
 
 std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, std::span<const Replay> replays,
-                                                        const TrackerConfig& config,
                                                         const std::function<void()>& frame_done) {
   const Replay& first = replays.front();
   std::vector<Pass> passes;
   for (const Replay& replay : replays) {
-    check(share_images(first, replay), "replays that are rendered once differ in noise and databases alone");
-    passes.emplace_back(workbench, replay, config);
+    check(share_images(first, replay), "replays that are rendered once show the same");
+    passes.emplace_back(workbench, replay);
   }
   const std::shared_ptr<const HandModel> subject = workbench.subject(first.subject);
 
   render::SyntheticKinect kinect = make_kinect(workbench, first);
   int number = first.range.first;
   for (const trajectories::TrajectoryFrame& true_frame : frames_of(first)) {
-    const std::optional<DeviceFrame> frame = kinect.next_frame();
+    std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
     const render::RgbdImages& images = kinect.truth();
-    const FrameTruth truth = truth_of(true_frame, *subject, images, config);
+    FrameTruth truth = truth_of(true_frame, *subject, images);
+    const Replay* shown = &first;
     for (Pass& pass : passes) {
-      const bool is_first = &pass == &passes.front();
-      pass.track(is_first ? *frame : pass.frame_of(images, kinect.calibration(), true_frame.timestamp_us, number),
-                 truth, number);
+      if (!share_noise(*shown, pass.replay())) {
+        frame = pass.frame_of(images, kinect.calibration(), true_frame.timestamp_us, number);
+        shown = &pass.replay();
+      }
+      truth.trackable = is_trackable(images, pass.config());
+      pass.track(*frame, truth, number);
       if (frame_done) frame_done();
     }
     ++number;
@@ -173,9 +193,9 @@ std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, st
   return tracked;
 }
 
-std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, const TrackerConfig& config,
+std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay,
                                   const std::function<void()>& frame_done) {
-  return replay_together(workbench, {&replay, 1}, config, frame_done).front();
+  return replay_together(workbench, {&replay, 1}, frame_done).front();
 }
 
 }  // namespace glovebench::eval

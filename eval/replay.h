@@ -25,7 +25,7 @@ struct FrameRange {
   friend bool operator==(const FrameRange&, const FrameRange&) = default;
 };
 
-/// One pass over a trajectory: rendered once, tracked against each of the databases.
+/// One pass over a trajectory: rendered once, tracked with one configuration against each of the databases.
 struct Replay {
   std::shared_ptr<const trajectories::Trajectory> truth;
   int subject = 1;  ///< the hand in front of the camera
@@ -33,6 +33,8 @@ struct Replay {
   uint64_t seed = 1;
   std::vector<std::string> databases;
   FrameRange range = {};
+  TrackerConfig tracker = {};
+  render::Lighting lighting = {};
 };
 /// The frames of the truth that are replayed. Throws Error if the trajectory does not have them.
 std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay);
@@ -43,6 +45,7 @@ struct TrackedReplay {
   std::vector<TrackResult> results;  ///< one a frame
   std::vector<FrameErrors> errors;   ///< one a frame
   std::vector<reports::StageTiming> stages;
+  std::vector<double> frame_ms;  ///< one a frame: all stages
 };
 
 /// The Kinect that plays a trajectory: what `replay` gives to the tracker.
@@ -50,15 +53,15 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay);
 
 /// Replays ground truth through the whole tracker: render -> device frame -> track -> measure. The trackers see
 /// device frames and calibration only. `frame_done` is called after each frame.
-std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay, const TrackerConfig& config,
+std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay,
                                   const std::function<void()>& frame_done = {});
 
-/// Do they show the same hand in the same frames, so that they differ in noise and databases alone?
+/// Do they show the same hand in the same frames and light, so that they differ in noise, databases and
+/// configuration alone?
 bool share_images(const Replay& a, const Replay& b);
 /// The same for replays that share their images, which are rendered once: an output for each, equal to its own
 /// replay's. `frame_done` is called after each frame of each.
 std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, std::span<const Replay> replays,
-                                                        const TrackerConfig& config,
                                                         const std::function<void()>& frame_done = {});
 
 }  // namespace glovebench::eval

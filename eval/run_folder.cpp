@@ -115,17 +115,20 @@ void RunFolder::finish() {
   lock_ = -1;
 }
 
-std::string replay_key(Workbench& workbench, const Replay& replay, const TrackerConfig& config) {
+std::string replay_key(Workbench& workbench, const Replay& replay) {
   nlohmann::json databases = nlohmann::json::array();
   for (const std::string& name : replay.databases) databases.push_back({name, workbench.database(name)->hash()});
   const auto frames = frames_of(replay);
   const nlohmann::json content = {
       {"program", program_hash()},
-      {"configuration", to_json(config)},
+      {"configuration", to_json(replay.tracker)},
       {"truth", {replay.truth->name, trajectories::hash(*replay.truth)}},
       {"frames", {replay.range.first, frames.size()}},
       {"noise", {replay.noise.model, replay.noise.factor}},
       {"seed", replay.seed},
+      {"lighting",
+       {replay.lighting.strength, replay.lighting.temperature_k, replay.lighting.ambient_share,
+        std::vector<double>(replay.lighting.direction_to_light.begin(), replay.lighting.direction_to_light.end())}},
       {"subject", {replay.subject, workbench.subject(replay.subject)->hash()}},
       {"hand_model", workbench.model()->hash()},
       {"databases", databases},

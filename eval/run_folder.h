@@ -46,7 +46,7 @@ class RunFolder {
 
 /// Names a replay by all that its outcome hangs on: this program (the hash of its file), configuration, truth,
 /// frames, noise, seed, subject, the hashes of databases, hand models and color table.
-std::string replay_key(Workbench& workbench, const Replay& replay, const TrackerConfig& config);
+std::string replay_key(Workbench& workbench, const Replay& replay);
 
 /// Throws reports::Incomparable if the folder of results is one of an unfinished run.
 void require_finished(const std::string& folder);

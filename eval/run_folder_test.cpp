@@ -28,7 +28,7 @@ std::vector<TrackedReplay> example_replay() {
   };
   std::vector<TrackedReplay> passes;
   for (const char* database : {"DB_a", "DB_b"}) {
-    TrackedReplay pass{database, {}, {}, {{"align", {0.1, 1.0 / 3}}, {"look_up", {}}}};
+    TrackedReplay pass{database, {}, {}, {{"align", {0.1, 1.0 / 3}}, {"look_up", {}}}, {2.0 / 3, 7}};
     for (int frame = 0; frame < 2; ++frame) {
       TrackResult result;
       result.timestamp_us = int64_t{1} << (40 + frame);
@@ -75,6 +75,7 @@ TEST(StoredReplay, ComesBackToTheLastBit) {
     EXPECT_EQ(read->at(p).database, stored[p].database);
     EXPECT_EQ(read->at(p).stages[0].frame_ms, stored[p].stages[0].frame_ms);
     EXPECT_EQ(read->at(p).stages[1].stage, "look_up");
+    EXPECT_EQ(read->at(p).frame_ms, stored[p].frame_ms);
     for (size_t f = 0; f < 2; ++f) {
       const TrackResult &r = read->at(p).results[f], &s = stored[p].results[f];
       EXPECT_EQ(std::tie(r.timestamp_us, r.status, r.ambiguous, r.converged, r.cloud_points, r.icp_points),

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 /// Raised whenever the meaning of a row below changes.
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// The first line of a file with that content.
 std::string heading(std::string_view content) {
@@ -116,7 +116,8 @@ json object_of(const TrackedReplay& replay) {
   return {{"database", replay.database},
           {"results", std::move(results)},
           {"errors", std::move(errors)},
-          {"stages", std::move(stages)}};
+          {"stages", std::move(stages)},
+          {"frame_ms", replay.frame_ms}};
 }
 
 TrackedReplay replay_of(const json& object) {
@@ -127,6 +128,7 @@ TrackedReplay replay_of(const json& object) {
   for (const json& stage : object.at("stages")) {
     replay.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::vector<double>>()});
   }
+  replay.frame_ms = object.at("frame_ms").get<std::vector<double>>();
   return replay;
 }
 

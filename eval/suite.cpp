@@ -256,6 +256,7 @@ Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite&
     for (const uint64_t seed : suite.seeds) {
       plan.replays.push_back(first);
       plan.replays.back().seed = seed;
+      plan.replays.back().tracker = tracker;
     }
   }
   return plan;

@@ -35,11 +35,13 @@ struct Explain {
                         experiment.key.subject,
                         experiment.key.noise,
                         experiment.runs.front().seed,
-                        {experiment.key.database}};
+                        {experiment.key.database},
+                        {},
+                        common.tracker_config()};
     const std::string path = common.output.empty()
                                  ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(experiment.key), frame)
                                  : common.output;
-    render::write_png(path, explain_frame(workbench, replay, common.tracker_config(), frame));
+    render::write_png(path, explain_frame(workbench, replay, frame));
     fmt::print("{}\n", path);
   }
 

@@ -32,7 +32,11 @@ struct Render {
     const auto movement = std::make_shared<const Trajectory>(load());
     common.left = movement->side == Side::left;
     Workbench workbench = common.workbench();
-    const Replay replay{movement, subject, {noise, 1}, common.seed, {}};
+    Replay replay;
+    replay.truth = movement;
+    replay.subject = subject;
+    replay.noise = {noise, 1};
+    replay.seed = common.seed;
     render::SyntheticKinect kinect = make_kinect(workbench, replay);
     std::optional<RecordingWriter> recording;
     if (format == "fakenect") recording.emplace(common.output, workbench.calibration());

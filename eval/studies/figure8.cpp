@@ -1,9 +1,196 @@
-#include "eval/studies/study.h"
+#include <algorithm>
+#include <cmath>
+
+#include "eval/studies/cascade_survival.h"
+#include "eval/studies/settings.h"
+#include "reports/paper_numbers.h"
 
 namespace glovebench::eval {
+namespace {
 
-reports::StudyResult run_figure8(const StudyContext&) {
-  return {"fig8", "Figure 8: matching cascades", {}, {}};
+using reports::Cell;
+using reports::FrameRecord;
+using reports::Measure;
+using reports::PaperCascade;
+using reports::percentile;
+using reports::Table;
+using reports::TruthKind;
+
+const std::vector<std::string> kDatabases = {"DB_20_postures", "DB_open_pinch_power"};
+enum Database { kLarge, kSmall };
+
+/// Those that the paper compares.
+std::vector<Cascade> paper_cascades() {
+  std::vector<Cascade> cascades;
+  for (const PaperCascade& row : reports::paper_numbers().figure_8)
+    if (std::ranges::find(cascades, row.cascade) == cascades.end()) cascades.push_back(row.cascade);
+  return cascades;
+}
+
+const PaperCascade* paper_row(const std::string& database, const Cascade& cascade) {
+  const auto& rows = reports::paper_numbers().figure_8;
+  const auto it = std::ranges::find_if(
+      rows, [&](const PaperCascade& row) { return row.database == database && row.cascade == cascade; });
+  return it == rows.end() ? nullptr : &*it;
+}
+
+Table empty_errors_table() {
+  return {
+      "figure8",
+      "Matching cascades",
+      "Means over all frames of the five movements, with 95% intervals over blocks of frames. Posture error is the "
+      "RMS over the 22 angles, filtered as always. Times of the look-up and of whole frames are of one thread on "
+      "this machine, the paper's of four cores of 2009; the paper does not say over which movements its posture "
+      "errors are. A frame's true nearest neighbor is the database entry with the smallest mean vertex distance "
+      "to the true hand, both centered at the hand and seen along the ray to it.",
+      {{"database", "database"},
+       {"cascade", "cascade"},
+       {"implementation", "implementation"},
+       {"truth", "truth"},
+       {"frames", "frames", 0},
+       {"posture_error_deg", "posture deg"},
+       {"posture_error_deg_low", "low"},
+       {"posture_error_deg_high", "high"},
+       {"position_error_mm", "position mm"},
+       {"rotation_error_deg", "rotation deg"},
+       {"true_neighbor_survives_percent", "true neighbor kept %", 1},
+       {"look_up_ms_p50", "look-up ms p50", 2, true},
+       {"look_up_ms_p95", "p95", 2, true},
+       {"look_up_ms_p99", "p99", 2, true},
+       {"frame_ms_p50", "frame ms p50", 2, true},
+       {"frame_ms_p95", "p95", 2, true},
+       {"frame_ms_p99", "p99", 2, true},
+       {"paper_posture_error_deg", "paper's posture deg"},
+       {"paper_time_ms", "paper's ms", 1}},
+      4,
+      {}};
+}
+
+Table empty_stages_table() {
+  return {
+      "figure8_stages",
+      "Stages of the cascades",
+      "How many entries each stage is given and keeps, and in how many frames the true nearest neighbor is among "
+      "those it keeps.",
+      {{"database", "database"},
+       {"cascade", "cascade"},
+       {"truth", "truth"},
+       {"stage", "stage", 0},
+       {"size_px", "size px", 0},
+       {"candidates_in", "in", 0},
+       {"candidates_out", "out", 0},
+       {"true_neighbor_survives_percent", "true neighbor kept %", 1}},
+      4,
+      {}};
+}
+
+/// What one truth gives: errors and times by [cascade][database], survival by [database][cascade].
+struct Measured {
+  std::vector<std::vector<Passes>> passes;
+  std::vector<std::vector<std::vector<StageSurvival>>> survival;
+};
+
+std::vector<Cell> errors_row(const std::string& database, const Cascade& cascade, TruthKind truth,
+                             const Passes& passes, const std::vector<StageSurvival>& survival) {
+  const Sample posture = sample_of(passes, &FrameRecord::posture_rms_deg);
+  const std::vector<double> look_up = times_ms(passes, "look_up"), frame = times_ms(passes);
+  std::vector<Cell> row = {database, to_string(cascade), "plain", std::string(to_string(truth)),
+                           static_cast<int64_t>(frame.size())};
+  std::ranges::copy(cells(estimate_mean(posture)), std::back_inserter(row));
+  row.push_back(cell(mean(sample_of(passes, &FrameRecord::position_error_mm))));
+  row.push_back(cell(mean(sample_of(passes, &FrameRecord::rotation_error_deg))));
+  row.push_back(cell(mean(survival.back().survived_percent)));
+  for (const std::vector<double>& times : {look_up, frame})
+    for (const double share : {0.5, 0.95, 0.99}) row.push_back(cell(percentile(times, share)));
+  const PaperCascade* paper = paper_row(database, cascade);
+  row.push_back(paper ? Cell(paper->posture_error_deg) : Cell());
+  row.push_back(paper ? Cell(paper->time_ms) : Cell());
+  return row;
+}
+
+void add_rows(reports::StudyResult& result, TruthKind truth, const std::vector<Cascade>& cascades,
+              const Measured& measured) {
+  for (size_t d = 0; d < kDatabases.size(); ++d) {
+    for (size_t c = 0; c < cascades.size(); ++c) {
+      const std::vector<StageSurvival>& survival = measured.survival[d][c];
+      result.tables[0].rows.push_back(
+          errors_row(kDatabases[d], cascades[c], truth, measured.passes[c][d], survival));
+      for (size_t s = 0; s < survival.size(); ++s)
+        result.tables[1].rows.push_back({kDatabases[d], to_string(cascades[c]), std::string(to_string(truth)),
+                                         static_cast<int64_t>(s + 1), int64_t{cascades[c][s].size},
+                                         int64_t{survival[s].candidates_in}, int64_t{survival[s].candidates_out},
+                                         cell(mean(survival[s].survived_percent))});
+    }
+  }
+}
+
+/// The paper's four cascades by what they are in its argument; empty if one was not run.
+struct Roles {
+  size_t three_stages, two_stages, largest_alone, smallest_alone;
+};
+std::optional<Roles> roles_of(const std::vector<Cascade>& cascades) {
+  std::vector<size_t> places;
+  for (const char* text : {"16:1000,32:300,64:3", "16:500,64:3", "64:3", "8:15"}) {
+    const auto it = std::ranges::find(cascades, parse_cascade(text));
+    if (it == cascades.end()) return std::nullopt;
+    places.push_back(static_cast<size_t>(it - cascades.begin()));
+  }
+  return Roles{places[0], places[1], places[2], places[3]};
+}
+
+std::vector<Measure> error_measures(const std::vector<std::vector<Passes>>& passes, const Roles& roles) {
+  std::vector<Sample> posture;
+  for (const size_t c : {roles.smallest_alone, roles.largest_alone, roles.two_stages, roles.three_stages})
+    posture.push_back(sample_of(passes[c][kLarge], &FrameRecord::posture_rms_deg));
+  const Estimated excess = estimate(posture, [](std::span<const double> means) {
+    return std::optional(means[0] - *std::ranges::max_element(means.subspan(1)));
+  });
+  const Estimated change = estimate(std::vector{posture[2], posture[1]}, [](std::span<const double> means) {
+    return std::optional(std::abs(means[0] - means[1]));
+  });
+  return {{"figure8.posture_change_deg", "deg", change.value, change.interval},
+          {"figure8.tiny_posture_excess_deg", "deg", excess.value, excess.interval}};
+}
+
+std::vector<Measure> time_measures(const std::vector<std::vector<Passes>>& passes, const Roles& roles) {
+  const auto look_up = [&](size_t cascade, Database database) {
+    return percentile(times_ms(passes[cascade][database], "look_up"), 0.5);
+  };
+  const auto tiny = look_up(roles.smallest_alone, kLarge), large = look_up(roles.largest_alone, kLarge),
+             two = look_up(roles.two_stages, kLarge), three = look_up(roles.three_stages, kLarge),
+             small = look_up(roles.two_stages, kSmall);
+  const auto align = percentile(times_ms(passes[roles.two_stages][kSmall], "align"), 0.5);
+  const auto frame = percentile(times_ms(passes[roles.two_stages][kLarge]), 0.95);
+  if (!tiny || !large || !two || !three || !small || !align || !frame) return {};
+  return {{"figure8.time_share", "", *two / *large, {}, true},
+          {"figure8.tiny_time_share", "", *tiny / std::min({*large, *two, *three}), {}, true},
+          {"figure8.alignment_over_look_up_small", "", *align / *small, {}, true},
+          {"frame.p95_ms_20_postures", "ms", *frame, {}, true}};
+}
+
+}  // namespace
+
+reports::StudyResult run_figure8(const StudyContext& context) {
+  const std::vector<Cascade> cascades =
+      context.options.cascades.empty() ? paper_cascades() : context.options.cascades;
+  std::vector<Setting> settings;
+  for (const Cascade& cascade : cascades) {
+    settings.push_back({to_string(cascade), context.options.tracker});
+    settings.back().tracker.lookup.cascade = cascade;
+  }
+  reports::StudyResult result{
+      "fig8", "Figure 8: matching cascades", {empty_errors_table(), empty_stages_table()}, {}};
+  for (const TruthKind truth : {TruthKind::recorded, TruthKind::source}) {
+    const Movements replayed = movements(context, truth);
+    const Measured measured = {run_settings(context, replayed, settings, kDatabases, Pace::timed),
+                               measure_survival(context, replayed, kDatabases, cascades)};
+    add_rows(result, truth, cascades, measured);
+    const std::optional<Roles> roles = roles_of(cascades);
+    if (truth != TruthKind::source || !roles) continue;
+    std::ranges::move(error_measures(measured.passes, *roles), std::back_inserter(result.measures));
+    std::ranges::move(time_measures(measured.passes, *roles), std::back_inserter(result.measures));
+  }
+  return result;
 }
 
 }  // namespace glovebench::eval

@@ -1,9 +1,112 @@
-#include "eval/studies/study.h"
+#include <array>
+
+#include "eval/studies/settings.h"
 
 namespace glovebench::eval {
+namespace {
 
-reports::StudyResult run_figure9(const StudyContext&) {
-  return {"fig9", "Figure 9: sub-sampling", {}, {}};
+using reports::FrameRecord;
+using reports::Measure;
+using reports::Table;
+using reports::TruthKind;
+
+constexpr std::array<int, 7> kFactors = {1, 2, 4, 8, 16, 32, 64};
+/// The grasp-specific database of the movements with a power grasp, as in the paper's Figure 5.
+constexpr const char* kDatabase = "DB_open_power";
+const std::vector<std::string> kTrajectories = {"Tr3", "Tr4", "Tr5"};
+
+std::vector<Setting> settings_of(const TrackerConfig& tracker) {
+  std::vector<Setting> settings;
+  for (const int factor : kFactors) {
+    Setting setting{std::to_string(factor), tracker};
+    setting.tracker.icp.subsampling_factor = factor;
+    settings.push_back(setting);
+  }
+  return settings;
+}
+
+Table empty_table() {
+  return {
+      "figure9",
+      "Sub-sampling of the point cloud",
+      "Every n-th point of the cloud goes into the alignment (n = factor). Errors are means over Tr3, Tr4 and Tr5 "
+      "with DB_open_power, with 95% intervals over blocks of frames; times are medians on one thread. The paper's "
+      "figure prints no numbers.",
+      {{"truth", "truth"},
+       {"factor", "factor", 0},
+       {"icp_points", "points", 0},
+       {"position_error_mm", "position mm"},
+       {"position_error_mm_low", "low"},
+       {"position_error_mm_high", "high"},
+       {"rotation_error_deg", "rotation deg"},
+       {"rotation_error_deg_low", "low"},
+       {"rotation_error_deg_high", "high"},
+       {"covered_percent", "covered %", 1},
+       {"frame_ms_p50", "frame ms", 2, true},
+       {"frame_ms_p95", "p95", 2, true},
+       {"align_ms_p50", "alignment ms", 2, true},
+       {"look_up_ms_p50", "look-up ms", 2, true}},
+      2,
+      {}};
+}
+
+std::optional<double> median(const std::vector<double>& values) {
+  return reports::percentile(values, 0.5);
+}
+
+void add_rows(Table& table, TruthKind truth, const std::vector<std::vector<Passes>>& passes) {
+  for (size_t f = 0; f < kFactors.size(); ++f) {
+    const Passes& of_factor = passes[f][0];
+    const auto points = mean(sample_of(
+        of_factor, [](const TrackResult& r, const FrameErrors&) { return std::optional<double>(r.icp_points); }));
+    std::vector<reports::Cell> row = {std::string(to_string(truth)), int64_t{kFactors[f]}, cell(points)};
+    for (const auto metric : {&FrameRecord::position_error_mm, &FrameRecord::rotation_error_deg})
+      std::ranges::copy(cells(estimate_mean(sample_of(of_factor, metric))), std::back_inserter(row));
+    row.push_back(cell(covered_percent(of_factor)));
+    const std::vector<double> frames = times_ms(of_factor);
+    for (const auto& value : {median(frames), reports::percentile(frames, 0.95),
+                              median(times_ms(of_factor, "align")), median(times_ms(of_factor, "look_up"))})
+      row.push_back(cell(value));
+    table.rows.push_back(row);
+  }
+}
+
+/// How far the frame's time at the largest factor is above that of the stages before the alignment.
+std::vector<Measure> time_measures(const Passes& sparsest) {
+  const auto frame = median(times_ms(sparsest)), align = median(times_ms(sparsest, "align")),
+             look_up = median(times_ms(sparsest, "look_up"));
+  if (!frame || !align || !look_up) return {};
+  return {{"figure9.time_over_floor", "", *align / (*frame - *align), {}, true},
+          {"figure9.look_up_share_at_64", "", *look_up / *frame, {}, true}};
+}
+
+std::vector<Measure> error_measures(const std::vector<std::vector<Passes>>& passes) {
+  std::vector<Sample> errors;
+  for (const std::vector<Passes>& of_factor : passes)
+    errors.push_back(sample_of(of_factor[0], &FrameRecord::position_error_mm));
+  const auto per_doubling = [](std::span<const double> means) {
+    return std::optional(std::pow(means[1] / means[0], 1.0 / (kFactors.size() - 1)) - 1);
+  };
+  const auto rise = [](std::span<const double> means) { return std::optional(means[1] - means[0]); };
+  const Estimated growth = estimate(std::vector{errors.front(), errors.back()}, per_doubling);
+  const Estimated at_16 = estimate(std::vector{errors[0], errors[4]}, rise);
+  return {{"figure9.position_rise_per_doubling", "", growth.value, growth.interval},
+          {"figure9.position_rise_at_16_mm", "mm", at_16.value, at_16.interval}};
+}
+
+}  // namespace
+
+reports::StudyResult run_figure9(const StudyContext& context) {
+  reports::StudyResult result{"fig9", "Figure 9: sub-sampling", {empty_table()}, {}};
+  for (const TruthKind truth : {TruthKind::recorded, TruthKind::source}) {
+    const auto passes = run_settings(context, movements(context, truth, kTrajectories),
+                                     settings_of(context.options.tracker), {kDatabase}, Pace::timed);
+    add_rows(result.tables[0], truth, passes);
+    if (truth != TruthKind::source) continue;
+    for (const Measure& measure : error_measures(passes)) result.measures.push_back(measure);
+    for (const Measure& measure : time_measures(passes.back()[0])) result.measures.push_back(measure);
+  }
+  return result;
 }
 
 }  // namespace glovebench::eval

@@ -1,0 +1,112 @@
+#include "eval/studies/settings.h"
+
+#include "eval/share.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::TruthKind;
+using trajectories::Trajectory;
+
+/// A stretch of Tr4 in which the hand closes to a power grasp: what a quick reproduction looks at.
+constexpr const char* kQuickTrajectory = "Tr4";
+constexpr FrameRange kQuickFrames = {40, 24};
+
+}  // namespace
+
+Movements movements(const StudyContext& context, TruthKind truth, const std::vector<std::string>& names) {
+  Movements result;
+  std::vector<std::string> wanted = names.empty() ? trajectories::ground_truth_names() : names;
+  if (context.options.quick) {
+    wanted = {kQuickTrajectory};
+    result.range = kQuickFrames;
+  }
+  const auto load =
+      truth == TruthKind::recorded ? trajectories::recorded_trajectory : trajectories::source_trajectory;
+  for (const std::string& name : wanted)
+    result.truths.push_back(std::make_shared<const Trajectory>(load(trajectory_folder(), name)));
+  return result;
+}
+
+std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const Movements& movements,
+                                              const std::vector<Setting>& settings,
+                                              const std::vector<std::string>& databases, Pace pace) {
+  // Settings stand innermost: what shares its images stands together and is rendered once.
+  std::vector<Replay> replays;
+  for (const auto& truth : movements.truths)
+    for (const uint64_t seed : context.options.seeds)
+      for (const Setting& setting : settings)
+        replays.push_back(
+            {truth, setting.subject, {}, seed, databases, movements.range, setting.tracker, setting.lighting});
+  prepare(context.workbench, replays);
+  const int threads = pace == Pace::timed ? 1 : context.workbench.config().threads;
+  std::vector<TrackedReplays> tracked = replay_all(context.workbench, replays, threads, context.run_folder);
+
+  std::vector<std::vector<Passes>> result(settings.size(), std::vector<Passes>(databases.size()));
+  size_t next = 0;
+  for (size_t t = 0; t < movements.truths.size(); ++t) {
+    for (size_t s = 0; s < context.options.seeds.size(); ++s) {
+      for (std::vector<Passes>& of_setting : result) {
+        TrackedReplays& of_replay = tracked[next++];
+        for (size_t d = 0; d < databases.size(); ++d) {
+          of_setting[d].strata.resize(movements.truths.size());
+          of_setting[d].strata[t].push_back(std::move(of_replay[d]));
+        }
+      }
+    }
+  }
+  for (std::vector<Passes>& of_setting : result) {
+    for (Passes& passes : of_setting) {
+      passes.truths = movements.truths;
+      passes.range = movements.range;
+    }
+  }
+  return result;
+}
+
+Sample sample_of(const Passes& passes,
+                 const std::function<std::optional<double>(const TrackResult&, const FrameErrors&)>& value) {
+  Sample sample;
+  for (const std::vector<TrackedReplay>& seeds : passes.strata) {
+    auto& stratum = sample.emplace_back();
+    for (const TrackedReplay& pass : seeds) {
+      auto& frames = stratum.emplace_back();
+      for (size_t f = 0; f < pass.results.size(); ++f) frames.push_back(value(pass.results[f], pass.errors[f]));
+    }
+  }
+  return sample;
+}
+
+Sample sample_of(const Passes& passes, std::optional<double> reports::FrameRecord::*metric) {
+  return sample_of(passes, [&](const TrackResult&, const FrameErrors& errors) { return errors.record.*metric; });
+}
+
+std::vector<double> times_ms(const Passes& passes, std::string_view stage) {
+  std::vector<double> times;
+  for (const std::vector<TrackedReplay>& seeds : passes.strata) {
+    for (const TrackedReplay& pass : seeds) {
+      if (stage.empty()) times.insert(times.end(), pass.frame_ms.begin(), pass.frame_ms.end());
+      for (const reports::StageTiming& timing : pass.stages)
+        if (timing.stage == stage) times.insert(times.end(), timing.frame_ms.begin(), timing.frame_ms.end());
+    }
+  }
+  return times;
+}
+
+std::optional<double> covered_percent(const Passes& passes) {
+  return mean(sample_of(passes, [](const TrackResult&, const FrameErrors& errors) {
+    return std::optional(errors.record.covered ? 100.0 : 0.0);
+  }));
+}
+
+reports::Cell cell(const std::optional<double>& value) {
+  return value ? reports::Cell(*value) : reports::Cell();
+}
+
+std::vector<reports::Cell> cells(const Estimated& estimated) {
+  if (!estimated.interval) return {cell(estimated.value), {}, {}};
+  return {cell(estimated.value), estimated.interval->low, estimated.interval->high};
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "eval/replay_all.h"
+#include "eval/studies/sample.h"
+#include "eval/studies/study.h"
+
+namespace glovebench::eval {
+
+/// One way to run the trajectories of a study.
+struct Setting {
+  std::string name;
+  TrackerConfig tracker;
+  int subject = 1;
+  render::Lighting lighting = {};
+};
+
+/// What one setting came to with one database: a stratum a trajectory, in it a replay a noise seed.
+struct Passes {
+  std::vector<std::vector<TrackedReplay>> strata;
+  std::vector<std::shared_ptr<const trajectories::Trajectory>> truths;  ///< of the strata
+  FrameRange range;
+};
+
+/// What is replayed in every setting.
+struct Movements {
+  std::vector<std::shared_ptr<const trajectories::Trajectory>> truths;
+  FrameRange range;
+};
+/// The trajectories of these names, or of all five if there are none; a stretch of one in a quick reproduction.
+Movements movements(const StudyContext& context, reports::TruthKind truth,
+                    const std::vector<std::string>& names = {});
+
+/// How the replays share the machine. Times of stages are those of the plain frame only when they ran alone.
+enum class Pace { timed, parallel };
+
+/// Every setting with every database over the same device frames, gradient noise x 1: [setting][database].
+std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const Movements& movements,
+                                              const std::vector<Setting>& settings,
+                                              const std::vector<std::string>& databases, Pace pace);
+
+/// A value of each frame.
+Sample sample_of(const Passes& passes,
+                 const std::function<std::optional<double>(const TrackResult&, const FrameErrors&)>& value);
+/// A metric of each frame (reports::metrics()).
+Sample sample_of(const Passes& passes, std::optional<double> reports::FrameRecord::*metric);
+
+/// Milliseconds of a stage, or of whole frames if the stage is empty, over all frames of all passes.
+std::vector<double> times_ms(const Passes& passes, std::string_view stage = "");
+/// The share of frames that are covered, percent.
+std::optional<double> covered_percent(const Passes& passes);
+
+/// A value, and the ends of its interval: three cells.
+std::vector<reports::Cell> cells(const Estimated& estimated);
+reports::Cell cell(const std::optional<double>& value);
+
+}  // namespace glovebench::eval
