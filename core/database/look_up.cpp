@@ -98,7 +98,9 @@ float distance(const Database& database, int entry, const LabelImage& query) {
   return pixels_from_sum(stored_sum(database.fields(query.width(), entry), offsets), offsets.size());
 }
 
-std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade) {
+std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
+                           LookUpTrace* trace) {
+  if (trace != nullptr) trace->kept.clear();
   struct Candidate {
     uint32_t sum;
     int entry;
@@ -119,12 +121,20 @@ std::vector<Match> look_up(const Database& database, const TinyImages& query, co
     const size_t keep = std::min<size_t>(cascade[s].keep, candidates.size());
     std::partial_sort(candidates.begin(), candidates.begin() + keep, candidates.end());
     candidates.resize(keep);
+    if (trace == nullptr) continue;
+    std::vector<int>& kept = trace->kept.emplace_back();
+    for (const Candidate& candidate : candidates) kept.push_back(candidate.entry);
   }
   std::vector<Match> matches;
   for (const Candidate& candidate : candidates) {
     matches.push_back({candidate.entry, pixels_from_sum(candidate.sum, offsets.size())});
   }
   return matches;
+}
+
+std::span<const LookUpImplementation> look_up_implementations() {
+  static constexpr std::array<LookUpImplementation, 1> implementations = {{{"plain", look_up}}};
+  return implementations;
 }
 
 }  // namespace glovebench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +39,24 @@ TinyImages make_tiny_images(const LabelImage& labels, const Square& square, cons
 /// nearest pixel of the same color, px. 0 for a query without glove pixels.
 float distance(const Database& database, int entry, const LabelImage& query);
 
+/// What each stage of a cascade kept.
+struct LookUpTrace {
+  /// Entries, best first; one list a stage, up to the first stage whose query has no glove pixels.
+  std::vector<std::vector<int>> kept;
+};
+
 /// The matching cascade of section III-B, entry after entry as the paper describes it: each stage ranks what the
-/// one before it kept. Best first; equal errors by entry number. Empty for a query without glove pixels.
-std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade);
+/// one before it kept. Best first; equal errors by entry number. Empty for a query without glove pixels. `trace`,
+/// if given, receives what each stage kept.
+std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
+                           LookUpTrace* trace = nullptr);
+
+/// A way to look up. All give the same matches and the same trace.
+struct LookUpImplementation {
+  std::string_view name;
+  std::vector<Match> (*look_up)(const Database&, const TinyImages&, const Cascade&, LookUpTrace*);
+};
+/// "plain", which is `look_up`, comes first.
+std::span<const LookUpImplementation> look_up_implementations();
 
 }  // namespace glovebench

@@ -140,6 +140,46 @@ TEST(LookUp, the_papers_cascade_agrees_with_exhaustive_search) {
   EXPECT_GE(equal, 98);
 }
 
+TEST(LookUp, the_trace_holds_what_each_stage_kept) {
+  const Database& database = test_database();
+  const LabelImage image = random_query(1);
+  const Cascade cascade = {{8, 40}, {32, 5}};
+  const TinyImages query = make_tiny_images(image, bounding_square(image), cascade);
+  const auto entries_of = [](const std::vector<Match>& matches) {
+    std::vector<int> entries;
+    for (const Match& match : matches) entries.push_back(match.entry);
+    return entries;
+  };
+  LookUpTrace trace{{{1, 2, 3}}};  // of another look-up
+  const std::vector<Match> matches = look_up(database, query, cascade, &trace);
+  ASSERT_EQ(trace.kept.size(), 2u);
+  EXPECT_EQ(trace.kept[0], entries_of(look_up(database, {{query.images[0]}}, {{8, 40}})));
+  EXPECT_EQ(trace.kept[1], entries_of(matches));
+}
+
+TEST(LookUp, all_implementations_agree_with_the_plain_one) {
+  const Database& database = test_database();
+  ASSERT_EQ(look_up_implementations()[0].name, "plain");
+  for (const Cascade& cascade : {Cascade{{16, 500}, {64, 3}}, Cascade{{64, 3}}, Cascade{{8, 2000}, {32, 7}}}) {
+    for (int number = 0; number < 10; ++number) {
+      const LabelImage image = random_query(number);
+      const TinyImages query = make_tiny_images(image, bounding_square(image), cascade);
+      LookUpTrace plain_trace;
+      const std::vector<Match> plain = look_up(database, query, cascade, &plain_trace);
+      for (const LookUpImplementation& implementation : look_up_implementations()) {
+        LookUpTrace trace;
+        const std::vector<Match> matches = implementation.look_up(database, query, cascade, &trace);
+        EXPECT_EQ(trace.kept, plain_trace.kept) << implementation.name << ", query " << number;
+        ASSERT_EQ(matches.size(), plain.size()) << implementation.name << ", query " << number;
+        for (size_t i = 0; i < plain.size(); ++i) {
+          EXPECT_EQ(matches[i].entry, plain[i].entry) << implementation.name << ", query " << number;
+          EXPECT_EQ(matches[i].error, plain[i].error) << implementation.name << ", query " << number;
+        }
+      }
+    }
+  }
+}
+
 TEST(LookUp, a_query_without_glove_matches_nothing) {
   const Cascade cascade = {{16, 500}, {64, 3}};
   const LabelImage empty(640, 480);

@@ -46,7 +46,8 @@ struct Best {
 
 }  // namespace
 
-Surface::Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand) {
+Surface::Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
+                 Coloring coloring) {
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   double total = 0;
   for (uint32_t t = 0; t < model.triangles().size(); ++t) {
@@ -57,7 +58,7 @@ Surface::Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vec
     const Eigen::Vector3f to_viewer = viewpoint_hand - face.a;
     const float facing = normal.dot(to_viewer);
     if (facing <= 0) continue;
-    Color& color = colors_[triangle.label];
+    Color& color = colors_[coloring == Coloring::by_color ? triangle.label : kAnyColor];
     color.faces.push_back(face);
     const Eigen::Vector3f middle = (face.a + face.b + face.c) / 3;
     const float radius = std::sqrt(std::max(

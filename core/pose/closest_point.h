@@ -19,8 +19,13 @@ class Surface {
     Eigen::Vector3f a, b, c;
     uint32_t triangle;  ///< in the model
   };
+  enum class Coloring { by_color, any_color };
+  /// The label under which a surface without colors (`any_color`) keeps all its faces; its points have it too.
+  static constexpr uint8_t kAnyColor = 0;
+
   /// Faces turned away from `viewpoint_hand` are culled (section III-C).
-  Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand);
+  Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
+          Coloring coloring = Coloring::by_color);
 
   const std::vector<Face>& faces(uint8_t label) const { return colors_[label].faces; }
   bool empty() const;

@@ -40,13 +40,26 @@ Pairs make_pairs(std::span<const LabeledPoint> cloud, std::span<const ClosestPoi
   return pairs;
 }
 
+/// The points of a cloud that take part, with the labels under which a surface keeps its faces.
+std::vector<LabeledPoint> points_to_align(std::span<const LabeledPoint> cloud, const IcpConfig& config) {
+  std::vector<LabeledPoint> points = config.subsampling_factor > 0 ? every_nth(cloud, config.subsampling_factor)
+                                                                   : subsample(cloud, config.max_points);
+  if (!config.color_sensitive) {
+    for (LabeledPoint& point : points) point.label = Surface::kAnyColor;
+  }
+  return points;
+}
+
 }  // namespace
 
-std::vector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points) {
-  const size_t stride = std::max<size_t>(1, (points.size() + max_points - 1) / max_points);
+std::vector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n) {
   std::vector<LabeledPoint> result;
-  for (size_t i = 0; i < points.size(); i += stride) result.push_back(points[i]);
+  for (size_t i = 0; i < points.size(); i += n) result.push_back(points[i]);
   return result;
+}
+
+std::vector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points) {
+  return every_nth(points, std::max<size_t>(1, (points.size() + max_points - 1) / max_points));
 }
 
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
@@ -64,13 +77,14 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
 
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
-  const std::vector<LabeledPoint> points = subsample(cloud, config.max_points);
+  const std::vector<LabeledPoint> points = points_to_align(cloud, config);
   Alignment result;
   result.T_camera_hand = T_camera_hand_coarse;
   result.points = static_cast<int>(points.size());
   if (points.size() < 3) return result;
 
-  Surface surface(model, hand, viewpoint(result.T_camera_hand));
+  const auto coloring = config.color_sensitive ? Surface::Coloring::by_color : Surface::Coloring::any_color;
+  Surface surface(model, hand, viewpoint(result.T_camera_hand), coloring);
   std::optional<ClosestPointSearch> search(surface);
   const auto pairs_now = [&] {
     return make_pairs(points, (*search)(in_hand_frame(points, result.T_camera_hand)), result.T_camera_hand);
@@ -94,7 +108,7 @@ Alignment align(const HandModel& model, const PosedHand& hand, std::span<const L
     result.T_camera_hand = *T_k * result.T_camera_hand;
     ++result.iterations;
     if (config.cull_each_iteration) {
-      surface = Surface(model, hand, viewpoint(result.T_camera_hand));
+      surface = Surface(model, hand, viewpoint(result.T_camera_hand), coloring);
       search.emplace(surface);
     }
     pairs = pairs_now();

@@ -10,9 +10,11 @@ namespace glovebench {
 
 struct IcpConfig {
   int max_points = 1000;             ///< uniform stride down to at most this many, >= 3
+  int subsampling_factor = 0;        ///< every n-th point (Figure 9); 0: as many as `max_points` allows, >= 0
   int max_iterations = 100;          ///< >= 1
   double convergence_share = 1e-3;   ///< stop when the mean distance changes by less than this share, > 0
   bool cull_each_iteration = false;  ///< back faces: before the first iteration (paper) or in each
+  bool color_sensitive = true;       ///< closest triangles of a point's color (paper) or of any color
 };
 
 enum class AlignmentStatus { converged, not_converged, too_few_points, degenerate_cloud, no_shared_color };
@@ -25,7 +27,9 @@ struct Alignment {
   double residual = 0;  ///< mean point-to-triangle distance at the end, m
 };
 
-/// Every n-th point, so that at most `max_points` remain.
+/// The points 0, n, 2n, ... (n >= 1).
+std::vector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
+/// Every n-th point, with the smallest n that leaves at most `max_points`.
 std::vector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
 /// The coarse pose of section III-C: rotation from the look-up; the center of gravity of the faces that look at the
@@ -34,7 +38,8 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
                               std::span<const LabeledPoint> points);
 
 /// Color-sensitive iterative closest point-to-triangle (section III-C, equation 3): each point goes to the closest
-/// front-facing triangle of its color, Horn's alignment moves the hand, until the mean distance settles.
+/// front-facing triangle of its color (or of any, if so configured), Horn's alignment moves the hand, until the
+/// mean distance settles.
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 

@@ -195,6 +195,70 @@ TEST(Subsample, takes_every_nth_point_and_at_most_the_limit) {
   EXPECT_TRUE(subsample({}, 1000).empty());
 }
 
+TEST(Subsample, a_factor_takes_every_nth_point_whatever_the_limit) {
+  std::vector<LabeledPoint> points(10);
+  for (int i = 0; i < 10; ++i) points[i].p.x() = static_cast<float>(i);
+  const std::vector<LabeledPoint> some = every_nth(points, 4);
+  ASSERT_EQ(some.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(some[i].p.x(), static_cast<float>(4 * i));
+  EXPECT_EQ(every_nth(points, 1).size(), 10u);
+  EXPECT_EQ(every_nth(points, 10).size(), 1u);
+  EXPECT_TRUE(every_nth({}, 3).empty());
+
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  for (const int n : {1, 7, 20}) {
+    const Alignment alignment = align(test_hand(), posed(), cloud, truth, {.subsampling_factor = n});
+    EXPECT_EQ(alignment.points, static_cast<int>((cloud.size() + n - 1) / n)) << n;
+    EXPECT_LT(distance_mm(alignment.T_camera_hand, truth), 0.05) << n;
+  }
+}
+
+TEST(IcpOfAnyColor, does_not_see_the_labels) {
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  std::vector<LabeledPoint> mislabeled = cloud;
+  for (LabeledPoint& point : mislabeled) point.label = static_cast<uint8_t>(point.label % kColorCount + 1);
+  const Eigen::Isometry3d start = perturbed(truth, 1);
+  const IcpConfig any{.color_sensitive = false};
+  const Alignment a = align(test_hand(), posed(), cloud, start, any);
+  const Alignment b = align(test_hand(), posed(), mislabeled, start, any);
+  EXPECT_EQ(a.T_camera_hand.matrix(), b.T_camera_hand.matrix());
+  EXPECT_EQ(a.iterations, b.iterations);
+  EXPECT_NE(a.T_camera_hand.matrix(), align(test_hand(), posed(), cloud, start, {}).T_camera_hand.matrix());
+}
+
+TEST(IcpOfAnyColor, goes_to_the_closest_face_of_all) {
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  const Eigen::Isometry3d start = perturbed(truth, 2);
+  const Eigen::Vector3f viewpoint = start.inverse().translation().cast<float>();
+  const Surface colored(test_hand(), posed(), viewpoint);
+  const Surface any(test_hand(), posed(), viewpoint, Surface::Coloring::any_color);
+  EXPECT_EQ(any.center(), colored.center());
+  size_t faces = 0;
+  for (uint8_t label = 1; label <= kColorCount; ++label) {
+    faces += colored.faces(label).size();
+    EXPECT_TRUE(any.faces(label).empty());
+  }
+  EXPECT_EQ(any.faces(Surface::kAnyColor).size(), faces);
+
+  const std::vector<LabeledPoint> cloud = subsample(true_cloud(truth), 50);
+  std::vector<LabeledPoint> points = cloud;
+  for (LabeledPoint& point : points) point = {start.inverse().cast<float>() * point.p, Surface::kAnyColor};
+  const std::vector<ClosestPoint> closest = closest_points_plain(points, any);
+  const std::vector<ClosestPoint> searched = ClosestPointSearch(any)(points);
+  for (size_t i = 0; i < points.size(); ++i) {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (uint8_t label = 1; label <= kColorCount; ++label) {
+      const LabeledPoint point{points[i].p, label};
+      const ClosestPoint of_color = closest_points_plain({&point, 1}, colored).front();
+      if (of_color.face >= 0) nearest = std::min(nearest, of_color.distance);
+    }
+    EXPECT_EQ(closest[i].distance, nearest) << "point " << i;
+    EXPECT_EQ(searched[i].distance, nearest) << "point " << i;
+  }
+}
+
 TEST(CoarsePose, puts_the_visible_center_on_the_clouds) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
   const std::vector<LabeledPoint> cloud = true_cloud(truth);

@@ -52,9 +52,11 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("lookup", "interpolation_epsilon_px", c.lookup.interpolation_epsilon, kPositive);
   visit("lookup", "max_matching_error_share", c.lookup.max_matching_error, kPositive);
   visit("icp", "max_points", c.icp.max_points, Range{3, 307200});
+  visit("icp", "subsampling_factor", c.icp.subsampling_factor, Range{0, 307200});
   visit("icp", "max_iterations", c.icp.max_iterations, Range{1, 10000});
   visit("icp", "convergence_share", c.icp.convergence_share, kShare);
   visit("icp", "cull_each_iteration", c.icp.cull_each_iteration, Range{});
+  visit("icp", "color_sensitive", c.icp.color_sensitive, Range{});
   visit("icp", "max_residual_m", c.max_residual, kPositive);
   visit("smoothing", "posture_keep", c.smoothing.posture_keep, Range{0, 0.999});
   visit("smoothing", "pose_keep", c.smoothing.pose_keep, Range{0, 0.999});

@@ -72,7 +72,7 @@ TEST(TrackerConfig, each_key_changes_its_field_alone) {
       ++fields;
     }
   }
-  EXPECT_EQ(fields, 25);
+  EXPECT_EQ(fields, 27);
 }
 
 TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
@@ -84,8 +84,8 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
     "detection": {"min_pixels": 99, "second_hand_share": 0.2, "component_depth_step_m": 0.03, "max_border_pixels": 3,
                   "max_border_share": 0.6},
     "lookup": {"cascade": "8:9", "interpolation_epsilon_px": 0.1, "max_matching_error_share": 0.2},
-    "icp": {"max_points": 500, "max_iterations": 50, "convergence_share": 0.01, "cull_each_iteration": true,
-            "max_residual_m": 0.01},
+    "icp": {"max_points": 500, "subsampling_factor": 20, "max_iterations": 50, "convergence_share": 0.01,
+            "cull_each_iteration": true, "color_sensitive": false, "max_residual_m": 0.01},
     "smoothing": {"posture_keep": 0.5, "pose_keep": 0.25, "forget_after_frames": 4}})"));
   EXPECT_EQ(config.registration.occlusion_tolerance, 0.02);
   EXPECT_TRUE(config.segmentation.majority_filter);
@@ -105,6 +105,8 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
   EXPECT_EQ(config.lookup.interpolation_epsilon, 0.1);
   EXPECT_EQ(config.lookup.max_matching_error, 0.2);
   EXPECT_EQ(config.icp.max_points, 500);
+  EXPECT_EQ(config.icp.subsampling_factor, 20);
+  EXPECT_FALSE(config.icp.color_sensitive);
   EXPECT_EQ(config.icp.max_iterations, 50);
   EXPECT_EQ(config.icp.convergence_share, 0.01);
   EXPECT_TRUE(config.icp.cull_each_iteration);
@@ -159,7 +161,7 @@ TEST(TrackerConfig, each_number_has_a_range) {
       ++numbers;
     }
   }
-  EXPECT_EQ(numbers, 21);
+  EXPECT_EQ(numbers, 22);
   expect_refused({{"smoothing", {{"posture_keep", 1.0}}}}, {"smoothing.posture_keep", "0.999"});
   expect_refused({{"icp", {{"max_points", 2}}}}, {"icp.max_points", "[3, 307200]"});
   expect_refused({{"volume", {{"z_min_m", 0}}}}, {"volume.z_min_m", "above 0"});
