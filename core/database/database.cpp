@@ -26,6 +26,23 @@ PinholeCamera view_camera(const ViewConfig& views) {
   return {views.image_size, views.image_size, f, f, c, c};
 }
 
+/// The fields of larger images would no longer be exact: chamfer_field steps 64 px at most, and the cap of a larger
+/// side does not fit into a byte.
+constexpr int kSmallestSize = 4, kLargestSize = 64;
+
+void check_sizes(const std::string& name, std::span<const int> sizes) {
+  if (sizes.empty()) throw Error(name, "tiny images", "no sizes", "at least one");
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    if (sizes[i] < kSmallestSize || sizes[i] > kLargestSize) {
+      throw Error(name, "tiny images", fmt::format("{} px", sizes[i]),
+                  fmt::format("{} to {} px", kSmallestSize, kLargestSize));
+    }
+    if (std::ranges::find(sizes.first(i), sizes[i]) != sizes.first(i).end()) {
+      throw Error(name, "tiny images", fmt::format("{} px twice", sizes[i]), "each size once");
+    }
+  }
+}
+
 uint8_t field_cap(const ViewConfig& views, int size) {
   return static_cast<uint8_t>(std::clamp(std::lround(views.field_cap_share * size * kFieldScale), 1l, 255l));
 }
@@ -44,7 +61,8 @@ std::string Database::input_hash(const PostureSet& postures, const HandModel& mo
 
 Database Database::build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                          const ViewRendererFactory& renderers, int threads,
-                         const std::function<void(double)>& progress) {
+                         const std::function<void(double)>& progress, std::span<const int> sizes) {
+  check_sizes(postures.name, sizes);
   if (postures.postures.empty()) throw Error(postures.name, "postures", "none", "at least one");
   Database database;
   database.postures_ = postures;
@@ -52,7 +70,7 @@ Database Database::build(const PostureSet& postures, const HandModel& model, con
   database.hash_ = input_hash(postures, model, views);
   const int count = database.entry_count();
   database.box_rays_.resize(count);
-  for (const int size : kTinySizes) {
+  for (const int size : sizes) {
     const size_t pixels = static_cast<size_t>(size) * size;
     database.sizes_[size].labels.resize(count * pixels);
     database.sizes_[size].fields.resize(count * pixels * kColorCount);

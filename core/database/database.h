@@ -30,15 +30,17 @@ struct ViewConfig {
   double field_cap_share = 0.5;  ///< largest distance, also that of an absent color, as a share of the side, (0, 1]
 };
 
-/// The image database of section III: 756 views of each posture, as tiny images of four sizes with one
+/// The image database of section III: 756 views of each posture, as tiny images of several sizes with one
 /// distance field a color. Entry = posture * 756 + view. Immutable, shared between threads.
 class Database {
  public:
   /// Renders all views; the renderer factory is called once a thread. The result does not depend on `threads`.
-  /// `progress`, if given, hears the share done (0..1).
+  /// `progress`, if given, hears the share done (0..1). `sizes` are the tiny images' edge lengths, 4..64 px; what
+  /// is stored of one does not depend on the others, nor does `hash()`. Throws Error for another size, a size named
+  /// twice or no postures.
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
-                        const std::function<void(double)>& progress = {});
+                        const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes);
 
   /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it; `sizes` are the
   /// tiny-image sizes whose fields are wanted.

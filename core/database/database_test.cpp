@@ -129,6 +129,41 @@ TEST(Database, loads_only_the_sizes_asked_for) {
   EXPECT_THAT([&] { loaded.fields(8, 0); }, ThrowsMessage<Error>(AllOf(HasSubstr("DB_one"), HasSubstr("8 px"))));
 }
 
+TEST(Database, has_tiny_images_of_any_size_asked_for) {
+  constexpr std::array<int, 5> kSizes = {48, 4, 8, 23, 64};
+  const auto renderers = [] { return std::make_unique<BlockRenderer>(); };
+  const Database database =
+      Database::build(one_posture(), render::test_hand(), kSmallViews, renderers, 1, {}, kSizes);
+  EXPECT_FALSE(database.has_size(16));
+  for (const int size : kSizes) {
+    const auto cap = static_cast<uint8_t>(std::lround(kSmallViews.field_cap_share * size * kFieldScale));
+    const size_t pixels = static_cast<size_t>(size) * size;
+    for (const int entry : {0, 300, 755}) {
+      const LabelImage image = entry_image(database, size, entry);
+      for (int color = 1; color <= kColorCount; ++color) {
+        std::vector<uint8_t> field(pixels);
+        chamfer_field_plain(image, static_cast<uint8_t>(color), cap, field);
+        const uint8_t* const stored = database.fields(size, entry) + (color - 1) * pixels;
+        ASSERT_TRUE(std::equal(field.begin(), field.end(), stored)) << size << " px, entry " << entry;
+      }
+    }
+  }
+  // The other sizes change nothing.
+  constexpr std::array<int, 2> kShared = {8, 64};
+  expect_equal(database, small_database(), kShared);
+}
+
+TEST(Database, impossible_sizes_are_errors) {
+  const auto build = [](std::vector<int> sizes) {
+    const auto renderers = [] { return std::make_unique<BlockRenderer>(); };
+    Database::build(one_posture(), render::test_hand(), kSmallViews, renderers, 1, {}, sizes);
+  };
+  EXPECT_THAT([&] { build({8, 3}); }, ThrowsMessage<Error>(AllOf(HasSubstr("DB_one"), HasSubstr("3 px"))));
+  EXPECT_THAT([&] { build({65}); }, ThrowsMessage<Error>(HasSubstr("4 to 64 px")));
+  EXPECT_THAT([&] { build({8, 16, 8}); }, ThrowsMessage<Error>(HasSubstr("8 px twice")));
+  EXPECT_THAT([&] { build({}); }, ThrowsMessage<Error>(HasSubstr("no sizes")));
+}
+
 TEST(Database, the_input_hash_knows_every_input) {
   const PostureSet set = one_posture();
   const HandModel& model = render::test_hand();

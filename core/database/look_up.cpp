@@ -98,6 +98,16 @@ float distance(const Database& database, int entry, const LabelImage& query) {
   return pixels_from_sum(stored_sum(database.fields(query.width(), entry), offsets), offsets.size());
 }
 
+std::vector<float> distances(const Database& database, const LabelImage& query) {
+  const std::vector<int> offsets = glove_offsets(query);
+  std::vector<float> result(database.entry_count(), 0.0f);
+  if (offsets.empty()) return result;
+  for (int entry = 0; entry < database.entry_count(); ++entry) {
+    result[entry] = pixels_from_sum(stored_sum(database.fields(query.width(), entry), offsets), offsets.size());
+  }
+  return result;
+}
+
 std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
                            LookUpTrace* trace) {
   if (trace != nullptr) trace->kept.clear();

@@ -39,6 +39,9 @@ TinyImages make_tiny_images(const LabelImage& labels, const Square& square, cons
 /// nearest pixel of the same color, px. 0 for a query without glove pixels.
 float distance(const Database& database, int entry, const LabelImage& query);
 
+/// The same for every entry, one after the other.
+std::vector<float> distances(const Database& database, const LabelImage& query);
+
 /// What each stage of a cascade kept.
 struct LookUpTrace {
   /// Entries, best first; one list a stage, up to the first stage whose query has no glove pixels.

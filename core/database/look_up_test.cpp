@@ -74,6 +74,18 @@ TEST(LookUp, distance_is_the_mean_of_the_stored_fields) {
   EXPECT_EQ(distance(database, 0, LabelImage(16, 16)), 0);
 }
 
+TEST(LookUp, distances_are_those_of_all_entries) {
+  const Database& database = test_database();
+  const LabelImage image = random_query(2);
+  const LabelImage query = make_tiny_image(image, bounding_square(image), 16);
+  const std::vector<float> all = distances(database, query);
+  ASSERT_EQ(static_cast<int>(all.size()), database.entry_count());
+  for (int entry = 0; entry < database.entry_count(); ++entry) {
+    ASSERT_EQ(all[entry], distance(database, entry, query)) << entry;
+  }
+  EXPECT_EQ(distances(database, LabelImage(16, 16)), std::vector<float>(all.size(), 0));
+}
+
 TEST(LookUp, finds_each_own_view_with_error_0) {
   const Database& database = test_database();
   const Cascade cascade = {{64, 1}};

@@ -19,7 +19,8 @@ int border_pixels(const LabelImage& labels) {
   return count;
 }
 
-/// Is there one whole hand in the cloud? `tracked` if so.
+}  // namespace
+
 TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
   if (static_cast<int>(cloud.points.size()) < config.min_pixels) {
     return cloud.labeled_outside >= config.min_pixels ? TrackStatus::outside_volume : TrackStatus::no_hand;
@@ -33,6 +34,8 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
   if (sizes.size() > 1 && sizes[1] > config.second_hand_share * sizes[0]) return TrackStatus::several_hands;
   return TrackStatus::tracked;
 }
+
+namespace {
 
 TrackStatus status_of(AlignmentStatus status) {
   switch (status) {

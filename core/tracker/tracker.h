@@ -23,6 +23,9 @@ struct FrameTrace {
   LabelImage tiny;  ///< of the last cascade stage
 };
 
+/// Is there one whole hand in the cloud, so that it can be looked up? `tracked` if so, else what is wrong.
+TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config);
+
 /// Told the name of each stage when it begins ("register", "segment", ...; "" at the end of the frame), so
 /// that a caller who has a clock can time them.
 using StageObserver = std::function<void(std::string_view stage)>;
