@@ -36,6 +36,12 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+/// What the process took since then.
+void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_point start) {
+  timings.peak_memory_mb = peak_memory_mb();
+  timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// The passes of one experiment: one a seed.
 struct Gathered {
   ExperimentKey key;
@@ -153,6 +159,7 @@ reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& exper
   result.program_version = program_info().version;
   result.commit = program_info().commit;
   result.configuration = {{"tracker", to_json(plan.tracker)}};
+  if (plan.quick) result.configuration["quick"] = true;
   for (const Gathered& experiment : experiments) result.experiments.push_back(evaluate(experiment));
   return result;
 }
@@ -201,17 +208,19 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
     outcome.estimates.push_back(estimates_of(experiment));
     if (!robot.folder.empty()) write_robot_commands(robot, experiment);
   }
-  outcome.timings.peak_memory_mb = peak_memory_mb();
-  outcome.timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  note_resources(outcome.timings, start);
   return outcome;
 }
 
-Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot,
-                        const std::string& folder) {
+Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot, const std::string& folder,
+                        const RunStudies& run_studies) {
+  const auto start = std::chrono::steady_clock::now();
   RunFolder run_folder(folder);
   prepare(workbench, plan);
   run_folder.begin();
-  const Outcome outcome = run_experiments(workbench, plan, robot, &run_folder);
+  Outcome outcome = run_experiments(workbench, plan, robot, &run_folder);
+  if (run_studies) outcome.result.studies = run_studies(run_folder);
+  note_resources(outcome.timings, start);
   reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan),
                         outcome.estimates);
   run_folder.finish();

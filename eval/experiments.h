@@ -15,6 +15,7 @@ struct Plan {
   TrackerConfig tracker;  ///< of all replays
   std::vector<Replay> replays;
   std::string suite = {};  ///< the name of the suite that this is; empty if it is none
+  bool quick = false;      ///< a few frames, to see that everything runs: nothing is concluded from them
 };
 
 /// What names the experiment of a replay with one of its databases.
@@ -51,9 +52,11 @@ void prepare(Workbench& workbench, const Plan& plan);
 Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot = {},
                         const RunFolder* run_folder = nullptr);
 
-/// The same, with its report: locks and marks the folder, runs the plan or what is left of it after a kill, writes
-/// the report, and takes the mark away.
-Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot,
-                        const std::string& folder);
+/// Runs studies beside the experiments.
+using RunStudies = std::function<std::vector<reports::StudyResult>(const RunFolder& run_folder)>;
+/// The same, with its report: locks and marks the folder, runs plan and studies or what is left of them after a
+/// kill, writes the report, and takes the mark away.
+Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot, const std::string& folder,
+                        const RunStudies& run_studies = {});
 
 }  // namespace glovebench::eval

@@ -34,7 +34,8 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(34);
 
-  glovebench::eval::add_reproduce(program);
+  int exit_code = 0;
+  glovebench::eval::add_reproduce(program, exit_code);
   glovebench::eval::add_run(program);
   glovebench::eval::add_record(program);
   glovebench::eval::add_render(program);
@@ -43,7 +44,6 @@ int run(int argc, char** argv) {
   glovebench::eval::add_db(program);
   glovebench::eval::add_list(program);
   glovebench::eval::add_compare(program);
-  int exit_code = 0;
   glovebench::eval::add_gate(program, exit_code);
   glovebench::eval::add_calibrate(program);
   try {

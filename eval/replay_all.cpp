@@ -8,9 +8,15 @@
 #include <atomic>
 
 #include "eval/progress.h"
+#include "eval/stored_replay.h"
 
 namespace glovebench::eval {
 namespace {
+
+std::optional<TrackedReplays> load(const RunFolder& run_folder, const std::string& key) {
+  const std::optional<std::string> stored = run_folder.load(key);
+  return stored ? replay_from_bytes(*stored) : std::nullopt;
+}
 
 /// Replays that share their images, or what an interrupted run stored of them.
 std::vector<TrackedReplays> replay_group(Workbench& workbench, std::span<const Replay> group,
@@ -20,7 +26,7 @@ std::vector<TrackedReplays> replay_group(Workbench& workbench, std::span<const R
   std::vector<size_t> places;
   for (size_t i = 0; i < group.size(); ++i) {
     if (run_folder) {
-      if (auto stored = run_folder->load(replay_key(workbench, group[i]))) {
+      if (auto stored = load(*run_folder, replay_key(workbench, group[i]))) {
         outputs[i] = *std::move(stored);
         for (size_t f = 0; f < frames_of(group[i]).size(); ++f) frame_done();
         continue;
@@ -32,7 +38,7 @@ std::vector<TrackedReplays> replay_group(Workbench& workbench, std::span<const R
   if (left.empty()) return outputs;
   std::vector<TrackedReplays> made = replay_together(workbench, left, frame_done);
   for (size_t i = 0; i < left.size(); ++i) {
-    if (run_folder) run_folder->store(replay_key(workbench, left[i]), made[i]);
+    if (run_folder) run_folder->store(replay_key(workbench, left[i]), to_bytes(made[i]));
     outputs[places[i]] = std::move(made[i]);
   }
   return outputs;

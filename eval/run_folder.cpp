@@ -14,7 +14,6 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
-#include "eval/stored_replay.h"
 #include "reports/comparison/pairing.h"
 
 namespace glovebench::eval {
@@ -45,6 +44,15 @@ void remove_done_marks(const std::string& folder) {
 const std::string& program_hash() {
   static const std::string hash = hash_file("/proc/self/exe");
   return hash;
+}
+
+/// The first line of a stored file.
+std::string heading(const std::string& key, std::string_view content) {
+  return fmt::format("glovebench-stored {} {} {}\n", program_hash(), key, hash_text(content));
+}
+
+std::string path_of(const std::string& mark, const std::string& key) {
+  return fmt::format("{}/{}.stored", mark, key);
 }
 
 }  // namespace
@@ -85,19 +93,27 @@ RunFolder::~RunFolder() {
   ::close(lock_);
 }
 
-std::optional<std::vector<TrackedReplay>> RunFolder::load(const std::string& key) const {
-  const std::string path = fmt::format("{}/{}.replay", mark_, key);
+std::optional<std::string> RunFolder::load(const std::string& key) const {
+  const std::string path = path_of(mark_, key);
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  std::string bytes;
   try {
-    return from_bytes(key, read_file(path));
-  } catch (const Error&) {  // what cannot be read is made anew
-    return std::nullopt;
+    bytes = read_file(path);
+  } catch (const Error&) {  // what cannot be read is made anew, like what is damaged
   }
+  const size_t content = bytes.find('\n') + 1;
+  if (bytes.substr(0, content) == heading(key, std::string_view(bytes).substr(content))) return bytes.substr(content);
+  std::call_once(told_, [&] {
+    fmt::print(stderr, "glovebench: {} is cut short or of another version of the program: made anew, as any such\n",
+               path);
+  });
+  fs::remove(path, ignored);
+  return std::nullopt;
 }
 
-void RunFolder::store(const std::string& key, const std::vector<TrackedReplay>& replay) const {
-  write_file(fmt::format("{}/{}.replay", mark_, key), to_bytes(key, replay));
+void RunFolder::store(const std::string& key, const std::string& content) const {
+  write_file(path_of(mark_, key), heading(key, content) + content);
 }
 
 bool RunFolder::put_mark_away() {
@@ -120,7 +136,6 @@ std::string replay_key(Workbench& workbench, const Replay& replay) {
   for (const std::string& name : replay.databases) databases.push_back({name, workbench.database(name)->hash()});
   const auto frames = frames_of(replay);
   const nlohmann::json content = {
-      {"program", program_hash()},
       {"configuration", to_json(replay.tracker)},
       {"truth", {replay.truth->name, trajectories::hash(*replay.truth)}},
       {"frames", {replay.range.first, frames.size()}},

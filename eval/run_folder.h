@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,11 +10,11 @@
 namespace glovebench::eval {
 
 /// The folder of a run while the run goes on. It is marked as unfinished, so that no reader takes what lies in it
-/// for a whole; finished replays are kept in it, so that the same run, started again after a crash or a kill, goes
+/// for a whole; finished parts are kept in it, so that the same run, started again after a crash or a kill, goes
 /// on where it was and writes the same bytes; and it is locked, so that two runs do not write into it at once.
 ///
 /// FOLDER/.unfinished/ is the mark. It holds `lock` (held with flock while the run lives) and one file for each
-/// finished replay.
+/// finished part: a line with the hash of the program that made it, its key and a checksum, then its content.
 class RunFolder {
  public:
   /// Locks and marks. Throws Error if another run holds the folder or it cannot be written.
@@ -26,10 +27,11 @@ class RunFolder {
   /// What was asked for can be done, and the work begins: from here on the mark stays until `finish`.
   void begin() { keep_mark_ = true; }
 
-  /// What an earlier, interrupted run stored under this key; empty if there is nothing, or nothing whole.
-  std::optional<std::vector<TrackedReplay>> load(const std::string& key) const;
+  /// What an earlier, interrupted run of this program stored under this key; empty if there is nothing, or nothing
+  /// whole: then it is removed, and standard error says so once. Thread-safe.
+  std::optional<std::string> load(const std::string& key) const;
   /// Thread-safe. Throws Error if there is no room.
-  void store(const std::string& key, const std::vector<TrackedReplay>& replay) const;
+  void store(const std::string& key, const std::string& content) const;
 
   /// The report is written: the mark goes, in one step, and what was kept with it.
   void finish();
@@ -42,10 +44,11 @@ class RunFolder {
   std::string mark_;
   bool keep_mark_ = false;
   int lock_ = -1;
+  mutable std::once_flag told_;  ///< that something stored is of no use
 };
 
-/// Names a replay by all that its outcome hangs on: this program (the hash of its file), configuration, truth,
-/// frames, noise, seed, subject, the hashes of databases, hand models and color table.
+/// Names a replay by all that its outcome hangs on beside the program: configuration, truth, frames, light, noise,
+/// seed, subject, the hashes of databases, hand models and color table.
 std::string replay_key(Workbench& workbench, const Replay& replay);
 
 /// Throws reports::Incomparable if the folder of results is one of an unfinished run.

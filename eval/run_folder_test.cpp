@@ -68,7 +68,7 @@ void expect_same_bits(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 
 TEST(StoredReplay, ComesBackToTheLastBit) {
   const std::vector<TrackedReplay> stored = example_replay();
-  const auto read = from_bytes("key", to_bytes("key", stored));
+  const auto read = replay_from_bytes(to_bytes(stored));
   ASSERT_TRUE(read.has_value());
   ASSERT_EQ(read->size(), 2U);
   for (size_t p = 0; p < 2; ++p) {
@@ -95,16 +95,10 @@ TEST(StoredReplay, ComesBackToTheLastBit) {
   }
 }
 
-TEST(StoredReplay, DamagedHalfOrOfAnotherKeyIsNone) {
-  const std::string bytes = to_bytes("key", example_replay());
-  EXPECT_FALSE(from_bytes("other", bytes).has_value());
-  EXPECT_FALSE(from_bytes("key", "").has_value());
-  for (size_t at = 0; at < bytes.size(); at += 7) {
-    std::string damaged = bytes;
-    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
-    EXPECT_FALSE(from_bytes("key", damaged).has_value()) << at;
-    EXPECT_FALSE(from_bytes("key", bytes.substr(0, at)).has_value()) << at;
-  }
+TEST(StoredReplay, HalfOfOneIsNone) {
+  const std::string bytes = to_bytes(example_replay());
+  for (size_t at = 0; at < bytes.size(); at += 7)
+    EXPECT_FALSE(replay_from_bytes(bytes.substr(0, at)).has_value()) << at;
 }
 
 class RunFolderTest : public testing::Test {
@@ -130,7 +124,7 @@ TEST_F(RunFolderTest, IsMarkedFromBeginToFinish) {
   {
     RunFolder run(folder_);
     run.begin();
-    run.store("key", example_replay());
+    run.store("key", "content");
     EXPECT_TRUE(is_marked());
   }
   EXPECT_TRUE(is_marked()) << "it ended without finish";
@@ -163,15 +157,34 @@ TEST_F(RunFolderTest, HoldsOneRunAtATime) {
   const RunFolder free_again(folder_);
 }
 
-TEST_F(RunFolderTest, DamagedReplayIsMadeAnew) {
+TEST_F(RunFolderTest, WhatIsDamagedHalfOrUnderAnotherNameIsMadeAnew) {
   const RunFolder run(folder_);
-  run.store("key", example_replay());
-  const std::string path = folder_ + "/.unfinished/key.replay";
+  const std::string content = to_bytes(example_replay());
+  run.store("key", content);
+  EXPECT_EQ(run.load("key"), content);
+  const std::string path = folder_ + "/.unfinished/key.stored";
   const std::string bytes = read_file(path);
-  write_file(path, bytes.substr(0, bytes.size() / 2));
-  EXPECT_FALSE(run.load("key").has_value());
-  run.store("key", example_replay());
-  EXPECT_TRUE(run.load("key").has_value());
+  for (size_t at = 0; at < bytes.size(); at += 7) {
+    std::string damaged = bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    for (const std::string& wrong : {damaged, bytes.substr(0, at)}) {
+      write_file(path, wrong);
+      EXPECT_FALSE(run.load("key").has_value()) << at;
+      EXPECT_FALSE(fs::exists(path)) << at;
+    }
+  }
+  write_file(folder_ + "/.unfinished/other.stored", bytes);
+  EXPECT_FALSE(run.load("other").has_value());
+}
+
+TEST_F(RunFolderTest, SaysOnceWhatIsMadeAnew) {
+  const RunFolder run(folder_);
+  for (const char* key : {"a", "b"}) write_file(folder_ + "/.unfinished/" + key + ".stored", "glovebench-stored");
+  testing::internal::CaptureStderr();
+  EXPECT_FALSE(run.load("a").has_value());
+  EXPECT_FALSE(run.load("b").has_value());
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              AllOf(HasSubstr("a.stored is cut short or of another version"), testing::Not(HasSubstr("b.stored"))));
 }
 
 TEST_F(RunFolderTest, RemovesAMarkThatWasPutAside) {

@@ -1,23 +1,11 @@
 #include "eval/stored_replay.h"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
-
-#include "core/base/hash.h"
 
 namespace glovebench::eval {
 namespace {
 
 using nlohmann::json;
-
-/// Raised whenever the meaning of a row below changes.
-constexpr int kVersion = 2;
-
-/// The first line of a file with that content.
-std::string heading(std::string_view content) {
-  return fmt::format("glovebench-replay {} {}\n", kVersion, hash_text(content));
-}
 
 json row_of(const Posture& posture) {
   return std::vector<double>(posture.begin(), posture.end());
@@ -134,23 +122,18 @@ TrackedReplay replay_of(const json& object) {
 
 }  // namespace
 
-std::string to_bytes(const std::string& key, const std::vector<TrackedReplay>& replay) {
+std::string to_bytes(const std::vector<TrackedReplay>& replay) {
   json passes = json::array();
   for (const TrackedReplay& pass : replay) passes.push_back(object_of(pass));
-  std::string content;
-  json::to_cbor({{"key", key}, {"passes", std::move(passes)}}, content);
-  return heading(content) + content;
+  std::string bytes;
+  json::to_cbor(passes, bytes);
+  return bytes;
 }
 
-std::optional<std::vector<TrackedReplay>> from_bytes(const std::string& key, const std::string& bytes) {
-  const size_t content_begin = bytes.find('\n') + 1;
-  const std::string_view content = std::string_view(bytes).substr(content_begin);
-  if (std::string_view(bytes).substr(0, content_begin) != heading(content)) return std::nullopt;
+std::optional<std::vector<TrackedReplay>> replay_from_bytes(const std::string& bytes) {
   try {
-    const json object = json::from_cbor(content);
-    if (object.at("key") != key) return std::nullopt;
     std::vector<TrackedReplay> replay;
-    for (const json& pass : object.at("passes")) replay.push_back(replay_of(pass));
+    for (const json& pass : json::from_cbor(bytes)) replay.push_back(replay_of(pass));
     return replay;
   } catch (const json::exception&) {
     return std::nullopt;

@@ -46,7 +46,8 @@ struct RobotFlags {
 };
 
 /// Each adds one subcommand to the program.
-void add_reproduce(CLI::App& program);
+/// Sets the exit code when it has run.
+void add_reproduce(CLI::App& program, int& exit_code);
 void add_run(CLI::App& program);
 void add_record(CLI::App& program);
 void add_render(CLI::App& program);

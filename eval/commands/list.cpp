@@ -4,6 +4,7 @@
 
 #include "eval/commands/command.h"
 #include "eval/share.h"
+#include "eval/studies/study.h"
 #include "eval/suite.h"
 #include "trajectories/catalog.h"
 
@@ -29,6 +30,10 @@ void list_suites() {
   for (const std::string& name : suite_names()) fmt::print("{:<6} {}\n", name, load_suite(name).description);
 }
 
+void list_studies() {
+  for (const Study& study : studies()) fmt::print("{:<10} {}\n", study.name, study.title);
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -44,6 +49,8 @@ void add_list(CLI::App& program) {
   list->add_subcommand("databases", "The posture databases.")->callback(list_databases);
   list->add_subcommand("suites", "Experiments that belong together, for `glovebench run --suite`.")
       ->callback(list_suites);
+  list->add_subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.")
+      ->callback(list_studies);
   list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
   const auto common = std::make_shared<CommonFlags>();
   CLI::App* config = list->add_subcommand("config", "The tracker's configuration as JSON, as --config takes it.");

@@ -5,68 +5,91 @@
 
 #include "core/base/error.h"
 #include "eval/commands/command.h"
-#include "eval/experiments.h"
+#include "eval/reproduction.h"
+#include "reports/claims/claims_report.h"
 #include "reports/paper_numbers.h"
+#include "reports/study_text.h"
 #include "reports/tables.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
 namespace {
 
+constexpr int kClaimFailed = 1;
+
 struct Reproduce {
   CommonFlags common;
-  Figure4Options figure4;
+  ReproductionOptions options;
   int seed_count = 1;
   bool all_gains = false;
   RobotFlags robot;
 
-  void run() {
-    std::set<std::string> once(figure4.trajectories.begin(), figure4.trajectories.end());
-    if (once.size() != figure4.trajectories.size()) {
-      throw Error("--trajectory", "names", "one of them twice", "each once");
-    }
-    common.tracker_config();  // a wrong configuration is named before anything is built
+  int run() {
+    refuse_twice("--trajectory", options.trajectories);
+    refuse_twice("--only", options.only);
+    options.study.tracker = common.tracker_config();  // a wrong configuration is named before anything is built
     if (common.output.empty()) common.output = "out";
+    for (int s = 0; s < seed_count; ++s) options.study.seeds.push_back(common.seed + s);
+    if (all_gains) options.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
+    plan_reproduction(options);  // and so is a wrong name
     common.check_output_folder();
-    for (int s = 0; s < seed_count; ++s) figure4.seeds.push_back(common.seed + s);
-    figure4.noises = {{"gradient", 1}};
-    if (all_gains) figure4.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
 
     Workbench workbench = common.workbench();
-    const Plan plan = plan_figure4(common.tracker_config(), figure4);
-    const Outcome outcome = run_into_folder(workbench, plan, {robot.output, robot.T_base_camera()}, common.output);
-    for (const reports::NoiseSetting& noise : figure4.noises) {
-      if (all_gains) fmt::print("Depth noise: {} x{}\n", noise.model, noise.factor);
-      fmt::print("{}\n", reports::figure4_table(outcome.result, reports::paper_numbers(), noise));
-    }
+    const Outcome outcome =
+        reproduce(workbench, options, {robot.output, robot.T_base_camera()}, common.output);
+    print_figure4(outcome.result);
+    for (const reports::StudyResult& study : outcome.result.studies) fmt::print("{}", reports::study_markdown(study));
+    const std::vector<reports::Verdict> verdicts =
+        reports::judge(reports::claims(), reports::all_measures(outcome.result));
+    if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
     fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
+    return reports::required_claim_failed(verdicts) ? kClaimFailed : 0;
+  }
+
+  static void refuse_twice(const std::string& flag, const std::vector<std::string>& names) {
+    if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
+      throw Error(flag, "names", "one of them twice", "each once");
+  }
+
+  void print_figure4(const reports::RunResult& result) const {
+    if (result.experiments.empty()) return;
+    for (const reports::NoiseSetting& noise : options.noises) {
+      if (all_gains) fmt::print("Depth noise: {} x{}\n", noise.model, noise.factor);
+      fmt::print("{}\n", reports::figure4_table(result, reports::paper_numbers(), noise));
+    }
   }
 };
 
 }  // namespace
 
-void add_reproduce(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("reproduce",
-                             "Run the paper's experiments (figures 4 to 6) and write the report.\n"
-                             "Five trajectories x the databases that hold their grasp = 15 experiments, each "
-                             "against the recorded truth, the\n"
-                             "source truth, and the source with a second subject's hand in front of the camera.");
+void add_reproduce(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "reproduce",
+      "Run the paper's experiments, judge its claims, and write the report.\n"
+      "Figures 4 to 6: five trajectories x the databases that hold their grasp, against the recorded truth, the\n"
+      "source truth, and the source with a second subject's hand in front of the camera. Figures 7 to 9, ablations,\n"
+      "and a tracker without depth. Exit code 1: a claim that is required does not hold.");
   const auto state = std::make_shared<Reproduce>();
-  state->figure4.seeds.clear();
+  state->options.study.seeds.clear();
   state->common.add_output(*command, "folder of the report [out]");
+  command
+      ->add_option("--only", state->options.only, fmt::format("parts, of {}", fmt::join(part_names(), ", ")))
+      ->delimiter(',');
+  command->add_flag("--quick", state->options.study.quick,
+                    "a few frames and queries of everything, in under a minute: shows that it runs, judges no claim");
   state->common.add_tracker(*command);
   state->common.add_seed(*command);
   state->common.add_machine(*command);
-  command->add_option("--trajectory", state->figure4.trajectories, "only these, e.g. Tr4")
+  command->add_option("--trajectory", state->options.trajectories, "only these in Figure 4, e.g. Tr4")
       ->check(CLI::IsMember(trajectories::ground_truth_names()));
   command->add_option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_flag("--all-noise", state->all_gains, "also half and double noise gain, and the kinect noise model");
+  command->add_flag("--all-noise", state->all_gains,
+                    "Figure 4 also with half and double noise gain, and the kinect noise model");
   state->robot.add(*command, "folder for the robot commands of each experiment");
-  command->callback([state] { state->run(); });
+  command->callback([state, &exit_code] { exit_code = state->run(); });
 }
 
 }  // namespace glovebench::eval

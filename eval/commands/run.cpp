@@ -6,7 +6,9 @@
 #include "eval/commands/command.h"
 #include "eval/experiments.h"
 #include "eval/plan_overview.h"
+#include "eval/reproduction.h"
 #include "eval/suite.h"
+#include "reports/study_text.h"
 #include "reports/summary.h"
 
 namespace glovebench::eval {
@@ -15,8 +17,10 @@ namespace {
 struct Run {
   const CLI::App* command = nullptr;
   CommonFlags common;
+  std::string study_name;
   std::string suite_name;
   std::string filter;
+  bool quick = false;
   bool list = false;
   bool dry_run = false;
   std::vector<std::string> trajectories;
@@ -29,6 +33,7 @@ struct Run {
   RobotFlags robot;
 
   void run() {
+    if (!study_name.empty()) return run_study();
     const Suite suite = chosen_suite();
     common.left = side_of(suite) == Side::left;
     Workbench workbench = common.workbench();
@@ -42,6 +47,26 @@ struct Run {
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
   }
+
+  /// A part of the reproduction by itself; a cascade on the command line takes the place of Figure 8's four.
+  void run_study() {
+    for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
+                             "--noise", "--gain", "--subject"})
+      if (given(flag)) throw Error(study_name, "flags", flag, "none of those that say what a study says itself");
+    const Study& chosen = study(study_name);
+    StudyOptions options{common.tracker_config(), {}, quick, {}};
+    if (!common.cascade.empty()) options.cascades = {options.tracker.lookup.cascade};
+    for (int s = 0; s < seed_count; ++s) options.seeds.push_back(common.seed + static_cast<uint64_t>(s));
+    Workbench workbench = common.workbench();
+    if (common.output.empty()) return print_study(chosen.run({workbench, options}));
+    common.check_output_folder();
+    const Outcome outcome =
+        reproduce(workbench, {options, {}, {{}}, {study_name}}, {robot.output, robot.T_base_camera()}, common.output);
+    print_study(outcome.result.studies.front());
+    fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
+               common.output);
+  }
+  static void print_study(const reports::StudyResult& result) { fmt::print("{}", reports::study_markdown(result)); }
 
   /// The suite by its name, or what the flags say, as a suite without a name.
   Suite chosen_suite() const {
@@ -101,6 +126,8 @@ void add_run(CLI::App& program) {
   const auto state = std::make_shared<Run>();
   state->command = command;
   state->common.add_output(*command, "folder of the report");
+  command->add_option("study", state->study_name, "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");
+  command->add_flag("--quick", state->quick, "of a study: a few frames and queries")->needs("study");
   command->add_option("--suite", state->suite_name,
                       "experiments that belong together: a name (`glovebench list suites`) or a file (*.json)");
   command->add_option("--filter", state->filter,

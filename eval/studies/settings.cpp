@@ -9,19 +9,21 @@ namespace {
 using reports::TruthKind;
 using trajectories::Trajectory;
 
-/// A stretch of Tr4 in which the hand closes to a power grasp: what a quick reproduction looks at.
+/// What a quick reproduction looks at, and a stretch that all movements have.
 constexpr const char* kQuickTrajectory = "Tr4";
 constexpr FrameRange kQuickFrames = {40, 24};
 
 }  // namespace
 
+FrameRange frames_of(const StudyOptions& options) {
+  return options.quick ? kQuickFrames : FrameRange{};
+}
+
 Movements movements(const StudyContext& context, TruthKind truth, const std::vector<std::string>& names) {
   Movements result;
   std::vector<std::string> wanted = names.empty() ? trajectories::ground_truth_names() : names;
-  if (context.options.quick) {
-    wanted = {kQuickTrajectory};
-    result.range = kQuickFrames;
-  }
+  if (context.options.quick) wanted = {kQuickTrajectory};
+  result.range = frames_of(context.options);
   const auto load =
       truth == TruthKind::recorded ? trajectories::recorded_trajectory : trajectories::source_trajectory;
   for (const std::string& name : wanted)

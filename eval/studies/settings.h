@@ -30,6 +30,8 @@ struct Movements {
   std::vector<std::shared_ptr<const trajectories::Trajectory>> truths;
   FrameRange range;
 };
+/// All frames, or in a quick reproduction the stretch that it looks at.
+FrameRange frames_of(const StudyOptions& options);
 /// The trajectories of these names, or of all five if there are none; a stretch of one in a quick reproduction.
 Movements movements(const StudyContext& context, reports::TruthKind truth,
                     const std::vector<std::string>& names = {});

@@ -1,0 +1,109 @@
+#include "eval/reproduction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "eval/share.h"
+#include "eval/stored_study.h"
+#include "eval/studies/settings.h"
+#include "reports/paper_numbers.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::PaperCurve;
+using reports::TruthKind;
+
+constexpr const char *kFigure4 = "fig4", *kFigure5 = "fig5", *kFigure6 = "fig6";
+
+bool is_wanted(const ReproductionOptions& options, std::string_view part) {
+  return options.only.empty() || std::ranges::find(options.only, part) != options.only.end();
+}
+
+void refuse_unknown_parts(const std::vector<std::string>& only) {
+  const std::vector<std::string> known = part_names();
+  for (const std::string& part : only) {
+    if (std::ranges::find(known, part) != known.end()) continue;
+    throw Error("--only", "part", part.empty() ? "an empty name" : part,
+                fmt::format("one of {}", fmt::join(known, ", ")));
+  }
+}
+
+/// Figures 5 and 6 without the rest of Figure 4: an experiment each.
+void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve& curve) {
+  const auto truth = std::make_shared<const trajectories::Trajectory>(
+      trajectories::recorded_trajectory(trajectory_folder(), curve.trajectory));
+  for (const uint64_t seed : options.study.seeds)
+    plan.replays.push_back({truth, 1, {}, seed, {curve.database}, frames_of(options.study), options.study.tracker});
+}
+
+/// Names a study by all that its outcome hangs on beside the program.
+std::string study_key(Workbench& workbench, const Study& study, const StudyOptions& options) {
+  nlohmann::json inputs;
+  const std::string folder = trajectory_folder();
+  for (const std::string& name : trajectories::ground_truth_names()) {
+    inputs.push_back(trajectories::hash(trajectories::source_trajectory(folder, name)));
+    inputs.push_back(trajectories::hash(trajectories::recorded_trajectory(folder, name)));
+  }
+  for (const std::string& name : trajectories::posture_set_names())
+    inputs.push_back(Database::input_hash(trajectories::posture_set(folder, name), *workbench.model(),
+                                          workbench.config().views));
+  inputs.push_back(workbench.subject(2)->hash());
+  inputs.push_back(hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels()))));
+  std::vector<std::string> cascades;
+  for (const Cascade& cascade : options.cascades) cascades.push_back(to_string(cascade));
+  const nlohmann::json content = {{"study", study.name},         {"configuration", to_json(options.tracker)},
+                                  {"seeds", options.seeds},      {"quick", options.quick},
+                                  {"cascades", cascades},        {"inputs", inputs}};
+  return hash_text(content.dump());
+}
+
+reports::StudyResult run_or_load(const StudyContext& context, const Study& study) {
+  const std::string key = study_key(context.workbench, study, context.options);
+  if (const auto stored = context.run_folder->load(key))
+    if (auto result = study_from_bytes(*stored)) return *std::move(result);
+  reports::StudyResult result = study.run(context);
+  context.run_folder->store(key, to_bytes(result));
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> part_names() {
+  std::vector<std::string> names = {kFigure4, kFigure5, kFigure6};
+  for (const Study& study : studies()) names.emplace_back(study.name);
+  return names;
+}
+
+Plan plan_reproduction(const ReproductionOptions& options) {
+  refuse_unknown_parts(options.only);
+  Plan plan{options.study.tracker, {}, {}, options.study.quick};
+  if (is_wanted(options, kFigure4)) {
+    plan.replays = plan_figure4(options.study.tracker, {options.trajectories, options.study.seeds, options.noises,
+                                                        frames_of(options.study)})
+                       .replays;
+    return plan;
+  }
+  if (is_wanted(options, kFigure5)) add_curve(plan, options, reports::paper_numbers().figure_5);
+  if (is_wanted(options, kFigure6)) add_curve(plan, options, reports::paper_numbers().figure_6);
+  return plan;
+}
+
+Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
+                  const std::string& folder) {
+  const Plan plan = plan_reproduction(options);
+  return run_into_folder(workbench, plan, robot, folder, [&](const RunFolder& run_folder) {
+    std::vector<reports::StudyResult> results;
+    for (const Study& study : studies())
+      if (is_wanted(options, study.name))
+        results.push_back(run_or_load({workbench, options.study, &run_folder}, study));
+    return results;
+  });
+}
+
+}  // namespace glovebench::eval
