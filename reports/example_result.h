@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "reports/example_studies.h"
 #include "reports/results.h"
 
 namespace glovebench::reports {
@@ -83,7 +84,7 @@ inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t
   return frames;
 }
 
-/// All of Figure 4 with invented errors, two seeds.
+/// All of Figure 4 with invented errors, two seeds, and two studies.
 inline RunResult full_result() {
   RunResult result = small_result();
   result.experiments.clear();
@@ -111,6 +112,7 @@ inline RunResult full_result() {
       }
     }
   }
+  result.studies = example_studies();
   return result;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/claims/verdicts.h"
+
+namespace glovebench::reports {
+
+// Verdicts as they are written down. Values have a measure's unit. All of these depend on times as well, since some
+// claims are about times.
+
+/// The measure's value and interval with its unit, to read: "3.88 [3.50, 4.20] mm"; "-" for none.
+std::string measured_text(const Verdict& verdict);
+/// The rule with the measure's unit: "below 10 mm".
+std::string rule_text(const Verdict& verdict);
+/// "11 of 20 reproduced, ...", for a line above the claims.
+std::string count_text(const std::vector<Verdict>& verdicts);
+
+/// Aligned text of at most 120 columns, and below it what to say of the claims that do not hold.
+std::string claims_table(const std::vector<Verdict>& verdicts);
+/// A section for summary.md; empty if nothing was run.
+std::string claims_markdown(const std::vector<Verdict>& verdicts);
+/// tables/claims.csv: one line a claim.
+std::string claims_csv(const std::vector<Verdict>& verdicts);
+/// claims.json: everything of every verdict.
+std::string claims_json(const std::vector<Verdict>& verdicts);
+/// A section for the page; empty if nothing was run.
+std::string claims_section(const std::vector<Verdict>& verdicts);
+
+}  // namespace glovebench::reports

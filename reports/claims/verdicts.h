@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "reports/claims/claims.h"
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+enum class Outcome { reproduced, not_reproduced, consistent, not_consistent, inconclusive, not_run };
+/// "not reproduced"
+std::string_view to_string(Outcome outcome);
+
+/// What a run says about a claim.
+struct Verdict {
+  Claim claim;
+  std::optional<Measure> measure;  ///< empty if it was not run
+  Outcome outcome = Outcome::not_run;
+
+  friend bool operator==(const Verdict&, const Verdict&) = default;
+};
+
+/// The measures of figures 4 to 6, as far as their experiments were run, and those of all studies.
+std::vector<Measure> all_measures(const RunResult& result);
+
+/// One verdict a claim, in their order. A claim holds if the whole interval of its measure satisfies the rule, does
+/// not if none of the interval does, and is inconclusive in between. A measure without an interval is judged by its
+/// value, one without a value is inconclusive.
+std::vector<Verdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
+
+/// Whether a claim that is required does not hold. What is inconclusive or was not run has not failed.
+bool required_claim_failed(const std::vector<Verdict>& verdicts);
+/// Whether any claim was run at all.
+bool any_was_run(const std::vector<Verdict>& verdicts);
+
+}  // namespace glovebench::reports
