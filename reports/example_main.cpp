@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "core/base/file.h"
+#include "reports/claims/claims_report.h"
 #include "reports/comparison/example_comparison.h"
 #include "reports/example_result.h"
 #include "reports/report.h"
@@ -23,6 +24,7 @@ int main(int argc, char** argv) {
     write_comparison(comparison + "/small", small_comparison());
     glovebench::write_file(comparison + "/incomparable.xml", incomparable_junit("a.json: seeds: found <1>\n\x01"));
     std::fputs(figure4_table(full_result(), paper_numbers(), {}).c_str(), stdout);
+    std::fputs(claims_table(judge(claims(), all_measures(full_result()))).c_str(), stdout);
     std::fputs(comparison_table(full_comparison(), false).c_str(), stdout);
     return 0;
   } catch (const std::exception& error) {

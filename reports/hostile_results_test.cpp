@@ -20,7 +20,11 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string& example_text() {
-  static const std::string text = results_json(small_result());
+  static const std::string text = [] {
+    RunResult result = small_result();
+    result.studies = example_studies();
+    return results_json(result);
+  }();
   return text;
 }
 
@@ -136,6 +140,19 @@ TEST(HostileResults, NamesThatLeadOutOfTheFolder) {
                 HasSubstr("trajectory"));
     EXPECT_THAT(error_of_change([&](json& r) { r["experiments"][0]["database"] = name; }), HasSubstr("database"));
   }
+}
+
+TEST(HostileResults, StudiesThatNoRunWrites) {
+  const auto table = [](json& r) -> json& { return r["studies"][1]["tables"][0]; };
+  EXPECT_THAT(error_of_change([&](json& r) { table(r)["name"] = "../../figure8"; }),
+              HasSubstr("studies[1].tables[0].name"));
+  EXPECT_THAT(error_of_change([&](json& r) { table(r)["name"] = "figure7"; }),
+              HasSubstr("studies[1].tables[0].name: found \"figure7\", expected a name that no table has had"));
+  EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][3].push_back(nullptr); }),
+              HasSubstr("rows[3]: found 14 items, expected one cell for each of columns"));
+  EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][0][5] = 1e308; }), HasSubstr("rows[0][5]"));
+  EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][0][5] = json::object(); }), HasSubstr("rows[0][5]"));
+  EXPECT_THAT(error_of_change([](json& r) { r["studies"] = nullptr; }), HasSubstr("studies: found null"));
 }
 
 TEST(HostileResults, FilesThatCannotBeRead) {

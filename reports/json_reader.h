@@ -34,6 +34,8 @@ class JsonReader {
   std::vector<std::pair<std::string, JsonReader>> members() const;
 
   bool is_null() const { return value_.is_null(); }
+  bool is_text() const { return value_.is_string(); }
+  bool is_integer() const { return value_.is_number_integer(); }
   const nlohmann::json& object() const;
   std::string text() const;
   /// A text that is `expected`.

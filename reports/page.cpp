@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "reports/chart.h"
+#include "reports/claims/claims_report.h"
 #include "reports/summary.h"
 
 namespace glovebench::reports {
@@ -40,7 +41,7 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
   const std::string body =
       fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
                   escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
-      "<h2>Figure 4: mean errors</h2>\n<p>" +
+      claims_section(judge(claims(), all_measures(result))) + "<h2>Figure 4: mean errors</h2>\n<p>" +
       escape_html(fmt::format("{} Noise: {} x {}.", summary_explanation(), noise.model, noise.factor)) + "</p>\n" +
       to_html(figure4_summary(result, paper, noise)) + curve_section(result, noise, "Figure 5", paper.figure_5) +
       curve_section(result, noise, "Figure 6", paper.figure_6) + picture_section("Frames", pictures) +

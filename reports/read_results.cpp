@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/base/file.h"
+#include "reports/interval_json.h"
 #include "reports/json_reader.h"
 #include "reports/results_json.h"
+#include "reports/study_json.h"
 
 namespace glovebench::reports {
 namespace {
@@ -134,18 +136,6 @@ Coverage read_coverage(const JsonReader& json) {
           json["false_lost"].count()};
 }
 
-std::optional<ConfidenceInterval> read_interval(const JsonReader& json) {
-  if (json.is_null()) return std::nullopt;
-  json.expect_keys({"low", "high", "level", "seeds", "blocks", "block_frames", "over"});
-  return ConfidenceInterval{json["low"].number(0, kLargestValue),
-                            json["high"].number(0, kLargestValue),
-                            json["level"].number(0, 1),
-                            json["seeds"].count(),
-                            json["blocks"].count(),
-                            json["block_frames"].count(),
-                            json["over"].text()};
-}
-
 /// A mean that its frames do not have was changed by hand, or the frames were.
 void check_aggregate(const JsonReader& json, const Aggregate& aggregate, int metric,
                      const std::vector<SeedRun>& runs) {
@@ -170,7 +160,7 @@ void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
     experiment.aggregates[m] = {item["count"].count(),   read_value(item["mean"]), read_value(item["median"]),
                                 read_value(item["rms"]), read_value(item["p95"]),  read_value(item["max"])};
     check_aggregate(item, experiment.aggregates[m], m, experiment.runs);
-    experiment.intervals[m] = read_interval(item["interval"]);
+    experiment.intervals[m] = read_interval(item["interval"], 0, kLargestValue);
   }
 }
 
@@ -218,8 +208,9 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   const JsonReader json(document, where);
   json["format"].expect_text(kResultsFormat);
   json["version"].integer(kResultsVersion, kResultsVersion);
+  const bool has_studies = json.object().contains("studies");
   json.expect_keys({"format", "version", "protocol", "inputs", "suite", "program", "configuration", "frame_columns",
-                    "experiments"});
+                    "experiments", has_studies ? "studies" : "experiments"});
   json["program"].expect_keys({"version", "commit"});
   if (read_texts(json["frame_columns"]) != frame_columns())
     json["frame_columns"].fail("the columns of this version");
@@ -235,6 +226,7 @@ RunResult parse_results(const std::string& text, const std::string& where) {
     if (find_experiment(result, experiment.key)) item.fail("an experiment that has not been before");
     result.experiments.push_back(std::move(experiment));
   }
+  if (has_studies) result.studies = read_studies(json["studies"]);
   return result;
 }
 

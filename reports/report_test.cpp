@@ -62,12 +62,58 @@ TEST(Report, WritesEveryFile) {
       "Tr4_DB_open_power_recorded_subject1_gradient_1", "Tr4_DB_open_power_source_subject2_gradient_1",
       "Tr1_DB_20_postures_source_subject1_gradient_1", "Tr4_DB_open_power_recorded_subject1_kinect_0.5"};
   for (const std::string& name : experiments) expected.push_back("tables/frames_" + name + ".csv");
+  expected.push_back("claims.json");
+  expected.push_back("tables/claims.csv");
   for (const std::string& name : experiments) expected.push_back("estimates/" + name + ".csv");
   expected.push_back("results.json");
   EXPECT_THAT(names, testing::ElementsAreArray(expected)) << "the results last";
   for (const std::string& name : names) EXPECT_GT(fs::file_size(folder + "/" + name), 0u) << name;
   EXPECT_EQ(results_json(read_results(folder + "/results.json")), results_json(small_result()));
   EXPECT_EQ(nlohmann::json::parse(read_file(folder + "/config.json")), small_result().configuration);
+}
+
+TEST(Report, WritesWhatStudiesFound) {
+  const std::string folder = fresh_folder("studies");
+  const std::vector<std::string> names = write_report(folder, full_result(), example_timings());
+  EXPECT_THAT(names, testing::IsSupersetOf({"tables/figure7.csv", "tables/figure8.csv"}));
+  EXPECT_EQ(names.back(), "results.json");
+  const std::string summary = read_file(folder + "/summary.md");
+  EXPECT_LT(summary.find("## Claims"), summary.find("## Figure 4"));
+  EXPECT_LT(summary.find("## Figure 8: matching cascades"), summary.find("## More metrics"));
+  EXPECT_THAT(read_file(folder + "/index.html"), HasSubstr("<h2>Claims</h2>"));
+  const nlohmann::json timings = nlohmann::json::parse(read_file(folder + "/timings.json"));
+  EXPECT_EQ(timings["studies"][0]["measures"][0]["name"], "figure7.steps_with_higher_time");
+  EXPECT_FALSE(nlohmann::json::parse(timings_json(example_timings())).contains("studies"));
+}
+
+TEST(Report, TimesOfStudiesLeaveTheResultsAsTheyAre) {
+  RunResult slower = full_result();
+  slower.studies[1].tables[0].rows[0][column_index(slower.studies[1].tables[0], "frame_ms_p50")] = 1e4;
+  slower.studies[1].measures[1].value = 2;  // a share of times
+  EXPECT_EQ(results_json(slower), results_json(full_result()));
+  EXPECT_NE(timings_json({}, slower.studies), timings_json({}, full_result().studies));
+}
+
+TEST(Report, RemovesTablesOfAnOlderReportsStudies) {
+  const std::string folder = fresh_folder("stale_studies");
+  write_report(folder, full_result(), {});
+  write_file(folder + "/tables/mine.csv", "the user's");
+  write_file(folder + "/tables/figure8.csv.tmp-1-0", "half");
+  RunResult fewer = full_result();
+  fewer.studies.pop_back();
+  fewer.experiments.clear();
+  write_report(folder, fewer, {});
+  EXPECT_FALSE(fs::exists(folder + "/tables/figure8.csv"));
+  EXPECT_FALSE(fs::exists(folder + "/tables/figure8.csv.tmp-1-0"));
+  EXPECT_TRUE(fs::exists(folder + "/tables/figure7.csv"));
+  EXPECT_TRUE(fs::exists(folder + "/tables/mine.csv"));
+  EXPECT_TRUE(fs::exists(folder + "/claims.json"));
+  fewer.studies.clear();
+  write_report(folder, fewer, {});
+  EXPECT_FALSE(fs::exists(folder + "/tables/figure7.csv"));
+  EXPECT_FALSE(fs::exists(folder + "/claims.json"));
+  EXPECT_FALSE(fs::exists(folder + "/tables/claims.csv"));
+  EXPECT_TRUE(fs::exists(folder + "/tables/mine.csv"));
 }
 
 TEST(Report, OnlyTimingsDifferBetweenRuns) {

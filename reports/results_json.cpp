@@ -1,20 +1,14 @@
 #include "reports/results_json.h"
 
 #include "core/base/file.h"
+#include "reports/interval_json.h"
 #include "reports/json_text.h"
+#include "reports/study_json.h"
 
 namespace glovebench::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json interval_json(const std::optional<ConfidenceInterval>& interval) {
-  if (!interval) return nullptr;
-  return {
-      {"low", rounded(interval->low)}, {"high", rounded(interval->high)}, {"level", rounded(interval->level)},
-      {"seeds", interval->seeds},      {"blocks", interval->blocks},      {"block_frames", interval->block_frames},
-      {"over", interval->over}};
-}
 
 Json aggregates_json(const ExperimentResult& experiment) {
   Json json = Json::object();
@@ -96,24 +90,26 @@ std::string results_json(const RunResult& result) {
   const Protocol& protocol = result.protocol;
   Json experiments = Json::array();
   for (const ExperimentResult& experiment : result.experiments) experiments.push_back(experiment_json(experiment));
-  const Json json = {{"format", kResultsFormat},
-                     {"version", kResultsVersion},
-                     {"protocol",
-                      {{"id", protocol.id()},
-                       {"metric_definitions", protocol.metric_definitions},
-                       {"joint_order", protocol.joint_order},
-                       {"metric_keys", protocol.metric_keys},
-                       {"association", protocol.association}}},
-                     {"inputs",
-                      {{"truths", result.inputs.truths},
-                       {"databases", result.inputs.databases},
-                       {"hand_model", result.inputs.hand_model},
-                       {"color_table", result.inputs.color_table}}},
-                     {"suite", result.suite.empty() ? Json() : Json(result.suite)},
-                     {"program", {{"version", result.program_version}, {"commit", result.commit}}},
-                     {"configuration", result.configuration},
-                     {"frame_columns", frame_columns()},
-                     {"experiments", std::move(experiments)}};
+  Json json = {{"format", kResultsFormat},
+               {"version", kResultsVersion},
+               {"protocol",
+                {{"id", protocol.id()},
+                 {"metric_definitions", protocol.metric_definitions},
+                 {"joint_order", protocol.joint_order},
+                 {"metric_keys", protocol.metric_keys},
+                 {"association", protocol.association}}},
+               {"inputs",
+                {{"truths", result.inputs.truths},
+                 {"databases", result.inputs.databases},
+                 {"hand_model", result.inputs.hand_model},
+                 {"color_table", result.inputs.color_table}}},
+               {"suite", result.suite.empty() ? Json() : Json(result.suite)},
+               {"program", {{"version", result.program_version}, {"commit", result.commit}}},
+               {"configuration", result.configuration},
+               {"frame_columns", frame_columns()},
+               {"experiments", std::move(experiments)}};
+  // Results without studies stay the bytes that they were before there were any.
+  if (!result.studies.empty()) json["studies"] = studies_json(result.studies);
   return format_json(json);
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The message of the Error that reading gives.
 std::string error_of(const std::string& text) {
@@ -50,6 +51,22 @@ TEST(ResultsJson, RoundTrip) {
 
 TEST(ResultsJson, EqualResultsAreEqualBytes) {
   EXPECT_EQ(results_json(full_result()), results_json(full_result()));
+}
+
+TEST(ResultsJson, StudiesAreThereOnlyIfThereAreAny) {
+  RunResult result = small_result();
+  const std::string without = results_json(result);
+  EXPECT_THAT(without, Not(HasSubstr("studies")));
+  EXPECT_TRUE(parse_results(without, "results.json").studies.empty());
+  result.studies = example_studies();
+  const std::string with = results_json(result);
+  const std::string common = without.substr(0, without.rfind("\n}"));
+  EXPECT_THAT(with, testing::StartsWith(common + ",\n \"studies\": ")) << "the rest stays as it was";
+  EXPECT_THAT(with, Not(HasSubstr("look_up_ms"))) << "times differ from run to run";
+  EXPECT_THAT(with, Not(HasSubstr("time_share")));
+  const RunResult read = parse_results(with, "results.json");
+  ASSERT_EQ(read.studies.size(), 2u);
+  EXPECT_EQ(results_json(read), with);
 }
 
 TEST(ResultsJson, NoValueIsNull) {

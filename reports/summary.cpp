@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "reports/chart.h"
+#include "reports/claims/claims_report.h"
+#include "reports/study_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -101,13 +103,18 @@ std::string summary_explanation() {
 
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper) {
   const NoiseSetting noise = headline_noise(result);
+  std::string studies;
+  for (const StudyResult& study : result.studies) studies += study_markdown(study);
   return fmt::format(
-      "# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n## Figure 4\n\n{} Noise: {} x {}.\n\n{}\n"
-      "The paper: {}.\n\n## More metrics\n\n"
+      "# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n{}## Figure 4\n\n{} Noise: {} x "
+      "{}.\n\n{}\n"
+      "The paper: {}.\n\n{}## More metrics\n\n"
       "Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
       "hands.\n\n{}",
-      result.program_version, result.commit, result.protocol.id(), summary_explanation(), noise.model, noise.factor,
-      to_markdown(figure4_summary(result, paper, noise)), paper.source, to_markdown(detail_summary(result)));
+      result.program_version, result.commit, result.protocol.id(),
+      claims_markdown(judge(claims(), all_measures(result))), summary_explanation(), noise.model, noise.factor,
+      to_markdown(figure4_summary(result, paper, noise)), paper.source, studies,
+      to_markdown(detail_summary(result)));
 }
 
 }  // namespace glovebench::reports

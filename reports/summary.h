@@ -22,7 +22,8 @@ TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, co
 /// joint convention, jitter, latency, lost and false frames.
 TextTable detail_summary(const RunResult& result);
 
-/// summary.md: both tables, what they mean, and the protocol.
+/// summary.md: what became of the paper's claims, both tables, what they mean, a section for each study, and the
+/// protocol.
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
 /// What the cells of the tables hold, in one paragraph of plain text.
 std::string summary_explanation();

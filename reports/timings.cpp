@@ -1,6 +1,7 @@
 #include "reports/timings.h"
 
 #include "reports/json_text.h"
+#include "reports/study_json.h"
 
 namespace glovebench::reports {
 namespace {
@@ -22,21 +23,23 @@ Json experiment_json(const ExperimentTiming& timing) {
 
 }  // namespace
 
-std::string timings_json(const Timings& timings) {
+std::string timings_json(const Timings& timings, const std::vector<StudyResult>& studies) {
   Json experiments = Json::array();
   for (const ExperimentTiming& timing : timings.experiments) experiments.push_back(experiment_json(timing));
-  return format_json({{"format", "glovebench-timings"},
-                      {"version", 1},
-                      {"host", timings.host},
-                      {"processor", timings.processor},
-                      {"threads", timings.threads},
-                      {"compiler", timings.compiler},
-                      {"build_type", timings.build_type},
-                      {"commit", timings.commit},
-                      {"date", timings.date},
-                      {"wall_s", rounded(timings.wall_s)},
-                      {"peak_memory_mb", rounded_or_null(timings.peak_memory_mb)},
-                      {"experiments", std::move(experiments)}});
+  Json json = {{"format", "glovebench-timings"},
+               {"version", 1},
+               {"host", timings.host},
+               {"processor", timings.processor},
+               {"threads", timings.threads},
+               {"compiler", timings.compiler},
+               {"build_type", timings.build_type},
+               {"commit", timings.commit},
+               {"date", timings.date},
+               {"wall_s", rounded(timings.wall_s)},
+               {"peak_memory_mb", rounded_or_null(timings.peak_memory_mb)},
+               {"experiments", std::move(experiments)}};
+  if (Json times = study_times_json(studies); !times.empty()) json["studies"] = std::move(times);
+  return format_json(json);
 }
 
 }  // namespace glovebench::reports

@@ -36,7 +36,7 @@ struct Timings {
   std::vector<ExperimentTiming> experiments;
 };
 
-/// timings.json: of each stage count, mean, median, 95th percentile and maximum.
-std::string timings_json(const Timings& timings);
+/// timings.json: of each stage count, mean, median, 95th percentile and maximum; of the studies what is a time.
+std::string timings_json(const Timings& timings, const std::vector<StudyResult>& studies = {});
 
 }  // namespace glovebench::reports

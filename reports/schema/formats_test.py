@@ -110,7 +110,8 @@ class FormatsTest(unittest.TestCase):
             self.assertEqual(len({entry["name"] for entry in entries}), len(entries))
 
     def test_csv(self):
-        for name in ("comparison/comparison.csv", "tables/figure4.csv"):
+        for name in ("comparison/comparison.csv", "tables/figure4.csv", "tables/figure7.csv", "tables/figure8.csv",
+                     "tables/claims.csv"):
             with (self.folder / name).open(newline="") as file:
                 rows = list(csv.reader(file, strict=True))
             self.assertGreater(len(rows), 1)

@@ -56,6 +56,26 @@ class SchemaTest(unittest.TestCase):
                 change(results)
                 self.assertFalse(self.validator.is_valid(results))
 
+    def test_refuses_changed_studies(self):
+        def table(r):
+            return r["studies"][1]["tables"][0]
+
+        changes = {
+            "no list": lambda r: r.update(studies=None),
+            "unknown key": lambda r: r["studies"][0].update(extra=1),
+            "missing key": lambda r: table(r).pop("name_columns"),
+            "name that leads out": lambda r: table(r).update(name="../figure8"),
+            "a time's mark": lambda r: table(r)["columns"][0].update(is_time=True),
+            "cell of another kind": lambda r: table(r)["rows"][0].__setitem__(5, True),
+            "too many digits": lambda r: table(r)["columns"][5].update(digits=7),
+            "text for a value": lambda r: r["studies"][1]["measures"][0].update(value="1"),
+        }
+        for name, change in changes.items():
+            with self.subTest(name):
+                results = copy.deepcopy(self.full)
+                change(results)
+                self.assertFalse(self.validator.is_valid(results))
+
 
 if __name__ == "__main__":
     SchemaTest.program = sys.argv.pop(1)

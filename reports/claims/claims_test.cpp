@@ -1,0 +1,147 @@
+#include "reports/claims/claims.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "core/base/damaged_text.h"
+#include "core/base/error.h"
+#include "reports/embedded.h"
+#include "reports/paper_numbers.h"
+
+namespace glovebench::reports {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::string error_of_change(const std::function<void(json&)>& change) {
+  json document = json::parse(embedded_claims());
+  change(document);
+  try {
+    parse_claims(document.dump(), "claims.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+const Claim* find_claim(const std::string& measure) {
+  const auto it = std::ranges::find(claims(), measure, &Claim::measure);
+  return it == claims().end() ? nullptr : &*it;
+}
+
+TEST(Rule, EndsAreInsideOrNot) {
+  const Rule below = {.kind = Rule::Kind::below, .high = 10}, at_most = {.kind = Rule::Kind::at_most, .high = 10};
+  const Rule above = {.kind = Rule::Kind::above, .low = 10}, at_least = {.kind = Rule::Kind::at_least, .low = 10};
+  const Rule within = {Rule::Kind::within, 5, 15};
+  EXPECT_TRUE(holds(below, 9.999) && !holds(below, 10) && !holds(below, 11));
+  EXPECT_TRUE(holds(at_most, 10) && !holds(at_most, 10.001) && holds(at_most, -3));
+  EXPECT_TRUE(holds(above, 10.001) && !holds(above, 10) && !holds(above, 9));
+  EXPECT_TRUE(holds(at_least, 10) && !holds(at_least, 9.999));
+  EXPECT_TRUE(holds(within, 5) && holds(within, 15) && !holds(within, 4.9) && !holds(within, 15.1));
+}
+
+TEST(Rule, IntervalsThatMeetIt) {
+  const Rule below = {.kind = Rule::Kind::below, .high = 10}, above = {.kind = Rule::Kind::above, .low = 10};
+  EXPECT_TRUE(meets(below, 9, 12) && !meets(below, 10, 12));
+  EXPECT_TRUE(meets(above, 9, 12) && !meets(above, 9, 10));
+  const Rule within = {Rule::Kind::within, 5, 15};
+  EXPECT_TRUE(meets(within, 0, 20) && meets(within, 15, 20) && !meets(within, 16, 20) && !meets(within, 0, 4));
+  EXPECT_THROW(meets(within, 20, 0), std::logic_error);
+}
+
+TEST(Rule, Text) {
+  EXPECT_EQ(to_string(Rule{.kind = Rule::Kind::below, .high = 66.7}), "below 66.7");
+  EXPECT_EQ(to_string(Rule{.kind = Rule::Kind::at_most, .high = 10}), "at most 10");
+  EXPECT_EQ(to_string(Rule{.kind = Rule::Kind::above, .low = 0}), "above 0");
+  EXPECT_EQ(to_string(Rule{.kind = Rule::Kind::at_least, .low = 12}), "at least 12");
+  EXPECT_EQ(to_string(Rule{Rule::Kind::within, 5, 15}), "within 5..15");
+}
+
+TEST(Claims, RequiredAreThosePositionAndOrder) {
+  std::vector<std::string> required;
+  for (const Claim& claim : claims())
+    if (claim.required) required.push_back(claim.measure);
+  EXPECT_THAT(required, testing::UnorderedElementsAre("figure4.largest_mean_position_error_mm_source",
+                                                      "figure4.largest_mean_position_error_mm_recorded",
+                                                      "figure4.ordered_pairs_source"));
+}
+
+TEST(Claims, FiguresFiveAndSixAreAtMostThePaperPrintedMeans) {
+  const auto expect = [](const std::string& measure, double printed) {
+    const Claim* claim = find_claim(measure);
+    ASSERT_NE(claim, nullptr) << measure;
+    EXPECT_EQ(claim->rule, (Rule{.kind = Rule::Kind::at_most, .high = printed})) << measure;
+  };
+  const PaperNumbers& paper = paper_numbers();
+  for (const auto& [figure, mean] : {std::pair{"figure5", paper.figure_5.mean}, {"figure6", paper.figure_6.mean}}) {
+    expect(std::string(figure) + ".position_error_mm", mean.position_mm);
+    expect(std::string(figure) + ".posture_error_deg", mean.posture_deg);
+    expect(std::string(figure) + ".rotation_error_deg", mean.rotation_deg);
+  }
+  const Claim* position = find_claim("figure4.largest_mean_position_error_mm_source");
+  EXPECT_EQ(position->rule.high, paper.mean_position_error_below_mm);
+  const Claim* rate = find_claim("frame.p95_ms_20_postures");
+  ASSERT_NE(rate, nullptr);
+  EXPECT_NEAR(rate->rule.high, 1000 / paper.rate_hz, 0.05) << "one decimal of 66.67 ms";
+}
+
+TEST(Claims, OnlyTheCitedFigureIsAConsistency) {
+  for (const Claim& claim : claims())
+    EXPECT_EQ(claim.kind == ClaimKind::consistency, claim.measure == "monocular.depth_error_cm") << claim.id;
+}
+
+TEST(Claims, ErrorsNameFileFieldAndExpectation) {
+  const auto first = [](json& j) -> json& { return j["claims"][0]; };
+  EXPECT_EQ(error_of_change([](json&) {}), "no error");
+  EXPECT_THAT(error_of_change([](json& j) { j["version"] = 2; }), HasSubstr("claims.json: version: found 2"));
+  EXPECT_THAT(error_of_change([](json& j) { j["extra"] = 2; }), HasSubstr("unknown key \"extra\""));
+  EXPECT_THAT(error_of_change([&](json& j) { first(j).erase("if_not"); }),
+              HasSubstr("claims[0].if_not: found nothing"));
+  EXPECT_THAT(error_of_change([&](json& j) { first(j)["mood"] = 1; }), HasSubstr("unknown key \"mood\""));
+  EXPECT_THAT(error_of_change([&](json& j) { j["claims"][1]["id"] = first(j)["id"]; }),
+              HasSubstr("claims[1].id: found \"position-below-1-cm-recorded\", expected an id that has not been"));
+  EXPECT_THAT(error_of_change([&](json& j) { first(j)["id"] = "Two Words"; }), HasSubstr("claims[0].id"));
+  EXPECT_THAT(error_of_change([&](json& j) { first(j)["claim"] = "two\nlines"; }), HasSubstr("a line of text"));
+  EXPECT_THAT(error_of_change([&](json& j) { first(j)["measure"] = ""; }), HasSubstr("claims[0].measure"));
+  EXPECT_THAT(error_of_change([&](json& j) { first(j)["kind"] = "guess"; }),
+              HasSubstr("claims[0].kind: found \"guess\", expected reproduction or consistency"));
+  EXPECT_THAT(error_of_change([&](json& j) { first(j)["required"] = 1; }), HasSubstr("true or false"));
+}
+
+TEST(Claims, ErrorsInRules) {
+  const auto error_of_rule = [](const json& rule) {
+    return error_of_change([&](json& j) { j["claims"][0]["rule"] = rule; });
+  };
+  EXPECT_EQ(error_of_rule({{"within", {-1, 1}}}), "no error");
+  EXPECT_THAT(error_of_rule(json::object()),
+              HasSubstr("claims[0].rule: found an object, expected an object with one"));
+  EXPECT_THAT(error_of_rule({{"below", 1}, {"above", 0}}), HasSubstr("with one rule"));
+  EXPECT_THAT(error_of_rule({{"near", 1}}), HasSubstr("one of below, at_most, above, at_least, within"));
+  EXPECT_THAT(error_of_rule({{"below", "1"}}), HasSubstr("claims[0].rule.below"));
+  EXPECT_THAT(error_of_rule({{"below", 1e7}}), HasSubstr("claims[0].rule.below"));
+  EXPECT_THAT(error_of_rule({{"within", {1}}}), HasSubstr("the lower and the upper bound"));
+  EXPECT_THAT(error_of_rule({{"within", {2, 1}}}), HasSubstr("claims[0].rule.within[1]"));
+}
+
+TEST(Claims, DamageGivesAnErrorOrClaimsButNothingElse) {
+  const std::string text = embedded_claims();
+  int refused = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    RandomStream random(21, "claims_test", trial, "damage");
+    try {
+      for (const Claim& claim : parse_claims(damaged_text(text, random), "claims.json"))
+        EXPECT_FALSE(to_string(claim.rule).empty());
+    } catch (const Error& error) {
+      ++refused;
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+  // Most of the file is sentences, in which another letter is another sentence.
+  EXPECT_GT(refused, 300);
+}
+
+}  // namespace
+}  // namespace glovebench::reports

@@ -1,0 +1,138 @@
+#include "reports/study_text.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/base/file.h"
+#include "reports/example_result.h"
+#include "reports/report.h"
+
+namespace glovebench::reports {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::vector<std::string> split(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  for (size_t end; (end = text.find(separator, begin)) != std::string::npos; begin = end + separator.size())
+    parts.push_back(text.substr(begin, end - begin));
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+/// Cells of a line of CSV; quotes around a cell may hold commas.
+std::vector<std::string> csv_cells(const std::string& line) {
+  std::vector<std::string> cells = {""};
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"')
+      is_quoted = !is_quoted;
+    else if (c == ',' && !is_quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+/// What was written of a study, read without the code that wrote it.
+struct Written {
+  std::vector<std::vector<std::string>> csv;       ///< with the heading
+  std::vector<std::vector<std::string>> markdown;  ///< without it
+};
+
+Written read_written(const std::string& folder, const Table& table, const std::string& summary) {
+  Written written;
+  std::istringstream lines(read_file(folder + "/" + table_file(table)));
+  for (std::string line; std::getline(lines, line);) written.csv.push_back(csv_cells(line));
+  const size_t explanation = summary.find(table.explanation + "\n\n| ");
+  EXPECT_NE(explanation, std::string::npos) << table.name;
+  std::istringstream rest(summary.substr(explanation + table.explanation.size() + 2));
+  std::string line;
+  for (int skipped = 0; skipped < 2; ++skipped) std::getline(rest, line);
+  while (std::getline(rest, line) && line.starts_with("| "))
+    written.markdown.push_back(split(line.substr(2, line.size() - 4), " | "));
+  return written;
+}
+
+/// The table in results.json or timings.json; null if it has none of that name.
+json find_table(const json& document, const std::string& name) {
+  for (const json& study : document["studies"])
+    for (const json& table : study["tables"])
+      if (table["name"] == name) return table;
+  return nullptr;
+}
+
+/// The cell of a JSON file in that row, and column of that key.
+json find_cell(const json& table, size_t row, const std::string& key) {
+  for (size_t c = 0; c < table["columns"].size(); ++c)
+    if (table["columns"][c]["key"] == key) return table["rows"][row][c];
+  return "no such column";
+}
+
+/// The CSV's cell as a table to read shows it.
+std::string as_shown(const std::string& csv, const Column& column, const Cell& cell) {
+  if (csv.empty()) return "-";
+  if (!std::holds_alternative<double>(cell)) return csv;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", column.digits, std::stod(csv));
+  return text;
+}
+
+TEST(StudyText, EveryCellIsTheSameInEveryFile) {
+  const std::string folder = testing::TempDir() + "/study_text_test";
+  std::filesystem::remove_all(folder);
+  const RunResult result = full_result();
+  write_report(folder, result, {});
+  const std::string summary = read_file(folder + "/summary.md");
+  const json results = json::parse(read_file(folder + "/results.json"));
+  const json timings = json::parse(read_file(folder + "/timings.json"));
+  int cells = 0;
+  for (const StudyResult& study : result.studies) {
+    for (const Table& table : study.tables) {
+      const Written written = read_written(folder, table, summary);
+      const json in_results = find_table(results, table.name), in_timings = find_table(timings, table.name);
+      ASSERT_EQ(written.csv.size(), table.rows.size() + 1);
+      ASSERT_EQ(written.markdown.size(), table.rows.size());
+      for (size_t r = 0; r < table.rows.size(); ++r) {
+        for (size_t c = 0; c < table.columns.size(); ++c, ++cells) {
+          const Column& column = table.columns[c];
+          const std::string& csv = written.csv[r + 1][c];
+          SCOPED_TRACE(table.name + " " + std::to_string(r) + " " + column.key);
+          EXPECT_EQ(written.csv[0][c], column.key);
+          const json stored = find_cell(column.is_time ? in_timings : in_results, r, column.key);
+          EXPECT_EQ(csv, stored.is_null() ? "" : stored.is_string() ? stored.get<std::string>() : stored.dump());
+          EXPECT_EQ(written.markdown[r][c], as_shown(csv, column, table.rows[r][c]));
+          EXPECT_EQ(find_cell(column.is_time ? in_results : in_timings, r, column.key) == "no such column",
+                    std::cmp_greater_equal(c, table.name_columns))
+              << "times and results stand apart, names beside both";
+        }
+      }
+    }
+  }
+  EXPECT_EQ(cells, 8 * 11 + 16 * 19);
+}
+
+TEST(StudyText, CellsAreRoundedOnce) {
+  const Column column = {"x", "x", 2};
+  EXPECT_EQ(cell_text(2.0 / 3, column), "0.67");
+  EXPECT_EQ(cell_text(-0.001, column), "0.00") << "no minus zero";
+  EXPECT_EQ(cell_text(-0.012, column), "-0.01");
+  EXPECT_EQ(cell_text(int64_t{12}, column), "12");
+  EXPECT_EQ(cell_text("a", column), "a");
+  EXPECT_EQ(cell_text({}, column), "-");
+}
+
+TEST(StudyText, BarsInTextsEndNoCell) {
+  const Table table = {"t", "T", "", {{"a", "a|b", 0}}, 1, {{"c|d"}}};
+  EXPECT_EQ(study_markdown({"s", "S", {table}, {}}), "## S\n\n### T\n\n| a\\|b |\n| --- |\n| c\\|d |\n\n");
+  EXPECT_THAT(table_csv(table), HasSubstr("c|d"));
+}
+
+}  // namespace
+}  // namespace glovebench::reports
