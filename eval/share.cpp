@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
+#include "core/base/file.h"
 
 namespace glovebench::eval {
 namespace {
@@ -40,6 +41,16 @@ std::string trajectory_folder() {
 
 std::string suite_folder() {
   return share_folder() + "/suites";
+}
+
+std::vector<std::string> page_scripts() {
+  const std::string folder = share_folder() + "/page/";
+  std::vector<std::string> scripts;
+  for (const std::string name : {"vega", "vega-lite", "vega-embed"}) {
+    scripts.push_back("/*! " + name + "\n" + read_file(folder + name + ".license.txt") + "*/\n" +
+                      read_file(folder + name + ".min.js"));
+  }
+  return scripts;
 }
 
 std::string default_cache_folder() {
