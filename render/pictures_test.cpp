@@ -35,6 +35,33 @@ TEST(Pictures, DepthWithoutValueIsBlackAndNearDiffersFromFar) {
   EXPECT_LT(picture(2, 0)[0], picture(2, 0)[2]);  // far is blue
 }
 
+TEST(Pictures, DepthDifferenceTellsNearerFartherAndMissingApart) {
+  DepthImage depth(6, 1), other(6, 1);
+  for (const int u : {0, 1, 2, 3}) depth(u, 0) = 0.7f;
+  other(0, 0) = 0.7f;   // equal
+  other(1, 0) = 0.65f;  // nearer by more than the range
+  other(2, 0) = 0.71f;  // farther by half of it
+  other(4, 0) = 0.7f;   // only this one
+  const ColorImage picture = picture_of_depth_difference(depth, other, 0.02);
+  EXPECT_EQ(picture(0, 0), (Rgb{247, 247, 247}));
+  EXPECT_EQ(picture(1, 0), (Rgb{33, 102, 172}));
+  EXPECT_EQ(picture(2, 0), (Rgb{213, 168, 129})) << "half way from white to the orange end";
+  EXPECT_EQ(picture(3, 0), picture(4, 0)) << "only one of the two";
+  EXPECT_NE(picture(5, 0), picture(4, 0)) << "none";
+}
+
+TEST(Pictures, JpegComesBackNearlyEqual) {
+  ColorImage image(16, 16, Rgb{200, 100, 40});
+  const std::string bytes = encode_jpeg(image, 80);
+  const std::vector<uint8_t> buffer(bytes.begin(), bytes.end());
+  const cv::Mat decoded = cv::imdecode(buffer, cv::IMREAD_COLOR);
+  ASSERT_EQ(decoded.size(), cv::Size(16, 16));
+  const auto& bgr = decoded.at<cv::Vec3b>(8, 8);
+  EXPECT_NEAR(bgr[2], 200, 3);
+  EXPECT_NEAR(bgr[1], 100, 3);
+  EXPECT_NEAR(bgr[0], 40, 3);
+}
+
 TEST(Pictures, PaletteTellsLabelsApart) {
   LabelImage labels(kColorCount + 1, 1);
   for (int i = 0; i <= kColorCount; ++i) labels(i, 0) = static_cast<uint8_t>(i);
