@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/random.h"
-#include "core/segmentation/color_calibration.h"
 #include "render/noise.h"
 #include "render/rgbd_renderer.h"
 
@@ -16,7 +15,7 @@ namespace glovebench::eval {
 namespace {
 
 /// Changes whenever the same inputs would give another table.
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr int kViewsPerLighting = 12;
 
 /// The hand somewhere in the working volume, seen from a random side.
@@ -30,8 +29,9 @@ Eigen::Isometry3d random_pose(RandomStream& random) {
 }
 
 std::string input_hash(const HandModel& model, const RgbdCalibration& calibration,
-                       const std::vector<Posture>& postures) {
-  std::string text = fmt::format("{}/{}/{}/{}", kVersion, kViewsPerLighting, model.hash(), calibration.rgb.fx);
+                       const std::vector<Posture>& postures, ColorSpace space) {
+  std::string text = fmt::format("{}/{}/{}/{}/{}", kVersion, to_string(space), kViewsPerLighting, model.hash(),
+                                 calibration.rgb.fx);
   for (const Posture& posture : postures) text += fmt::format("/{}", fmt::join(posture, ","));
   for (const render::Lighting& l : calibration_lightings()) {
     text += fmt::format("/{},{},{}", l.strength, l.temperature_k, fmt::join(l.direction_to_light, ","));
@@ -60,16 +60,26 @@ std::vector<render::Lighting> calibration_lightings() {
   return lightings;
 }
 
+ColorTableConfig one_lighting(ColorSpace space) {
+  render::Lighting lighting = calibration_lightings().front();
+  lighting.strength = 1.0;
+  lighting.temperature_k = 4500.0;
+  ColorModel as_seen;
+  as_seen.strength_factor = 1.0;
+  as_seen.temperature_shift_mired = 0.0;
+  return {space, {lighting}, as_seen};
+}
+
 ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
-                            const std::vector<Posture>& postures) {
+                            const std::vector<Posture>& postures, const ColorTableConfig& config) {
   // Without the clutter on the table, some of which has nearly the glove's colors: it lies beyond the working
   // volume, and learning it as background would cost the glove pixels of those colors.
   render::SceneConfig scene;
   scene.clutter = false;
   render::RgbdRenderer renderer(calibration, model, scene);
-  ColorCalibration colors;
+  ColorCalibration colors(config.space);
   int64_t view = 0;
-  for (const render::Lighting& lighting : calibration_lightings()) {
+  for (const render::Lighting& lighting : config.lightings) {
     for (int i = 0; i < kViewsPerLighting; ++i, ++view) {
       RandomStream random(1, "color calibration", view, "pose");
       const PosedHand hand = model->pose(postures[view % postures.size()]);
@@ -79,21 +89,22 @@ ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCa
                       renderer.render_color_labels(hand, T_camera_hand));
     }
   }
-  return colors.build();
+  return colors.build(config.model);
 }
 
 ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
-                              const RgbdCalibration& calibration, const std::vector<Posture>& postures) {
-  const std::string hash = input_hash(*model, calibration, postures);
+                              const RgbdCalibration& calibration, const std::vector<Posture>& postures,
+                              ColorSpace space) {
+  const std::string hash = input_hash(*model, calibration, postures, space);
   const std::string path = fmt::format("{}/colors-{}.table", folder, hash.substr(0, 16));
   if (std::filesystem::exists(path)) {
     try {
       return ColorTable::load(path);
     } catch (const Error&) {
-      // Damaged: it is made anew below, from the same inputs.
+      // Damaged or of another version: it is made anew below, from the same inputs.
     }
   }
-  const ColorTable table = calibrate_colors(std::move(model), calibration, postures);
+  const ColorTable table = calibrate_colors(std::move(model), calibration, postures, {.space = space});
   table.save(path);
   return table;
 }

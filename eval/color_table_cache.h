@@ -5,7 +5,7 @@
 
 #include "core/camera/rgbd_calibration.h"
 #include "core/hand/hand_model.h"
-#include "core/segmentation/color_table.h"
+#include "core/segmentation/color_calibration.h"
 #include "render/lighting.h"
 
 namespace glovebench::eval {
@@ -14,12 +14,24 @@ namespace glovebench::eval {
 /// The tests use others, from half to double strength and from 3000 to 6500 K.
 std::vector<render::Lighting> calibration_lightings();
 
+/// From what a color table is calibrated, and over which space.
+struct ColorTableConfig {
+  ColorSpace space = ColorSpace::yuv;
+  std::vector<render::Lighting> lightings = calibration_lightings();
+  ColorModel model;
+};
+/// Calibrated under one lighting (strength 1, 4500 K) without relighting: such a table shows how much light of
+/// another kind moves the colors of a space.
+ColorTableConfig one_lighting(ColorSpace space);
+
 /// Calibrates the color table from rendered, labeled views of the gloved hand in its scene (section III-A).
 ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
-                            const std::vector<Posture>& postures);
+                            const std::vector<Posture>& postures, const ColorTableConfig& config = {});
 
-/// The same, kept in `folder` under a name that holds the hash of all inputs. A damaged file is calibrated anew.
+/// The table with all lightings, kept in `folder` under a name that holds the hash of all inputs. A damaged file,
+/// or one of an older version, is calibrated anew.
 ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
-                              const RgbdCalibration& calibration, const std::vector<Posture>& postures);
+                              const RgbdCalibration& calibration, const std::vector<Posture>& postures,
+                              ColorSpace space = ColorSpace::yuv);
 
 }  // namespace glovebench::eval

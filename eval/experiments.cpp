@@ -154,7 +154,8 @@ reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& exper
     }
   }
   result.inputs.hand_model = workbench.model()->hash();
-  result.inputs.color_table = hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())));
+  const auto color_table = workbench.color_table(plan.tracker.segmentation.color_space);
+  result.inputs.color_table = hash_bytes(std::as_bytes(std::span(color_table->labels())));
   result.suite = plan.suite;
   result.program_version = program_info().version;
   result.commit = program_info().commit;

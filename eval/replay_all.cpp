@@ -68,7 +68,7 @@ void prepare(Workbench& workbench, std::span<const Replay> replays) {
     // Before the threads start: building a database uses all of them itself.
     for (const std::string& name : replay.databases) workbench.database(name);
   }
-  workbench.color_table();
+  for (const Replay& replay : replays) workbench.color_table(replay.tracker.segmentation.color_space);
 }
 
 std::vector<TrackedReplays> replay_all(Workbench& workbench, std::span<const Replay> replays, int threads,

@@ -135,6 +135,7 @@ std::string replay_key(Workbench& workbench, const Replay& replay) {
   nlohmann::json databases = nlohmann::json::array();
   for (const std::string& name : replay.databases) databases.push_back({name, workbench.database(name)->hash()});
   const auto frames = frames_of(replay);
+  const auto color_table = workbench.color_table(config.segmentation.color_space);
   const nlohmann::json content = {
       {"configuration", to_json(replay.tracker)},
       {"truth", {replay.truth->name, trajectories::hash(*replay.truth)}},
@@ -147,7 +148,7 @@ std::string replay_key(Workbench& workbench, const Replay& replay) {
       {"subject", {replay.subject, workbench.subject(replay.subject)->hash()}},
       {"hand_model", workbench.model()->hash()},
       {"databases", databases},
-      {"color_table", hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels())))},
+      {"color_table", hash_bytes(std::as_bytes(std::span(color_table->labels())))},
   };
   return hash_text(content.dump());
 }

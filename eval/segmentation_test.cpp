@@ -154,6 +154,23 @@ void expect_usable(const Summary& s) {
   EXPECT_LT(s.worst_missed, 0.33);
 }
 
+TEST(SegmentationLong, OneLightingAloneTellsLessInEitherSpace) {
+  Workbench workbench(test_workbench());
+  const auto postures = trajectories::posture_set(trajectory_folder(), "DB_open_pinch_power").postures;
+  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb}) {
+    const auto all = workbench.color_table(space);
+    const ColorTable one =
+        calibrate_colors(workbench.model(), workbench.calibration(), postures, one_lighting(space));
+    EXPECT_EQ(all->space(), space);
+    EXPECT_EQ(one.space(), space);
+    const auto labeled = [](const ColorTable& table) {
+      return std::ssize(table.labels()) - std::count(table.labels().begin(), table.labels().end(), 0);
+    };
+    EXPECT_GT(labeled(one), 0);
+    EXPECT_LT(2 * labeled(one), labeled(*all));
+  }
+}
+
 TEST(SegmentationLong, FirstSubjectUnderHeldOutLightings) {
   expect_usable(summarize(1, count_subject(1)));
 }

@@ -31,14 +31,15 @@ std::shared_ptr<const HandModel> Workbench::subject(int number) {
   return model;
 }
 
-std::shared_ptr<const ColorTable> Workbench::color_table() {
+std::shared_ptr<const ColorTable> Workbench::color_table(ColorSpace space) {
   const std::lock_guard lock(mutex_);
-  if (!color_table_) {
+  std::shared_ptr<const ColorTable>& table = color_tables_[space];
+  if (!table) {
     const PostureSet postures = trajectories::posture_set(trajectory_folder(), "DB_open_pinch_power");
-    color_table_ = std::make_shared<ColorTable>(
-        cached_color_table(config_.cache_folder, model(), calibration_, postures.postures));
+    table = std::make_shared<ColorTable>(
+        cached_color_table(config_.cache_folder, model(), calibration_, postures.postures, space));
   }
-  return color_table_;
+  return table;
 }
 
 std::shared_ptr<const Database> Workbench::database(const std::string& name) {
@@ -109,7 +110,8 @@ PostureSet Workbench::postures_of(const std::string& name) const {
 }
 
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {
-  return Tracker(config, calibration_, model(), database(database_name), color_table());
+  return Tracker(config, calibration_, model(), database(database_name),
+                 color_table(config.segmentation.color_space));
 }
 
 }  // namespace glovebench::eval

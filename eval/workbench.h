@@ -32,7 +32,7 @@ class Workbench {
   /// The hand in front of the camera: subject 1 or 2.
   std::shared_ptr<const HandModel> subject(int number);
   const RgbdCalibration& calibration() const { return calibration_; }
-  std::shared_ptr<const ColorTable> color_table();
+  std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   /// A database by the name of its posture set, with the tiny-image sizes of the cascade.
   std::shared_ptr<const Database> database(const std::string& name);
   /// A database of these postures.
@@ -58,7 +58,7 @@ class Workbench {
   std::map<int, std::shared_ptr<const HandModel>> subjects_;
   std::map<std::string, PostureSet> postures_;  ///< of files, by name
   std::map<std::string, std::shared_ptr<const Database>> databases_;
-  std::shared_ptr<const ColorTable> color_table_;
+  std::map<ColorSpace, std::shared_ptr<const ColorTable>> color_tables_;
 };
 
 }  // namespace glovebench::eval

@@ -21,11 +21,13 @@ const Eigen::Array3d kLogGainPerMired{0.0, -0.00194, -0.00485};
 
 using Density = std::vector<float>;
 
-Eigen::Array3d rgb_of_cell(size_t cell) {
+Eigen::Array3d rgb_of_cell(size_t cell, ColorSpace space) {
   const auto center = [](size_t index) { return kCellWidth * (static_cast<double>(index) + 0.5) - 0.5; };
-  const double y = center(cell / (kSide * kSide));
-  const double u = center(cell / kSide % kSide) - 128;
-  const double v = center(cell % kSide) - 128;
+  const double first = center(cell / (kSide * kSide));
+  const double second = center(cell / kSide % kSide);
+  const double third = center(cell % kSide);
+  if (space == ColorSpace::rgb) return {first, second, third};
+  const double y = first, u = second - 128, v = third - 128;
   return {y + 1.402 * v, y - 0.344136 * u - 0.714136 * v, y + 1.772 * u};
 }
 
@@ -83,19 +85,21 @@ Density keep_densest(Density density, double share) {
 using Counts = std::vector<std::array<uint32_t, kColorCount + 1>>;
 
 /// Where the pixels of one label fall, as seen and relit, as a density over the cells.
-Density relit_density(const Counts& counts, int label, const std::vector<Eigen::Array3d>& gains, int min_luma) {
+Density relit_density(const Counts& counts, ColorSpace space, int label, const std::vector<Eigen::Array3d>& gains,
+                      int min_luma) {
   Density density(ColorTable::kCells);
   for (size_t cell = 0; cell < counts.size(); ++cell) {
     const float count = static_cast<float>(counts[cell][label]);
     if (count == 0) continue;
-    const Eigen::Array3d rgb = rgb_of_cell(cell);
+    const Eigen::Array3d rgb = rgb_of_cell(cell, space);
     if (rgb.matrix().dot(Eigen::Vector3d(0.299, 0.587, 0.114)) < min_luma) continue;
     const bool clipped = rgb.maxCoeff() >= kClipped;  // its true color is unknown: it stays as it is
     for (const Eigen::Array3d& gain : std::span(gains).first(clipped ? 1 : gains.size())) {
       const Eigen::Array3d relit = (rgb * gain).max(0.0).min(255.0).round();
-      const Yuv yuv = yuv_from_rgb(
-          {static_cast<uint8_t>(relit[0]), static_cast<uint8_t>(relit[1]), static_cast<uint8_t>(relit[2])});
-      if (yuv[0] >= min_luma) density[ColorTable::cell(yuv)] += clipped ? count * gains.size() : count;
+      const Rgb relit_rgb = {static_cast<uint8_t>(relit[0]), static_cast<uint8_t>(relit[1]),
+                             static_cast<uint8_t>(relit[2])};
+      if (yuv_from_rgb(relit_rgb)[0] < min_luma) continue;
+      density[ColorTable::cell_of_rgb(relit_rgb, space)] += clipped ? count * gains.size() : count;
     }
   }
   for (size_t step : {size_t{1}, size_t{kSide}, size_t{kSide * kSide}}) density = blur(density, step);
@@ -115,15 +119,15 @@ void ColorCalibration::add_view(const ColorImage& color, const LabelImage& label
   };
   for (int v = 0; v < labels.height(); ++v)
     for (int u = 0; u < labels.width(); ++u)
-      if (is_inside(u, v)) ++counts_[ColorTable::cell(yuv_from_rgb(color(u, v)))][labels(u, v)];
+      if (is_inside(u, v)) ++counts_[ColorTable::cell_of_rgb(color(u, v), space_)][labels(u, v)];
 }
 
 ColorTable ColorCalibration::build(const ColorModel& model) const {
   const std::vector<Eigen::Array3d> gains = relighting_gains(model);
-  const Density not_glove = relit_density(counts_, 0, gains, model.min_luma);
+  const Density not_glove = relit_density(counts_, space_, 0, gains, model.min_luma);
   std::array<Density, kColorCount + 1> colors;
   for (int label = 1; label <= kColorCount; ++label) {
-    colors[label] = relit_density(counts_, label, gains, model.min_luma);
+    colors[label] = relit_density(counts_, space_, label, gains, model.min_luma);
     if (std::all_of(colors[label].begin(), colors[label].end(), [](float d) { return d == 0; }))
       throw Error("color calibration", "color " + std::to_string(label), "no bright pixel", "at least one");
     colors[label] = keep_densest(std::move(colors[label]), model.kept_share);
@@ -142,7 +146,7 @@ ColorTable ColorCalibration::build(const ColorModel& model) const {
     const double posterior = color_prior * colors[best][cell];
     if (posterior > 0 && posterior >= model.min_posterior * evidence) labels[cell] = static_cast<uint8_t>(best);
   }
-  return ColorTable(std::move(labels));
+  return ColorTable(std::move(labels), space_);
 }
 
 }  // namespace glovebench

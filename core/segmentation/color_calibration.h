@@ -18,6 +18,9 @@ struct ColorModel {
 /// everything that is not glove (skin, table, background, clutter) as label 0.
 class ColorCalibration {
  public:
+  /// `space`: of the table.
+  explicit ColorCalibration(ColorSpace space = ColorSpace::yuv) : space_(space) {}
+
   /// Adds every pixel of a view. `labels` has the size of `color`; 0 = not glove. Pixels next to a border
   /// between labels mix two colors and are left out.
   void add_view(const ColorImage& color, const LabelImage& labels);
@@ -27,6 +30,7 @@ class ColorCalibration {
   ColorTable build(const ColorModel& model = {}) const;
 
  private:
+  ColorSpace space_;
   std::vector<std::array<uint32_t, kColorCount + 1>> counts_ =
       std::vector<std::array<uint32_t, kColorCount + 1>>(ColorTable::kCells);
 };

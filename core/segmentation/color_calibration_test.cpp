@@ -72,8 +72,8 @@ View render_view(const Light& light, int number) {
 }
 
 /// The lightings that the tables of these tests are calibrated from.
-ColorCalibration calibrate() {
-  ColorCalibration calibration;
+ColorCalibration calibrate(ColorSpace space = ColorSpace::yuv) {
+  ColorCalibration calibration(space);
   int number = 0;
   for (double temperature_K : {3500.0, 4000.0, 4500.0, 5000.0, 5700.0})
     for (double strength : {0.8, 1.2}) {
@@ -140,6 +140,14 @@ TEST(ColorCalibration, TellsColorsUnderTheLightingsItHasSeen) {
   const Summary seen = summarize(calibrate().build(stripes_model()), {3500, 4500, 5700}, {0.8, 1.2});
   EXPECT_LT(seen.worst.wrong, 0.002);
   EXPECT_LT(seen.worst.missed, 0.03);
+}
+
+TEST(ColorCalibration, TellsTheSameColorsOverRgb) {
+  const ColorTable table = calibrate(ColorSpace::rgb).build(stripes_model());
+  EXPECT_EQ(table.space(), ColorSpace::rgb);
+  const Summary seen = summarize(table, {3500, 4500, 5700}, {0.8, 1.2});
+  EXPECT_LT(seen.worst.wrong, 0.004);
+  EXPECT_LT(seen.worst.missed, 0.06);
 }
 
 TEST(ColorCalibration, TellsColorsUnderHeldOutLighting) {

@@ -11,11 +11,13 @@
 namespace glovebench {
 namespace {
 
-// File: this line, the hash of the labels (32 hexadecimal digits) and a line feed, then one byte a cell.
+// File: this line with the space ("yuv" or "rgb") at its end, the hash of the labels (32 hexadecimal digits) and a
+// line feed, then one byte a cell.
 constexpr std::string_view kMagic = "glovebench color table, version ";
-constexpr std::string_view kVersion = "1\n";
+constexpr std::string_view kVersion = "2, ";
+constexpr size_t kSpaceLength = 3;
 constexpr size_t kHashLength = 32;
-constexpr size_t kHeaderLength = kMagic.size() + kVersion.size() + kHashLength + 1;
+constexpr size_t kHeaderLength = kMagic.size() + kVersion.size() + kSpaceLength + 1 + kHashLength + 1;
 
 constexpr uint8_t kOutside = kColorCount + 1;  // pads the label image; has no vote
 
@@ -62,9 +64,35 @@ uint8_t majority(const uint8_t* corner, int stride) {
   return best;
 }
 
+/// The labels of all pixels of which `has_color` is true, for tables over one space: what the space asks for is
+/// decided before the loop.
+template <ColorSpace kSpace, typename HasColor>
+LabelImage labels_of(const ColorImage& color, const std::vector<uint8_t>& cells, HasColor has_color) {
+  LabelImage labels(color.width(), color.height());
+  for (size_t i = 0; i < labels.size(); ++i)
+    if (has_color(i)) labels[i] = cells[ColorTable::cell_of_rgb(color[i], kSpace)];
+  return labels;
+}
+
+template <typename HasColor>
+LabelImage labels_of(const ColorImage& color, const ColorTable& table, HasColor has_color) {
+  return table.space() == ColorSpace::yuv ? labels_of<ColorSpace::yuv>(color, table.labels(), has_color)
+                                          : labels_of<ColorSpace::rgb>(color, table.labels(), has_color);
+}
+
 }  // namespace
 
-ColorTable::ColorTable(std::vector<uint8_t> labels) : labels_(std::move(labels)) {
+std::string_view to_string(ColorSpace space) {
+  return space == ColorSpace::yuv ? "yuv" : "rgb";
+}
+
+std::optional<ColorSpace> color_space_from_string(std::string_view text) {
+  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb})
+    if (text == to_string(space)) return space;
+  return std::nullopt;
+}
+
+ColorTable::ColorTable(std::vector<uint8_t> labels, ColorSpace space) : labels_(std::move(labels)), space_(space) {
   if (labels_.size() != kCells)
     throw Error("color table", "cells", std::to_string(labels_.size()), std::to_string(kCells));
   const auto wrong = std::find_if(labels_.begin(), labels_.end(), [](uint8_t l) { return l > kColorCount; });
@@ -75,7 +103,8 @@ ColorTable::ColorTable(std::vector<uint8_t> labels) : labels_(std::move(labels))
 
 void ColorTable::save(const std::string& path) const {
   const std::string cells(labels_.begin(), labels_.end());
-  write_file(path, std::string(kMagic) + std::string(kVersion) + hash_text(cells) + "\n" + cells);
+  write_file(path, std::string(kMagic) + std::string(kVersion) + std::string(to_string(space_)) + "\n" +
+                       hash_text(cells) + "\n" + cells);
 }
 
 ColorTable ColorTable::load(const std::string& path) {
@@ -85,22 +114,27 @@ ColorTable ColorTable::load(const std::string& path) {
   const std::string_view version = view.substr(kMagic.size());
   if (!version.starts_with(kVersion))
     throw Error(path, "version", "\"" + std::string(version.substr(0, version.find('\n')).substr(0, 20)) + "\"",
-                "1");
+                "2");
   if (content.size() != kHeaderLength + kCells)
     throw Error(path, "size", std::to_string(content.size()) + " bytes",
                 std::to_string(kHeaderLength + kCells) + " bytes");
+  const std::string_view space_text = version.substr(kVersion.size(), kSpaceLength);
+  const std::optional<ColorSpace> space = color_space_from_string(space_text);
+  if (!space || version[kVersion.size() + kSpaceLength] != '\n')
+    throw Error(path, "color space", "\"" + std::string(space_text) + "\"", "yuv or rgb");
   const std::string_view cells = view.substr(kHeaderLength);
   const std::string expected = hash_text(cells) + "\n";
   const std::string_view found = view.substr(kHeaderLength - kHashLength - 1, kHashLength + 1);
   if (found != expected) throw Error(path, "checksum", "another one", "that of the cells");
-  return ColorTable(std::vector<uint8_t>(cells.begin(), cells.end()));
+  return ColorTable(std::vector<uint8_t>(cells.begin(), cells.end()), *space);
 }
 
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table) {
-  LabelImage labels(mapped.color.width(), mapped.color.height());
-  for (size_t i = 0; i < labels.size(); ++i)
-    if (mapped.has_color[i]) labels[i] = table.label(mapped.color[i]);
-  return labels;
+  return labels_of(mapped.color, table, [&](size_t i) { return mapped.has_color[i] != 0; });
+}
+
+LabelImage segment(const ColorImage& color, const ColorTable& table) {
+  return labels_of(color, table, [](size_t) { return true; });
 }
 
 LabelImage majority_filter(const LabelImage& labels) {

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/image.h"
@@ -21,7 +23,14 @@ constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
           static_cast<uint8_t>((32768 * r - 27439 * g - 5329 * b + half + center) >> 16)};
 }
 
-/// The look-up table of section III-A: 64 x 64 x 64 cells over (Y, U, V), each holding a label 0..10.
+/// The axes of a color table: the paper's (Y, U, V), or (R, G, B) to compare it with.
+enum class ColorSpace { yuv, rgb };
+std::string_view to_string(ColorSpace space);
+/// Nothing if the text names none.
+std::optional<ColorSpace> color_space_from_string(std::string_view text);
+
+/// The look-up table of section III-A: 64 x 64 x 64 cells over (Y, U, V), or over (R, G, B), each holding a label
+/// 0..10.
 class ColorTable {
  public:
   static constexpr int kBits = 6;
@@ -29,15 +38,20 @@ class ColorTable {
 
   ColorTable() : labels_(kCells, 0) {}
   /// Throws Error unless there are kCells labels, all 0..kColorCount.
-  explicit ColorTable(std::vector<uint8_t> labels);
+  explicit ColorTable(std::vector<uint8_t> labels, ColorSpace space = ColorSpace::yuv);
 
-  static size_t cell(const Yuv& yuv) {
+  /// The cell of a color given in the table's own space.
+  static size_t cell(const std::array<uint8_t, 3>& color) {
     constexpr int shift = 8 - kBits;
-    return (size_t{yuv[0]} >> shift) << (2 * kBits) | (size_t{yuv[1]} >> shift) << kBits |
-           (size_t{yuv[2]} >> shift);
+    return (size_t{color[0]} >> shift) << (2 * kBits) | (size_t{color[1]} >> shift) << kBits |
+           (size_t{color[2]} >> shift);
   }
-  uint8_t label(const Rgb& rgb) const { return labels_[cell(yuv_from_rgb(rgb))]; }
+  static size_t cell_of_rgb(const Rgb& rgb, ColorSpace space) {
+    return cell(space == ColorSpace::yuv ? yuv_from_rgb(rgb) : rgb);
+  }
+  uint8_t label(const Rgb& rgb) const { return labels_[cell_of_rgb(rgb, space_)]; }
   const std::vector<uint8_t>& labels() const { return labels_; }
+  ColorSpace space() const { return space_; }
 
   /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it.
   void save(const std::string& path) const;
@@ -45,10 +59,13 @@ class ColorTable {
 
  private:
   std::vector<uint8_t> labels_;
+  ColorSpace space_ = ColorSpace::yuv;
 };
 
 /// The labeled image L: the table applied to every pixel of M that has a color.
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table);
+/// The table applied to every pixel of a color image.
+LabelImage segment(const ColorImage& color, const ColorTable& table);
 
 /// Replaces each label by the majority of its 3x3 neighborhood (a configuration, not in the paper).
 LabelImage majority_filter(const LabelImage& labels);

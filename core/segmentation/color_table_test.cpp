@@ -22,11 +22,11 @@ class ColorTableFile : public testing::Test {
   const std::string path_ = (folder_ / "glove.colors").string();
 };
 
-ColorTable random_table() {
+ColorTable random_table(ColorSpace space = ColorSpace::yuv) {
   RandomStream random(3, "color table", 0, "labels");
   std::vector<uint8_t> labels(ColorTable::kCells);
   for (uint8_t& label : labels) label = static_cast<uint8_t>(random.index(kColorCount + 1));
-  return ColorTable(labels);
+  return ColorTable(labels, space);
 }
 
 std::string load_error(const std::string& path) {
@@ -65,10 +65,26 @@ TEST(ColorTable, RefusesImpossibleLabels) {
   EXPECT_THROW(ColorTable{labels}, Error);
 }
 
+TEST(ColorTable, LooksUpInItsOwnSpace) {
+  const Rgb color = {200, 30, 40};  // cell (50, 7, 10) of RGB
+  std::vector<uint8_t> cells(ColorTable::kCells, 0);
+  cells[(50 * 64 + 7) * 64 + 10] = 3;
+  EXPECT_EQ(ColorTable(cells, ColorSpace::rgb).label(color), 3);
+  EXPECT_EQ(ColorTable(cells, ColorSpace::yuv).label(color), 0);
+  EXPECT_EQ(ColorTable(cells).space(), ColorSpace::yuv);
+  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb}) {
+    EXPECT_EQ(color_space_from_string(to_string(space)), space);
+  }
+  EXPECT_EQ(color_space_from_string("hsv"), std::nullopt);
+}
+
 TEST_F(ColorTableFile, LoadsWhatWasSaved) {
-  const ColorTable table = random_table();
-  table.save(path_);
-  EXPECT_EQ(ColorTable::load(path_).labels(), table.labels());
+  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb}) {
+    const ColorTable table = random_table(space);
+    table.save(path_);
+    EXPECT_EQ(ColorTable::load(path_).labels(), table.labels());
+    EXPECT_EQ(ColorTable::load(path_).space(), space);
+  }
 }
 
 TEST_F(ColorTableFile, NamesFileAndFieldOfDamage) {
@@ -80,8 +96,11 @@ TEST_F(ColorTableFile, NamesFileAndFieldOfDamage) {
   };
   EXPECT_EQ(error_of(good), "");
   std::string other_version = good;
-  other_version[good.find('\n') - 1] = '2';
-  EXPECT_NE(error_of(other_version).find(path_ + ": version: found \"2\""), std::string::npos);
+  other_version[good.find(',', good.find("version")) - 1] = '1';
+  EXPECT_NE(error_of(other_version).find(path_ + ": version: found \"1, yuv\""), std::string::npos);
+  std::string other_space = good;
+  other_space[good.find('\n') - 1] = 'x';
+  EXPECT_NE(error_of(other_space).find(path_ + ": color space: found \"yux\""), std::string::npos);
   EXPECT_NE(error_of("PK" + good).find(path_ + ": header"), std::string::npos);
   EXPECT_NE(error_of(good.substr(0, good.size() - 1)).find(path_ + ": size"), std::string::npos);
   EXPECT_NE(error_of(good + "x").find(path_ + ": size"), std::string::npos);
@@ -97,7 +116,7 @@ TEST_F(ColorTableFile, RefusesEveryByteFlip) {
   for (int i = 0; i < 100; ++i) {
     std::string bad = good;
     // Half of the flips hit the header.
-    const size_t at = random.index(i % 2 == 0 ? 68 : bad.size());
+    const size_t at = random.index(i % 2 == 0 ? 73 : bad.size());
     bad[at] = static_cast<char>(bad[at] ^ (1 << random.index(8)));
     write_file(path_, bad);
     EXPECT_NE(load_error(path_), "") << "byte " << at;
@@ -116,6 +135,22 @@ TEST(Segment, LabelsOnlyPixelsThatHaveAColor) {
   EXPECT_EQ(labels(0, 0), 4);
   EXPECT_EQ(labels(1, 0), 0);  // the same color, but hidden from the RGB camera
   EXPECT_EQ(labels(2, 0), 0);
+}
+
+TEST(Segment, LabelsEveryPixelLikeTheTableInEitherSpace) {
+  RandomStream random(4, "color table", 0, "image");
+  RegisteredImage mapped{ColorImage(31, 17), Image<uint8_t>(31, 17)};
+  for (Rgb& rgb : mapped.color)
+    for (uint8_t& channel : rgb) channel = static_cast<uint8_t>(random.index(256));
+  for (uint8_t& has_color : mapped.has_color) has_color = static_cast<uint8_t>(random.index(2));
+  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb}) {
+    const ColorTable table = random_table(space);
+    const LabelImage of_mapped = segment(mapped, table), of_image = segment(mapped.color, table);
+    for (size_t i = 0; i < of_image.size(); ++i) {
+      EXPECT_EQ(of_image[i], table.label(mapped.color[i]));
+      EXPECT_EQ(of_mapped[i], mapped.has_color[i] ? table.label(mapped.color[i]) : 0);
+    }
+  }
 }
 
 /// Votes counted one by one; ties go to the center's label, else to the smallest.

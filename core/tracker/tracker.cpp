@@ -80,6 +80,10 @@ Tracker::Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_
     throw Error("database " + database_->posture_set().name, "tiny images", fmt::format("no {} px", stage.size),
                 "the sizes of the cascade " + to_string(config_.lookup.cascade));
   }
+  if (table_->space() != config_.segmentation.color_space) {
+    throw Error("color table", "color space", std::string(to_string(table_->space())),
+                fmt::format("{} (segmentation.color_space)", to_string(config_.segmentation.color_space)));
+  }
 }
 
 TrackResult Tracker::track(const DeviceFrame& frame, const StageObserver& observe, FrameTrace* trace) {

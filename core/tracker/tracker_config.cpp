@@ -35,6 +35,7 @@ constexpr Range kShare{0, 1, true};
 template <typename Config, typename Visit>
 void visit_fields(Config& c, Visit&& visit) {
   visit("registration", "occlusion_tolerance_m", c.registration.occlusion_tolerance, kPositive);
+  visit("segmentation", "color_space", c.segmentation.color_space, Range{});
   visit("segmentation", "majority_filter", c.segmentation.majority_filter, Range{});
   visit("segmentation", "largest_component", c.segmentation.largest_component, Range{});
   visit("volume", "z_min_m", c.volume.z_min, kPositive);
@@ -82,6 +83,11 @@ void read(bool& value, const json& j, const std::string& where, const std::strin
   if (!j.is_boolean()) wrong_type(where, field, j, "true or false");
   value = j;
 }
+void read(ColorSpace& value, const json& j, const std::string& where, const std::string& field) {
+  const auto space = j.is_string() ? color_space_from_string(j.get<std::string>()) : std::nullopt;
+  if (!space) wrong_type(where, field, j, "\"yuv\" or \"rgb\"");
+  value = *space;
+}
 void read(Cascade& value, const json& j, const std::string& where, const std::string& field) {
   if (!j.is_string()) wrong_type(where, field, j, "a cascade such as \"16:500,64:3\"");
   try {
@@ -100,6 +106,9 @@ json written(int value) {
 json written(bool value) {
   return value;
 }
+json written(ColorSpace value) {
+  return to_string(value);
+}
 json written(const Cascade& value) {
   return to_string(value);
 }
@@ -111,6 +120,7 @@ void check_range(const std::string& field, Number value, const Range& range, std
 }
 template <>
 void check_range(const std::string&, bool, const Range&, std::vector<std::string>&) {}
+void check_range(const std::string&, ColorSpace, const Range&, std::vector<std::string>&) {}
 void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
   try {
     parse_cascade(to_string(value));

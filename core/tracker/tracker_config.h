@@ -9,12 +9,14 @@
 #include "core/cloud/labeled_cloud.h"
 #include "core/database/look_up.h"
 #include "core/pose/icp.h"
+#include "core/segmentation/color_table.h"
 
 namespace glovebench {
 
 struct SegmentationConfig {
-  bool majority_filter = false;    ///< 3x3 majority of the labels; not in the paper
-  bool largest_component = false;  ///< keep the largest connected component; not in the paper
+  ColorSpace color_space = ColorSpace::yuv;  ///< of the color table; the paper's is YUV
+  bool majority_filter = false;              ///< 3x3 majority of the labels; not in the paper
+  bool largest_component = false;            ///< keep the largest connected component; not in the paper
 };
 
 struct LookupConfig {

@@ -32,6 +32,7 @@ void expect_refused(const json& j, const std::vector<std::string>& said) {
 /// Another value of the same type that is in range whatever the field.
 json changed(const json& value) {
   if (value.is_boolean()) return !value.get<bool>();
+  if (value == "yuv") return "rgb";
   if (value.is_string()) return "32:7";
   if (value.is_number_integer()) return value.get<int>() + 1;
   return value.get<double>() + 1e-3;
@@ -72,13 +73,13 @@ TEST(TrackerConfig, each_key_changes_its_field_alone) {
       ++fields;
     }
   }
-  EXPECT_EQ(fields, 27);
+  EXPECT_EQ(fields, 28);
 }
 
 TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
   const TrackerConfig config = read(json::parse(R"({
     "registration": {"occlusion_tolerance_m": 0.02},
-    "segmentation": {"majority_filter": true, "largest_component": true},
+    "segmentation": {"color_space": "rgb", "majority_filter": true, "largest_component": true},
     "volume": {"z_min_m": 0.5, "z_max_m": 0.8},
     "database": {"view_distance_m": 0.6, "field_of_view_deg": 30, "image_size_px": 128, "field_cap_share": 0.4},
     "detection": {"min_pixels": 99, "second_hand_share": 0.2, "component_depth_step_m": 0.03, "max_border_pixels": 3,
@@ -88,6 +89,7 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
             "cull_each_iteration": true, "color_sensitive": false, "max_residual_m": 0.01},
     "smoothing": {"posture_keep": 0.5, "pose_keep": 0.25, "forget_after_frames": 4}})"));
   EXPECT_EQ(config.registration.occlusion_tolerance, 0.02);
+  EXPECT_EQ(config.segmentation.color_space, ColorSpace::rgb);
   EXPECT_TRUE(config.segmentation.majority_filter);
   EXPECT_TRUE(config.segmentation.largest_component);
   EXPECT_EQ(config.volume.z_min, 0.5);
@@ -148,6 +150,8 @@ TEST(TrackerConfig, refuses_wrong_types) {
   expect_refused({{"lookup", {{"cascade", 64}}}}, {"lookup.cascade", "16:500,64:3"});
   expect_refused({{"lookup", {{"cascade", "16:3,64:500"}}}}, {"lookup.cascade", "64:500"});
   expect_refused({{"lookup", {{"cascade", ""}}}}, {"lookup.cascade"});
+  expect_refused({{"segmentation", {{"color_space", "hsv"}}}}, {"segmentation.color_space", "hsv", "yuv", "rgb"});
+  expect_refused({{"segmentation", {{"color_space", 3}}}}, {"segmentation.color_space", "yuv", "rgb"});
 }
 
 TEST(TrackerConfig, each_number_has_a_range) {

@@ -28,8 +28,9 @@ struct Track {
     RecordingDevice device(source.substr(kRecordingPrefix.size()));
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
-    Tracker tracker(common.tracker_config(), device.calibration(), workbench.model(), workbench.database(name),
-                    workbench.color_table());
+    const TrackerConfig config = common.tracker_config();
+    Tracker tracker(config, device.calibration(), workbench.model(), workbench.database(name),
+                    workbench.color_table(config.segmentation.color_space));
     std::optional<JsonLinesSink> sink;
     if (!robot.output.empty()) sink.emplace(robot.output);
     RobotCommander commander(robot.T_base_camera());
