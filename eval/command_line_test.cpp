@@ -143,6 +143,8 @@ TEST_F(CommandLine, ConfigurationsThatCannotBe) {
   EXPECT_THAT(refused_configuration({{"lookup", {{"cascade", "16:3,64:500"}}}}),
               AllOf(HasSubstr("config.json"), HasSubstr("64:500")));
   EXPECT_THAT(refused_configuration({{"icp", {{"max_points", "many"}}}}), HasSubstr("max_points"));
+  EXPECT_THAT(refusal(run_of(good_trajectory(), {"--method", "best"})),
+              AllOf(HasSubstr("best"), HasSubstr("schroeder2012")));
   EXPECT_THAT(refusal(run_of(good_trajectory(), {"--cascade", "16:3,64:500"})), HasSubstr("64:500"));
   EXPECT_THAT(refusal(run_of(good_trajectory(), {"--cascade", "some"})), HasSubstr("SIZE:KEEP"));
   EXPECT_THAT(refusal(run_of(good_trajectory(), {"--config", path("none.json")})), HasSubstr("none.json"));
@@ -255,7 +257,7 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
 }
 
 TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
-  const std::vector<std::string> tracker = {"--profile", "--config", "--cascade"};
+  const std::vector<std::string> tracker = {"--profile", "--config", "--method", "--cascade"};
   const std::vector<std::string> machine = {"--threads", "--cache", "--quiet"};
   const std::vector<std::string> random = {"--seed"};
   const auto expect_flags = [](std::vector<std::string> command, const std::vector<std::vector<std::string>>& all) {
@@ -281,13 +283,14 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});
   expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});
-  expect_flags({"list"}, {{"trajectories", "databases", "suites", "angles", "config"}});
+  expect_flags({"list"}, {{"trajectories", "databases", "suites", "methods", "angles", "config"}});
 }
 
 TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list", "trajectories"}).out, AllOf(HasSubstr("Tr1"), HasSubstr("recorded")));
   EXPECT_THAT(run_glovebench({"list", "databases"}).out, HasSubstr("DB_20_postures"));
   EXPECT_THAT(run_glovebench({"list", "suites"}).out, AllOf(HasSubstr("quick"), HasSubstr("full")));
+  EXPECT_THAT(run_glovebench({"list", "methods"}).out, AllOf(HasSubstr("schroeder2012"), HasSubstr("monocular")));
   EXPECT_THAT(run_glovebench({"list", "angles"}).out, HasSubstr("little_dip_flexion"));
   const ProgramRun config = run_glovebench({"list", "config", "--cascade", "8:9"});
   EXPECT_EQ(json::parse(config.out).at("lookup").at("cascade"), "8:9");

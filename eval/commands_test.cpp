@@ -209,6 +209,18 @@ TEST_F(CommandsLong, FullDiskLeavesTheOldDatabase) {
   EXPECT_EQ(read_folder(folder_).size(), 3U) << "the two trajectories and the database";
 }
 
+TEST_F(CommandsLong, TracksWithAnotherMethod) {
+  const json results = run_trajectory("good.json", "out", {"--method", "monocular_bbox"});
+  EXPECT_EQ(results.at("configuration").at("tracker").at("method"), "monocular_bbox");
+  EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2", "--trajectory", path("good.json")})),
+              AllOf(HasSubstr("monocular_bbox"), HasSubstr("schroeder2012")));
+  render_recording("good.json", "dump");
+  expect_fine(track("dump", "DB_open_power", "other.jsonl", {"--method", "monocular_bbox"}));
+  expect_fine(track("dump", "DB_open_power", "papers.jsonl"));
+  EXPECT_THAT(read_file(path("other.jsonl")), HasSubstr("\"angles_deg\""));
+  EXPECT_NE(read_file(path("other.jsonl")), read_file(path("papers.jsonl")));
+}
+
 TEST_F(CommandsLong, DamagedColorTableIsMadeAnew) {
   const std::string cache = path("cache");
   const json before = run_trajectory("good.json", "out", {"--cache", cache});

@@ -93,6 +93,7 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
 
 std::vector<reports::Picture> sample_pictures(Workbench& workbench, const Plan& plan) {
   std::vector<reports::Picture> pictures;
+  if (plan.tracker.method != kPaperMethod) return pictures;
   for (const Replay* replay : {&plan.replays.front(), &plan.replays.back()}) {
     const int frame = replay->range.first + static_cast<int>(frames_of(*replay).size()) / 2;
     pictures.push_back({fmt::format("{} ({}), subject {}, frame {}, tracked with {}: every stage of the tracker",

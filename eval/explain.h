@@ -9,10 +9,11 @@ namespace glovebench::eval {
 
 /// One frame of a replay with every stage of the tracker as a picture: what the cameras saw, the mapped image M,
 /// the labels L, the tiny image, the k matches, the alignment before and after. The filter is not part of it: the
-/// frame is tracked by itself.
+/// frame is tracked by itself. Throws Error for another method than the paper's.
 ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame);
 
-/// A few such pictures for the report's page: the middle frame of the first and the last replay of a plan.
+/// A few such pictures for the report's page: the middle frame of the first and the last replay of a plan. None for
+/// another method than the paper's.
 std::vector<reports::Picture> sample_pictures(Workbench& workbench, const Plan& plan);
 
 }  // namespace glovebench::eval

@@ -2,24 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "core/base/check.h"
 #include "core/base/error.h"
+#include "eval/thread_time.h"
 
 namespace glovebench::eval {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Collects the times of a tracker's frames and of their stages as the tracker names them.
+/// Collects the processor times of a tracker's frames and of their stages as the tracker names them.
 class StageTimer {
  public:
   void begin(std::string_view stage) {
-    const Clock::time_point now = Clock::now();
+    const double now = thread_time_ms();
     if (current_ < 0) frame_start_ = now;
-    if (current_ >= 0) stages_[current_].frame_ms.push_back(ms_between(start_, now));
-    if (stage.empty()) frame_ms_.push_back(ms_between(frame_start_, now));
+    if (current_ >= 0) stages_[current_].frame_ms.push_back(now - start_);
+    if (stage.empty()) frame_ms_.push_back(now - frame_start_);
     current_ = stage.empty() ? -1 : index_of(stage);
     start_ = now;
   }
@@ -27,9 +24,6 @@ class StageTimer {
   std::vector<double> take_frames() { return std::move(frame_ms_); }
 
  private:
-  static double ms_between(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double, std::milli>(to - from).count();
-  }
   int index_of(std::string_view stage) {
     for (size_t i = 0; i < stages_.size(); ++i) {
       if (stages_[i].stage == stage) return static_cast<int>(i);
@@ -41,7 +35,7 @@ class StageTimer {
   std::vector<reports::StageTiming> stages_;
   std::vector<double> frame_ms_;
   int current_ = -1;
-  Clock::time_point start_, frame_start_;
+  double start_ = 0, frame_start_ = 0;
 };
 
 /// Could a tracker be asked for this frame? Most of the visible glove lies within the working volume, is enough to
@@ -92,10 +86,10 @@ class Pass {
   Pass(Workbench& workbench, const Replay& replay)
       : replay_(&replay), config_(replay.tracker), kinect_(kinect_config(replay)), model_(workbench.model()) {
     for (const std::string& database : replay.databases) {
-      trackers_.push_back(workbench.make_tracker(config_, database));
+      methods_.push_back(workbench.make_method(config_, database));
       tracked_.push_back({database, {}, {}, {}, {}});
     }
-    timers_.resize(trackers_.size());
+    timers_.resize(methods_.size());
   }
 
   const Replay& replay() const { return *replay_; }
@@ -107,9 +101,9 @@ class Pass {
                                      {kinect_.seed, kinect_.sequence, number});
   }
   void track(const DeviceFrame& frame, const FrameTruth& truth, int number) {
-    for (size_t t = 0; t < trackers_.size(); ++t) {
+    for (size_t t = 0; t < methods_.size(); ++t) {
       const TrackResult result =
-          trackers_[t].track(frame, [&](std::string_view stage) { timers_[t].begin(stage); });
+          methods_[t]->track(frame, [&](std::string_view stage) { timers_[t].begin(stage); });
       tracked_[t].errors.push_back(measure_frame(number, result, truth, *model_));
       tracked_[t].results.push_back(result);
     }
@@ -127,7 +121,7 @@ class Pass {
   TrackerConfig config_;
   render::SyntheticKinectConfig kinect_;
   std::shared_ptr<const HandModel> model_;
-  std::vector<Tracker> trackers_;
+  std::vector<std::unique_ptr<Method>> methods_;
   std::vector<TrackedReplay> tracked_;
   std::vector<StageTimer> timers_;
 };

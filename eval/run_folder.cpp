@@ -135,7 +135,7 @@ std::string replay_key(Workbench& workbench, const Replay& replay) {
   nlohmann::json databases = nlohmann::json::array();
   for (const std::string& name : replay.databases) databases.push_back({name, workbench.database(name)->hash()});
   const auto frames = frames_of(replay);
-  const auto color_table = workbench.color_table(config.segmentation.color_space);
+  const auto color_table = workbench.color_table(replay.tracker.segmentation.color_space);
   const nlohmann::json content = {
       {"configuration", to_json(replay.tracker)},
       {"truth", {replay.truth->name, trajectories::hash(*replay.truth)}},

@@ -109,7 +109,16 @@ PostureSet Workbench::postures_of(const std::string& name) const {
   return added != postures_.end() ? added->second : trajectories::posture_set(trajectory_folder(), name);
 }
 
+std::unique_ptr<Method> Workbench::make_method(const TrackerConfig& config, const std::string& database_name) {
+  return find_method(config.method)
+      .make({config, calibration_, model(), database(database_name), color_table(config.segmentation.color_space)});
+}
+
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {
+  if (config.method != kPaperMethod) {
+    throw Error("configuration", "method", config.method,
+                fmt::format("{}: of no other method the stages are known", kPaperMethod));
+  }
   return Tracker(config, calibration_, model(), database(database_name),
                  color_table(config.segmentation.color_space));
 }

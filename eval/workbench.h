@@ -7,8 +7,8 @@
 
 #include "core/database/database.h"
 #include "core/database/database_cache.h"
+#include "core/methods/method.h"
 #include "core/segmentation/color_table.h"
-#include "core/tracker/tracker.h"
 
 namespace glovebench::eval {
 
@@ -44,7 +44,10 @@ class Workbench {
   /// Whether `database` of this name will have nothing to build.
   bool has_database(const std::string& name);
 
-  /// A tracker for a database.
+  /// The configuration's method for a database.
+  std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
+  /// The paper's tracker, whose stages can be looked into. Throws Error if the configuration asks for another
+  /// method.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 
  private:

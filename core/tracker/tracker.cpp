@@ -2,39 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/base/error.h"
-#include "core/kinect/disparity.h"
 #include "core/pose/interpolate.h"
 
 namespace glovebench {
-namespace {
-
-int border_pixels(const LabelImage& labels) {
-  int count = 0;
-  const int w = labels.width(), h = labels.height();
-  for (int u = 0; u < w; ++u) count += (labels(u, 0) != 0) + (labels(u, h - 1) != 0);
-  for (int v = 1; v + 1 < h; ++v) count += (labels(0, v) != 0) + (labels(w - 1, v) != 0);
-  return count;
-}
-
-}  // namespace
-
-TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
-  if (static_cast<int>(cloud.points.size()) < config.min_pixels) {
-    return cloud.labeled_outside >= config.min_pixels ? TrackStatus::outside_volume : TrackStatus::no_hand;
-  }
-  // A third of the glove is missing: what is left would be matched as if it were all.
-  if (2 * cloud.labeled_cut_off > static_cast<int>(cloud.points.size())) return TrackStatus::outside_volume;
-  const double size_px = std::sqrt(static_cast<double>(cloud.points.size()));
-  const double most = std::min<double>(config.max_border_pixels, config.max_border_share * size_px);
-  if (border_pixels(cloud.labels) > most) return TrackStatus::cut_by_border;
-  const std::vector<int> sizes = component_sizes(cloud, config.component_depth_step);
-  if (sizes.size() > 1 && sizes[1] > config.second_hand_share * sizes[0]) return TrackStatus::several_hands;
-  return TrackStatus::tracked;
-}
-
 namespace {
 
 TrackStatus status_of(AlignmentStatus status) {
@@ -61,6 +32,29 @@ std::string_view to_string(TrackStatus status) {
   return names[static_cast<size_t>(status)];
 }
 
+void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
+                  const ColorTable& table) {
+  const std::vector<std::string> problems = config.problems();
+  if (!problems.empty()) throw Error(fmt::format("tracker configuration: {}", fmt::join(problems, "; ")));
+  if (model.side() != database.side()) {
+    const auto name = [](Side side) { return side == Side::right ? "a right hand" : "a left hand"; };
+    throw Error("database " + database.posture_set().name, "side", name(database.side()), name(model.side()));
+  }
+  for (const CascadeStage& stage : config.lookup.cascade) {
+    if (database.has_size(stage.size)) continue;
+    throw Error("database " + database.posture_set().name, "tiny images", fmt::format("no {} px", stage.size),
+                "the sizes of the cascade " + to_string(config.lookup.cascade));
+  }
+  if (table.space() != config.segmentation.color_space) {
+    throw Error("color table", "color space", std::string(to_string(table.space())),
+                fmt::format("{} (segmentation.color_space)", to_string(config.segmentation.color_space)));
+  }
+}
+
+bool is_poor_match(std::span<const Match> matches, const LookupConfig& config) {
+  return matches.front().error > config.max_matching_error * config.cascade.back().size;
+}
+
 Tracker::Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
                  std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table)
     : config_(std::move(config)),
@@ -69,21 +63,7 @@ Tracker::Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_
       database_(std::move(database)),
       table_(std::move(table)),
       smoother_(config_.smoothing) {
-  const std::vector<std::string> problems = config_.problems();
-  if (!problems.empty()) throw Error(fmt::format("tracker configuration: {}", fmt::join(problems, "; ")));
-  if (model_->side() != database_->side()) {
-    const auto name = [](Side side) { return side == Side::right ? "a right hand" : "a left hand"; };
-    throw Error("database " + database_->posture_set().name, "side", name(database_->side()), name(model_->side()));
-  }
-  for (const CascadeStage& stage : config_.lookup.cascade) {
-    if (database_->has_size(stage.size)) continue;
-    throw Error("database " + database_->posture_set().name, "tiny images", fmt::format("no {} px", stage.size),
-                "the sizes of the cascade " + to_string(config_.lookup.cascade));
-  }
-  if (table_->space() != config_.segmentation.color_space) {
-    throw Error("color table", "color space", std::string(to_string(table_->space())),
-                fmt::format("{} (segmentation.color_space)", to_string(config_.segmentation.color_space)));
-  }
+  check_inputs(config_, *model_, *database_, *table_);
 }
 
 TrackResult Tracker::track(const DeviceFrame& frame, const StageObserver& observe, FrameTrace* trace) {
@@ -99,22 +79,11 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
   TrackResult result;
   result.timestamp_us = frame.depth_timestamp_us;
 
-  observe("register");
-  const DepthImage depth = depth_from_disparity(frame.raw_disparity);
-  const RegisteredImage mapped = register_color(depth, frame.color, calibration_, config_.registration);
-
-  observe("segment");
-  LabelImage labels = segment(mapped, *table_);
-  if (config_.segmentation.majority_filter) labels = majority_filter(labels);
-
-  observe("cloud");
-  LabeledCloud cloud = build_cloud(depth, labels, calibration_.ir, config_.volume);
-  if (config_.segmentation.largest_component) {
-    cloud = largest_component(cloud, config_.detection.component_depth_step);
-  }
+  const Sighting seen = see(frame, calibration_, *table_, config_, observe);
+  const LabeledCloud& cloud = seen.cloud;
   result.cloud_points = static_cast<int>(cloud.points.size());
-  result.status = detect(cloud, config_.detection);
-  if (trace != nullptr) *trace = {depth, mapped, labels, cloud, {}};
+  result.status = seen.status;
+  if (trace != nullptr) *trace = {seen, {}};
   if (result.status != TrackStatus::tracked) return result;
 
   observe("tiny_images");
@@ -125,9 +94,7 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
   observe("look_up");
   result.matches = look_up(*database_, query, config_.lookup.cascade);
   if (result.matches.empty()) return result.status = TrackStatus::no_hand, result;
-  if (result.matches[0].error > config_.lookup.max_matching_error * config_.lookup.cascade.back().size) {
-    return result.status = TrackStatus::poor_match, result;
-  }
+  if (is_poor_match(result.matches, config_.lookup)) return result.status = TrackStatus::poor_match, result;
   const CoarseEstimate coarse = interpolate(*database_, result.matches, square_ray(square, calibration_.ir),
                                             config_.lookup.interpolation_epsilon);
   result.ambiguous = coarse.ambiguous;

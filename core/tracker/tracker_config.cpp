@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -131,7 +132,7 @@ void check_range(const std::string& field, const Cascade& value, const Range&, s
 
 /// Every key of the object must be one that the fields name.
 void refuse_unknown_keys(const json& j, const std::string& where) {
-  std::set<std::string> sections = {"profile"}, keys;
+  std::set<std::string> sections = {"profile", "method"}, keys;
   TrackerConfig any;
   visit_fields(any, [&](const char* section, const char* key, auto&, const Range&) {
     sections.insert(section);
@@ -142,7 +143,7 @@ void refuse_unknown_keys(const json& j, const std::string& where) {
   };
   for (const auto& [section, content] : j.items()) {
     if (!sections.contains(section)) throw Error(where, section, "an unknown key", listed(sections));
-    if (section == "profile") continue;
+    if (section == "profile" || section == "method") continue;
     if (!content.is_object()) wrong_type(where, section, content, "an object");
     for (const auto& [key, value] : content.items()) {
       const std::string field = section + "." + key;
@@ -158,6 +159,10 @@ std::vector<std::string> TrackerConfig::problems() const {
   visit_fields(*this, [&](const char* section, const char* key, const auto& value, const Range& range) {
     check_range(fmt::format("{}.{}", section, key), value, range, problems);
   });
+  const std::span<const std::string_view> methods = method_names();
+  if (std::find(methods.begin(), methods.end(), method) == methods.end()) {
+    problems.push_back(fmt::format("method: found {}, expected one of {}", method, fmt::join(methods, ", ")));
+  }
   if (volume.z_min >= volume.z_max) {
     problems.push_back(
         fmt::format("volume.z_min_m: found {}, expected less than z_max_m = {}", volume.z_min, volume.z_max));
@@ -182,6 +187,10 @@ TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const s
       throw Error(where + ": " + e.what());
     }
   }
+  if (j.contains("method")) {
+    if (!j["method"].is_string()) wrong_type(where, "method", j["method"], "a name");
+    config.method = j["method"];
+  }
   visit_fields(config, [&](const char* section, const char* key, auto& value, const Range&) {
     if (!j.contains(section) || !j[section].contains(key)) return;
     read(value, j[section][key], where, fmt::format("{}.{}", section, key));
@@ -194,6 +203,7 @@ TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const s
 json to_json(const TrackerConfig& config) {
   json j;
   j["profile"] = config.profile;
+  j["method"] = config.method;
   visit_fields(config, [&](const char* section, const char* key, const auto& value, const Range&) {
     j[section][key] = written(value);
   });

@@ -8,6 +8,7 @@
 #include "core/camera/registration.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/database/look_up.h"
+#include "core/methods/method_names.h"
 #include "core/pose/icp.h"
 #include "core/segmentation/color_table.h"
 
@@ -43,6 +44,7 @@ struct DetectionConfig {
 /// A named, complete configuration ("profile") of the tracker. `paper` does what the paper says.
 struct TrackerConfig {
   std::string profile = "paper";
+  std::string method{kPaperMethod};  ///< `method_names` (core/methods) lists all
   RegistrationConfig registration;
   SegmentationConfig segmentation;
   WorkingVolume volume;

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/methods/method.h"
 #include "core/robot/robot_command.h"
 #include "eval/share.h"
 #include "reports/json_reader.h"
@@ -21,6 +22,7 @@ void CommonFlags::add_tracker(CLI::App& command) {
   command.add_option("--profile", profile, "named configuration of the tracker")->capture_default_str();
   command.add_option("--config", config_file,
                      "JSON file with the fields to change; `glovebench list config` shows all");
+  command.add_option("--method", method, "how to track (`glovebench list methods`) [the configuration's]");
   command.add_option("--cascade", cascade, "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3");
 }
 
@@ -42,6 +44,7 @@ TrackerConfig CommonFlags::tracker_config() const {
   if (!config_json.is_null()) config = config_from_json(config_json, config, "configuration of the run");
   if (!config_file.empty())
     config = config_from_json(reports::parse_json(read_file(config_file), config_file), config, config_file);
+  if (!method.empty()) config.method = find_method(method).name;
   if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
   return config;
 }

@@ -16,6 +16,7 @@ struct CommonFlags {
   std::string config_file;
   nlohmann::json config_json;  ///< instead of a file: the configuration of an earlier run
   std::string profile = "paper";
+  std::string method;  ///< empty: the configuration's
   std::string cascade;
   std::string cache_folder;
   uint64_t seed = 1;

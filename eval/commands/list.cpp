@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/methods/method.h"
 #include "eval/commands/command.h"
 #include "eval/share.h"
 #include "eval/studies/study.h"
@@ -34,6 +35,10 @@ void list_studies() {
   for (const Study& study : studies()) fmt::print("{:<10} {}\n", study.name, study.title);
 }
 
+void list_methods() {
+  for (const MethodEntry& method : methods()) fmt::print("{:<16} {}\n", method.name, method.description);
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -51,6 +56,7 @@ void add_list(CLI::App& program) {
       ->callback(list_suites);
   list->add_subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.")
       ->callback(list_studies);
+  list->add_subcommand("methods", "Ways to track, for --method.")->callback(list_methods);
   list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
   const auto common = std::make_shared<CommonFlags>();
   CLI::App* config = list->add_subcommand("config", "The tracker's configuration as JSON, as --config takes it.");

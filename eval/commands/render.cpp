@@ -40,8 +40,8 @@ struct Render {
     render::SyntheticKinect kinect = make_kinect(workbench, replay);
     std::optional<RecordingWriter> recording;
     if (format == "fakenect") recording.emplace(common.output, workbench.calibration());
-    std::optional<Tracker> tracker;
-    if (!database.empty()) tracker.emplace(workbench.make_tracker(common.tracker_config(), database));
+    std::unique_ptr<Method> tracker;
+    if (!database.empty()) tracker = workbench.make_method(common.tracker_config(), database);
 
     Progress progress("rendering", common.quiet);
     const int count = static_cast<int>(movement->frames.size());
@@ -68,8 +68,8 @@ struct Render {
                       render::picture_of_depth(depth_from_disparity(frame.raw_disparity), 0.4, 1.8));
   }
 
-  void write_layers(Workbench& workbench, const render::SyntheticKinect& kinect, std::optional<Tracker>& tracker,
-                    const DeviceFrame& frame, int f) const {
+  void write_layers(Workbench& workbench, const render::SyntheticKinect& kinect,
+                    const std::unique_ptr<Method>& tracker, const DeviceFrame& frame, int f) const {
     render::FrameLayers layers{frame.color, kinect.truth().depth, kinect.truth().label, {}, {}};
     if (tracker) {
       const TrackResult result = tracker->track(frame);

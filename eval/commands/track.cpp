@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/kinect/recording.h"
+#include "core/methods/method.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/tracker/estimate_line.h"
 #include "eval/commands/command.h"
@@ -29,8 +30,10 @@ struct Track {
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
     const TrackerConfig config = common.tracker_config();
-    Tracker tracker(config, device.calibration(), workbench.model(), workbench.database(name),
-                    workbench.color_table(config.segmentation.color_space));
+    const std::unique_ptr<Method> method =
+        find_method(config.method)
+            .make({config, device.calibration(), workbench.model(), workbench.database(name),
+                   workbench.color_table(config.segmentation.color_space)});
     std::optional<JsonLinesSink> sink;
     if (!robot.output.empty()) sink.emplace(robot.output);
     RobotCommander commander(robot.T_base_camera());
@@ -39,7 +42,7 @@ struct Track {
     std::string lines;
     int frames = 0, tracked = 0;
     while (const std::optional<DeviceFrame> frame = device.next_frame()) {
-      const TrackResult result = tracker.track(*frame);
+      const TrackResult result = method->track(*frame);
       lines += estimate_line(frames++, result) + "\n";
       tracked += result.status == TrackStatus::tracked;
       if (sink) sink->send(commander.command(result));

@@ -10,8 +10,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/kinect/disparity.h"
-#include "core/tracker/tracker.h"
+#include "core/tracker/sighting.h"
 #include "eval/progress.h"
 #include "render/synthetic_kinect.h"
 
@@ -70,16 +69,9 @@ std::optional<LabelImage> TrialCamera::see(const TrialHand& hand, const render::
       renderer_.render(model_->pose(hand.posture), hand.T_camera_hand, render::Lighting{});
   const DeviceFrame frame = render::make_device_frame(images, calibration, 0, noise_, key);
 
-  const DepthImage depth = depth_from_disparity(frame.raw_disparity);
-  const RegisteredImage mapped = register_color(depth, frame.color, calibration, config_.registration);
-  LabelImage labels = segment(mapped, *table_);
-  if (config_.segmentation.majority_filter) labels = majority_filter(labels);
-  LabeledCloud cloud = build_cloud(depth, labels, calibration.ir, config_.volume);
-  if (config_.segmentation.largest_component) {
-    cloud = largest_component(cloud, config_.detection.component_depth_step);
-  }
-  if (detect(cloud, config_.detection) != TrackStatus::tracked) return std::nullopt;
-  return std::move(cloud.labels);
+  Sighting seen = glovebench::see(frame, calibration, *table_, config_);
+  if (seen.status != TrackStatus::tracked) return std::nullopt;
+  return std::move(seen.cloud.labels);
 }
 
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,

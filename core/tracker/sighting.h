@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/camera/registration.h"
+#include "core/cloud/labeled_cloud.h"
+#include "core/kinect/device.h"
+#include "core/segmentation/color_table.h"
+#include "core/tracker/stage_observer.h"
+#include "core/tracker/track_result.h"
+#include "core/tracker/tracker_config.h"
+
+namespace glovebench {
+
+/// What a frame shows before anything is looked up (section III-A), stage by stage.
+struct Sighting {
+  DepthImage depth;
+  RegisteredImage mapped;  ///< M
+  LabelImage labels;       ///< L
+  LabeledCloud cloud;      ///< C
+  TrackStatus status = TrackStatus::no_hand;  ///< `tracked` if there is one whole hand to look up
+};
+
+/// Registers, segments, and makes the cloud.
+Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+             const TrackerConfig& config, const StageObserver& observe = [](std::string_view) {});
+
+}  // namespace glovebench

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace glovebench {
+
+/// Told the name of each stage when it begins ("register", "segment", ...; "" at the end of the frame), so
+/// that a caller who has a clock can time them.
+using StageObserver = std::function<void(std::string_view stage)>;
+
+}  // namespace glovebench
