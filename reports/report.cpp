@@ -43,7 +43,7 @@ std::vector<NamedFile> other_files(const RunResult& result) {
     files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment)});
   for (const StudyResult& study : result.studies)
     for (const Table& table : study.tables) files.push_back({table_file(table), table_csv(table)});
-  const std::vector<Verdict> verdicts = judge(claims(), all_measures(result));
+  const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
   if (any_was_run(verdicts)) {
     files.push_back({"claims.json", claims_json(verdicts)});
     files.push_back({"tables/claims.csv", claims_csv(verdicts)});

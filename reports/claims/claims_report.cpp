@@ -16,48 +16,49 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<Outcome, 6> kOutcomes = {Outcome::reproduced,     Outcome::not_reproduced, Outcome::consistent,
-                                              Outcome::not_consistent, Outcome::inconclusive,   Outcome::not_run};
+constexpr std::array<ClaimOutcome, 6> kOutcomes = {ClaimOutcome::reproduced,   ClaimOutcome::not_reproduced,
+                                                   ClaimOutcome::consistent,   ClaimOutcome::not_consistent,
+                                                   ClaimOutcome::inconclusive, ClaimOutcome::not_run};
 
-bool has_failed(const Verdict& verdict) {
-  return verdict.outcome == Outcome::not_reproduced || verdict.outcome == Outcome::not_consistent;
+bool has_failed(const ClaimVerdict& verdict) {
+  return verdict.outcome == ClaimOutcome::not_reproduced || verdict.outcome == ClaimOutcome::not_consistent;
 }
 
 /// Of the page's style.
-std::string_view css_class(Outcome outcome) {
+std::string_view css_class(ClaimOutcome outcome) {
   switch (outcome) {
-    case Outcome::reproduced:
-    case Outcome::consistent:
+    case ClaimOutcome::reproduced:
+    case ClaimOutcome::consistent:
       return "better";
-    case Outcome::not_reproduced:
-    case Outcome::not_consistent:
+    case ClaimOutcome::not_reproduced:
+    case ClaimOutcome::not_consistent:
       return "worse";
-    case Outcome::inconclusive:
-    case Outcome::not_run:
+    case ClaimOutcome::inconclusive:
+    case ClaimOutcome::not_run:
       break;
   }
   return "unsure";
 }
 
-std::string with_unit(const std::string& text, const Verdict& verdict) {
+std::string with_unit(const std::string& text, const ClaimVerdict& verdict) {
   if (!verdict.measure || verdict.measure->unit.empty()) return text;
   return text + " " + verdict.measure->unit;
 }
 
-std::string ids_of(const std::vector<Verdict>& verdicts, Outcome outcome) {
+std::string ids_of(const std::vector<ClaimVerdict>& verdicts, ClaimOutcome outcome) {
   std::vector<std::string> ids;
-  for (const Verdict& verdict : verdicts)
+  for (const ClaimVerdict& verdict : verdicts)
     if (verdict.outcome == outcome) ids.push_back(verdict.claim.id);
   return fmt::format("{}", fmt::join(ids, ", "));
 }
 
 /// The claims that were run. What a cell holds is escaped by whoever writes the table.
-TextTable verdict_table(const std::vector<Verdict>& verdicts) {
+TextTable verdict_table(const std::vector<ClaimVerdict>& verdicts) {
   TextTable table;
   table.heading = {"outcome", "claim", "source", "paper", "measured", "holds if"};
   table.name_columns = 4;
-  for (const Verdict& verdict : verdicts) {
-    if (verdict.outcome == Outcome::not_run) continue;
+  for (const ClaimVerdict& verdict : verdicts) {
+    if (verdict.outcome == ClaimOutcome::not_run) continue;
     const Claim& claim = verdict.claim;
     table.rows.push_back({fmt::format("{}{}", to_string(verdict.outcome), claim.required ? ", required" : ""),
                           claim.claim + " " + claim.measured + (has_failed(verdict) ? " " + claim.if_not : ""),
@@ -73,7 +74,7 @@ constexpr std::string_view kExplanation =
     "between; a number without an interval is judged by itself. Consistent says less: the experiment is not the "
     "paper's.";
 
-Json verdict_json(const Verdict& verdict) {
+Json verdict_json(const ClaimVerdict& verdict) {
   const Claim& claim = verdict.claim;
   Json measure = nullptr;
   if (verdict.measure) {
@@ -97,7 +98,7 @@ Json verdict_json(const Verdict& verdict) {
           {"if_not", claim.if_not}};
 }
 
-Json csv_row(const Verdict& verdict) {
+Json csv_row(const ClaimVerdict& verdict) {
   const Claim& claim = verdict.claim;
   Json row = {claim.id,     to_string(verdict.outcome), claim.required, to_string(claim.kind),
               claim.source, claim.paper_value,          claim.measure,  to_string(claim.rule)};
@@ -112,7 +113,7 @@ Json csv_row(const Verdict& verdict) {
 
 }  // namespace
 
-std::string measured_text(const Verdict& verdict) {
+std::string measured_text(const ClaimVerdict& verdict) {
   if (!verdict.measure || !verdict.measure->value) return "-";
   // Counts, shares and errors stand in one column: four digits tell each of them.
   std::string text = fmt::format("{:.4g}", rounded(*verdict.measure->value));
@@ -121,23 +122,23 @@ std::string measured_text(const Verdict& verdict) {
   return with_unit(text, verdict);
 }
 
-std::string rule_text(const Verdict& verdict) {
+std::string rule_text(const ClaimVerdict& verdict) {
   return with_unit(to_string(verdict.claim.rule), verdict);
 }
 
-std::string count_text(const std::vector<Verdict>& verdicts) {
+std::string count_text(const std::vector<ClaimVerdict>& verdicts) {
   std::vector<std::string> counts;
-  for (const Outcome outcome : kOutcomes) {
-    const auto count = std::ranges::count(verdicts, outcome, &Verdict::outcome);
+  for (const ClaimOutcome outcome : kOutcomes) {
+    const auto count = std::ranges::count(verdicts, outcome, &ClaimVerdict::outcome);
     if (count > 0) counts.push_back(fmt::format("{} {}", count, to_string(outcome)));
   }
   return fmt::format("{} claims: {}", verdicts.size(), fmt::join(counts, ", "));
 }
 
-std::string claims_table(const std::vector<Verdict>& verdicts) {
+std::string claims_table(const std::vector<ClaimVerdict>& verdicts) {
   std::string text = count_text(verdicts) + " (* required)\n", notes;
-  for (const Verdict& verdict : verdicts) {
-    if (verdict.outcome == Outcome::not_run) continue;
+  for (const ClaimVerdict& verdict : verdicts) {
+    if (verdict.outcome == ClaimOutcome::not_run) continue;
     text +=
         fmt::format("{:<15}{} {:<34} {:<32} {}\n", to_string(verdict.outcome), verdict.claim.required ? "*" : " ",
                     verdict.claim.id, measured_text(verdict), rule_text(verdict));
@@ -146,39 +147,39 @@ std::string claims_table(const std::vector<Verdict>& verdicts) {
   return text + notes;
 }
 
-std::string claims_markdown(const std::vector<Verdict>& verdicts) {
+std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts) {
   if (!any_was_run(verdicts)) return "";
-  const std::string not_run = ids_of(verdicts, Outcome::not_run);
+  const std::string not_run = ids_of(verdicts, ClaimOutcome::not_run);
   return fmt::format("## Claims\n\n{}. {}\n\n{}\n{}", count_text(verdicts), kExplanation,
                      to_markdown(verdict_table(verdicts)),
                      not_run.empty() ? "" : fmt::format("Not run: {}.\n\n", not_run));
 }
 
-std::string claims_csv(const std::vector<Verdict>& verdicts) {
+std::string claims_csv(const std::vector<ClaimVerdict>& verdicts) {
   std::string csv =
       "id,outcome,required,kind,source,paper_value,measure,rule,unit,value,value_low,value_high,claim\n";
-  for (const Verdict& verdict : verdicts) csv += csv_line(csv_row(verdict));
+  for (const ClaimVerdict& verdict : verdicts) csv += csv_line(csv_row(verdict));
   return csv;
 }
 
-std::string claims_json(const std::vector<Verdict>& verdicts) {
+std::string claims_json(const std::vector<ClaimVerdict>& verdicts) {
   Json json = Json::array();
-  for (const Verdict& verdict : verdicts) json.push_back(verdict_json(verdict));
+  for (const ClaimVerdict& verdict : verdicts) json.push_back(verdict_json(verdict));
   return format_json({{"format", "glovebench-verdicts"},
                       {"version", 1},
                       {"required_claim_failed", required_claim_failed(verdicts)},
                       {"verdicts", std::move(json)}});
 }
 
-std::string claims_section(const std::vector<Verdict>& verdicts) {
+std::string claims_section(const std::vector<ClaimVerdict>& verdicts) {
   if (!any_was_run(verdicts)) return "";
   std::string html = fmt::format(
       "<h2>Claims</h2>\n<p>{}. {}</p>\n<div class=\"scroll\"><table class=\"claims\">\n<thead><tr>"
       "<th class=\"name\">outcome</th><th class=\"name\">claim</th><th class=\"name\">paper</th>"
       "<th>measured</th><th>holds if</th></tr></thead>\n<tbody>\n",
       escape_html(count_text(verdicts)), escape_html(std::string(kExplanation)));
-  for (const Verdict& verdict : verdicts) {
-    if (verdict.outcome == Outcome::not_run) continue;
+  for (const ClaimVerdict& verdict : verdicts) {
+    if (verdict.outcome == ClaimOutcome::not_run) continue;
     const Claim& claim = verdict.claim;
     const std::string note = has_failed(verdict) ? "<br/><b>" + escape_html(claim.if_not) + "</b>" : "";
     html += fmt::format(
@@ -189,7 +190,7 @@ std::string claims_section(const std::vector<Verdict>& verdicts) {
         escape_html(claim.source), escape_html(measured_text(verdict)), escape_html(rule_text(verdict)));
   }
   html += "</tbody></table></div>\n";
-  const std::string not_run = ids_of(verdicts, Outcome::not_run);
+  const std::string not_run = ids_of(verdicts, ClaimOutcome::not_run);
   return html +
          (not_run.empty() ? "" : fmt::format("<p class=\"legend\">Not run: {}.</p>\n", escape_html(not_run)));
 }

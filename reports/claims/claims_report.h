@@ -11,21 +11,21 @@ namespace glovebench::reports {
 // claims are about times.
 
 /// The measure's value and interval with its unit, to read: "3.88 [3.50, 4.20] mm"; "-" for none.
-std::string measured_text(const Verdict& verdict);
+std::string measured_text(const ClaimVerdict& verdict);
 /// The rule with the measure's unit: "below 10 mm".
-std::string rule_text(const Verdict& verdict);
+std::string rule_text(const ClaimVerdict& verdict);
 /// "11 of 20 reproduced, ...", for a line above the claims.
-std::string count_text(const std::vector<Verdict>& verdicts);
+std::string count_text(const std::vector<ClaimVerdict>& verdicts);
 
 /// Aligned text of at most 120 columns, and below it what to say of the claims that do not hold.
-std::string claims_table(const std::vector<Verdict>& verdicts);
+std::string claims_table(const std::vector<ClaimVerdict>& verdicts);
 /// A section for summary.md; empty if nothing was run.
-std::string claims_markdown(const std::vector<Verdict>& verdicts);
+std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts);
 /// tables/claims.csv: one line a claim.
-std::string claims_csv(const std::vector<Verdict>& verdicts);
+std::string claims_csv(const std::vector<ClaimVerdict>& verdicts);
 /// claims.json: everything of every verdict.
-std::string claims_json(const std::vector<Verdict>& verdicts);
+std::string claims_json(const std::vector<ClaimVerdict>& verdicts);
 /// A section for the page; empty if nothing was run.
-std::string claims_section(const std::vector<Verdict>& verdicts);
+std::string claims_section(const std::vector<ClaimVerdict>& verdicts);
 
 }  // namespace glovebench::reports

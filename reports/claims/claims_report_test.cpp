@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-Verdict example_verdict(Outcome outcome, std::optional<Measure> measure) {
+ClaimVerdict example_verdict(ClaimOutcome outcome, std::optional<Measure> measure) {
   Claim claim;
   claim.id = "fast, and \"small\"";
   claim.claim = "Is <small>.";
@@ -27,19 +27,19 @@ Verdict example_verdict(Outcome outcome, std::optional<Measure> measure) {
 }
 
 const Measure kLarge = {"size", "mm", 3.14159265, ConfidenceInterval{3, 3.25, 0.95, 1, 2, 15, "x"}, false};
-const std::vector<Verdict> kFailed = {example_verdict(Outcome::not_reproduced, kLarge)};
-const std::vector<Verdict> kNotRun = {example_verdict(Outcome::not_run, std::nullopt)};
+const std::vector<ClaimVerdict> kFailed = {example_verdict(ClaimOutcome::not_reproduced, kLarge)};
+const std::vector<ClaimVerdict> kNotRun = {example_verdict(ClaimOutcome::not_run, std::nullopt)};
 
 TEST(ClaimsReport, NumbersHaveFourDigitsAndTheirUnit) {
   EXPECT_EQ(measured_text(kFailed[0]), "3.142 [3, 3.25] mm");
   EXPECT_EQ(rule_text(kFailed[0]), "below 2.5 mm");
   EXPECT_EQ(measured_text(kNotRun[0]), "-");
   EXPECT_EQ(rule_text(kNotRun[0]), "below 2.5");
-  EXPECT_EQ(measured_text(example_verdict(Outcome::inconclusive, Measure{"size", "", {}, {}, false})), "-");
+  EXPECT_EQ(measured_text(example_verdict(ClaimOutcome::inconclusive, Measure{"size", "", {}, {}, false})), "-");
 }
 
 TEST(ClaimsReport, CountsOutcomes) {
-  std::vector<Verdict> verdicts = {kFailed[0], kNotRun[0], kNotRun[0]};
+  std::vector<ClaimVerdict> verdicts = {kFailed[0], kNotRun[0], kNotRun[0]};
   EXPECT_EQ(count_text(verdicts), "3 claims: 1 not reproduced, 2 not run");
 }
 
@@ -62,7 +62,7 @@ TEST(ClaimsReport, WhatDoesNotHoldIsSaidEverywhere) {
 }
 
 TEST(ClaimsReport, WhatHoldsHasNoExcuse) {
-  const std::vector<Verdict> verdicts = {example_verdict(Outcome::reproduced, kLarge)};
+  const std::vector<ClaimVerdict> verdicts = {example_verdict(ClaimOutcome::reproduced, kLarge)};
   for (const std::string& text : {claims_table(verdicts), claims_markdown(verdicts), claims_section(verdicts)})
     EXPECT_THAT(text, Not(HasSubstr("It is large.")));
 }
@@ -76,7 +76,7 @@ TEST(ClaimsReport, RunsWithoutClaimsHaveNoSection) {
 }
 
 TEST(ClaimsReport, TableFitsATerminal) {
-  const std::vector<Verdict> verdicts = judge(claims(), all_measures(full_result()));
+  const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(full_result()));
   std::istringstream lines(claims_table(verdicts));
   int count = 0;
   for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 120u) << line;

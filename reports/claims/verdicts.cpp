@@ -7,33 +7,34 @@
 namespace glovebench::reports {
 namespace {
 
-Outcome judge(const Claim& claim, const Measure& measure) {
-  if (!measure.value && !measure.interval) return Outcome::inconclusive;
+ClaimOutcome judge(const Claim& claim, const Measure& measure) {
+  if (!measure.value && !measure.interval) return ClaimOutcome::inconclusive;
   const double low = measure.interval ? measure.interval->low : *measure.value;
   const double high = measure.interval ? measure.interval->high : *measure.value;
   const bool is_consistency = claim.kind == ClaimKind::consistency;
   // A rule is an interval: it holds everywhere between two values with which it holds.
   if (holds(claim.rule, low) && holds(claim.rule, high))
-    return is_consistency ? Outcome::consistent : Outcome::reproduced;
-  if (!meets(claim.rule, low, high)) return is_consistency ? Outcome::not_consistent : Outcome::not_reproduced;
-  return Outcome::inconclusive;
+    return is_consistency ? ClaimOutcome::consistent : ClaimOutcome::reproduced;
+  if (!meets(claim.rule, low, high))
+    return is_consistency ? ClaimOutcome::not_consistent : ClaimOutcome::not_reproduced;
+  return ClaimOutcome::inconclusive;
 }
 
 }  // namespace
 
-std::string_view to_string(Outcome outcome) {
+std::string_view to_string(ClaimOutcome outcome) {
   switch (outcome) {
-    case Outcome::reproduced:
+    case ClaimOutcome::reproduced:
       return "reproduced";
-    case Outcome::not_reproduced:
+    case ClaimOutcome::not_reproduced:
       return "not reproduced";
-    case Outcome::consistent:
+    case ClaimOutcome::consistent:
       return "consistent";
-    case Outcome::not_consistent:
+    case ClaimOutcome::not_consistent:
       return "not consistent";
-    case Outcome::inconclusive:
+    case ClaimOutcome::inconclusive:
       return "inconclusive";
-    case Outcome::not_run:
+    case ClaimOutcome::not_run:
       break;
   }
   return "not run";
@@ -46,27 +47,27 @@ std::vector<Measure> all_measures(const RunResult& result) {
   return measures;
 }
 
-std::vector<Verdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures) {
-  std::vector<Verdict> verdicts;
+std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures) {
+  std::vector<ClaimVerdict> verdicts;
   for (const Claim& claim : claims) {
     const auto measure = std::ranges::find(measures, claim.measure, &Measure::name);
     if (measure == measures.end())
-      verdicts.push_back({claim, std::nullopt, Outcome::not_run});
+      verdicts.push_back({claim, std::nullopt, ClaimOutcome::not_run});
     else
       verdicts.push_back({claim, *measure, judge(claim, *measure)});
   }
   return verdicts;
 }
 
-bool required_claim_failed(const std::vector<Verdict>& verdicts) {
-  return std::ranges::any_of(verdicts, [](const Verdict& verdict) {
+bool required_claim_failed(const std::vector<ClaimVerdict>& verdicts) {
+  return std::ranges::any_of(verdicts, [](const ClaimVerdict& verdict) {
     return verdict.claim.required &&
-           (verdict.outcome == Outcome::not_reproduced || verdict.outcome == Outcome::not_consistent);
+           (verdict.outcome == ClaimOutcome::not_reproduced || verdict.outcome == ClaimOutcome::not_consistent);
   });
 }
 
-bool any_was_run(const std::vector<Verdict>& verdicts) {
-  return std::ranges::any_of(verdicts, [](const Verdict& v) { return v.outcome != Outcome::not_run; });
+bool any_was_run(const std::vector<ClaimVerdict>& verdicts) {
+  return std::ranges::any_of(verdicts, [](const ClaimVerdict& v) { return v.outcome != ClaimOutcome::not_run; });
 }
 
 }  // namespace glovebench::reports

@@ -24,33 +24,33 @@ Measure with_interval(double value, double low, double high) {
   return {"m", "mm", value, ConfidenceInterval{low, high, 0.95, 1, 8, 15, "example"}, false};
 }
 
-Outcome outcome_of(const Claim& claim, const std::vector<Measure>& measures) {
+ClaimOutcome outcome_of(const Claim& claim, const std::vector<Measure>& measures) {
   return judge({claim}, measures).front().outcome;
 }
 
 TEST(Judge, WithoutAnIntervalByItsValue) {
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"m", "mm", 9.9, {}, false}}), Outcome::reproduced);
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"m", "mm", 10, {}, false}}), Outcome::not_reproduced);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"m", "mm", 9.9, {}, false}}), ClaimOutcome::reproduced);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"m", "mm", 10, {}, false}}), ClaimOutcome::not_reproduced);
   EXPECT_EQ(outcome_of(example_claim(kWithin, ClaimKind::consistency), {{"m", "cm", 5, {}, false}}),
-            Outcome::consistent);
+            ClaimOutcome::consistent);
   EXPECT_EQ(outcome_of(example_claim(kWithin, ClaimKind::consistency), {{"m", "cm", 4, {}, false}}),
-            Outcome::not_consistent);
+            ClaimOutcome::not_consistent);
 }
 
 TEST(Judge, ByTheWholeInterval) {
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(8, 7, 9.9)}), Outcome::reproduced);
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(8, 7, 10)}), Outcome::inconclusive);
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 9, 14)}), Outcome::inconclusive);
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 10, 14)}), Outcome::not_reproduced);
-  EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(10, 6, 14)}), Outcome::reproduced);
-  EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(10, 1, 20)}), Outcome::inconclusive)
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(8, 7, 9.9)}), ClaimOutcome::reproduced);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(8, 7, 10)}), ClaimOutcome::inconclusive);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 9, 14)}), ClaimOutcome::inconclusive);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 10, 14)}), ClaimOutcome::not_reproduced);
+  EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(10, 6, 14)}), ClaimOutcome::reproduced);
+  EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(10, 1, 20)}), ClaimOutcome::inconclusive)
       << "both ends are outside, but what lies between is not";
-  EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(2, 1, 4)}), Outcome::not_reproduced);
+  EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(2, 1, 4)}), ClaimOutcome::not_reproduced);
 }
 
 TEST(Judge, WhatWasNotRunOrHasNoValue) {
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"other", "mm", 1, {}, false}}), Outcome::not_run);
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"m", "mm", {}, {}, false}}), Outcome::inconclusive);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"other", "mm", 1, {}, false}}), ClaimOutcome::not_run);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {{"m", "mm", {}, {}, false}}), ClaimOutcome::inconclusive);
   EXPECT_FALSE(any_was_run(judge({example_claim(kBelow10)}, {})));
   EXPECT_TRUE(any_was_run(judge({example_claim(kBelow10)}, {{"m", "mm", {}, {}, false}})));
 }
@@ -68,10 +68,11 @@ TEST(Judge, OnlyRequiredClaimsThatDoNotHoldFail) {
 }
 
 TEST(Judge, MeasuresOfTheFiguresAndOfStudies) {
-  const std::vector<Verdict> verdicts = judge(claims(), all_measures(full_result()));
+  const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(full_result()));
   ASSERT_EQ(verdicts.size(), claims().size());
   const auto outcome = [&](const std::string& measure) {
-    const auto it = std::ranges::find_if(verdicts, [&](const Verdict& v) { return v.claim.measure == measure; });
+    const auto it =
+        std::ranges::find_if(verdicts, [&](const ClaimVerdict& v) { return v.claim.measure == measure; });
     return it == verdicts.end() ? "no such claim" : to_string(it->outcome);
   };
   EXPECT_EQ(outcome("figure4.largest_mean_position_error_mm_source"), "reproduced");
