@@ -147,6 +147,8 @@ TEST_F(CommandsLong, ExplainsAFrame) {
   EXPECT_THAT(refusal(explain("4")), HasSubstr("0 to 3"));
   EXPECT_THAT(refusal(explain("-1")), HasSubstr("0 to 3"));
   EXPECT_THAT(refusal(explain("2", {"--experiment", "other"})), HasSubstr("good_DB_open_power"));
+  expect_fine(explain("2", {"--seed", "1"}));
+  EXPECT_THAT(refusal(explain("2", {"--seed", "7"})), HasSubstr("one of 1"));
   EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2", "--trajectory", path("left.json")})),
               HasSubstr("hash"))
       << "not the truth of that run";

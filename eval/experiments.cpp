@@ -11,7 +11,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/robot/json_lines_sink.h"
-#include "eval/explain.h"
+#include "eval/page_material.h"
 #include "eval/program_info.h"
 #include "eval/replay_all.h"
 #include "eval/share.h"
@@ -222,7 +222,7 @@ Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutpu
   Outcome outcome = run_experiments(workbench, plan, robot, &run_folder);
   if (run_studies) outcome.result.studies = run_studies(run_folder);
   note_resources(outcome.timings, start);
-  reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan),
+  reports::write_report(folder, outcome.result, outcome.timings, page_material(workbench, plan, outcome),
                         outcome.estimates);
   run_folder.finish();
   return outcome;

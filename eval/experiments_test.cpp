@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "eval/explain.h"
+#include "eval/page_material.h"
 #include "eval/test_program.h"
 #include "reports/report.h"
 
@@ -34,7 +34,7 @@ PlanRun run_plan(const std::string& folder, int threads) {
   Workbench workbench(test_workbench(threads));
   const Plan plan = make_plan();
   const Outcome outcome = run_experiments(workbench, plan, {folder + "/robot", default_T_base_camera()});
-  reports::write_report(folder, outcome.result, outcome.timings, sample_pictures(workbench, plan),
+  reports::write_report(folder, outcome.result, outcome.timings, page_material(workbench, plan, outcome),
                         outcome.estimates);
   PlanRun run{outcome.result, read_folder(folder)};
   EXPECT_EQ(run.files.erase("timings.json"), 1U);

@@ -91,18 +91,4 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
   return render::montage(panels, 4, 360, 300);
 }
 
-std::vector<reports::Picture> sample_pictures(Workbench& workbench, const Plan& plan) {
-  std::vector<reports::Picture> pictures;
-  if (plan.tracker.method != kPaperMethod) return pictures;
-  for (const Replay* replay : {&plan.replays.front(), &plan.replays.back()}) {
-    const int frame = replay->range.first + static_cast<int>(frames_of(*replay).size()) / 2;
-    pictures.push_back({fmt::format("{} ({}), subject {}, frame {}, tracked with {}: every stage of the tracker",
-                                    replay->truth->name, to_string(replay->truth->kind), replay->subject, frame,
-                                    replay->databases.front()),
-                        render::encode_png(explain_frame(workbench, *replay, frame))});
-    if (plan.replays.size() == 1) break;
-  }
-  return pictures;
-}
-
 }  // namespace glovebench::eval

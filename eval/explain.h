@@ -1,9 +1,6 @@
 #pragma once
 
-#include <vector>
-
 #include "eval/experiments.h"
-#include "reports/page.h"
 
 namespace glovebench::eval {
 
@@ -11,9 +8,5 @@ namespace glovebench::eval {
 /// the labels L, the tiny image, the k matches, the alignment before and after. The filter is not part of it: the
 /// frame is tracked by itself. Throws Error for another method than the paper's.
 ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame);
-
-/// A few such pictures for the report's page: the middle frame of the first and the last replay of a plan. None for
-/// another method than the paper's.
-std::vector<reports::Picture> sample_pictures(Workbench& workbench, const Plan& plan);
 
 }  // namespace glovebench::eval

@@ -4,52 +4,99 @@
 
 #include "reports/chart.h"
 #include "reports/claims/claims_report.h"
+#include "reports/embedded.h"
+#include "reports/json_text.h"
+#include "reports/page/section.h"
 #include "reports/summary.h"
 
 namespace glovebench::reports {
 namespace {
 
-/// One error of the experiment's first seed over the paper's curve.
-std::string error_chart(const ExperimentResult& experiment, std::string_view metric, const std::string& label,
-                        const PaperCurve& paper, double PaperErrors::*paper_value) {
-  LineChart chart{fmt::format("{} of {} with {}", label, paper.trajectory, paper.database), "frame", label, {}};
-  chart.series = {{"glovebench", {}}, {"paper", {}}};
-  for (const FrameRecord& frame : experiment.runs.front().frames)
-    chart.series[0].values.push_back(frame.*metrics()[metric_index(metric)].value);
-  for (const PaperErrors& errors : paper.frames) chart.series[1].values.push_back(errors.*paper_value);
-  return to_svg(chart);
+Section metrics_section(const RunResult& result) {
+  return {"metrics", "More metrics",
+          "<p>Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
+          "hands.</p>\n" +
+              to_html(detail_summary(result))};
 }
 
-std::string curve_section(const RunResult& result, const NoiseSetting& noise, const std::string& figure,
-                          const PaperCurve& paper) {
-  const ExperimentResult* experiment =
-      find_experiment(result, {paper.trajectory, paper.database, TruthKind::recorded, 1, noise});
-  if (!experiment || experiment->runs.empty()) return "";
-  return fmt::format("<h2>{}: {} with {}, recorded truth</h2>\n", figure, paper.trajectory, paper.database) +
-         "<p class=\"legend\"><span class=\"key series-0\"></span>glovebench, frame by frame; gaps are lost frames "
-         "<span class=\"key series-1\"></span>the paper's own movement, for the shape and size of its "
-         "errors</p>\n" +
-         error_chart(*experiment, "position_error_mm", "position error (mm)", paper, &PaperErrors::position_mm) +
-         error_chart(*experiment, "posture_rms_deg", "posture error (deg)", paper, &PaperErrors::posture_deg) +
-         error_chart(*experiment, "rotation_error_deg", "rotation error (deg)", paper, &PaperErrors::rotation_deg);
+Section gallery_section(const std::vector<Picture>& pictures) {
+  std::string html =
+      "<p>Frames with the largest position and posture errors, at most two of an experiment, with every stage of "
+      "the "
+      "tracker. The command under each shows it again; run it in this folder.</p>\n<div class=\"gallery\">\n";
+  for (const Picture& picture : pictures) {
+    const std::string caption = escape_html(picture.caption);
+    html += fmt::format(
+        "<figure><img alt=\"{0}\" src=\"{1}\"/><figcaption>{0}</figcaption><code "
+        "tabindex=\"0\">{2}</code></figure>\n",
+        caption, data_uri(picture.image), escape_html(picture.command));
+  }
+  return {"worst", "The worst frames", html + "</div>\n"};
+}
+
+Section configuration_section(const RunResult& result) {
+  return {"configuration", "Configuration",
+          "<details><summary>The effective configuration (config.json)</summary>\n<pre>" +
+              escape_html(format_json(result.configuration)) + "</pre></details>\n"};
+}
+
+Section environment_section(const Timings& timings) {
+  TextTable table{{"", ""}, {}, 2};
+  table.rows = {{"host", timings.host},
+                {"processor", timings.processor},
+                {"threads", std::to_string(timings.threads)},
+                {"compiler", timings.compiler},
+                {"build", timings.build_type},
+                {"commit", timings.commit},
+                {"date", timings.date},
+                {"duration", fixed(timings.wall_s, 0) + " s"},
+                {"peak memory", fixed(timings.peak_memory_mb, 0) + " MB"}};
+  return {"environment", "Environment", "<p>All times of this page were measured here.</p>\n" + to_html(table)};
+}
+
+/// A script element whose text cannot end it early.
+std::string script(const std::string& text) {
+  std::string html = "<script>\n";
+  for (size_t i = 0; i < text.size(); ++i) {
+    html += text[i];
+    if (text.compare(i, 3, "</s") == 0 || text.compare(i, 3, "</S") == 0) html += '\\';
+  }
+  return html + "\n</script>\n";
+}
+
+std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
+                                  const PageMaterial& material) {
+  std::vector<Section> sections;
+  const std::string claims_html = claims_section(judge(claims(), all_measures(result)));
+  if (!claims_html.empty()) sections.push_back({"claims", "Claims", claims_html});
+  for (Section& section : experiment_sections(result, paper, material.sheets))
+    sections.push_back(std::move(section));
+  for (Section& section : study_sections(result)) sections.push_back(std::move(section));
+  sections.push_back(metrics_section(result));
+  if (!material.worst_frames.empty()) sections.push_back(gallery_section(material.worst_frames));
+  sections.push_back(configuration_section(result));
+  if (!result.studies.empty()) sections.push_back(environment_section(timings));
+  return sections;
 }
 
 }  // namespace
 
-std::string html_page(const RunResult& result, const PaperNumbers& paper, const std::vector<Picture>& pictures) {
-  const NoiseSetting noise = headline_noise(result);
-  const std::string body =
+std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
+                      const PageMaterial& material) {
+  const std::vector<Section> sections = all_sections(result, paper, timings, material);
+  std::string body =
       fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
                   escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
-      claims_section(judge(claims(), all_measures(result))) + "<h2>Figure 4: mean errors</h2>\n<p>" +
-      escape_html(fmt::format("{} Noise: {} x {}.", summary_explanation(), noise.model, noise.factor)) + "</p>\n" +
-      to_html(figure4_summary(result, paper, noise)) + curve_section(result, noise, "Figure 5", paper.figure_5) +
-      curve_section(result, noise, "Figure 6", paper.figure_6) + picture_section("Frames", pictures) +
-      "<h2>More metrics</h2>\n<p>Intervals are over blocks of frames and, where there are several, noise seeds; "
-      "not over movements or hands.</p>\n" +
-      to_html(detail_summary(result)) + "<p class=\"provenance\">The paper: " + escape_html(paper.source) +
-      ".</p>\n";
-  return html_document("glovebench results", body);
+      contents_list(sections);
+  for (const Section& section : sections) body += to_html(section);
+  body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";
+  std::string scripts;
+  if (!material.scripts.empty()) {
+    scripts = chart_data(result, paper);
+    for (const std::string& text : material.scripts) scripts += script(text);
+    scripts += script(embedded_page_script());
+  }
+  return html_document("glovebench results", body, sheet_style(material.sheets), scripts);
 }
 
 }  // namespace glovebench::reports

@@ -3,15 +3,26 @@
 #include <string>
 #include <vector>
 
+#include "reports/page/frame_sheet.h"
 #include "reports/page_frame.h"
 #include "reports/tables.h"
+#include "reports/timings.h"
 
 namespace glovebench::reports {
 
-/// index.html, one file that needs no other: Figure 4 as a table, the curves of figures 5 and 6 beside the paper's
-/// own (of the first noise seed; left out if those experiments were not run), the pictures, and the table of more
-/// metrics.
-std::string html_page(const RunResult& result, const PaperNumbers& paper,
-                      const std::vector<Picture>& pictures = {});
+/// What the page shows beside the numbers.
+struct PageMaterial {
+  /// Vega, Vega-Lite and Vega-Embed, in that order: the text of scripts that draw the charts. Without them the page
+  /// has its tables and pictures.
+  std::vector<std::string> scripts;
+  std::vector<FrameSheet> sheets;     ///< of figures 5 and 6
+  std::vector<Picture> worst_frames;  ///< as chosen by `worst_frames`
+};
+
+/// index.html, one file that needs no other: the paper's figures 4 to 9 beside its numbers, as charts over tables;
+/// what was not run is left out. Without JavaScript the tables and the keyframes are there. The times of the run
+/// are shown if it has studies, which are of times themselves; another run's page depends on its results alone.
+std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
+                      const PageMaterial& material = {});
 
 }  // namespace glovebench::reports

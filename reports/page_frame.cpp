@@ -22,24 +22,33 @@ std::string base64(const std::string& bytes) {
 
 }  // namespace
 
+std::string data_uri(const std::string& image) {
+  const bool is_jpeg = image.starts_with("\xff\xd8");
+  return fmt::format("data:image/{};base64,{}", is_jpeg ? "jpeg" : "png", base64(image));
+}
+
 std::string picture_section(const std::string& title, const std::vector<Picture>& pictures) {
   if (pictures.empty()) return "";
   std::string html = fmt::format("<h2>{}</h2>\n<div class=\"pictures\">\n", escape_html(title));
   for (const Picture& picture : pictures) {
     const std::string caption = escape_html(picture.caption);
-    html += fmt::format(
-        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"/><figcaption>{}</figcaption></figure>\n", caption,
-        base64(picture.png), caption);
+    html += fmt::format("<figure><img alt=\"{}\" src=\"{}\"/><figcaption>{}</figcaption>", caption,
+                        data_uri(picture.image), caption);
+    if (!picture.command.empty()) html += fmt::format("<code>{}</code>", escape_html(picture.command));
+    html += "</figure>\n";
   }
   return html + "</div>\n";
 }
 
-std::string html_document(const std::string& title, const std::string& body) {
+std::string html_document(const std::string& title, const std::string& body, const std::string& style,
+                          const std::string& end) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n" +
-         fmt::format("<title>{}</title>\n<style>\n", escape_html(title)) + embedded_page_style() +
-         fmt::format("</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n", escape_html(title)) + body +
-         "</main>\n</body>\n</html>\n";
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
+         // An empty icon, or browsers ask for /favicon.ico.
+         "<link rel=\"icon\" href=\"data:,\"/>\n" +
+         fmt::format("<title>{}</title>\n<style>\n", escape_html(title)) + embedded_page_style() + style +
+         fmt::format("</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n", escape_html(title)) + body + "</main>\n" +
+         end + "</body>\n</html>\n";
 }
 
 }  // namespace glovebench::reports

@@ -10,13 +10,19 @@ namespace glovebench::reports {
 /// A picture for a page.
 struct Picture {
   std::string caption;
-  std::string png;  ///< the file's bytes
+  std::string image;         ///< the bytes of a PNG or JPEG file
+  std::string command = "";  ///< what shows it again; may be empty
 };
 
 /// The pictures under a heading; empty if there are none.
 std::string picture_section(const std::string& title, const std::vector<Picture>& pictures);
 
-/// A whole document with the project's style; `body` is HTML and follows the title as a heading.
-std::string html_document(const std::string& title, const std::string& body);
+/// Bytes of a PNG or JPEG file as an address: "data:image/png;base64,...".
+std::string data_uri(const std::string& image);
+
+/// A whole document with the project's style; `body` is HTML and follows the title as a heading. `style` is added
+/// to the project's, `end` follows all that is shown.
+std::string html_document(const std::string& title, const std::string& body, const std::string& style = "",
+                          const std::string& end = "");
 
 }  // namespace glovebench::reports

@@ -113,7 +113,7 @@ void remove_stale_files(const std::string& folder, const std::vector<std::string
 }  // namespace
 
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
-                                      const std::vector<Picture>& pictures,
+                                      const PageMaterial& material,
                                       const std::vector<ExperimentEstimates>& estimates) {
   const std::vector<std::string> older = older_study_files(folder);
   std::vector<std::string> of_studies = study_files(result.studies);
@@ -123,7 +123,7 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
   WholeFiles files(folder);
   files.add("config.json", format_json(result.configuration));
   files.add("summary.md", summary_markdown(result, paper));
-  files.add("index.html", html_page(result, paper, pictures));
+  files.add("index.html", html_page(result, paper, timings, material));
   files.add("timings.json", timings_json(timings, result.studies));
   for (const NamedFile& table : other_files(result)) files.add(table.name, table.content);
   for (const ExperimentEstimates& experiment : estimates)

@@ -14,7 +14,7 @@ namespace glovebench::reports {
 ///   results.json   everything (reports/schema/results.schema.json)
 ///   config.json    the effective configuration
 ///   summary.md     the tables, to read
-///   index.html     tables, curves, pictures; one file that needs no other
+///   index.html     tables, charts, pictures; one file that needs no other
 ///   timings.json   what differs from run to run
 ///   claims.json    what became of the paper's claims, if any was run; tables/claims.csv the same as a table
 ///   tables/        figure4.csv and .tex; figure5.csv and figure6.csv if those experiments were run; frames_*.csv
@@ -27,7 +27,7 @@ namespace glovebench::reports {
 /// comes last: while it is an older one, so may be any file beside it. No other run may be writing there. Throws
 /// Error if the folder cannot be written; an older report then stays as it was.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
-                                      const std::vector<Picture>& pictures = {},
+                                      const PageMaterial& material = {},
                                       const std::vector<ExperimentEstimates>& estimates = {});
 
 }  // namespace glovebench::reports

@@ -20,6 +20,8 @@ struct Explain {
   int frame = 0;
   std::string experiment_name;
   std::string trajectory_file;
+  std::string database_file;
+  std::optional<uint64_t> seed;
 
   void run() {
     const std::string results_path = run_folder + "/results.json";
@@ -31,13 +33,15 @@ struct Explain {
     common.left = truth->side == Side::left;
     common.config_json = results.configuration.at("tracker");
     Workbench workbench = common.workbench();
+    if (!database_file.empty()) workbench.add_database(database_file);
     const Replay replay{truth,
                         experiment.key.subject,
                         experiment.key.noise,
-                        experiment.runs.front().seed,
+                        seed_of(experiment, results_path),
                         {experiment.key.database},
                         {},
                         common.tracker_config()};
+    check_database(results, experiment.key, *workbench.database(experiment.key.database), results_path);
     const std::string path = common.output.empty()
                                  ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(experiment.key), frame)
                                  : common.output;
@@ -55,6 +59,16 @@ struct Explain {
                 fmt::format("one of {}", fmt::join(names, ", ")));
   }
 
+  uint64_t seed_of(const ExperimentResult& experiment, const std::string& path) const {
+    std::vector<uint64_t> seeds;
+    for (const reports::SeedRun& run : experiment.runs) {
+      seeds.push_back(run.seed);
+      if (!seed || *seed == run.seed) return run.seed;
+    }
+    throw Error(path, "noise seed", seed ? std::to_string(*seed) : "none",
+                fmt::format("one of {}", fmt::join(seeds, ", ")));
+  }
+
   Trajectory load_truth(const reports::ExperimentKey& key) const {
     if (!trajectory_file.empty()) return trajectories::load_trajectory(trajectory_file);
     if (const auto truth = find_truth(key)) return *truth;
@@ -70,6 +84,13 @@ struct Explain {
     const std::string found = trajectories::hash(truth);
     if (found != expected) throw Error(path, "hash of " + name, found, expected + " (the truth of the run)");
   }
+  static void check_database(const reports::RunResult& results, const reports::ExperimentKey& key,
+                             const Database& database, const std::string& path) {
+    const auto it = results.inputs.databases.find(key.database);
+    const std::string expected = it == results.inputs.databases.end() ? "nothing" : it->second;
+    if (database.hash() != expected)
+      throw Error(path, "hash of " + key.database, database.hash(), expected + " (the database of the run)");
+  }
 };
 
 }  // namespace
@@ -84,6 +105,9 @@ void add_explain(CLI::App& program) {
                       "e.g. Tr4_DB_open_power_recorded_subject1_gradient_1 [the first of the run]");
   command->add_option("--trajectory", state->trajectory_file, "file of the truth, if it is none of Tr1..Tr5")
       ->check(CLI::ExistingFile);
+  command->add_option("--database", state->database_file, "file of the database, if it is none of the program's")
+      ->check(CLI::ExistingFile);
+  command->add_option("--seed", state->seed, "noise seed of the experiment [its first]");
   state->common.add_output(*command, "picture to write (*.png) [in the run's folder]");
   state->common.add_machine(*command);
   command->callback([state] { state->run(); });

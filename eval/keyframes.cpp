@@ -1,0 +1,103 @@
+#include "eval/keyframes.h"
+
+#include "core/base/check.h"
+#include "render/label_renderer.h"
+#include "render/pictures.h"
+#include "render/rgbd_renderer.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::Estimate;
+using reports::FrameSheet;
+using trajectories::TrajectoryFrame;
+
+constexpr int kColumns = 16;
+// Multiples of 16: a JPEG shares its colors in blocks of 16 x 16 px, which no two tiles then have in common.
+constexpr int kTileWidth = 160, kTileHeight = 128;
+constexpr int kJpegQuality = 80;
+
+/// Where the hand is in the image, and its margin.
+Eigen::AlignedBox2d box_of_hand(const PinholeCamera& camera, const HandModel& hand,
+                                std::span<const TrajectoryFrame> frames) {
+  Eigen::AlignedBox2d box;
+  for (const TrajectoryFrame& frame : frames) {
+    for (const Eigen::Vector3f& p_hand : hand.pose(frame.posture).vertices)
+      box.extend(camera.project(frame.T_camera_hand * p_hand.cast<double>()));
+  }
+  constexpr double kMargin = 0.08;  // of its size, so that an estimate beside the truth is seen as well
+  const Eigen::Vector2d margin = kMargin * box.sizes();
+  return {box.min() - margin, box.max() + margin};
+}
+
+void paste(ColorImage& sheet, const ColorImage& tile, int column, int row) {
+  for (int v = 0; v < tile.height(); ++v) {
+    const int left = column * tile.width(), top = row * tile.height() + v;
+    std::copy_n(tile.data() + static_cast<ptrdiff_t>(v) * tile.width(), tile.width(),
+                sheet.data() + static_cast<ptrdiff_t>(top) * sheet.width() + left);
+  }
+}
+
+/// Draws the tiles of one hand.
+class TilePainter {
+ public:
+  TilePainter(std::shared_ptr<const HandModel> hand, const PinholeCamera& camera)
+      : hand_(std::move(hand)), camera_(camera), color_({camera, camera}, hand_, {}) {}
+
+  ColorImage truth(const TrajectoryFrame& frame) {
+    return color_.render(hand_->pose(frame.posture), frame.T_camera_hand, {}).color;
+  }
+  ColorImage difference(const TrajectoryFrame& frame, const Estimate& estimate) {
+    const DepthImage truth = depth(frame.posture, frame.T_camera_hand);
+    const DepthImage estimated = estimate.status == TrackStatus::tracked
+                                     ? depth(estimate.posture, estimate.T_camera_hand)
+                                     : DepthImage(camera_.width, camera_.height);
+    return render::picture_of_depth_difference(truth, estimated, reports::kSheetDifferenceMm / 1000);
+  }
+
+ private:
+  DepthImage depth(const Posture& posture, const Eigen::Isometry3d& T_camera_hand) {
+    return ids_.render_ids(*hand_, hand_->pose(posture), camera_, T_camera_hand).depth;
+  }
+
+  std::shared_ptr<const HandModel> hand_;
+  PinholeCamera camera_;
+  render::RgbdRenderer color_;
+  render::LabelRenderer ids_;
+};
+
+}  // namespace
+
+PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const TrajectoryFrame> frames,
+                            int tile_width, int tile_height) {
+  check(!frames.empty(), "a window is around the hand of some frame");
+  const Eigen::AlignedBox2d box = box_of_hand(ir, hand, frames);
+  const double scale = std::min(tile_width / box.sizes().x(), tile_height / box.sizes().y());
+  // A pixel's center has integer coordinates: the middle of a tile is at (width - 1) / 2.
+  return {tile_width,
+          tile_height,
+          ir.fx * scale,
+          ir.fy * scale,
+          (ir.cx - box.center().x()) * scale + (tile_width - 1) / 2.0,
+          (ir.cy - box.center().y()) * scale + (tile_height - 1) / 2.0};
+}
+
+FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
+                            std::span<const TrajectoryFrame> frames, std::span<const Estimate> estimates) {
+  check(frames.size() == estimates.size(), "a sheet has an estimate for each frame");
+  // The recorded truth of the figures is of the first subject, whose hand is the tracker's.
+  const std::shared_ptr<const HandModel> hand = workbench.model();
+  TilePainter painter(hand, camera_around(workbench.calibration().ir, *hand, frames, kTileWidth, kTileHeight));
+  const auto count = static_cast<int>(frames.size());
+  const int rows = (count + kColumns - 1) / kColumns;
+  ColorImage sheet(kColumns * kTileWidth, 2 * rows * kTileHeight);
+  for (int i = 0; i < count; ++i) {
+    paste(sheet, painter.truth(frames[i]), i % kColumns, 2 * (i / kColumns));
+    paste(sheet, painter.difference(frames[i], estimates[i]), i % kColumns, 2 * (i / kColumns) + 1);
+  }
+  return {
+      figure, render::encode_jpeg(sheet, kJpegQuality), kColumns, kTileWidth, kTileHeight, estimates.front().frame,
+      count};
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,109 @@
+#pragma once
+
+// Invented material of a page, for its tests and to look at it without a run. Not part of the library.
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "reports/page.h"
+#include "reports/page/gallery.h"
+
+namespace glovebench::reports {
+
+inline std::string encode(const cv::Mat& image, const char* extension) {
+  std::vector<uint8_t> bytes;
+  cv::imencode(extension, image, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Each tile says which frame it is; the truth's are dark, the difference's lighter.
+inline FrameSheet example_sheet(const std::string& figure, int frames) {
+  FrameSheet sheet{figure, "", 16, 160, 128, 0, frames};
+  const int rows = (frames + sheet.columns - 1) / sheet.columns;
+  cv::Mat image(2 * rows * sheet.tile_height, sheet.columns * sheet.tile_width, CV_8UC3, cv::Scalar(20, 25, 30));
+  for (int frame = 0; frame < frames; ++frame) {
+    for (const int row : {0, 1}) {
+      const cv::Point corner(frame % sheet.columns * sheet.tile_width,
+                             (2 * (frame / sheet.columns) + row) * sheet.tile_height);
+      const cv::Point center = corner + cv::Point(80, 64);
+      cv::ellipse(image, center, {40 + frame % 20, 30}, 3.0 * frame, 0, 360,
+                  row == 0 ? cv::Scalar(60, 140, 200) : cv::Scalar(240, 240, 240), cv::FILLED, cv::LINE_AA);
+      cv::putText(image, std::to_string(frame), corner + cv::Point(8, 24), cv::FONT_HERSHEY_SIMPLEX, 0.6,
+                  {220, 220, 220}, 1, cv::LINE_AA);
+    }
+  }
+  sheet.image = encode(image, ".jpg");
+  return sheet;
+}
+
+/// A column for numbers, a time if its key is of milliseconds or microseconds.
+inline Column example_column(const std::string& key) {
+  return {key, key, 2, key.find("_ms") != std::string::npos || key.find("_us") != std::string::npos};
+}
+inline Table example_table(const std::string& name, const std::string& title, const std::vector<std::string>& keys,
+                           int name_columns) {
+  Table table{name, title, "Invented numbers.", {}, name_columns, {}};
+  for (const std::string& key : keys) table.columns.push_back(example_column(key));
+  return table;
+}
+
+inline StudyResult example_figure9() {
+  Table table =
+      example_table("figure9", "Sub-sampling",
+                    {"truth", "factor", "icp_points", "position_error_mm", "position_error_mm_low",
+                     "position_error_mm_high", "rotation_error_deg", "rotation_error_deg_low",
+                     "rotation_error_deg_high", "frame_ms_p50", "frame_ms_p95", "align_ms_p50", "look_up_ms_p50"},
+                    2);
+  for (const std::string truth : {"recorded", "source"}) {
+    for (int64_t factor = 1; factor <= 64; factor *= 2) {
+      const double f = static_cast<double>(factor), mm = 2 + 0.02 * f + (truth == "source" ? 1 : 0);
+      table.rows.push_back({truth, factor, 3000 / factor, mm, mm - 0.2, mm + 0.3, 2 * mm, 1.8 * mm, 2.3 * mm,
+                            6 + 60 / f, 8 + 60 / f, 60 / f, 4.0});
+    }
+  }
+  return {"fig9", "Figure 9: sub-sampling", {table}, {}};
+}
+
+inline StudyResult example_ablations() {
+  std::vector<std::string> keys = {"ablation",
+                                   "setting",
+                                   "truth",
+                                   "position_error_mm",
+                                   "posture_error_deg",
+                                   "rotation_error_deg",
+                                   "covered_percent",
+                                   "jitter_position_mm",
+                                   "latency_frames"};
+  for (const std::string error : {"position_error_mm", "posture_error_deg", "rotation_error_deg"})
+    for (const std::string part : {"_change", "_change_low", "_change_high"}) keys.push_back(error + part);
+  Table table = example_table("ablations", "One change at a time", keys, 3);
+  const Cell none;
+  for (const std::string ablation : {"filter", "neighbors", "colors in the alignment", "noise"}) {
+    for (const std::string setting : {"as in the paper", "off", "double"}) {
+      for (const std::string truth : {"recorded", "source"}) {
+        std::vector<Cell> row = {ablation, setting, truth, 3.0, 6.0, 2.0, 100.0, 0.3, 1.0};
+        const double change = (setting == "off" ? 1.0 : -0.3) * static_cast<double>(ablation.size()) / 5;
+        for (int error = 0; error < 3; ++error) {
+          if (setting == "as in the paper")
+            row.insert(row.end(), {none, none, none});
+          else
+            row.insert(row.end(), {change, change - 0.4, change + 0.5});
+        }
+        table.rows.push_back(row);
+      }
+    }
+  }
+  return {"ablations", "What the paper asserts, one change at a time", {table}, {}};
+}
+
+/// Sheets of both curves and a gallery of gray pictures.
+inline PageMaterial example_material(const RunResult& result, std::vector<std::string> scripts) {
+  PageMaterial material{std::move(scripts), {example_sheet("figure5", 117), example_sheet("figure6", 137)}, {}};
+  for (const WorstFrame& worst : worst_frames(result))
+    material.worst_frames.push_back({caption(worst),
+                                     encode(cv::Mat(300, 400, CV_8UC3, cv::Scalar(90, 90, 90)), ".jpg"),
+                                     explain_command(worst)});
+  return material;
+}
+
+}  // namespace glovebench::reports

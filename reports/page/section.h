@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/page.h"
+
+namespace glovebench::reports {
+
+/// A part of the page, which its contents list names.
+struct Section {
+  std::string id;
+  std::string title;  ///< plain text
+  std::string html;   ///< what follows the heading, or begins with a heading of its own
+};
+std::string to_html(const Section& section);
+/// The list that leads to the sections.
+std::string contents_list(const std::vector<Section>& sections);
+
+/// A chart that data/page_charts.js draws in this place from the page's tables; `label` says what it shows.
+std::string chart_place(const std::string& chart, const std::string& label);
+/// Where the numbers of a chart are.
+std::string data_note(const std::string& table);
+
+/// The experiments: Figure 4, the curves of figures 5 and 6 with their keyframes. Those that were run.
+std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
+                                         const std::vector<FrameSheet>& sheets);
+/// A section for each study of a run, with its charts and tables.
+std::vector<Section> study_sections(const RunResult& result);
+
+/// The keyframes of a curve and, for data/page_frames.js, the place of one frame with its slider.
+std::string keyframes_html(const FrameSheet& sheet);
+std::string frame_viewer_html(const FrameSheet& sheet);
+/// Puts each sheet into the page once: the tiles are windows on it.
+std::string sheet_style(const std::vector<FrameSheet>& sheets);
+
+/// The tables that the charts are drawn from, as text of CSV files by the files' names, in a script element.
+std::string chart_data(const RunResult& result, const PaperNumbers& paper);
+
+}  // namespace glovebench::reports

@@ -1,0 +1,107 @@
+#include "reports/page.h"
+
+#include <gmock/gmock.h>
+
+#include "reports/example_result.h"
+#include "reports/page/section.h"
+
+namespace glovebench::reports {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+RunResult without_studies(RunResult result) {
+  result.studies.clear();
+  return result;
+}
+
+TEST(Page, ShowsTablesAndPlacesForCharts) {
+  const std::string page = html_page(full_result(), paper_numbers());
+  EXPECT_THAT(page, HasSubstr("<td>3.88 / 2.60 / 2.70</td>"));
+  EXPECT_THAT(page, HasSubstr("<h2>Figure 5: Tr4 with DB_open_power, recorded truth</h2>"));
+  EXPECT_THAT(page, HasSubstr("<h2>Figure 6: Tr1 with DB_20_postures, recorded truth</h2>"));
+  for (const char* chart : {"figure4-position", "figure5-rotation", "figure6-posture", "figure7-time", "figure8"})
+    EXPECT_THAT(page, HasSubstr("data-chart=\"" + std::string(chart) + "\""));
+  EXPECT_THAT(page, AllOf(HasSubstr("href=\"tables/figure5.csv\""), HasSubstr("href=\"tables/figure8.csv\"")));
+  EXPECT_THAT(page, Not(HasSubstr("http"))) << "the page needs no other file";
+  EXPECT_THAT(page, Not(HasSubstr("<script"))) << "and has no script if it was given none";
+}
+
+TEST(Page, LeavesOutWhatWasNotRun) {
+  RunResult result = small_result();
+  result.experiments.erase(result.experiments.begin());
+  const std::string page = html_page(result, paper_numbers());
+  for (const char* part : {"figure5", "figure6", "figure7", "id=\"worst\"", "id=\"environment\""})
+    EXPECT_THAT(page, Not(HasSubstr(part)));
+  result.experiments.clear();
+  EXPECT_THAT(html_page(result, paper_numbers()), HasSubstr("</html>"));
+}
+
+TEST(Page, ContentsLeadToEverySection) {
+  const std::string page = html_page(full_result(), paper_numbers());
+  size_t links = 0;
+  for (size_t at = page.find("href=\"#"); at != std::string::npos; at = page.find("href=\"#", at + 1)) {
+    const std::string id = page.substr(at + 7, page.find('"', at + 7) - at - 7);
+    EXPECT_THAT(page, HasSubstr("<section id=\"" + id + "\">"));
+    ++links;
+  }
+  EXPECT_GE(links, 7U);
+}
+
+TEST(Page, TimesAreShownWithStudiesAlone) {
+  Timings timings, slower;
+  timings.host = slower.host = "a <host>";
+  slower.wall_s = 99;
+  const RunResult plain = without_studies(full_result());
+  EXPECT_EQ(html_page(plain, paper_numbers(), timings), html_page(plain, paper_numbers(), slower));
+  const std::string page = html_page(full_result(), paper_numbers(), slower);
+  EXPECT_THAT(page, AllOf(HasSubstr("a &lt;host&gt;"), HasSubstr("99 s")));
+}
+
+TEST(Page, NoTextEndsAScriptElement) {
+  RunResult result = small_result();
+  result.experiments[0].key.trajectory = "</script><b>";
+  PageMaterial material;
+  material.scripts = {"const a = '</script>', b = /<\\/SCRIPT>/, c = '</SCRIPT>';"};
+  const std::string page = html_page(result, paper_numbers(), {}, material);
+  EXPECT_THAT(page, HasSubstr("const a = '<\\/script>', b = /<\\/SCRIPT>/, c = '<\\/SCRIPT>';"));
+  EXPECT_THAT(page, HasSubstr("\\u003c/script>\\u003cb>"));
+  EXPECT_THAT(page, Not(HasSubstr("<b>"))) << "in the tables it is text as well";
+}
+
+TEST(Page, ShowsTheWorstFramesWithTheirCommands) {
+  PageMaterial material;
+  material.worst_frames = {{"Frame 60 <estimate>", "\x89PNG", "glovebench explain . 60 --seed 1"},
+                           {"Frame 61", "\xff\xd8\xff", "glovebench explain . 61"}};
+  const std::string page = html_page(small_result(), paper_numbers(), {}, material);
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64,iVBORw==\"/>"));
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/jpeg;base64,/9j/\"/>"));
+  EXPECT_THAT(page, HasSubstr("<figcaption>Frame 60 &lt;estimate&gt;</figcaption>"));
+  EXPECT_THAT(page, HasSubstr("glovebench explain . 60 --seed 1</code>"));
+}
+
+TEST(Keyframes, AreWindowsOnTheSheet) {
+  // 11 frames in 3 columns: 4 pairs of rows, 8 rows of tiles.
+  const FrameSheet sheet{"figure5", "\xff\xd8\xff", 3, 40, 30, 100, 11};
+  const std::string html = keyframes_html(sheet);
+  for (const int frame : {0, 2, 4, 6, 8, 10})
+    EXPECT_THAT(html, HasSubstr("<button type=\"button\" data-frame=\"" + std::to_string(frame) + "\">"));
+  EXPECT_THAT(html, HasSubstr("frame 110</button>")) << "named by its number in the trajectory";
+  // Frame 4 is in column 1 of 3 and rows 2 and 3 of 8.
+  EXPECT_THAT(html, HasSubstr("background-position:50.0000% 28.5714%"));
+  EXPECT_THAT(html, HasSubstr("background-position:50.0000% 42.8571%"));
+  EXPECT_THAT(sheet_style({sheet}), HasSubstr(".sheet-figure5 { aspect-ratio: 40 / 30; background-size: 300% 800%; "
+                                              "background-image: url(data:image/jpeg;base64,/9j/); }"));
+  EXPECT_THAT(frame_viewer_html(sheet), HasSubstr("min=\"0\" max=\"10\""));
+}
+
+TEST(Keyframes, OfASingleFrameAreOne) {
+  const std::string html = keyframes_html({"figure6", "\xff\xd8\xff", 16, 40, 30, 0, 1});
+  EXPECT_EQ(html.find("<button"), html.rfind("<button"));
+  EXPECT_THAT(html, HasSubstr("background-position:0.0000% 100.0000%"));
+}
+
+}  // namespace
+}  // namespace glovebench::reports
