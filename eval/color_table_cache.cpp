@@ -104,7 +104,8 @@ ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const H
       // Damaged or of another version: it is made anew below, from the same inputs.
     }
   }
-  const ColorTable table = calibrate_colors(std::move(model), calibration, postures, {.space = space});
+  const ColorTable table = calibrate_colors(std::move(model), calibration, postures,
+                                            {.space = space, .lightings = calibration_lightings(), .model = {}});
   table.save(path);
   return table;
 }

@@ -80,8 +80,11 @@ std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const P
 }  // namespace
 
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const Outcome& outcome) {
-  return {page_scripts(), make_sheets(workbench, plan, outcome),
-          picture_worst_frames(workbench, plan, outcome.result)};
+  reports::PageMaterial material{page_scripts(), make_sheets(workbench, plan, outcome), {}};
+  // Only the paper's method has stages that can be shown.
+  if (plan.tracker.method == kPaperMethod)
+    material.worst_frames = picture_worst_frames(workbench, plan, outcome.result);
+  return material;
 }
 
 }  // namespace glovebench::eval

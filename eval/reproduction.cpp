@@ -57,9 +57,9 @@ std::string study_key(Workbench& workbench, const Study& study, const StudyOptio
   inputs.push_back(hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels()))));
   std::vector<std::string> cascades;
   for (const Cascade& cascade : options.cascades) cascades.push_back(to_string(cascade));
-  const nlohmann::json content = {{"study", study.name},         {"configuration", to_json(options.tracker)},
-                                  {"seeds", options.seeds},      {"quick", options.quick},
-                                  {"cascades", cascades},        {"inputs", inputs}};
+  const nlohmann::json content = {{"study", study.name},    {"configuration", to_json(options.tracker)},
+                                  {"seeds", options.seeds}, {"quick", options.quick},
+                                  {"cascades", cascades},   {"inputs", inputs}};
   return hash_text(content.dump());
 }
 

@@ -11,9 +11,9 @@ namespace glovebench::eval {
 /// What `glovebench reproduce` is asked for.
 struct ReproductionOptions {
   StudyOptions study;
-  std::vector<std::string> trajectories;        ///< of Figure 4; empty: all five
+  std::vector<std::string> trajectories;             ///< of Figure 4; empty: all five
   std::vector<reports::NoiseSetting> noises = {{}};  ///< of Figure 4
-  std::vector<std::string> only;                ///< names of parts (part_names); empty: all
+  std::vector<std::string> only;                     ///< names of parts (part_names); empty: all
 };
 
 /// What can be left out: "fig4", "fig5", "fig6", and the studies.
@@ -22,8 +22,8 @@ std::vector<std::string> part_names();
 /// The experiments of Figures 4 to 6 that are asked for.
 Plan plan_reproduction(const ReproductionOptions& options);
 
-/// Runs the paper's experiments and studies into a folder, as run_into_folder does: what an interrupted run finished
-/// is taken from it. Throws Error for an unknown part.
+/// Runs the paper's experiments and studies into a folder, as run_into_folder does: what an interrupted run
+/// finished is taken from it. Throws Error for an unknown part.
 Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
                   const std::string& folder);
 

@@ -103,7 +103,8 @@ std::optional<std::string> RunFolder::load(const std::string& key) const {
   } catch (const Error&) {  // what cannot be read is made anew, like what is damaged
   }
   const size_t content = bytes.find('\n') + 1;
-  if (bytes.substr(0, content) == heading(key, std::string_view(bytes).substr(content))) return bytes.substr(content);
+  if (bytes.substr(0, content) == heading(key, std::string_view(bytes).substr(content)))
+    return bytes.substr(content);
   std::call_once(told_, [&] {
     fmt::print(stderr, "glovebench: {} is cut short or of another version of the program: made anew, as any such\n",
                path);

@@ -51,7 +51,8 @@ Table table_of(const json& row) {
 
 json row_of(const Measure& measure) {
   json interval;
-  if (const auto& i = measure.interval) interval = {i->low, i->high, i->level, i->seeds, i->blocks, i->block_frames, i->over};
+  if (const auto& i = measure.interval)
+    interval = {i->low, i->high, i->level, i->seeds, i->blocks, i->block_frames, i->over};
   return {measure.name, measure.unit, measure.value ? json(*measure.value) : json(), interval, measure.is_time};
 }
 

@@ -26,8 +26,8 @@ PinholeCamera view_camera(const ViewConfig& views) {
   return {views.image_size, views.image_size, f, f, c, c};
 }
 
-/// The fields of larger images would no longer be exact: chamfer_field steps 64 px at most, and the cap of a larger
-/// side does not fit into a byte.
+/// px. Larger images do not fit: chamfer_field steps at most 64 px along a row, and a stored distance is a byte,
+/// also when the cap is the whole side. Smaller ones tell nothing.
 constexpr int kSmallestSize = 4, kLargestSize = 64;
 
 void check_sizes(const std::string& name, std::span<const int> sizes) {

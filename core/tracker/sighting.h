@@ -13,14 +13,15 @@ namespace glovebench {
 /// What a frame shows before anything is looked up (section III-A), stage by stage.
 struct Sighting {
   DepthImage depth;
-  RegisteredImage mapped;  ///< M
-  LabelImage labels;       ///< L
-  LabeledCloud cloud;      ///< C
+  RegisteredImage mapped;                     ///< M
+  LabelImage labels;                          ///< L
+  LabeledCloud cloud;                         ///< C
   TrackStatus status = TrackStatus::no_hand;  ///< `tracked` if there is one whole hand to look up
 };
 
 /// Registers, segments, and makes the cloud.
-Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
-             const TrackerConfig& config, const StageObserver& observe = [](std::string_view) {});
+Sighting see(
+    const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+    const TrackerConfig& config, const StageObserver& observe = [](std::string_view) {});
 
 }  // namespace glovebench

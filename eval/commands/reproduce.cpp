@@ -35,11 +35,11 @@ struct Reproduce {
     common.check_output_folder();
 
     Workbench workbench = common.workbench();
-    const Outcome outcome =
-        reproduce(workbench, options, {robot.output, robot.T_base_camera()}, common.output);
+    const Outcome outcome = reproduce(workbench, options, {robot.output, robot.T_base_camera()}, common.output);
     print_figure4(outcome.result);
-    for (const reports::StudyResult& study : outcome.result.studies) fmt::print("{}", reports::study_markdown(study));
-    const std::vector<reports::Verdict> verdicts =
+    for (const reports::StudyResult& study : outcome.result.studies)
+      fmt::print("{}", reports::study_markdown(study));
+    const std::vector<reports::ClaimVerdict> verdicts =
         reports::judge(reports::claims(), reports::all_measures(outcome.result));
     if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
     fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
@@ -68,16 +68,17 @@ void add_reproduce(CLI::App& program, int& exit_code) {
       "reproduce",
       "Run the paper's experiments, judge its claims, and write the report.\n"
       "Figures 4 to 6: five trajectories x the databases that hold their grasp, against the recorded truth, the\n"
-      "source truth, and the source with a second subject's hand in front of the camera. Figures 7 to 9, ablations,\n"
+      "source truth, and the source with a second subject's hand in front of the camera. Figures 7 to 9, "
+      "ablations,\n"
       "and a tracker without depth. Exit code 1: a claim that is required does not hold.");
   const auto state = std::make_shared<Reproduce>();
   state->options.study.seeds.clear();
   state->common.add_output(*command, "folder of the report [out]");
-  command
-      ->add_option("--only", state->options.only, fmt::format("parts, of {}", fmt::join(part_names(), ", ")))
+  command->add_option("--only", state->options.only, fmt::format("parts, of {}", fmt::join(part_names(), ", ")))
       ->delimiter(',');
-  command->add_flag("--quick", state->options.study.quick,
-                    "a few frames and queries of everything, in under a minute: shows that it runs, judges no claim");
+  command->add_flag(
+      "--quick", state->options.study.quick,
+      "a few frames and queries of everything, in under a minute: shows that it runs, judges no claim");
   state->common.add_tracker(*command);
   state->common.add_seed(*command);
   state->common.add_machine(*command);

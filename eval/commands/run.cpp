@@ -60,8 +60,8 @@ struct Run {
     Workbench workbench = common.workbench();
     if (common.output.empty()) return print_study(chosen.run({workbench, options}));
     common.check_output_folder();
-    const Outcome outcome =
-        reproduce(workbench, {options, {}, {{}}, {study_name}}, {robot.output, robot.T_base_camera()}, common.output);
+    const Outcome outcome = reproduce(workbench, {options, {}, {{}}, {study_name}},
+                                      {robot.output, robot.T_base_camera()}, common.output);
     print_study(outcome.result.studies.front());
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
@@ -126,7 +126,8 @@ void add_run(CLI::App& program) {
   const auto state = std::make_shared<Run>();
   state->command = command;
   state->common.add_output(*command, "folder of the report");
-  command->add_option("study", state->study_name, "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");
+  command->add_option("study", state->study_name,
+                      "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");
   command->add_flag("--quick", state->quick, "of a study: a few frames and queries")->needs("study");
   command->add_option("--suite", state->suite_name,
                       "experiments that belong together: a name (`glovebench list suites`) or a file (*.json)");

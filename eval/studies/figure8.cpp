@@ -39,7 +39,7 @@ Table empty_errors_table() {
       "figure8",
       "Matching cascades",
       "Means over all frames of the five movements, with 95% intervals over blocks of frames. Posture error is the "
-      "RMS over the 22 angles, filtered as always. Times of the look-up and of whole frames are of one thread on "
+      "RMS over the 22 angles, filtered as always. Times of the look-up and of whole frames are processor time on "
       "this machine, the paper's of four cores of 2009; the paper does not say over which movements its posture "
       "errors are. A frame's true nearest neighbor is the database entry with the smallest mean vertex distance "
       "to the true hand, both centered at the hand and seen along the ray to it.",

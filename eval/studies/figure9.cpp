@@ -30,7 +30,8 @@ Table empty_table() {
       "figure9",
       "Sub-sampling of the point cloud",
       "Every n-th point of the cloud goes into the alignment (n = factor). Errors are means over Tr3, Tr4 and Tr5 "
-      "with DB_open_power, with 95% intervals over blocks of frames; times are medians on one thread. The paper's "
+      "with DB_open_power, with 95% intervals over blocks of frames; times are medians of processor time. The "
+      "paper's "
       "figure prints no numbers.",
       {{"truth", "truth"},
        {"factor", "factor", 0},

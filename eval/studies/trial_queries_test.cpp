@@ -76,7 +76,7 @@ TEST(TrialQueriesLong, a_hand_that_the_tracker_would_not_look_up_is_not_seen) {
   EXPECT_TRUE(camera.see(hand, {1, "trial camera test", 0}).has_value());
   hand.T_camera_hand.translation().x() = 0.38;  // half of the hand is beyond the border
   EXPECT_FALSE(camera.see(hand, {1, "trial camera test", 0}).has_value());
-  hand.T_camera_hand.translation() = {0, 0, 1.2};  // beyond the working volume
+  hand.T_camera_hand.translation() = Eigen::Vector3d(0, 0, 1.2);  // beyond the working volume
   EXPECT_FALSE(camera.see(hand, {1, "trial camera test", 0}).has_value());
 }
 

@@ -22,7 +22,8 @@ struct ClaimVerdict {
   friend bool operator==(const ClaimVerdict&, const ClaimVerdict&) = default;
 };
 
-/// The measures of figures 4 to 6, as far as their experiments were run, and those of all studies.
+/// The measures of figures 4 to 6, as far as their experiments were run, and those of all studies; none of a quick
+/// run, from whose few frames nothing is concluded.
 std::vector<Measure> all_measures(const RunResult& result);
 
 /// One verdict a claim, in their order. A claim holds if the whole interval of its measure satisfies the rule, does
