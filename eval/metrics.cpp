@@ -185,7 +185,7 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
     return errors;
   }
   check_finite(estimate, truth);
-  record.icp_residual_mm = 1000 * estimate.icp_residual;
+  if (estimate.icp_points > 0) record.icp_residual_mm = 1000 * estimate.icp_residual;
   record.position_error_mm =
       1000 * (estimate.T_camera_hand.translation() - truth.T_camera_hand.translation()).norm();
   record.rotation_error_deg = rotation_error_deg(estimate.T_camera_hand.linear(), truth.T_camera_hand.linear());

@@ -71,6 +71,14 @@ TEST(MeasureFrame, PerfectEstimateHasNoError) {
   }
   EXPECT_FALSE(record.matching_error_px) << "no match, no matching error";
   EXPECT_FALSE(record.posture_rms_hidden_deg) << "no joint is hidden";
+  EXPECT_FALSE(record.icp_residual_mm) << "a method without alignment has no residual";
+}
+
+TEST(MeasureFrame, AnAlignmentHasAResidual) {
+  TrackResult estimate = make_estimate();
+  estimate.icp_points = 3;
+  estimate.icp_residual = 0.002;
+  EXPECT_NEAR(measure(estimate).icp_residual_mm.value(), 2, kRounding);
 }
 
 TEST(MeasureFrame, TranslationMovesEveryPointAlike) {
