@@ -3,106 +3,24 @@
 
 #include <cstdio>
 
-#include "core/kinect/disparity.h"
 #include "eval/color_table_cache.h"
+#include "eval/label_errors.h"
 #include "eval/share.h"
 #include "eval/test_program.h"
 #include "eval/workbench.h"
-#include "render/synthetic_kinect.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
 namespace {
 
-/// Half to double strength, 3000 to 6500 K, from directions that no calibrated lighting has.
-std::vector<render::Lighting> held_out_lightings() {
-  const std::vector<Eigen::Vector3d> directions = {
-      {0.6, 0.3, -0.74}, {-0.6, 0.2, -0.77}, {0, -0.7, -0.71}, {0, 0, -1}};
-  std::vector<render::Lighting> lightings;
-  for (const double strength : {0.5, 0.85, 1.2, 2.0}) {
-    for (const double temperature_k : {3000.0, 4000.0, 5000.0, 6500.0}) {
-      const size_t i = lightings.size();
-      lightings.push_back({directions[(i + i / 4) % directions.size()], strength, temperature_k});
-    }
-  }
-  return lightings;
-}
-
-/// Pixels of the IR camera that have a color, in the working volume: what the tracker makes its cloud of. The bare
-/// forearm is there too.
-struct Count {
-  int glove = 0;                                             ///< pixels that truly are
-  int missed = 0;                                            ///< of those, unlabeled
-  int labeled = 0;                                           ///< pixels with a label
-  int wrong = 0;                                             ///< of those, with another than the true one
-  std::array<int, kColorCount + 1> glove_of{}, missed_of{};  ///< the first two for each color
-
-  double wrong_share() const { return static_cast<double>(wrong) / labeled; }
-  double missed_share() const { return static_cast<double>(missed) / glove; }
-  double missed_share_of(int color) const {
-    return static_cast<double>(missed_of[color]) / std::max(1, glove_of[color]);
-  }
-  int worst_color() const {
-    int worst = 1;
-    for (int color = 2; color <= kColorCount; ++color) {
-      if (missed_share_of(color) > missed_share_of(worst)) worst = color;
-    }
-    return worst;
-  }
-};
-
-void compare(Count& count, const render::RgbdImages& truth, const DeviceFrame& frame, const Workbench& workbench,
-             const ColorTable& table) {
-  const TrackerConfig config = profile("paper");
-  const DepthImage depth = depth_from_disparity(frame.raw_disparity);
-  const RegisteredImage mapped = register_color(depth, frame.color, workbench.calibration(), config.registration);
-  const LabelImage labels =
-      build_cloud(depth, segment(mapped, table), workbench.calibration().ir, config.volume).labels;
-  for (size_t i = 0; i < labels.size(); ++i) {
-    const bool glove = truth.label[i] != 0 && mapped.has_color[i] != 0;
-    count.glove += glove;
-    count.missed += glove && labels[i] == 0;
-    if (glove) {
-      ++count.glove_of[truth.label[i]];
-      count.missed_of[truth.label[i]] += labels[i] == 0;
-    }
-    count.labeled += labels[i] != 0;
-    count.wrong += labels[i] != 0 && labels[i] != truth.label[i];
-  }
-}
-
-/// Hands of the trajectories, open and closed, at four places.
-std::vector<trajectories::TrajectoryFrame> sample_frames() {
-  std::vector<trajectories::TrajectoryFrame> frames;
-  for (const char* name : {"Tr1", "Tr4"}) {
-    const auto trajectory = trajectories::source_trajectory(trajectory_folder(), name);
-    for (const int f : {10, 70}) frames.push_back(trajectory.frames[f]);
-  }
-  return frames;
-}
-
-/// One count a lighting.
-std::vector<Count> count_subject(int subject) {
+/// One a lighting, with the tracker's own table.
+std::vector<LabelErrors> errors_of_subject(int subject) {
   Workbench workbench(test_workbench());
-  const auto model = workbench.subject(subject);
-  const auto table = workbench.color_table();
-  render::SceneConfig scene;
-  scene.shader = subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
-  render::RgbdRenderer renderer(workbench.calibration(), model, scene);
-  std::vector<Count> counts;
-  int64_t view = 0;
-  for (const render::Lighting& lighting : held_out_lightings()) {
-    Count count;
-    for (const trajectories::TrajectoryFrame& frame : sample_frames()) {
-      const PosedHand hand = model->pose(frame.posture);
-      const render::RgbdImages images = renderer.render(hand, frame.T_camera_hand, lighting);
-      const DeviceFrame device_frame =
-          render::make_device_frame(images, workbench.calibration(), 0, {}, {1, "segmentation test", view++});
-      compare(count, images, device_frame, workbench, *table);
-    }
-    counts.push_back(count);
-  }
-  return counts;
+  const std::shared_ptr<const ColorTable> table = workbench.color_table();
+  std::vector<LabelErrors> errors;
+  for (const auto& of_lighting : measure_label_errors(workbench, subject, held_out_lightings(), {&table, 1}))
+    errors.push_back(of_lighting.front());
+  return errors;
 }
 
 void print_range(const char* title, const std::vector<render::Lighting>& lightings) {
@@ -121,20 +39,20 @@ struct Summary {
   double mean_wrong = 0, worst_wrong = 0, mean_missed = 0, worst_missed = 0;
 };
 
-Summary summarize(int subject, const std::vector<Count>& counts) {
+Summary summarize(int subject, const std::vector<LabelErrors>& errors) {
   const std::vector<render::Lighting> lightings = held_out_lightings();
   print_range("calibrated", calibration_lightings());
   print_range("tested", lightings);
   std::printf("subject %d: strength  kelvin  wrong of labeled [%%]  missed of glove [%%]  most missed color [%%]\n",
               subject);
   Summary s;
-  for (size_t i = 0; i < counts.size(); ++i) {
-    const double wrong = counts[i].wrong_share(), missed = counts[i].missed_share();
-    const int color = counts[i].worst_color();
+  for (size_t i = 0; i < errors.size(); ++i) {
+    const double wrong = errors[i].wrong_share(), missed = errors[i].missed_share();
+    const int color = errors[i].worst_color();
     std::printf("%19.2f %7.0f %21.2f %20.2f %17d: %.0f\n", lightings[i].strength, lightings[i].temperature_k,
-                100 * wrong, 100 * missed, color, 100 * counts[i].missed_share_of(color));
-    s.mean_wrong += wrong / static_cast<double>(counts.size());
-    s.mean_missed += missed / static_cast<double>(counts.size());
+                100 * wrong, 100 * missed, color, 100 * errors[i].missed_share_of(color));
+    s.mean_wrong += wrong / static_cast<double>(errors.size());
+    s.mean_missed += missed / static_cast<double>(errors.size());
     s.worst_wrong = std::max(s.worst_wrong, wrong);
     s.worst_missed = std::max(s.worst_missed, missed);
   }
@@ -172,11 +90,11 @@ TEST(SegmentationLong, OneLightingAloneTellsLessInEitherSpace) {
 }
 
 TEST(SegmentationLong, FirstSubjectUnderHeldOutLightings) {
-  expect_usable(summarize(1, count_subject(1)));
+  expect_usable(summarize(1, errors_of_subject(1)));
 }
 
 TEST(SegmentationLong, SecondSubjectUnderHeldOutLightings) {
-  expect_usable(summarize(2, count_subject(2)));
+  expect_usable(summarize(2, errors_of_subject(2)));
 }
 
 }  // namespace

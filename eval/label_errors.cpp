@@ -1,0 +1,116 @@
+#include "eval/label_errors.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/kinect/disparity.h"
+#include "eval/share.h"
+#include "render/synthetic_kinect.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+std::vector<trajectories::TrajectoryFrame> sample_frames() {
+  std::vector<trajectories::TrajectoryFrame> frames;
+  for (const char* name : {"Tr1", "Tr4"}) {
+    const auto trajectory = trajectories::source_trajectory(trajectory_folder(), name);
+    for (const int f : {10, 70}) frames.push_back(trajectory.frames[f]);
+  }
+  return frames;
+}
+
+}  // namespace
+
+std::vector<render::Lighting> held_out_lightings() {
+  const std::vector<Eigen::Vector3d> directions = {
+      {0.6, 0.3, -0.74}, {-0.6, 0.2, -0.77}, {0, -0.7, -0.71}, {0, 0, -1}};
+  std::vector<render::Lighting> lightings;
+  for (const double strength : {0.5, 0.85, 1.2, 2.0}) {
+    for (const double temperature_k : {3000.0, 4000.0, 5000.0, 6500.0}) {
+      const size_t i = lightings.size();
+      lightings.push_back({directions[(i + i / 4) % directions.size()], strength, temperature_k});
+    }
+  }
+  return lightings;
+}
+
+double LabelErrors::wrong_share() const {
+  return static_cast<double>(wrong) / std::max(1, labeled);
+}
+
+double LabelErrors::missed_share() const {
+  check(glove > 0, "a share of the glove is asked where it is seen");
+  return static_cast<double>(missed) / glove;
+}
+
+double LabelErrors::missed_share_of(int color) const {
+  return static_cast<double>(missed_of[color]) / std::max(1, glove_of[color]);
+}
+
+int LabelErrors::worst_color() const {
+  int worst = 1;
+  for (int color = 2; color <= kColorCount; ++color) {
+    if (missed_share_of(color) > missed_share_of(worst)) worst = color;
+  }
+  return worst;
+}
+
+LabelErrors& LabelErrors::operator+=(const LabelErrors& other) {
+  glove += other.glove;
+  missed += other.missed;
+  labeled += other.labeled;
+  wrong += other.wrong;
+  for (size_t color = 0; color < glove_of.size(); ++color) {
+    glove_of[color] += other.glove_of[color];
+    missed_of[color] += other.missed_of[color];
+  }
+  return *this;
+}
+
+LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& frame,
+                         const RgbdCalibration& calibration, const ColorTable& table) {
+  const TrackerConfig config = profile("paper");
+  const DepthImage depth = depth_from_disparity(frame.raw_disparity);
+  const RegisteredImage mapped = register_color(depth, frame.color, calibration, config.registration);
+  const LabelImage labels = build_cloud(depth, segment(mapped, table), calibration.ir, config.volume).labels;
+  LabelErrors errors;
+  for (size_t i = 0; i < labels.size(); ++i) {
+    if (truth.label[i] != 0 && mapped.has_color[i] != 0) {
+      const bool missed = labels[i] == 0;
+      ++errors.glove;
+      ++errors.glove_of[truth.label[i]];
+      errors.missed += missed;
+      errors.missed_of[truth.label[i]] += missed;
+    }
+    errors.labeled += labels[i] != 0;
+    errors.wrong += labels[i] != 0 && labels[i] != truth.label[i];
+  }
+  return errors;
+}
+
+std::vector<std::vector<LabelErrors>> measure_label_errors(
+    Workbench& workbench, int subject, std::span<const render::Lighting> lightings,
+    std::span<const std::shared_ptr<const ColorTable>> tables) {
+  const auto model = workbench.subject(subject);
+  const RgbdCalibration& calibration = workbench.calibration();
+  render::SceneConfig scene;
+  scene.shader = subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
+  render::RgbdRenderer renderer(calibration, model, scene);
+  const std::vector<trajectories::TrajectoryFrame> frames = sample_frames();
+  std::vector<std::vector<LabelErrors>> errors;
+  int64_t view = 0;
+  for (const render::Lighting& lighting : lightings) {
+    std::vector<LabelErrors>& of_lighting = errors.emplace_back(tables.size());
+    for (const trajectories::TrajectoryFrame& frame : frames) {
+      const render::RgbdImages images = renderer.render(model->pose(frame.posture), frame.T_camera_hand, lighting);
+      const DeviceFrame device_frame =
+          render::make_device_frame(images, calibration, 0, {}, {1, "label errors", view++});
+      for (size_t t = 0; t < tables.size(); ++t)
+        of_lighting[t] += label_errors(images, device_frame, calibration, *tables[t]);
+    }
+  }
+  return errors;
+}
+
+}  // namespace glovebench::eval
