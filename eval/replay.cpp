@@ -66,6 +66,7 @@ FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel&
 render::SyntheticKinectConfig kinect_config(const Replay& replay) {
   render::SyntheticKinectConfig config;
   config.scene.shader = replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
+  config.scene.clutter_in_volume = replay.clutter_in_volume;
   config.noise.depth = render::depth_noise_from_string(replay.noise.model);
   config.noise.gain_factor = replay.noise.factor;
   config.seed = replay.seed;
@@ -141,7 +142,8 @@ std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay) {
 }
 
 bool share_images(const Replay& a, const Replay& b) {
-  return a.truth == b.truth && a.subject == b.subject && a.range == b.range && a.lighting == b.lighting;
+  return a.truth == b.truth && a.subject == b.subject && a.range == b.range && a.lighting == b.lighting &&
+         a.clutter_in_volume == b.clutter_in_volume;
 }
 
 render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) {

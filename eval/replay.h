@@ -35,6 +35,7 @@ struct Replay {
   FrameRange range = {};
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
+  bool clutter_in_volume = false;  ///< as render::SceneConfig's
 };
 /// The frames of the truth that are replayed. Throws Error if the trajectory does not have them.
 std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay);
@@ -56,7 +57,7 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay);
 std::vector<TrackedReplay> replay(Workbench& workbench, const Replay& replay,
                                   const std::function<void()>& frame_done = {});
 
-/// Do they show the same hand in the same frames and light, so that they differ in noise, databases and
+/// Do they show the same hand in the same frames, light and scene, so that they differ in noise, databases and
 /// configuration alone?
 bool share_images(const Replay& a, const Replay& b);
 /// The same for replays that share their images, which are rendered once: an output for each, equal to its own
