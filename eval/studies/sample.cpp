@@ -98,6 +98,18 @@ Estimated estimate_difference(const Sample& a, const Sample& b) {
   }));
 }
 
+std::optional<reports::ConfidenceInterval> interval_over(
+    int count, const std::string& over,
+    const std::function<std::optional<double>(std::span<const int> drawn)>& statistic) {
+  const StratumShape all{1, count};
+  reports::BootstrapConfig config;
+  config.block_frames = 1;
+  auto interval = reports::stratified_interval(
+      {&all, 1}, [&](std::span<const Draw> draws) { return statistic(draws.front().frames); }, config);
+  if (interval) interval->over = over;
+  return interval;
+}
+
 Sample where(const Sample& sample, const Sample& keep) {
   return combined(sample, keep, [](const std::optional<double>& x, const std::optional<double>& k) {
     return k && *k != 0 ? x : std::nullopt;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "reports/statistics.h"
@@ -31,6 +32,12 @@ Estimated estimate(std::span<const Sample> samples,
 
 /// The mean of a - b over the frames that have both values.
 Estimated estimate_difference(const Sample& a, const Sample& b);
+
+/// Interval of a statistic of `count` things that are drawn again one by one: it gets the numbers of those drawn,
+/// some repeated, others missing. `over` names them. Empty if there are fewer than two.
+std::optional<reports::ConfidenceInterval> interval_over(
+    int count, const std::string& over,
+    const std::function<std::optional<double>(std::span<const int> drawn)>& statistic);
 
 /// The sample with only those frames in which `keep` holds a value that is not 0.
 Sample where(const Sample& sample, const Sample& keep);

@@ -39,8 +39,15 @@ std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const
   for (const auto& truth : movements.truths)
     for (const uint64_t seed : context.options.seeds)
       for (const Setting& setting : settings)
-        replays.push_back(
-            {truth, setting.subject, {}, seed, databases, movements.range, setting.tracker, setting.lighting});
+        replays.push_back({truth,
+                           setting.subject,
+                           {},
+                           seed,
+                           databases,
+                           movements.range,
+                           setting.tracker,
+                           setting.lighting,
+                           setting.clutter_in_volume});
   prepare(context.workbench, replays);
   const int threads = pace == Pace::timed ? 1 : context.workbench.config().threads;
   std::vector<TrackedReplays> tracked = replay_all(context.workbench, replays, threads, context.run_folder);
@@ -82,6 +89,17 @@ Sample sample_of(const Passes& passes,
 
 Sample sample_of(const Passes& passes, std::optional<double> reports::FrameRecord::*metric) {
   return sample_of(passes, [&](const TrackResult&, const FrameErrors& errors) { return errors.record.*metric; });
+}
+
+std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Passes& passes) {
+  std::vector<std::vector<reports::SequenceMetrics>> sequences;
+  for (size_t s = 0; s < passes.strata.size(); ++s) {
+    const std::span<const trajectories::TrajectoryFrame> frames = passes.truths[s]->frames;
+    auto& stratum = sequences.emplace_back();
+    for (const TrackedReplay& pass : passes.strata[s])
+      stratum.push_back(measure_sequence(pass.results, frames.subspan(passes.range.first, pass.results.size())));
+  }
+  return sequences;
 }
 
 std::vector<double> times_ms(const Passes& passes, std::string_view stage) {

@@ -16,6 +16,7 @@ struct Setting {
   TrackerConfig tracker;
   int subject = 1;
   render::Lighting lighting = {};
+  bool clutter_in_volume = false;
 };
 
 /// What one setting came to with one database: a stratum a trajectory, in it a replay a noise seed.
@@ -49,6 +50,9 @@ Sample sample_of(const Passes& passes,
                  const std::function<std::optional<double>(const TrackResult&, const FrameErrors&)>& value);
 /// A metric of each frame (reports::metrics()).
 Sample sample_of(const Passes& passes, std::optional<double> reports::FrameRecord::*metric);
+
+/// Jitter and latency, of each stratum and noise seed in turn.
+std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Passes& passes);
 
 /// Milliseconds of a stage, or of whole frames if the stage is empty, over all frames of all passes.
 std::vector<double> times_ms(const Passes& passes, std::string_view stage = "");

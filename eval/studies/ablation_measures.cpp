@@ -1,0 +1,171 @@
+#include "eval/studies/ablation_measures.h"
+
+#include <algorithm>
+
+namespace glovebench::eval {
+namespace {
+
+using reports::Cell;
+using reports::FrameRecord;
+using reports::Measure;
+
+constexpr const char* kDatabase = "DB_open_pinch_power";
+const std::vector<std::string> kColorDatabases = {"DB_open_pinch_power", "DB_20_postures"};
+constexpr const char* kColorBlind = "color-blind";
+
+/// The latency of each movement, over the seeds that have one.
+std::vector<std::optional<double>> latencies(const Passes& passes) {
+  std::vector<std::optional<double>> result;
+  for (const auto& stratum : sequences_of(passes)) {
+    std::vector<double> values;
+    for (const reports::SequenceMetrics& sequence : stratum)
+      if (sequence.latency_frames) values.push_back(*sequence.latency_frames);
+    result.push_back(reports::mean(values));
+  }
+  return result;
+}
+
+std::optional<double> mean_of(const std::vector<std::optional<double>>& values, std::span<const int> drawn) {
+  std::vector<double> present;
+  for (const int i : drawn)
+    if (values[i]) present.push_back(*values[i]);
+  return reports::mean(present);
+}
+
+/// A statistic of movements, and its interval over them.
+Measure movement_measure(const std::string& name, const std::string& unit, int movements,
+                         const std::function<std::optional<double>(std::span<const int>)>& statistic) {
+  std::vector<int> all(movements);
+  std::iota(all.begin(), all.end(), 0);
+  return {name, unit, statistic(all), interval_over(movements, "movements", statistic)};
+}
+
+/// 1 in frames in which the look-up is wrong, else 0.
+Sample wrong_look_ups(const Passes& passes) {
+  return sample_of(passes, [](const TrackResult&, const FrameErrors& errors) -> std::optional<double> {
+    const std::optional<double>& posture = errors.record.posture_rms_unfiltered_deg;
+    return posture && *posture > kWrongLookUp_deg ? 1.0 : 0.0;
+  });
+}
+
+/// Wrong look-ups that both alignments answer, as 1 or 0 in every frame, and there the difference of their errors,
+/// 0 elsewhere: databases are put together by their sums.
+struct Excess {
+  Sample counted;
+  Sample difference;
+};
+Excess excess_of(const AblationRuns& runs, const std::string& database,
+                 std::optional<double> FrameRecord::*metric) {
+  const Passes& sensitive = runs.at(kDefaultSetting, database);
+  const Sample a = sample_of(runs.at(kColorBlind, database), metric), b = sample_of(sensitive, metric);
+  Excess excess{wrong_look_ups(sensitive), a};
+  for (size_t s = 0; s < a.size(); ++s) {
+    for (size_t seed = 0; seed < a[s].size(); ++seed) {
+      for (size_t f = 0; f < a[s][seed].size(); ++f) {
+        std::optional<double>& counted = excess.counted[s][seed][f];
+        if (!a[s][seed][f] || !b[s][seed][f]) counted = 0;
+        excess.difference[s][seed][f] = *counted != 0 ? *a[s][seed][f] - *b[s][seed][f] : 0;
+      }
+    }
+  }
+  return excess;
+}
+
+Measure color_measure(const AblationRuns& runs, const std::string& name, const std::string& unit,
+                      std::optional<double> FrameRecord::*metric) {
+  std::vector<Sample> samples;
+  for (const std::string& database : kColorDatabases) {
+    Excess excess = excess_of(runs, database, metric);
+    samples.push_back(std::move(excess.difference));
+    samples.push_back(std::move(excess.counted));
+  }
+  const Estimated excess = estimate(samples, [](std::span<const double> means) -> std::optional<double> {
+    double difference = 0, counted = 0;
+    for (size_t i = 0; i < means.size(); i += 2) {
+      difference += means[i];
+      counted += means[i + 1];
+    }
+    if (counted == 0) return std::nullopt;
+    return difference / counted;
+  });
+  return {name, unit, excess.value, excess.interval};
+}
+
+/// 1 in frames whose matches are of several postures.
+Sample distinct_matches(const Passes& passes) {
+  return sample_of(passes, [](const TrackResult& result, const FrameErrors&) -> std::optional<double> {
+    if (result.status != TrackStatus::tracked) return std::nullopt;
+    const auto posture = [](const Match& match) { return match.entry / kViewCount; };
+    const auto differs = [&](const Match& match) { return posture(match) != posture(result.matches.front()); };
+    return std::ranges::any_of(result.matches, differs) ? 1.0 : 0.0;
+  });
+}
+
+}  // namespace
+
+std::vector<Measure> lag_measures(const AblationRuns& runs) {
+  const auto with = latencies(runs.at(kDefaultSetting, kDatabase));
+  const auto without = latencies(runs.at("no filter", kDatabase));
+  const auto share = [&](std::span<const int> drawn) -> std::optional<double> {
+    const auto all = mean_of(with, drawn), rest = mean_of(without, drawn);
+    if (!all || !rest || *all <= 0) return std::nullopt;
+    return 1 - *rest / *all;
+  };
+  const auto count = static_cast<int>(with.size());
+  const auto mean_with = [&](std::span<const int> drawn) { return mean_of(with, drawn); };
+  const auto mean_without = [&](std::span<const int> drawn) { return mean_of(without, drawn); };
+  return {movement_measure("lag.frames", "frames", count, mean_with),
+          movement_measure("lag.without_filter_frames", "frames", count, mean_without),
+          movement_measure("lag.filter_share", "", count, share)};
+}
+
+std::vector<Measure> color_measures(const AblationRuns& runs) {
+  return {color_measure(runs, "color.blind_excess_position_mm", "mm", &FrameRecord::position_error_mm),
+          color_measure(runs, "color.blind_excess_rotation_deg", "deg", &FrameRecord::rotation_error_deg)};
+}
+
+reports::Table color_table(const AblationRuns& runs) {
+  reports::Table table = {
+      "color_blind",
+      "Alignment with and without colors where the look-up is wrong",
+      "Frames in which the posture of the look-up is wrong by more than 15 degrees RMS, of the five movements "
+      "themselves, and the mean errors there of both alignments, which start from the same look-up.",
+      {{"database", "database"},
+       {"frames", "frames", 0},
+       {"position_error_mm", "position mm"},
+       {"position_error_blind_mm", "color-blind mm"},
+       {"rotation_error_deg", "rotation deg"},
+       {"rotation_error_blind_deg", "color-blind deg"}},
+      1,
+      {}};
+  for (const std::string& database : kColorDatabases) {
+    const Passes &sensitive = runs.at(kDefaultSetting, database), &blind = runs.at(kColorBlind, database);
+    const Sample wrong = wrong_look_ups(sensitive);
+    int64_t frames = 0;
+    for (const auto& stratum : wrong)
+      for (const auto& seed : stratum) frames += std::ranges::count(seed, std::optional(1.0));
+    std::vector<Cell> row = {database, frames};
+    for (const auto metric : {&FrameRecord::position_error_mm, &FrameRecord::rotation_error_deg})
+      for (const Passes* passes : {&sensitive, &blind})
+        row.push_back(cell(mean(where(sample_of(*passes, metric), wrong))));
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+Measure interpolation_measure(const AblationRuns& runs) {
+  const Passes& three = runs.at(kDefaultSetting, "DB_open_power");
+  const auto metric = &FrameRecord::posture_rms_unfiltered_deg;
+  const Sample one = sample_of(runs.at("1 neighbor", "DB_open_power"), metric);
+  const Estimated excess = estimate_difference(where(sample_of(three, metric), distinct_matches(three)), one);
+  return {"interpolation.distinct_excess_deg", "deg", excess.value, excess.interval};
+}
+
+std::vector<Ablation> measured_ablations() {
+  Ablation color{"color", {}};
+  for (const std::string& database : kColorDatabases)
+    for (const char* setting : {kDefaultSetting, kColorBlind}) color.rows.push_back({"", setting, database});
+  return {color};
+}
+
+}  // namespace glovebench::eval

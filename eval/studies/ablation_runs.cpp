@@ -1,0 +1,179 @@
+#include "eval/studies/ablation_runs.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::Cell;
+using reports::FrameRecord;
+using reports::SequenceMetrics;
+using reports::Table;
+using reports::TruthKind;
+
+constexpr const char* kDatabase = "DB_open_pinch_power";
+
+/// The movements that a database can follow.
+Movements movements_for(const StudyContext& context, const std::string& database) {
+  std::vector<std::string> names;
+  if (database == "DB_open_power") {
+    for (const std::string& name : trajectories::ground_truth_names())
+      if (trajectories::grasp_of(name) == "power") names.push_back(name);
+  }
+  return movements(context, TruthKind::source, names);
+}
+
+/// The mean of what movements and seeds have.
+Cell sequence_cell(const Passes& passes, std::optional<double> SequenceMetrics::*metric) {
+  std::vector<double> values;
+  for (const auto& stratum : sequences_of(passes))
+    for (const SequenceMetrics& sequence : stratum)
+      if (sequence.*metric) values.push_back(*(sequence.*metric));
+  return cell(reports::mean(values));
+}
+
+std::vector<Cell> row_of(const AblationRuns& runs, const Ablation& ablation, const AblationRow& row) {
+  const Passes& passes = runs.at(row.setting, row.database);
+  const AblationRow& first = ablation.rows.front();
+  const Passes& reference = runs.at(first.setting, first.database);
+  std::vector<Cell> result = {ablation.name, row.label, row.database};
+  for (const auto metric :
+       {&FrameRecord::position_error_mm, &FrameRecord::posture_rms_deg, &FrameRecord::rotation_error_deg}) {
+    const Sample errors = sample_of(passes, metric);
+    result.push_back(cell(mean(errors)));
+    std::ranges::copy(
+        cells(&row == &first ? Estimated{} : estimate_difference(errors, sample_of(reference, metric))),
+        std::back_inserter(result));
+  }
+  result.push_back(cell(covered_percent(passes)));
+  for (const auto metric : {&SequenceMetrics::jitter_position_mm, &SequenceMetrics::jitter_rotation_deg,
+                            &SequenceMetrics::latency_frames})
+    result.push_back(sequence_cell(passes, metric));
+  return result;
+}
+
+Table empty_table() {
+  return {
+      "ablations",
+      "One change at a time",
+      "Means over all frames of the movements themselves that the tracker answers (all five; with DB_open_power "
+      "Tr3, Tr4 and Tr5); read them beside the share of covered frames. A change is the mean difference, frame by "
+      "frame, from the first row of the same ablation and database, over the frames that both answer, with a 95% "
+      "interval over blocks of frames; the first row of \"postures\" is what its other databases are compared "
+      "with. "
+      "Jitter is measured while the hand rests, latency is the posture's.",
+      {{"ablation", "ablation"},
+       {"setting", "setting"},
+       {"database", "database"},
+       {"position_error_mm", "position mm"},
+       {"position_change_mm", "change"},
+       {"position_change_mm_low", "low"},
+       {"position_change_mm_high", "high"},
+       {"posture_error_deg", "posture deg"},
+       {"posture_change_deg", "change"},
+       {"posture_change_deg_low", "low"},
+       {"posture_change_deg_high", "high"},
+       {"rotation_error_deg", "rotation deg"},
+       {"rotation_change_deg", "change"},
+       {"rotation_change_deg_low", "low"},
+       {"rotation_change_deg_high", "high"},
+       {"covered_percent", "covered %", 1},
+       {"jitter_position_mm", "jitter mm"},
+       {"jitter_rotation_deg", "jitter deg"},
+       {"latency_frames", "latency frames"}},
+      3,
+      {}};
+}
+
+Ablation neighbors_with(const std::string& database) {
+  return {"neighbors",
+          {{"3", kDefaultSetting, database}, {"1", "1 neighbor", database}, {"15", "15 neighbors", database}}};
+}
+
+}  // namespace
+
+std::vector<Setting> ablation_settings(const TrackerConfig& tracker) {
+  std::vector<Setting> settings;
+  const auto add = [&](const char* name) -> Setting& {
+    return settings.emplace_back(Setting{.name = name, .tracker = tracker});
+  };
+  add(kDefaultSetting);
+  add("color-blind").tracker.icp.color_sensitive = false;
+  add("no filter").tracker.smoothing.posture_keep = 0;
+  add("pose filtered").tracker.smoothing.pose_keep = tracker.smoothing.posture_keep;
+  add("culled each").tracker.icp.cull_each_iteration = true;
+  add("1 neighbor").tracker.lookup.cascade.back().keep = 1;
+  add("15 neighbors").tracker.lookup.cascade.back().keep = 15;
+  add("majority").tracker.segmentation.majority_filter = true;
+  add("component").tracker.segmentation.largest_component = true;
+  add("clutter").clutter_in_volume = true;
+  Setting& both = add("clutter, component");
+  both.clutter_in_volume = true;
+  both.tracker.segmentation.largest_component = true;
+  add("subject 2").subject = 2;
+  return settings;
+}
+
+std::vector<Ablation> ablations() {
+  return {
+      {"alignment", {{"color-sensitive", kDefaultSetting, kDatabase}, {"color-blind", "color-blind", kDatabase}}},
+      {"filter",
+       {{"posture", kDefaultSetting, kDatabase},
+        {"none", "no filter", kDatabase},
+        {"posture and pose", "pose filtered", kDatabase}}},
+      {"culling", {{"once", kDefaultSetting, kDatabase}, {"in each iteration", "culled each", kDatabase}}},
+      neighbors_with(kDatabase),
+      neighbors_with("DB_open_power"),
+      neighbors_with("DB_20_postures"),
+      {"hand region",
+       {{"box of all labels", kDefaultSetting, kDatabase}, {"largest component", "component", kDatabase}}},
+      {"hand region, clutter in reach",
+       {{"box of all labels", "clutter", kDatabase}, {"largest component", "clutter, component", kDatabase}}},
+      {"labels", {{"as they are", kDefaultSetting, kDatabase}, {"3x3 majority", "majority", kDatabase}}},
+      {"subject", {{"1", kDefaultSetting, kDatabase}, {"2", "subject 2", kDatabase}}},
+  };
+}
+
+AblationRuns::AblationRuns(const StudyContext& context, const std::vector<Ablation>& wanted) {
+  const std::vector<Setting> known = ablation_settings(context.options.tracker);
+  std::map<std::string, std::vector<Setting>> by_database;
+  for (const Ablation& ablation : wanted) {
+    for (const AblationRow& row : ablation.rows) {
+      std::vector<Setting>& settings = by_database[row.database];
+      if (std::ranges::find(settings, row.setting, &Setting::name) != settings.end()) continue;
+      const auto setting = std::ranges::find(known, row.setting, &Setting::name);
+      check(setting != known.end(), "a row names a setting that there is");
+      settings.push_back(*setting);
+    }
+  }
+  for (auto& [database, settings] : by_database) {
+    // What looks the same stands together, to be rendered once.
+    std::ranges::stable_sort(
+        settings, {}, [](const Setting& setting) { return std::pair(setting.subject, setting.clutter_in_volume); });
+    auto passes = run_settings(context, movements_for(context, database), settings, {database}, Pace::parallel);
+    for (size_t s = 0; s < settings.size(); ++s)
+      passes_[{settings[s].name, database}] = std::move(passes[s].front());
+  }
+}
+
+void AblationRuns::add(const std::string& setting, const std::string& database, Passes passes) {
+  passes_[{setting, database}] = std::move(passes);
+}
+
+const Passes& AblationRuns::at(const std::string& setting, const std::string& database) const {
+  const auto it = passes_.find({setting, database});
+  check(it != passes_.end(), "a setting was run before it is asked for");
+  return it->second;
+}
+
+Table ablation_table(const AblationRuns& runs, const std::vector<Ablation>& ablations) {
+  Table table = empty_table();
+  for (const Ablation& ablation : ablations)
+    for (const AblationRow& row : ablation.rows) table.rows.push_back(row_of(runs, ablation, row));
+  return table;
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,113 @@
+#include "eval/studies/posture_choices.h"
+
+#include <fmt/format.h>
+
+#include "core/base/angles.h"
+#include "core/base/random.h"
+#include "eval/share.h"
+#include "trajectories/catalog.h"
+#include "trajectories/generation/database_postures.h"
+#include "trajectories/generation/low_dispersion.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::Cell;
+using reports::FrameRecord;
+
+constexpr const char* kChosen = "DB_20_postures";
+constexpr size_t kGrasps = 3;  ///< the first postures of that set: open, pinch, power
+
+std::vector<Posture> pool() {
+  return trajectories::movement_posture_pool(trajectories::load_gestures(trajectory_folder()));
+}
+
+std::vector<Cell> row_of(const AblationRuns& runs, const PostureSet& set) {
+  const Passes& passes = runs.at(kDefaultSetting, set.name);
+  const Passes& reference = runs.at(kDefaultSetting, kChosen);
+  std::vector<Cell> row = {set.name, covering_radius_deg(set)};
+  for (const auto metric :
+       {&FrameRecord::position_error_mm, &FrameRecord::posture_rms_deg, &FrameRecord::rotation_error_deg}) {
+    const Sample errors = sample_of(passes, metric);
+    row.push_back(cell(mean(errors)));
+    std::ranges::copy(
+        cells(set.name == kChosen ? Estimated{} : estimate_difference(errors, sample_of(reference, metric))),
+        std::back_inserter(row));
+  }
+  return row;
+}
+
+}  // namespace
+
+PostureSet random_choice(int number) {
+  PostureSet set = trajectories::posture_set(trajectory_folder(), kChosen);
+  const size_t count = set.postures.size();
+  set.name = fmt::format("DB_20_random_{}", number);
+  set.posture_names.resize(kGrasps);
+  set.postures.resize(kGrasps);
+  std::vector<Posture> left = pool();
+  RandomStream random(static_cast<uint64_t>(number), "database", 0, "random choice of movement postures");
+  while (set.postures.size() < count) {
+    const size_t index = random.index(left.size());
+    set.posture_names.push_back(fmt::format("movement_{:02}", set.postures.size() - kGrasps + 1));
+    set.postures.push_back(left[index]);
+    left[index] = left.back();
+    left.pop_back();
+  }
+  return set;
+}
+
+double covering_radius_deg(const PostureSet& set) {
+  return degrees_from_radians(trajectories::covering_radius(pool(), set.postures));
+}
+
+Ablation posture_choice_ablation(const std::vector<PostureSet>& choices) {
+  Ablation ablation{"postures", {{"low dispersion", kDefaultSetting, kChosen}}};
+  for (size_t i = 0; i < choices.size(); ++i)
+    ablation.rows.push_back({fmt::format("random choice {}", i + 1), kDefaultSetting, choices[i].name});
+  return ablation;
+}
+
+void add_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices, AblationRuns& runs) {
+  for (const PostureSet& set : choices) {
+    Workbench workbench(context.workbench.config());
+    workbench.database(set);
+    const StudyContext own{workbench, context.options, context.run_folder};
+    auto passes =
+        run_settings(own, movements(own, reports::TruthKind::source),
+                     {{.name = kDefaultSetting, .tracker = context.options.tracker}}, {set.name}, Pace::parallel);
+    runs.add(kDefaultSetting, set.name, std::move(passes.front().front()));
+  }
+}
+
+reports::Table posture_choice_table(const AblationRuns& runs, const std::vector<PostureSet>& choices) {
+  reports::Table table = {
+      "postures",
+      "Choice of the movement postures",
+      "DB_20_postures has 17 movement postures chosen by low-dispersion sampling from a pool; the others have 17 "
+      "drawn at random from the same pool. The covering radius is the largest distance from a posture of the pool "
+      "to the nearest one of the set. Errors are means over the five movements themselves, changes are against "
+      "DB_20_postures with 95% intervals over blocks of frames; how much one random choice differs from the next "
+      "only the rows show.",
+      {{"set", "set"},
+       {"covering_radius_deg", "covering radius deg"},
+       {"position_error_mm", "position mm"},
+       {"position_change_mm", "change"},
+       {"position_change_mm_low", "low"},
+       {"position_change_mm_high", "high"},
+       {"posture_error_deg", "posture deg"},
+       {"posture_change_deg", "change"},
+       {"posture_change_deg_low", "low"},
+       {"posture_change_deg_high", "high"},
+       {"rotation_error_deg", "rotation deg"},
+       {"rotation_change_deg", "change"},
+       {"rotation_change_deg_low", "low"},
+       {"rotation_change_deg_high", "high"}},
+      1,
+      {}};
+  table.rows.push_back(row_of(runs, trajectories::posture_set(trajectory_folder(), kChosen)));
+  for (const PostureSet& set : choices) table.rows.push_back(row_of(runs, set));
+  return table;
+}
+
+}  // namespace glovebench::eval
