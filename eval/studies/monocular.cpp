@@ -1,3 +1,5 @@
+#include "eval/studies/monocular.h"
+
 #include <cmath>
 
 #include "eval/studies/settings.h"
@@ -11,7 +13,6 @@ using reports::Table;
 using reports::TruthKind;
 
 constexpr std::string_view kMonocular = "monocular_bbox";
-const std::vector<std::string> kDatabases = {"DB_20_postures", "DB_open_pinch_power"};
 
 std::vector<Setting> settings_of(const TrackerConfig& tracker) {
   std::vector<Setting> settings;
@@ -95,17 +96,21 @@ std::vector<Cell> row_of(const Setting& setting, const std::string& database, co
 
 }  // namespace
 
-reports::StudyResult run_monocular(const StudyContext& context) {
+reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases) {
   const std::vector<Setting> settings = settings_of(context.options.tracker);
   const auto passes =
-      run_settings(context, movements(context, TruthKind::source), settings, kDatabases, Pace::parallel);
+      run_settings(context, movements(context, TruthKind::source), settings, databases, Pace::parallel);
   Table table = empty_table();
   for (size_t s = 0; s < settings.size(); ++s)
-    for (size_t d = 0; d < kDatabases.size(); ++d)
-      table.rows.push_back(row_of(settings[s], kDatabases[d], passes[s][d]));
+    for (size_t d = 0; d < databases.size(); ++d)
+      table.rows.push_back(row_of(settings[s], databases[d], passes[s][d]));
   // The first setting is the monocular method with the hand that it knows.
   const Estimated depth = depth_error_cm(passes[0][0]);
   return {"monocular", "Without depth", {table}, {{"monocular.depth_error_cm", "cm", depth.value, depth.interval}}};
+}
+
+reports::StudyResult run_monocular(const StudyContext& context) {
+  return measure_monocular(context, {"DB_20_postures", "DB_open_pinch_power"});
 }
 
 }  // namespace glovebench::eval

@@ -13,6 +13,20 @@ using trajectories::Trajectory;
 constexpr const char* kQuickTrajectory = "Tr4";
 constexpr FrameRange kQuickFrames = {40, 24};
 
+Replay replay_of(const Setting& setting, const std::shared_ptr<const Trajectory>& truth, uint64_t seed,
+                 const std::vector<std::string>& databases, const Movements& movements) {
+  Replay replay;
+  replay.truth = truth;
+  replay.subject = setting.subject;
+  replay.seed = seed;
+  replay.databases = databases;
+  replay.range = movements.range;
+  replay.tracker = setting.tracker;
+  replay.lighting = setting.lighting;
+  replay.clutter_in_volume = setting.clutter_in_volume;
+  return replay;
+}
+
 }  // namespace
 
 FrameRange frames_of(const StudyOptions& options) {
@@ -39,15 +53,7 @@ std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const
   for (const auto& truth : movements.truths)
     for (const uint64_t seed : context.options.seeds)
       for (const Setting& setting : settings)
-        replays.push_back({truth,
-                           setting.subject,
-                           {},
-                           seed,
-                           databases,
-                           movements.range,
-                           setting.tracker,
-                           setting.lighting,
-                           setting.clutter_in_volume});
+        replays.push_back(replay_of(setting, truth, seed, databases, movements));
   prepare(context.workbench, replays);
   const int threads = pace == Pace::timed ? 1 : context.workbench.config().threads;
   std::vector<TrackedReplays> tracked = replay_all(context.workbench, replays, threads, context.run_folder);
