@@ -38,8 +38,15 @@ void refuse_unknown_parts(const std::vector<std::string>& only) {
 void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve& curve) {
   const auto truth = std::make_shared<const trajectories::Trajectory>(
       trajectories::recorded_trajectory(trajectory_folder(), curve.trajectory));
-  for (const uint64_t seed : options.study.seeds)
-    plan.replays.push_back({truth, 1, {}, seed, {curve.database}, frames_of(options.study), options.study.tracker});
+  Replay replay;
+  replay.truth = truth;
+  replay.databases = {curve.database};
+  replay.range = frames_of(options.study);
+  replay.tracker = options.study.tracker;
+  for (const uint64_t seed : options.study.seeds) {
+    replay.seed = seed;
+    plan.replays.push_back(replay);
+  }
 }
 
 /// Names a study by all that its outcome hangs on beside the program.

@@ -100,14 +100,22 @@ Survival measure_survival(const StudyContext& context, const Movements& movement
   Workbench& workbench = context.workbench;
   const std::vector<uint64_t>& seeds = context.options.seeds;
   std::vector<Replay> replays;
-  for (const auto& truth : movements.truths)
-    for (const uint64_t seed : seeds)
-      replays.push_back({truth, 1, {}, seed, databases, movements.range, context.options.tracker});
+  Replay replay;
+  replay.databases = databases;
+  replay.range = movements.range;
+  replay.tracker = context.options.tracker;
+  for (const auto& truth : movements.truths) {
+    for (const uint64_t seed : seeds) {
+      replay.truth = truth;
+      replay.seed = seed;
+      replays.push_back(replay);
+    }
+  }
   prepare(workbench, replays);
   const std::vector<Searched> searched = load(workbench, databases);
 
   size_t frames = 0;
-  for (const Replay& replay : replays) frames += frames_of(replay).size();
+  for (const Replay& each : replays) frames += frames_of(each).size();
   Progress progress("following true neighbors", workbench.config().quiet);
   std::atomic<size_t> done{0};
   const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
