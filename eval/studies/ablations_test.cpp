@@ -15,6 +15,13 @@ namespace {
 using reports::Cell;
 using reports::Table;
 
+StudyOptions quick_options() {
+  StudyOptions options;
+  options.tracker = profile("paper");
+  options.quick = true;
+  return options;
+}
+
 const Cell& cell_of(const Table& table, size_t row, std::string_view key) {
   return table.rows.at(row).at(column_index(table, key));
 }
@@ -65,7 +72,7 @@ const std::vector<Ablation> kFew = {
 
 Table measure_few(int threads) {
   Workbench workbench(test_workbench(threads));
-  const StudyOptions options{.tracker = profile("paper"), .quick = true};
+  const StudyOptions options = quick_options();
   return ablation_table(AblationRuns({workbench, options}, kFew), kFew);
 }
 
@@ -95,7 +102,7 @@ TEST(AblationsLong, do_not_depend_on_threads) {
 
 TEST(AblationsLong, measures_have_their_names_and_few_frames_no_latency) {
   Workbench workbench(test_workbench());
-  const StudyOptions options{.tracker = profile("paper"), .quick = true};
+  const StudyOptions options = quick_options();
   const AblationRuns runs(
       {workbench, options},
       {kFew.front(),
@@ -111,7 +118,7 @@ TEST(AblationsLong, measures_have_their_names_and_few_frames_no_latency) {
 
 TEST(LightLong, own_light_is_labeled_best_and_the_mean_is_that_of_the_others) {
   Workbench workbench(test_workbench());
-  const StudyOptions options{.tracker = profile("paper"), .quick = true};
+  const StudyOptions options = quick_options();
   const reports::StudyResult result = run_light({workbench, options});
   ASSERT_EQ(result.tables.size(), 2U);
   const Table& light = result.tables[0];

@@ -71,8 +71,9 @@ void add_light_rows(Table& table, const LightResult& result, std::span<const Lig
   const std::string space(to_string(result.space));
   const size_t held_out = lightings.size() - 1;
   for (size_t i = 0; i < lightings.size(); ++i)
-    table.rows.push_back({result.calibration, space, i < held_out ? "held out" : "that of the one",
-                          lightings[i].strength, lightings[i].temperature_k, wrong_percent(result.errors[i]),
+    table.rows.push_back({result.calibration, space,
+                          i < held_out ? "held out" : "that of the one-lighting calibration", lightings[i].strength,
+                          lightings[i].temperature_k, wrong_percent(result.errors[i]),
                           missed_percent(result.errors[i])});
   const auto rest = std::span(result.errors).first(held_out);
   table.rows.push_back({result.calibration, space, "mean of those held out", Cell(), Cell(),

@@ -10,9 +10,16 @@ namespace {
 using reports::StudyResult;
 using reports::Table;
 
+StudyOptions quick_options() {
+  StudyOptions options;
+  options.tracker = profile("paper");
+  options.quick = true;
+  return options;
+}
+
 StudyResult measure(int threads) {
   Workbench workbench(test_workbench(threads));
-  const StudyOptions options{.tracker = profile("paper"), .quick = true};
+  const StudyOptions options = quick_options();
   return measure_monocular({workbench, options}, {"DB_open_pinch_power"});
 }
 
