@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "eval/color_table_cache.h"
+
 namespace glovebench::eval {
 namespace {
 
@@ -31,9 +35,19 @@ TEST(LabelErrors, shares_are_of_the_glove_and_of_what_is_labeled) {
 }
 
 TEST(LabelErrors, held_out_lightings_reach_beyond_the_calibration) {
-  const auto lightings = held_out_lightings();
-  EXPECT_EQ(lightings.size(), 16U);
-  for (const render::Lighting& lighting : lightings) EXPECT_TRUE(lighting.problems().empty());
+  const auto held_out = held_out_lightings(), calibrated = calibration_lightings();
+  EXPECT_EQ(held_out.size(), 16U);
+  for (const auto field : {&render::Lighting::strength, &render::Lighting::temperature_k}) {
+    const auto ends = [&](const std::vector<render::Lighting>& lightings) {
+      const auto [low, high] = std::ranges::minmax(lightings, {}, field);
+      return std::pair(low.*field, high.*field);
+    };
+    EXPECT_LT(ends(held_out).first, ends(calibrated).first);
+    EXPECT_GT(ends(held_out).second, ends(calibrated).second);
+  }
+  for (const render::Lighting& lighting : held_out)
+    for (const render::Lighting& seen : calibrated)
+      EXPECT_GT((lighting.direction_to_light.normalized() - seen.direction_to_light.normalized()).norm(), 0.2);
 }
 
 }  // namespace
