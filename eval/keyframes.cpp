@@ -14,7 +14,7 @@ using trajectories::TrajectoryFrame;
 
 constexpr int kColumns = 16;
 // Multiples of 16: a JPEG shares its colors in blocks of 16 x 16 px, which no two tiles then have in common.
-constexpr int kTileWidth = 160, kTileHeight = 128;
+constexpr int kTileWidth = 240, kTileHeight = 192;
 constexpr int kJpegQuality = 80;
 
 /// Where the hand is in the image, and its margin.

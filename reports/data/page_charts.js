@@ -69,12 +69,12 @@ function figure4(metric, title, isFirst) {
       facet: {column: {field: 'variant', sort: panels, title: null, header: isFirst ? {} : {labels: false}}},
       spacing: 16,
       spec: {
-        width: Math.floor(960 / panels.length) - 20, height: 140,
+        width: Math.min(Math.floor(960 / panels.length) - 20, 110 * distinct(rows, 'trajectory').length), height: 140,
         layer: [
           {
             mark: {type: 'bar'},
             encoding: {
-              x, xOffset, tooltip, y: {field: 'mean', type: 'quantitative', title},
+              x, xOffset, tooltip, y: {field: 'mean', type: 'quantitative', title, axis: {minExtent: 30}},
               color: {
                 field: 'role', sort: roles, scale: {domain: roles, range: seriesColors},
                 legend: isFirst ? {title: 'database'} : null
