@@ -25,7 +25,8 @@ struct Ablation {
 inline constexpr const char* kDefaultSetting = "default";
 /// All settings that rows may name.
 std::vector<Setting> ablation_settings(const TrackerConfig& tracker);
-/// What the tracker, its database or the scene is changed in; but for the choice of postures.
+/// What the tracker, its database or the scene is changed in; but for the choice of postures. The labels
+/// of default rows are true of the profile `paper`.
 std::vector<Ablation> ablations();
 
 /// What settings came to on the source truth, by setting and database. Each is run once, whoever asks for it. With

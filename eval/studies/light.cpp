@@ -22,7 +22,8 @@ Table empty_light_table() {
       "light",
       "Labels under other light",
       "Wrong: share of the labeled pixels with another label than the true one. Missed: share of the glove's "
-      "pixels without a label. \"Nine lightings, relit\" is how the tracker's own tables are calibrated: under "
+      "pixels without a label; where nearly all are missed, wrong is a share of very few. \"Nine lightings, "
+      "relit\" is how the tracker's own tables are calibrated: under "
       "strengths 0.7 to 1.4 and 3500 to 5500 K, and with every color it saw relit by computation; \"one lighting, "
       "not relit\" is the plain look-up table, which shows what the color space itself is worth. Lightings that "
       "are "
