@@ -84,10 +84,11 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
                       const PageMaterial& material) {
   const std::vector<Section> sections = all_sections(result, paper, timings, material);
+  const std::string note = quick_note(result);
   std::string body =
       fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
                   escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
-      contents_list(sections);
+      (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n") + contents_list(sections);
   for (const Section& section : sections) body += to_html(section);
   body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";
   std::string scripts;

@@ -22,6 +22,9 @@ TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, co
 /// joint convention, jitter, latency, lost and false frames.
 TextTable detail_summary(const RunResult& result);
 
+/// What to know of a quick run before its numbers, as plain text; empty for any other.
+std::string quick_note(const RunResult& result);
+
 /// summary.md: what became of the paper's claims, both tables, what they mean, a section for each study, and the
 /// protocol.
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);

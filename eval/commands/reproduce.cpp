@@ -8,7 +8,7 @@
 #include "eval/reproduction.h"
 #include "reports/claims/claims_report.h"
 #include "reports/paper_numbers.h"
-#include "reports/study_text.h"
+#include "reports/summary.h"
 #include "reports/tables.h"
 #include "trajectories/catalog.h"
 
@@ -37,11 +37,11 @@ struct Reproduce {
     Workbench workbench = common.workbench();
     const Outcome outcome = reproduce(workbench, options, {robot.output, robot.T_base_camera()}, common.output);
     print_figure4(outcome.result);
-    for (const reports::StudyResult& study : outcome.result.studies)
-      fmt::print("{}", reports::study_markdown(study));
     const std::vector<reports::ClaimVerdict> verdicts =
         reports::judge(reports::claims(), reports::all_measures(outcome.result));
     if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
+    if (options.study.quick) fmt::print("{}\n", reports::quick_note(outcome.result));
+    if (!outcome.result.studies.empty()) fmt::print("Tables of the other figures: {}/summary.md\n", common.output);
     fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
     return reports::required_claim_failed(verdicts) ? kClaimFailed : 0;

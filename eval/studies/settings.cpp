@@ -11,7 +11,7 @@ using trajectories::Trajectory;
 
 /// What a quick reproduction looks at, and a stretch that all movements have.
 constexpr const char* kQuickTrajectory = "Tr4";
-constexpr FrameRange kQuickFrames = {40, 24};
+constexpr FrameRange kQuickFrames = {44, 16};
 
 Replay replay_of(const Setting& setting, const std::shared_ptr<const Trajectory>& truth, uint64_t seed,
                  const std::vector<std::string>& databases, const Movements& movements) {

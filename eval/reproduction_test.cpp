@@ -1,0 +1,130 @@
+#include "eval/reproduction.h"
+
+#include <gmock/gmock.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "eval/stored_study.h"
+#include "eval/test_program.h"
+#include "reports/results_json.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+ReproductionOptions only(std::vector<std::string> parts) {
+  ReproductionOptions options;
+  options.study.tracker = profile("paper");
+  options.only = std::move(parts);
+  return options;
+}
+
+TEST(Reproduction, RefusesUnknownParts) {
+  EXPECT_THAT(
+      [] {
+        plan_reproduction(only({"fig8", "fig10"}));
+      },
+      testing::ThrowsMessage<Error>(AllOf(HasSubstr("fig10"), HasSubstr("fig4, fig5, fig6, fig7"))));
+  EXPECT_THAT([] { study("fig4"); }, testing::ThrowsMessage<Error>(HasSubstr("fig7")));
+}
+
+TEST(Reproduction, FiguresFiveAndSixAreOneExperimentEach) {
+  const Plan plan = plan_reproduction(only({"fig6", "fig5"}));
+  ASSERT_EQ(plan.replays.size(), 2U);
+  EXPECT_EQ(to_string(key_of(plan.replays[0], plan.replays[0].databases.at(0))),
+            "Tr4_DB_open_power_recorded_subject1_gradient_1");
+  EXPECT_EQ(to_string(key_of(plan.replays[1], plan.replays[1].databases.at(0))),
+            "Tr1_DB_20_postures_recorded_subject1_gradient_1");
+  EXPECT_EQ(plan_reproduction(only({"fig5", "fig4"})).replays.size(), 15U) << "Figure 4 contains Figure 5";
+  EXPECT_TRUE(plan_reproduction(only({"fig7"})).replays.empty());
+}
+
+TEST(Reproduction, QuickOnesAreAStretch) {
+  ReproductionOptions options = only({});
+  options.study.quick = true;
+  const Plan plan = plan_reproduction(options);
+  EXPECT_TRUE(plan.quick);
+  for (const Replay& replay : plan.replays) EXPECT_LT(frames_of(replay).size(), 30U);
+}
+
+reports::StudyResult example_study() {
+  reports::StudyResult study{"fig0", "Figure 0", {}, {}};
+  study.tables.push_back({"figure0",
+                          "A table",
+                          "Explained.",
+                          {{"name", "name"}, {"count", "count", 0}, {"time_ms", "ms", 3, true}},
+                          1,
+                          {{"a", int64_t{3}, 1.0 / 3}, {"b", {}, -1e-300}}});
+  study.measures = {{"fig0.value", "mm", 2.0 / 3, reports::ConfidenceInterval{0.1, 0.9, 0.95, 1, 4, 15, "frames"}},
+                    {"fig0.nothing", "", {}, {}, true}};
+  return study;
+}
+
+TEST(StoredStudy, ComesBackToTheLastBit) {
+  const auto read = study_from_bytes(to_bytes(example_study()));
+  ASSERT_TRUE(read.has_value());
+  EXPECT_TRUE(*read == example_study());
+}
+
+TEST(StoredStudy, HalfOfOneIsNone) {
+  const std::string bytes = to_bytes(example_study());
+  for (size_t at = 0; at < bytes.size(); ++at)
+    EXPECT_FALSE(study_from_bytes(bytes.substr(0, at)).has_value()) << at;
+}
+
+/// Figure 7 and the tracker without depth, quick, in processes of their own.
+class KilledReproductionLong : public testing::Test {
+ protected:
+  KilledReproductionLong() : folder_(make_test_folder()) {}
+  ~KilledReproductionLong() override { fs::remove_all(folder_); }
+
+  std::vector<std::string> reproduce_into(const std::string& name) const {
+    return {"reproduce", "--quick", "--only", "fig5,fig7,monocular", "--output", folder_ + "/" + name};
+  }
+  bool has_stored(const std::string& name) const {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_ + "/" + name + "/.unfinished", ignored))
+      if (entry.path().extension() == ".stored") return true;
+    return false;
+  }
+
+  std::string folder_;
+};
+
+TEST_F(KilledReproductionLong, ResumesToTheSameResultsAndSaysWhatIsMadeAnew) {
+  ASSERT_EQ(run_glovebench(reproduce_into("undisturbed")).exit_code, 0);
+  const StartedProgram started = start_glovebench(reproduce_into("out"));
+  while (!has_stored("out") && !fs::exists(folder_ + "/out/results.json"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  ::kill(started.process, SIGINT);
+  finish_program(started);
+  ASSERT_TRUE(has_stored("out")) << "it was interrupted in the middle";
+  write_file(folder_ + "/out/.unfinished/other.stored", "of no use, and in nobody's way");
+  const ProgramRun resumed = run_glovebench(reproduce_into("out"));
+  EXPECT_EQ(resumed.exit_code, 0);
+  EXPECT_EQ(read_file(folder_ + "/out/results.json"), read_file(folder_ + "/undisturbed/results.json"));
+  EXPECT_FALSE(fs::exists(folder_ + "/out/.unfinished"));
+}
+
+TEST_F(KilledReproductionLong, JudgesNoClaim) {
+  const ProgramRun run = run_glovebench(reproduce_into("out"));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("no claim is judged"));
+  EXPECT_FALSE(fs::exists(folder_ + "/out/claims.json"));
+  const reports::RunResult result = reports::read_results(folder_ + "/out/results.json");
+  ASSERT_EQ(result.studies.size(), 2U);
+  EXPECT_EQ(result.studies[0].name, "fig7");
+  EXPECT_EQ(result.studies[1].name, "monocular");
+}
+
+}  // namespace
+}  // namespace glovebench::eval
