@@ -44,6 +44,11 @@ double LabelErrors::missed_share() const {
   return static_cast<double>(missed) / glove;
 }
 
+double LabelErrors::mislabeled_share() const {
+  check(glove > 0, "a share of the glove is asked where it is seen");
+  return static_cast<double>(mislabeled) / glove;
+}
+
 double LabelErrors::missed_share_of(int color) const {
   return static_cast<double>(missed_of[color]) / std::max(1, glove_of[color]);
 }
@@ -61,6 +66,7 @@ LabelErrors& LabelErrors::operator+=(const LabelErrors& other) {
   missed += other.missed;
   labeled += other.labeled;
   wrong += other.wrong;
+  mislabeled += other.mislabeled;
   for (size_t color = 0; color < glove_of.size(); ++color) {
     glove_of[color] += other.glove_of[color];
     missed_of[color] += other.missed_of[color];
@@ -81,6 +87,7 @@ LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& fra
       ++errors.glove;
       ++errors.glove_of[truth.label[i]];
       errors.missed += missed;
+      errors.mislabeled += labels[i] != truth.label[i];
       errors.missed_of[truth.label[i]] += missed;
     }
     errors.labeled += labels[i] != 0;

@@ -18,16 +18,19 @@ std::vector<render::Lighting> held_out_lightings();
 /// How a color table does, over the pixels of the IR camera that have a color and lie in the working volume: what
 /// the tracker makes its cloud of. The bare forearm is there too.
 struct LabelErrors {
-  int glove = 0;                                             ///< pixels that truly are
-  int missed = 0;                                            ///< of those, unlabeled
-  int labeled = 0;                                           ///< pixels with a label
-  int wrong = 0;                                             ///< of those, with another than the true one
+  int glove = 0;       ///< pixels that truly are
+  int missed = 0;      ///< of those, unlabeled
+  int labeled = 0;     ///< pixels with a label
+  int wrong = 0;       ///< of those, with another than the true one
+  int mislabeled = 0;  ///< glove pixels with another label than theirs, or none
   std::array<int, kColorCount + 1> glove_of{}, missed_of{};  ///< the first two for each color
 
   /// Of the labeled pixels; 0..1. Nothing labeled is nothing wrong.
   double wrong_share() const;
   /// Of the glove's pixels; 0..1. There must be some.
   double missed_share() const;
+  /// The same of what is missed or wrong.
+  double mislabeled_share() const;
   /// 0 of a color that is not seen.
   double missed_share_of(int color) const;
   /// The color with the largest missed share.

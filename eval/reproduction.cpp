@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "eval/program_info.h"
 #include "eval/share.h"
 #include "eval/stored_study.h"
 #include "eval/studies/settings.h"
@@ -66,7 +67,8 @@ std::string study_key(Workbench& workbench, const Study& study, const StudyOptio
   for (const Cascade& cascade : options.cascades) cascades.push_back(to_string(cascade));
   const nlohmann::json content = {{"study", study.name},    {"configuration", to_json(options.tracker)},
                                   {"seeds", options.seeds}, {"quick", options.quick},
-                                  {"cascades", cascades},   {"inputs", inputs}};
+                                  {"cascades", cascades},   {"host", host_timings(1).host},
+                                  {"inputs", inputs}};
   return hash_text(content.dump());
 }
 

@@ -96,10 +96,10 @@ RunFolder::~RunFolder() {
 std::optional<std::string> RunFolder::load(const std::string& key) const {
   const std::string path = path_of(mark_, key);
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+  if (!fs::exists(fs::symlink_status(path, ignored))) return std::nullopt;
   std::string bytes;
   try {
-    bytes = read_file(path);
+    if (fs::is_regular_file(path)) bytes = read_file(path);
   } catch (const Error&) {  // what cannot be read is made anew, like what is damaged
   }
   const size_t content = bytes.find('\n') + 1;
@@ -109,7 +109,7 @@ std::optional<std::string> RunFolder::load(const std::string& key) const {
     fmt::print(stderr, "glovebench: {} is cut short or of another version of the program: made anew, as any such\n",
                path);
   });
-  fs::remove(path, ignored);
+  fs::remove_all(path, ignored);
   return std::nullopt;
 }
 

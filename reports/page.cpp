@@ -88,6 +88,7 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
   std::string body =
       fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
                   escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
+      "<noscript><p>The charts are drawn by scripts; the tables hold all of their numbers.</p></noscript>\n" +
       (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n") + contents_list(sections);
   for (const Section& section : sections) body += to_html(section);
   body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";

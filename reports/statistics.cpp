@@ -56,14 +56,19 @@ std::optional<double> resampled_mean(const std::vector<std::vector<BlockSum>>& s
   return total.sum / total.count;
 }
 
-/// Whole blocks of consecutive frames; the last block of a stratum may be shorter.
+/// Blocks of consecutive frames, all about as long and none shorter than asked for, unless there are too few
+/// frames.
+int block_count(const StratumShape& stratum, int block_frames) {
+  return stratum.frames == 0 ? 0 : std::max(1, stratum.frames / block_frames);
+}
+
 Draw draw(const StratumShape& stratum, int block_frames, RandomStream& random) {
   Draw draw;
   for (int s = 0; s < stratum.seeds; ++s) draw.seeds.push_back(static_cast<int>(random.index(stratum.seeds)));
-  const int blocks = (stratum.frames + block_frames - 1) / block_frames;
+  const int blocks = block_count(stratum, block_frames);
   for (int b = 0; b < blocks; ++b) {
-    const int first = static_cast<int>(random.index(blocks)) * block_frames;
-    const int end = std::min(first + block_frames, stratum.frames);
+    const auto block = static_cast<int>(random.index(blocks));
+    const int first = block * stratum.frames / blocks, end = (block + 1) * stratum.frames / blocks;
     for (int frame = first; frame < end; ++frame) draw.frames.push_back(frame);
   }
   return draw;
@@ -158,9 +163,10 @@ std::optional<ConfidenceInterval> stratified_interval(
   interval.block_frames = config.block_frames;
   for (const StratumShape& stratum : strata) {
     interval.seeds = std::max(interval.seeds, stratum.seeds);
-    interval.blocks += (stratum.frames + config.block_frames - 1) / config.block_frames;
+    interval.blocks += block_count(stratum, config.block_frames);
   }
-  if (interval.blocks < 2) return std::nullopt;
+  constexpr int kFewestBlocks = 5;  // of fewer there are too few different draws
+  if (interval.blocks < kFewestBlocks) return std::nullopt;
 
   RandomStream random(config.seed, "stratified_interval", 0, "bootstrap");
   std::vector<double> values;

@@ -83,7 +83,7 @@ struct Draw {
 };
 /// Interval of any statistic over fixed strata: in each, noise seeds and blocks of frames are drawn again, with
 /// replacement. `statistic` gets one draw a stratum, in their order, and may have no value. Empty when it never has
-/// one, or when fewer than two blocks can be drawn in all.
+/// one, or when fewer than five blocks can be drawn in all.
 std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,

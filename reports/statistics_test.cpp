@@ -152,9 +152,9 @@ TEST(Statistics, NoStratifiedIntervalOfTooLittle) {
   const auto none = [](std::span<const Draw>) { return std::optional<double>(); };
   const auto one = [](std::span<const Draw>) { return std::optional<double>(1); };
   EXPECT_EQ(stratified_interval({}, one), std::nullopt);
-  EXPECT_EQ(stratified_interval(std::vector<StratumShape>{{1, 15}}, one), std::nullopt);
+  EXPECT_EQ(stratified_interval(std::vector<StratumShape>{{1, 30}, {1, 44}}, one), std::nullopt) << "2 + 2 blocks";
   EXPECT_EQ(stratified_interval(std::vector<StratumShape>{{1, 60}}, none), std::nullopt);
-  EXPECT_TRUE(stratified_interval(std::vector<StratumShape>{{1, 15}, {1, 1}}, one));
+  EXPECT_TRUE(stratified_interval(std::vector<StratumShape>{{1, 30}, {1, 45}}, one));
 }
 
 }  // namespace

@@ -111,18 +111,21 @@ std::string quick_note(const RunResult& result) {
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper) {
   const NoiseSetting noise = headline_noise(result);
   const std::string note = quick_note(result);
-  std::string studies;
-  for (const StudyResult& study : result.studies) studies += study_markdown(study);
-  return fmt::format(
-      "# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n{}{}## Figure 4\n\n{} Noise: {} x "
-      "{}.\n\n{}\n"
-      "The paper: {}.\n\n{}## More metrics\n\n"
-      "Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
-      "hands.\n\n{}",
-      result.program_version, result.commit, result.protocol.id(), note.empty() ? "" : note + "\n\n",
-      claims_markdown(judge(claims(), all_measures(result))), summary_explanation(), noise.model, noise.factor,
-      to_markdown(figure4_summary(result, paper, noise)), paper.source, studies,
-      to_markdown(detail_summary(result)));
+  std::string text =
+      fmt::format("# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n{}", result.program_version,
+                  result.commit, result.protocol.id(), note.empty() ? "" : note + "\n\n");
+  text += claims_markdown(judge(claims(), all_measures(result)));
+  if (!result.experiments.empty())
+    text +=
+        fmt::format("## Figure 4\n\n{} Noise: {} x {}.\n\n{}\nThe paper: {}.\n\n", summary_explanation(),
+                    noise.model, noise.factor, to_markdown(figure4_summary(result, paper, noise)), paper.source);
+  for (const StudyResult& study : result.studies) text += study_markdown(study);
+  if (!result.experiments.empty())
+    text += fmt::format(
+        "## More metrics\n\nIntervals are over blocks of frames and, where there are several, noise "
+        "seeds; not over movements or hands.\n\n{}",
+        to_markdown(detail_summary(result)));
+  return text;
 }
 
 }  // namespace glovebench::reports

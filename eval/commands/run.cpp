@@ -66,7 +66,10 @@ struct Run {
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
   }
-  static void print_study(const reports::StudyResult& result) { fmt::print("{}", reports::study_markdown(result)); }
+  void print_study(const reports::StudyResult& result) const {
+    if (quick) fmt::print("A quick run: nothing can be concluded from its numbers.\n\n");
+    fmt::print("{}", reports::study_markdown(result));
+  }
 
   /// The suite by its name, or what the flags say, as a suite without a name.
   Suite chosen_suite() const {

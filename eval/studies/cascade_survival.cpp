@@ -67,7 +67,7 @@ FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<C
       for (size_t stage = 0; stage < cascade.size(); ++stage) {
         const bool ran = stage < trace.kept.size();
         const bool kept = ran && std::ranges::find(trace.kept[stage], neighbor) != trace.kept[stage].end();
-        survival.push_back(ran ? std::optional(kept ? 100.0 : 0.0) : std::nullopt);
+        survival.push_back(kept ? 100.0 : 0.0);
       }
     }
   }

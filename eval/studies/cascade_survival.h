@@ -13,8 +13,8 @@ struct StageSurvival {
 };
 
 /// How often the true nearest neighbor (TrueNeighborSearch) of a frame survives each stage: [database][cascade]
-/// [stage]. The look-ups are those of the tracker, on the same device frames; a frame in which it sees no hand has
-/// no value. Runs on the workbench's threads.
+/// [stage]. The look-ups are those of the tracker, on the same device frames; nothing survives in a frame
+/// in which it sees no hand. Runs on the workbench's threads.
 std::vector<std::vector<std::vector<StageSurvival>>> measure_survival(const StudyContext& context,
                                                                       const Movements& movements,
                                                                       const std::vector<std::string>& databases,

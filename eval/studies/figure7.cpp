@@ -140,8 +140,8 @@ Table make_table(const std::vector<SizeResult>& results, std::string explanation
                {"median_rank", "median rank", 1},
                {"first_percent", "first (%)", 1},
                {"in_first_500_percent", "in the first 500 (%)", 1},
-               {"distance_us", "one distance (us)", 3, true},
-               {"distance_us_p95", "one distance, 95% (us)", 3, true}},
+               {"distance_us", "time of one distance (us), median over queries", 3, true},
+               {"distance_us_p95", "its 95th percentile", 3, true}},
               2,
               {}};
   for (const SizeResult& result : results) table.rows.push_back(row_of(result));

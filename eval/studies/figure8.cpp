@@ -38,11 +38,13 @@ Table empty_errors_table() {
   return {
       "figure8",
       "Matching cascades",
-      "Means over all frames of the five movements, with 95% intervals over blocks of frames. Posture error is the "
+      "Means over the frames of the five movements (a quick run: a stretch of Tr4) that the tracker answers, with "
+      "95% intervals over blocks of frames. Posture error is the "
       "RMS over the 22 angles, filtered as always. Times of the look-up and of whole frames are processor time on "
       "this machine, the paper's of four cores of 2009; the paper does not say over which movements its posture "
       "errors are. A frame's true nearest neighbor is the database entry with the smallest mean vertex distance "
-      "to the true hand, both centered at the hand and seen along the ray to it.",
+      "to the true hand, both centered at the hand and seen along the ray to it; a cascade that keeps 15 entries "
+      "keeps it more easily than one that keeps 3.",
       {{"database", "database"},
        {"cascade", "cascade"},
        {"implementation", "implementation"},
@@ -53,6 +55,7 @@ Table empty_errors_table() {
        {"posture_error_deg_high", "high"},
        {"position_error_mm", "position mm"},
        {"rotation_error_deg", "rotation deg"},
+       {"covered_percent", "covered %", 1},
        {"true_neighbor_survives_percent", "true neighbor kept %", 1},
        {"look_up_ms_p50", "look-up ms p50", 2, true},
        {"look_up_ms_p95", "p95", 2, true},
@@ -99,6 +102,7 @@ std::vector<Cell> errors_row(const std::string& database, const Cascade& cascade
   std::ranges::copy(cells(estimate_mean(posture)), std::back_inserter(row));
   row.push_back(cell(mean(sample_of(passes, &FrameRecord::position_error_mm))));
   row.push_back(cell(mean(sample_of(passes, &FrameRecord::rotation_error_deg))));
+  row.push_back(cell(covered_percent(passes)));
   row.push_back(cell(mean(survival.back().survived_percent)));
   for (const std::vector<double>& times : {look_up, frame})
     for (const double share : {0.5, 0.95, 0.99}) row.push_back(cell(percentile(times, share)));
@@ -152,19 +156,27 @@ std::vector<Measure> error_measures(const std::vector<std::vector<Passes>>& pass
           {"figure8.tiny_posture_excess_deg", "deg", excess.value, excess.interval}};
 }
 
+/// Median time of the slowest stage beside the alignment.
+std::optional<double> slowest_other(const Passes& passes) {
+  std::optional<double> slowest;
+  for (const char* stage : {"register", "segment", "cloud", "tiny_images", "look_up", "smooth"})
+    if (const auto time = percentile(times_ms(passes, stage), 0.5)) slowest = std::max(*time, slowest.value_or(0));
+  return slowest;
+}
+
 std::vector<Measure> time_measures(const std::vector<std::vector<Passes>>& passes, const Roles& roles) {
   const auto look_up = [&](size_t cascade, Database database) {
     return percentile(times_ms(passes[cascade][database], "look_up"), 0.5);
   };
   const auto tiny = look_up(roles.smallest_alone, kLarge), large = look_up(roles.largest_alone, kLarge),
              two = look_up(roles.two_stages, kLarge), three = look_up(roles.three_stages, kLarge),
-             small = look_up(roles.two_stages, kSmall);
+             small = slowest_other(passes[roles.two_stages][kSmall]);
   const auto align = percentile(times_ms(passes[roles.two_stages][kSmall], "align"), 0.5);
   const auto frame = percentile(times_ms(passes[roles.two_stages][kLarge]), 0.95);
   if (!tiny || !large || !two || !three || !small || !align || !frame) return {};
   return {{"figure8.time_share", "", *two / *large, {}, true},
           {"figure8.tiny_time_share", "", *tiny / std::min({*large, *two, *three}), {}, true},
-          {"figure8.alignment_over_look_up_small", "", *align / *small, {}, true},
+          {"figure8.alignment_over_slowest_other_small", "", *align / *small, {}, true},
           {"frame.p95_ms_20_postures", "ms", *frame, {}, true}};
 }
 

@@ -56,7 +56,8 @@ std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const
         replays.push_back(replay_of(setting, truth, seed, databases, movements));
   prepare(context.workbench, replays);
   const int threads = pace == Pace::timed ? 1 : context.workbench.config().threads;
-  std::vector<TrackedReplays> tracked = replay_all(context.workbench, replays, threads, context.run_folder);
+  std::vector<TrackedReplays> tracked =
+      replay_all(context.workbench, replays, threads, pace == Pace::timed ? nullptr : context.run_folder);
 
   std::vector<std::vector<Passes>> result(settings.size(), std::vector<Passes>(databases.size()));
   size_t next = 0;

@@ -37,7 +37,8 @@ FrameRange frames_of(const StudyOptions& options);
 Movements movements(const StudyContext& context, reports::TruthKind truth,
                     const std::vector<std::string>& names = {});
 
-/// How the replays share the machine. Times of stages are those of the plain frame only when they ran alone.
+/// How the replays share the machine. Timed ones run alone, on one thread; their replays are not kept for a run
+/// that goes on after an interrupt, so that no times come from a parallel pass or another machine.
 enum class Pace { timed, parallel };
 
 /// Every setting with every database over the same device frames, gradient noise x 1: [setting][database].

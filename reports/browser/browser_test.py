@@ -73,6 +73,8 @@ def check_charts(browser, scheme):
             place.dataset.chart, place.querySelectorAll('svg .mark-line path, svg .mark-symbol path, ' +
             'svg .mark-rect path').length, place.getBoundingClientRect().width]);""")
     names = [name for name, _, _ in places]
+    missing = browser.execute_script("return glovebench.missing")
+    expect(missing == [], f"{scheme}: charts without data: {missing}")
     for expected in ["figure4-position", "figure5-posture", "figure6-rotation", "figure7-time", "figure7-rank",
                      "figure8", "figure9-time", "ablations-posture"]:
         expect(expected in names, f"{scheme}: there is no chart {expected}")

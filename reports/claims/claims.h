@@ -26,7 +26,7 @@ std::string to_string(const Rule& rule);
 enum class ClaimKind { reproduction, consistency };
 std::string_view to_string(ClaimKind kind);
 
-/// What the paper says, and what a run must have measured for it to hold. Rules are fixed before results are seen.
+/// What the paper says, and what a run must have measured for it to hold. Rules are not fitted to results.
 struct Claim {
   std::string id;           ///< "position-error-source"
   std::string claim;        ///< one sentence

@@ -69,7 +69,9 @@ TextTable verdict_table(const std::vector<ClaimVerdict>& verdicts) {
 }
 
 constexpr std::string_view kExplanation =
-    "Each claim of the paper has a rule that was fixed before anything was measured. It is reproduced if the whole "
+    "Each claim of the paper has a rule. Those about Figures 4 to 6 and 15 Hz were written down when first results "
+    "of "
+    "this program were known, the others before. A claim is reproduced if the whole "
     "95% interval of what was measured satisfies the rule, not reproduced if none of it does, and inconclusive in "
     "between; a number without an interval is judged by itself. Consistent says less: the experiment is not the "
     "paper's.";

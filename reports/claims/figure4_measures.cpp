@@ -101,21 +101,25 @@ std::optional<double> largest_position_error(const MeansOf& means_of) {
 }
 
 bool specific_is_best(const Means& means) {
-  return means[0] && means[1] && means[2] && *means[0] < *means[1] && *means[0] < *means[2];
+  return *means[0] < *means[1] && *means[0] < *means[2];
 }
 bool large_is_worst(const Means& means) {
-  return means[0] && means[1] && means[2] && *means[2] > *means[0] && *means[2] > *means[1];
+  return *means[2] > *means[0] && *means[2] > *means[1];
 }
 bool is_ordered(const Means& means) {
   return specific_is_best(means) && large_is_worst(means);
 }
 
-/// In how many of the 15 pairs of trajectory and error the condition holds.
+/// In how many of the 15 pairs of trajectory and error the condition holds; empty when a mean is missing.
 Statistic count_of(bool (*condition)(const Means&)) {
   return [condition](const MeansOf& means_of) -> std::optional<double> {
     int count = 0;
     for (size_t t = 0; t < kTrajectories; ++t)
-      for (const std::string_view metric : kErrors) count += condition(means_of(t, metric)) ? 1 : 0;
+      for (const std::string_view metric : kErrors) {
+        const Means means = means_of(t, metric);
+        if (!means[0] || !means[1] || !means[2]) return std::nullopt;
+        count += condition(means) ? 1 : 0;
+      }
     return count;
   };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/tracker/tracker_config.h"
 #include "reports/claims/figure4_measures.h"
 
 namespace glovebench::reports {
@@ -40,8 +41,18 @@ std::string_view to_string(ClaimOutcome outcome) {
   return "not run";
 }
 
+namespace {
+
+/// Claims are about the paper's configuration. A run that does not say its own is taken for one of it.
+bool is_of_the_paper(const nlohmann::json& configuration) {
+  const auto tracker = configuration.find("tracker");
+  return tracker == configuration.end() || *tracker == to_json(profile("paper"));
+}
+
+}  // namespace
+
 std::vector<Measure> all_measures(const RunResult& result) {
-  if (result.configuration.value("quick", false)) return {};
+  if (result.configuration.value("quick", false) || !is_of_the_paper(result.configuration)) return {};
   std::vector<Measure> measures = figure4_measures(result);
   for (const StudyResult& study : result.studies)
     measures.insert(measures.end(), study.measures.begin(), study.measures.end());
@@ -62,8 +73,9 @@ std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vec
 
 bool required_claim_failed(const std::vector<ClaimVerdict>& verdicts) {
   return std::ranges::any_of(verdicts, [](const ClaimVerdict& verdict) {
-    return verdict.claim.required &&
-           (verdict.outcome == ClaimOutcome::not_reproduced || verdict.outcome == ClaimOutcome::not_consistent);
+    if (!verdict.claim.required) return false;
+    if (verdict.measure && !verdict.measure->value) return true;
+    return (verdict.outcome == ClaimOutcome::not_reproduced || verdict.outcome == ClaimOutcome::not_consistent);
   });
 }
 

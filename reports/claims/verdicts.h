@@ -23,7 +23,7 @@ struct ClaimVerdict {
 };
 
 /// The measures of figures 4 to 6, as far as their experiments were run, and those of all studies; none of a quick
-/// run, from whose few frames nothing is concluded.
+/// run, from whose few frames nothing is concluded, and none of another configuration than the paper's.
 std::vector<Measure> all_measures(const RunResult& result);
 
 /// One verdict a claim, in their order. A claim holds if the whole interval of its measure satisfies the rule, does
@@ -31,7 +31,8 @@ std::vector<Measure> all_measures(const RunResult& result);
 /// value, one without a value is inconclusive.
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
-/// Whether a claim that is required does not hold. What is inconclusive or was not run has not failed.
+/// Whether a claim that is required does not hold, or was run and has no value: a tracker that answers nothing
+/// keeps no promise. What is inconclusive or was not run has not failed.
 bool required_claim_failed(const std::vector<ClaimVerdict>& verdicts);
 /// Whether any claim was run at all.
 bool any_was_run(const std::vector<ClaimVerdict>& verdicts);

@@ -1,4 +1,5 @@
 #include "reports/claims/verdicts.h"
+#include "core/tracker/tracker_config.h"
 
 #include <gmock/gmock.h>
 
@@ -65,6 +66,18 @@ TEST(Judge, OnlyRequiredClaimsThatDoNotHoldFail) {
   EXPECT_FALSE(fails(false, {bad}, ClaimKind::reproduction));
   EXPECT_FALSE(fails(true, {with_interval(11, 9, 13)}, ClaimKind::reproduction)) << "inconclusive";
   EXPECT_FALSE(fails(true, {}, ClaimKind::reproduction)) << "not run";
+  EXPECT_TRUE(fails(true, {{"m", "mm", {}, {}, false}}, ClaimKind::reproduction)) << "run, and without an answer";
+}
+
+TEST(Judge, OnlyTheConfigurationOfThePaperAndNoQuickRun) {
+  RunResult result = full_result();
+  result.configuration = {{"tracker", to_json(profile("paper"))}};
+  EXPECT_FALSE(all_measures(result).empty());
+  RunResult quick = result, other = result;
+  quick.configuration["quick"] = true;
+  other.configuration["tracker"]["method"] = "monocular_bbox";
+  EXPECT_TRUE(all_measures(quick).empty());
+  EXPECT_TRUE(all_measures(other).empty());
 }
 
 TEST(Judge, MeasuresOfTheFiguresAndOfStudies) {

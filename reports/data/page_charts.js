@@ -229,37 +229,32 @@ function figure8(tables) {
 }
 
 // What each setting changes against the default of its ablation.
-function ablations(metric, title, isFirst) {
+function ablations(change, title, isFirst) {
   return tables => {
-    const rows = tables.ablations.filter(row => isNumber(row[`${metric}_change`])).map(row => ({
-      ...row, name: `${row.ablation}: ${row.setting}`
+    const rows = tables.ablations.filter(row => isNumber(row[change])).map(row => ({
+      ...row, name: `${row.ablation}: ${row.setting} (${row.database.replace('DB_', '')})`
     }));
     if (rows.length === 0) return null;
-    const names = distinct(rows, 'name'), truths = distinct(rows, 'truth');
+    const names = distinct(rows, 'name');
     const y = {
       field: 'name', type: 'nominal', sort: names, title: null,
       axis: {labels: isFirst, labelLimit: 330, grid: true, ticks: false, labelColor: 'var(--ink)'}
     };
-    const yOffset = {field: 'truth', sort: truths};
-    const color = {
-      field: 'truth', sort: truths, scale: {domain: truths, range: seriesColors},
-      legend: isFirst ? {title: 'truth'} : null
-    };
-    const x = {field: `${metric}_change`, type: 'quantitative', title};
+    const color = {value: seriesColors[0]};
+    const x = {field: change, type: 'quantitative', title};
     return {
       data: {values: rows}, width: isFirst ? 210 : 230, height: {step: 13},
       layer: [
         {mark: {type: 'rule', color: 'var(--muted)'}, encoding: {x: {datum: 0}}},
         {
           mark: {type: 'rule', strokeWidth: 2},
-          encoding: {x: {field: `${metric}_change_low`, type: 'quantitative'}, x2: {field: `${metric}_change_high`},
-                     y, yOffset, color}
+          encoding: {x: {field: `${change}_low`, type: 'quantitative'}, x2: {field: `${change}_high`}, y, color}
         },
         {
           mark: {type: 'point', filled: true, size: 60, opacity: 1},
           encoding: {
-            x, y, yOffset, color,
-            tooltip: [{field: 'name'}, {field: 'truth'}, {field: `${metric}_change`, format: '+.2f', title}]
+            x, y, color,
+            tooltip: [{field: 'name'}, {field: change, format: '+.2f', title}]
           }
         }
       ]
@@ -295,7 +290,7 @@ charts['figure9-rotation'] = lines('figure9', {
 charts['figure9-time'] = lines('figure9', {
   ...factor, y: 'frame_ms_p50', yTitle: 'time of a frame, median (ms)', floor: 'look_up_ms_p50', floorTitle: 'look-up'
 });
-[['position', 'position_error_mm', 'position error (mm)'], ['posture', 'posture_error_deg', 'posture error (deg)'],
- ['rotation', 'rotation_error_deg', 'rotation error (deg)']].forEach(([name, metric, title], i) => {
-  charts[`ablations-${name}`] = ablations(metric, `change of the ${title}`, i === 0);
+[['position', 'position_change_mm', 'position error (mm)'], ['posture', 'posture_change_deg', 'posture error (deg)'],
+ ['rotation', 'rotation_change_deg', 'rotation error (deg)']].forEach(([name, change, title], i) => {
+  charts[`ablations-${name}`] = ablations(change, `change of the ${title}`, i === 0);
 });

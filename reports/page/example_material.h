@@ -65,30 +65,29 @@ inline StudyResult example_figure9() {
 }
 
 inline StudyResult example_ablations() {
-  std::vector<std::string> keys = {"ablation",
-                                   "setting",
-                                   "truth",
-                                   "position_error_mm",
-                                   "posture_error_deg",
-                                   "rotation_error_deg",
-                                   "covered_percent",
-                                   "jitter_position_mm",
-                                   "latency_frames"};
-  for (const std::string error : {"position_error_mm", "posture_error_deg", "rotation_error_deg"})
-    for (const std::string part : {"_change", "_change_low", "_change_high"}) keys.push_back(error + part);
+  std::vector<std::string> keys = {"ablation", "setting", "database"};
+  for (const std::string error : {"position", "posture", "rotation"}) {
+    const std::string unit = error == "position" ? "_mm" : "_deg";
+    keys.push_back(error + "_error" + unit);
+    for (const std::string part : {"", "_low", "_high"}) keys.push_back(error + "_change" + unit + part);
+  }
+  for (const char* key : {"covered_percent", "jitter_position_mm", "jitter_rotation_deg", "latency_frames"})
+    keys.emplace_back(key);
   Table table = example_table("ablations", "One change at a time", keys, 3);
   const Cell none;
   for (const std::string ablation : {"filter", "neighbors", "colors in the alignment", "noise"}) {
-    for (const std::string setting : {"as in the paper", "off", "double"}) {
-      for (const std::string truth : {"recorded", "source"}) {
-        std::vector<Cell> row = {ablation, setting, truth, 3.0, 6.0, 2.0, 100.0, 0.3, 1.0};
+    for (const std::string database : {"DB_open_power", "DB_20_postures"}) {
+      for (const std::string setting : {"as in the paper", "off", "double"}) {
         const double change = (setting == "off" ? 1.0 : -0.3) * static_cast<double>(ablation.size()) / 5;
-        for (int error = 0; error < 3; ++error) {
+        std::vector<Cell> row = {ablation, setting, database};
+        for (const double error : {3.0, 6.0, 2.0}) {
+          row.emplace_back(error);
           if (setting == "as in the paper")
             row.insert(row.end(), {none, none, none});
           else
             row.insert(row.end(), {change, change - 0.4, change + 0.5});
         }
+        row.insert(row.end(), {100.0, 0.3, 0.2, 1.0});
         table.rows.push_back(row);
       }
     }
