@@ -7,7 +7,7 @@ namespace {
 
 /// 40 frames of one movement and one seed: blocks enough for an interval.
 Sample constant(double value) {
-  return {{std::vector<std::optional<double>>(40, value)}};
+  return {{std::vector<std::optional<double>>(90, value)}};
 }
 Sample ramp() {
   Sample sample = constant(0);
