@@ -85,16 +85,15 @@ bool share_noise(const Replay& a, const Replay& b) {
 class Pass {
  public:
   Pass(Workbench& workbench, const Replay& replay)
-      : replay_(&replay), config_(replay.tracker), kinect_(kinect_config(replay)), model_(workbench.model()) {
+      : replay_(&replay), kinect_(kinect_config(replay)), model_(workbench.model()) {
     for (const std::string& database : replay.databases) {
-      methods_.push_back(workbench.make_method(config_, database));
+      methods_.push_back(workbench.make_method(replay.tracker, database));
       tracked_.push_back({database, {}, {}, {}, {}});
     }
     timers_.resize(methods_.size());
   }
 
   const Replay& replay() const { return *replay_; }
-  const TrackerConfig& config() const { return config_; }
   /// The device frame of these images, under this replay's noise.
   DeviceFrame frame_of(const render::RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                        int number) const {
@@ -119,7 +118,6 @@ class Pass {
 
  private:
   const Replay* replay_;
-  TrackerConfig config_;
   render::SyntheticKinectConfig kinect_;
   std::shared_ptr<const HandModel> model_;
   std::vector<std::unique_ptr<Method>> methods_;
@@ -178,7 +176,7 @@ std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, st
         frame = pass.frame_of(images, kinect.calibration(), true_frame.timestamp_us, number);
         shown = &pass.replay();
       }
-      truth.trackable = is_trackable(images, pass.config());
+      truth.trackable = is_trackable(images, pass.replay().tracker);
       pass.track(*frame, truth, number);
       if (frame_done) frame_done();
     }

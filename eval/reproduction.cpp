@@ -62,7 +62,8 @@ std::string study_key(Workbench& workbench, const Study& study, const StudyOptio
     inputs.push_back(Database::input_hash(trajectories::posture_set(folder, name), *workbench.model(),
                                           workbench.config().views));
   inputs.push_back(workbench.subject(2)->hash());
-  inputs.push_back(hash_bytes(std::as_bytes(std::span(workbench.color_table()->labels()))));
+  inputs.push_back(hash_bytes(
+      std::as_bytes(std::span(workbench.color_table(options.tracker.segmentation.color_space)->labels()))));
   std::vector<std::string> cascades;
   for (const Cascade& cascade : options.cascades) cascades.push_back(to_string(cascade));
   const nlohmann::json content = {{"study", study.name},    {"configuration", to_json(options.tracker)},

@@ -173,6 +173,10 @@ TEST_F(RunFolderTest, WhatIsDamagedHalfOrUnderAnotherNameIsMadeAnew) {
       EXPECT_FALSE(fs::exists(path)) << at;
     }
   }
+  fs::create_directories(path + "/in the way");
+  EXPECT_FALSE(run.load("key").has_value());
+  run.store("key", content);
+  EXPECT_EQ(run.load("key"), content);
   write_file(folder_ + "/.unfinished/other.stored", bytes);
   EXPECT_FALSE(run.load("other").has_value());
 }

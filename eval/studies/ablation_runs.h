@@ -44,6 +44,9 @@ class AblationRuns {
   std::map<std::pair<std::string, std::string>, Passes> passes_;
 };
 
+/// Of a table that compares settings: the three errors, and after each its change with the ends of the interval.
+const std::vector<reports::Column>& error_columns();
+
 /// The table "ablations": a row each.
 reports::Table ablation_table(const AblationRuns& runs, const std::vector<Ablation>& ablations);
 

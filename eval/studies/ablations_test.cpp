@@ -6,6 +6,7 @@
 #include "eval/studies/ablation_measures.h"
 #include "eval/studies/light.h"
 #include "eval/studies/posture_choices.h"
+#include "eval/studies/test_options.h"
 #include "eval/test_program.h"
 #include "trajectories/catalog.h"
 
@@ -14,13 +15,6 @@ namespace {
 
 using reports::Cell;
 using reports::Table;
-
-StudyOptions quick_options() {
-  StudyOptions options;
-  options.tracker = profile("paper");
-  options.quick = true;
-  return options;
-}
 
 const Cell& cell_of(const Table& table, size_t row, std::string_view key) {
   return table.rows.at(row).at(column_index(table, key));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "eval/studies/test_options.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {
@@ -9,13 +10,6 @@ namespace {
 
 using reports::StudyResult;
 using reports::Table;
-
-StudyOptions quick_options() {
-  StudyOptions options;
-  options.tracker = profile("paper");
-  options.quick = true;
-  return options;
-}
 
 StudyResult measure(int threads) {
   Workbench workbench(test_workbench(threads));

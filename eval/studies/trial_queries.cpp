@@ -60,7 +60,7 @@ TrialCamera::TrialCamera(Workbench& workbench, const TrackerConfig& config, cons
     : config_(config),
       noise_(noise),
       model_(workbench.model()),
-      table_(workbench.color_table()),
+      table_(workbench.color_table(config.segmentation.color_space)),
       renderer_(workbench.calibration(), model_, render::SceneConfig{}) {}
 
 std::optional<LabelImage> TrialCamera::see(const TrialHand& hand, const render::FrameKey& key) {
@@ -77,7 +77,8 @@ std::optional<LabelImage> TrialCamera::see(const TrialHand& hand, const render::
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,
                                            int count) {
-  workbench.color_table();  // before the threads start: calibrating it takes all of them
+  workbench.color_table(
+      config.segmentation.color_space);  // before the threads start: calibrating it takes all of them
   std::vector<TrialQuery> queries(count);
   // A camera draws with the OpenGL context of the thread that made it.
   tbb::enumerable_thread_specific<std::unique_ptr<TrialCamera>> cameras;
