@@ -16,7 +16,7 @@
 namespace glovebench::bench {
 namespace {
 
-constexpr int kFrameStep = 19;  // of Tr4's 117 frames: seven, in the open hand, the grasp and between
+constexpr int kFrameStep = 19;  // six to eight frames of each trajectory: open hand, grasp and between
 
 const std::string kShareFolder = GLOVEBENCH_SHARE_DIR;
 const std::string kTrajectoryFolder = kShareFolder + "/trajectories/data";
@@ -26,8 +26,8 @@ std::optional<BenchData>& storage() {
   return stored;
 }
 
-std::vector<render::HandFrame> hand_frames() {
-  const trajectories::Trajectory trajectory = trajectories::source_trajectory(kTrajectoryFolder, "Tr4");
+std::vector<render::HandFrame> hand_frames(const std::string& name) {
+  const trajectories::Trajectory trajectory = trajectories::source_trajectory(kTrajectoryFolder, name);
   std::vector<render::HandFrame> frames;
   for (size_t f = 0; f < trajectory.frames.size(); f += kFrameStep) {
     const trajectories::TrajectoryFrame& frame = trajectory.frames[f];
@@ -36,22 +36,26 @@ std::vector<render::HandFrame> hand_frames() {
   return frames;
 }
 
-/// A color table for the light of these frames alone.
-ColorTable calibrate(const BenchData& data, const std::vector<render::HandFrame>& frames) {
+/// A color table for the light of the benchmark's frames alone.
+ColorTable calibrate(const BenchData& data, const std::vector<std::vector<render::HandFrame>>& movements) {
   render::RgbdRenderer renderer(data.calibration, data.model, render::SceneConfig{});
   ColorCalibration colors;
-  for (size_t f = 0; f < frames.size(); ++f) {
-    const PosedHand hand = data.model->pose(frames[f].posture);
-    const ColorImage color = renderer.render(hand, frames[f].T_camera_hand, {}).color;
-    colors.add_view(render::add_color_noise(color, {}, {1, "color calibration", static_cast<int64_t>(f)}),
-                    renderer.render_color_labels(hand, frames[f].T_camera_hand));
+  int64_t number = 0;
+  for (const std::vector<render::HandFrame>& frames : movements) {
+    for (const render::HandFrame& frame : frames) {
+      const PosedHand hand = data.model->pose(frame.posture);
+      const ColorImage color = renderer.render(hand, frame.T_camera_hand, {}).color;
+      colors.add_view(render::add_color_noise(color, {}, {1, "color calibration", number++}),
+                      renderer.render_color_labels(hand, frame.T_camera_hand));
+    }
   }
   return colors.build();
 }
 
-std::vector<BenchFrame> track_frames(const BenchData& data, const std::vector<render::HandFrame>& hands) {
+std::vector<BenchFrame> track_frames(const BenchData& data, const std::string& name,
+                                     const std::vector<render::HandFrame>& hands) {
   render::SyntheticKinectConfig config;
-  config.sequence = "Tr4";
+  config.sequence = name;
   render::SyntheticKinect kinect(data.calibration, data.model, hands, config);
   Tracker tracker(data.config, data.calibration, data.model, data.database, data.table);
   std::vector<BenchFrame> frames;
@@ -90,9 +94,12 @@ void prepare(const Settings& settings) {
   data.postures = trajectories::posture_set(kTrajectoryFolder, settings.database);
   data.database =
       std::make_shared<Database>(data.cache().get(data.postures, *data.model, data.config.views, kTinySizes));
-  const std::vector<render::HandFrame> hands = hand_frames();
-  data.table = std::make_shared<ColorTable>(calibrate(data, hands));
-  data.frames = track_frames(data, hands);
+  const std::vector<std::string>& names = trajectories::ground_truth_names();
+  std::vector<std::vector<render::HandFrame>> movements;
+  for (const std::string& name : names) movements.push_back(hand_frames(name));
+  data.table = std::make_shared<ColorTable>(calibrate(data, movements));
+  for (size_t t = 0; t < names.size(); ++t)
+    std::ranges::move(track_frames(data, names[t], movements[t]), std::back_inserter(data.frames));
   storage() = std::move(data);
 }
 

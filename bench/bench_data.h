@@ -16,10 +16,10 @@ namespace glovebench::bench {
 
 struct Settings {
   std::string cache_folder;
-  std::string database = "DB_open_power";
+  std::string database = "DB_20_postures";
 };
 
-/// One frame of source trajectory Tr4 and what each stage of the tracker made of it.
+/// One frame of a source trajectory and what each stage of the tracker made of it.
 struct BenchFrame {
   render::HandFrame hand;     ///< the truth
   render::RgbdImages images;  ///< without noise

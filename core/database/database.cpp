@@ -73,7 +73,7 @@ Database Database::build(const PostureSet& postures, const HandModel& model, con
   for (const int size : sizes) {
     const size_t pixels = static_cast<size_t>(size) * size;
     database.sizes_[size].labels.resize(count * pixels);
-    database.sizes_[size].fields.resize(count * pixels * kColorCount);
+    database.sizes_[size].fields.resize(count * pixels * kColorCount + kBehind);
   }
 
   const PinholeCamera camera = view_camera(views);
@@ -115,7 +115,12 @@ Database Database::build(const PostureSet& postures, const HandModel& model, con
       progress(static_cast<double>(finished) / count);
     });
   });
+  database.arrange_rows();
   return database;
+}
+
+void Database::arrange_rows() {
+  for (auto& [size, data] : sizes_) data.rows = FieldRows(data.fields.data(), size, entry_count());
 }
 
 const Database::SizeData& Database::data(int size) const {

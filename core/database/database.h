@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/database/distance_field.h"
+#include "core/database/field_rows.h"
 #include "core/database/tiny_image.h"
 #include "core/database/view_renderer.h"
 #include "core/database/view_sphere.h"
@@ -64,15 +65,22 @@ class Database {
   /// Distance fields of one entry: kColorCount fields of size*size, in steps of 1/kFieldScale px, chamfer metric,
   /// capped at the view configuration's cap.
   const uint8_t* fields(int size, int entry) const;
+  /// The same fields, arranged for a look at all entries at once. Throws Error as `labels` does.
+  const FieldRows& field_rows(int size) const { return data(size).rows; }
   bool has_size(int size) const { return sizes_.contains(size); }
 
  private:
   struct SizeData {
     std::vector<uint8_t> labels;  ///< [entry][pixel]
-    std::vector<uint8_t> fields;  ///< [entry][color][pixel]
+    AlignedBytes fields;          ///< [entry][color][pixel], and kBehind bytes
+    FieldRows rows;
   };
+  /// What look-ups may read behind the last field, bytes.
+  static constexpr size_t kBehind = 64;
 
   const SizeData& data(int size) const;
+  /// To be called when the fields are complete.
+  void arrange_rows();
 
   PostureSet postures_;
   Side side_ = Side::right;

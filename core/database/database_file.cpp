@@ -21,9 +21,9 @@ constexpr std::string_view kMagic = "glovebench-database-1\n";
 constexpr size_t kHashLength = 32;
 constexpr uint64_t kMaxHeader = 64 << 20;
 
-template <typename T>
-std::string_view bytes_of(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+template <typename Values>
+std::string_view bytes_of(const Values& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0])};
 }
 
 /// Reads a database file piece by piece and says what is wrong with it.
@@ -91,7 +91,7 @@ void Database::save(const std::string& path) const {
   add("box_rays", bytes_of(box_rays_));
   for (const auto& [size, size_data] : sizes_) {
     add(fmt::format("labels_{}", size), bytes_of(size_data.labels));
-    add(fmt::format("fields_{}", size), bytes_of(size_data.fields));
+    add(fmt::format("fields_{}", size), bytes_of(size_data.fields).substr(0, size_data.fields.size() - kBehind));
   }
   const json header = {{"name", postures_.name},
                        {"hash", hash_},
@@ -145,10 +145,16 @@ Database Database::load(const std::string& path, std::span<const int> sizes) {
       content = bytes_of(database.box_rays_);
     } else if (wanted(name, size)) {
       SizeData& data = database.sizes_[size];
-      std::vector<uint8_t>& target = name.starts_with("labels") ? data.labels : data.fields;
-      target.resize(bytes);
-      reader.fill(target.data(), bytes, name);
-      content = bytes_of(target);
+      uint8_t* target = nullptr;
+      if (name.starts_with("labels")) {
+        data.labels.resize(bytes);
+        target = data.labels.data();
+      } else {
+        data.fields.resize(bytes + kBehind);
+        target = data.fields.data();
+      }
+      reader.fill(target, bytes, name);
+      content = {reinterpret_cast<const char*>(target), bytes};
     } else {
       continue;
     }
@@ -158,6 +164,7 @@ Database Database::load(const std::string& path, std::span<const int> sizes) {
   if (offset != reader.size()) {
     throw Error(path, "length", fmt::format("{} bytes", reader.size()), fmt::format("{} bytes", offset));
   }
+  database.arrange_rows();
   return database;
 }
 

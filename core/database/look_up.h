@@ -1,27 +1,12 @@
 #pragma once
 
-#include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include "core/base/implementation.h"
+#include "core/database/cascade.h"
 #include "core/database/database.h"
 
 namespace glovebench {
-
-/// One stage of the look-up: keep the `keep` nearest entries by images of `size` px.
-struct CascadeStage {
-  int size = 64;
-  int keep = 3;
-
-  friend bool operator==(const CascadeStage&, const CascadeStage&) = default;
-};
-using Cascade = std::vector<CascadeStage>;
-
-/// "16:500,64:3". Throws Error if malformed or impossible (unknown size, a stage that keeps more than the one
-/// before it).
-Cascade parse_cascade(std::string_view text);
-std::string to_string(const Cascade& cascade);
 
 /// One of the k nearest database entries.
 struct Match {
@@ -48,18 +33,11 @@ struct LookUpTrace {
   std::vector<std::vector<int>> kept;
 };
 
-/// The matching cascade of section III-B, entry after entry as the paper describes it: each stage ranks what the
-/// one before it kept. Best first; equal errors by entry number. Empty for a query without glove pixels. `trace`,
-/// if given, receives what each stage kept.
+/// The matching cascade of section III-B: each stage ranks what the one before it kept. Best first; equal errors by
+/// entry number. Empty for a query without glove pixels. `trace`, if given, receives what each stage kept. Both
+/// implementations give the same matches and the same trace: `plain` goes entry after entry as the paper describes
+/// it.
 std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
-                           LookUpTrace* trace = nullptr);
-
-/// A way to look up. All give the same matches and the same trace.
-struct LookUpImplementation {
-  std::string_view name;
-  std::vector<Match> (*look_up)(const Database&, const TinyImages&, const Cascade&, LookUpTrace*);
-};
-/// "plain", which is `look_up`, comes first.
-std::span<const LookUpImplementation> look_up_implementations();
+                           Implementation implementation = Implementation::fast, LookUpTrace* trace = nullptr);
 
 }  // namespace glovebench

@@ -163,33 +163,10 @@ TEST(LookUp, the_trace_holds_what_each_stage_kept) {
     return entries;
   };
   LookUpTrace trace{{{1, 2, 3}}};  // of another look-up
-  const std::vector<Match> matches = look_up(database, query, cascade, &trace);
+  const std::vector<Match> matches = look_up(database, query, cascade, Implementation::plain, &trace);
   ASSERT_EQ(trace.kept.size(), 2u);
   EXPECT_EQ(trace.kept[0], entries_of(look_up(database, {{query.images[0]}}, {{8, 40}})));
   EXPECT_EQ(trace.kept[1], entries_of(matches));
-}
-
-TEST(LookUp, all_implementations_agree_with_the_plain_one) {
-  const Database& database = test_database();
-  ASSERT_EQ(look_up_implementations()[0].name, "plain");
-  for (const Cascade& cascade : {Cascade{{16, 500}, {64, 3}}, Cascade{{64, 3}}, Cascade{{8, 2000}, {32, 7}}}) {
-    for (int number = 0; number < 10; ++number) {
-      const LabelImage image = random_query(number);
-      const TinyImages query = make_tiny_images(image, bounding_square(image), cascade);
-      LookUpTrace plain_trace;
-      const std::vector<Match> plain = look_up(database, query, cascade, &plain_trace);
-      for (const LookUpImplementation& implementation : look_up_implementations()) {
-        LookUpTrace trace;
-        const std::vector<Match> matches = implementation.look_up(database, query, cascade, &trace);
-        EXPECT_EQ(trace.kept, plain_trace.kept) << implementation.name << ", query " << number;
-        ASSERT_EQ(matches.size(), plain.size()) << implementation.name << ", query " << number;
-        for (size_t i = 0; i < plain.size(); ++i) {
-          EXPECT_EQ(matches[i].entry, plain[i].entry) << implementation.name << ", query " << number;
-          EXPECT_EQ(matches[i].error, plain[i].error) << implementation.name << ", query " << number;
-        }
-      }
-    }
-  }
 }
 
 TEST(LookUp, a_query_without_glove_matches_nothing) {
@@ -197,28 +174,6 @@ TEST(LookUp, a_query_without_glove_matches_nothing) {
   const LabelImage empty(640, 480);
   const TinyImages query = make_tiny_images(empty, bounding_square(empty), cascade);
   EXPECT_TRUE(look_up(test_database(), query, cascade).empty());
-}
-
-TEST(Cascade, is_parsed_and_written_back) {
-  const Cascade papers = {{16, 500}, {64, 3}};
-  EXPECT_EQ(parse_cascade("16:500,64:3"), papers);
-  for (const char* text : {"8:1", "64:3", "8:2000,16:500,32:50,64:3", "64:3,64:3", "64:100000000"}) {
-    EXPECT_EQ(to_string(parse_cascade(text)), text);
-  }
-}
-
-TEST(Cascade, refuses_what_is_malformed_or_impossible_and_says_why) {
-  for (const char* text : {"", "64", "64:", ":3", "64:3,", ",64:3", "64:3,,64:2", "64:3;16:2", "64:three", "64:3.5",
-                           " 64:3", "64:3 ", "64:+3", "64:3:2", "0x40:3", "64:99999999999999999999"}) {
-    EXPECT_THAT([&] { parse_cascade(text); }, ThrowsMessage<Error>(HasSubstr("such as 16:500,64:3"))) << text;
-  }
-  for (const char* text : {"12:5", "0:5", "-8:5", "128:3", "2147483647:1"}) {
-    EXPECT_THAT([&] { parse_cascade(text); }, ThrowsMessage<Error>(HasSubstr("8, 16, 32 or 64"))) << text;
-  }
-  EXPECT_THAT([] { parse_cascade("64:0"); }, ThrowsMessage<Error>(HasSubstr("found keep 0")));
-  EXPECT_THAT([] { parse_cascade("64:-3"); }, ThrowsMessage<Error>(HasSubstr("found keep -3")));
-  EXPECT_THAT([] { parse_cascade("64:100000001"); }, ThrowsMessage<Error>(HasSubstr("at most 100000000")));
-  EXPECT_THAT([] { parse_cascade("16:3,64:500"); }, ThrowsMessage<Error>(HasSubstr("at most the 3")));
 }
 
 }  // namespace

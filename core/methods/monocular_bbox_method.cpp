@@ -81,7 +81,7 @@ TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver
   const TinyImages query = make_tiny_images(blob.labels, square, cascade);
 
   observe("look_up");
-  result.matches = look_up(*in_.database, query, cascade);
+  result.matches = look_up(*in_.database, query, cascade, in_.config.lookup.implementation);
   if (result.matches.empty()) return result.status = TrackStatus::no_hand, result;
   if (is_poor_match(result.matches, in_.config.lookup)) return result.status = TrackStatus::poor_match, result;
   const CoarseEstimate coarse = interpolate(*in_.database, result.matches, square_ray(square, in_.calibration.rgb),

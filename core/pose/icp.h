@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "core/base/implementation.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/hand/hand_model.h"
 
@@ -14,7 +15,8 @@ struct IcpConfig {
   int max_iterations = 100;          ///< >= 1
   double convergence_share = 1e-3;   ///< stop when the mean distance changes by less than this share, > 0
   bool cull_each_iteration = false;  ///< back faces: before the first iteration (paper) or in each
-  bool color_sensitive = true;       ///< closest triangles of a point's color (paper) or of any color
+  Implementation implementation = Implementation::fast;  ///< of the closest-point search; its answers are the same
+  bool color_sensitive = true;  ///< closest triangles of a point's color (paper) or of any color
 };
 
 enum class AlignmentStatus { converged, not_converged, too_few_points, degenerate_cloud, no_shared_color };

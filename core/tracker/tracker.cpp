@@ -92,7 +92,7 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
   if (trace != nullptr) trace->tiny = query.images.back();
 
   observe("look_up");
-  result.matches = look_up(*database_, query, config_.lookup.cascade);
+  result.matches = look_up(*database_, query, config_.lookup.cascade, config_.lookup.implementation);
   if (result.matches.empty()) return result.status = TrackStatus::no_hand, result;
   if (is_poor_match(result.matches, config_.lookup)) return result.status = TrackStatus::poor_match, result;
   const CoarseEstimate coarse = interpolate(*database_, result.matches, square_ray(square, calibration_.ir),

@@ -51,10 +51,12 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("detection", "max_border_pixels", c.detection.max_border_pixels, Range{0, 307200});
   visit("detection", "max_border_share", c.detection.max_border_share, kPositive);
   visit("lookup", "cascade", c.lookup.cascade, Range{});
+  visit("lookup", "implementation", c.lookup.implementation, Range{});
   visit("lookup", "interpolation_epsilon_px", c.lookup.interpolation_epsilon, kPositive);
   visit("lookup", "max_matching_error_share", c.lookup.max_matching_error, kPositive);
   visit("icp", "max_points", c.icp.max_points, Range{3, 307200});
   visit("icp", "subsampling_factor", c.icp.subsampling_factor, Range{0, 307200});
+  visit("icp", "implementation", c.icp.implementation, Range{});
   visit("icp", "max_iterations", c.icp.max_iterations, Range{1, 10000});
   visit("icp", "convergence_share", c.icp.convergence_share, kShare);
   visit("icp", "cull_each_iteration", c.icp.cull_each_iteration, Range{});
@@ -89,6 +91,11 @@ void read(ColorSpace& value, const json& j, const std::string& where, const std:
   if (!space) wrong_type(where, field, j, "\"yuv\" or \"rgb\"");
   value = *space;
 }
+void read(Implementation& value, const json& j, const std::string& where, const std::string& field) {
+  const auto implementation = j.is_string() ? implementation_from_string(j.get<std::string>()) : std::nullopt;
+  if (!implementation) wrong_type(where, field, j, "\"plain\" or \"fast\"");
+  value = *implementation;
+}
 void read(Cascade& value, const json& j, const std::string& where, const std::string& field) {
   if (!j.is_string()) wrong_type(where, field, j, "a cascade such as \"16:500,64:3\"");
   try {
@@ -110,6 +117,9 @@ json written(bool value) {
 json written(ColorSpace value) {
   return to_string(value);
 }
+json written(Implementation value) {
+  return to_string(value);
+}
 json written(const Cascade& value) {
   return to_string(value);
 }
@@ -122,6 +132,7 @@ void check_range(const std::string& field, Number value, const Range& range, std
 template <>
 void check_range(const std::string&, bool, const Range&, std::vector<std::string>&) {}
 void check_range(const std::string&, ColorSpace, const Range&, std::vector<std::string>&) {}
+void check_range(const std::string&, Implementation, const Range&, std::vector<std::string>&) {}
 void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
   try {
     parse_cascade(to_string(value));

@@ -63,7 +63,9 @@ FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<C
     const int neighbor = in.true_neighbors->nearest(truth.posture, truth.T_camera_hand, camera).entry;
     for (const Cascade& cascade : cascades) {
       LookUpTrace trace;
-      if (looked_up) look_up(*in.database, make_tiny_images(seen.cloud.labels, square, cascade), cascade, &trace);
+      if (looked_up)
+        look_up(*in.database, make_tiny_images(seen.cloud.labels, square, cascade), cascade, Implementation::fast,
+                &trace);
       for (size_t stage = 0; stage < cascade.size(); ++stage) {
         const bool ran = stage < trace.kept.size();
         const bool kept = ran && std::ranges::find(trace.kept[stage], neighbor) != trace.kept[stage].end();

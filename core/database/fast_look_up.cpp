@@ -1,0 +1,195 @@
+#include "core/database/fast_look_up.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/database/candidate.h"
+#include "core/database/look_up_kernels.h"
+
+namespace glovebench {
+namespace {
+
+constexpr uint32_t kNoLimit = std::numeric_limits<uint32_t>::max();
+
+/// What a query reads in the fields of an entry.
+std::vector<FieldChunk> chunks_of(const LabelImage& query) {
+  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  const size_t pixels = query.size();
+  std::vector<uint32_t> place(kColorCount * pixels / 64 + 1, kNone);  // of a chunk among those that are read
+  std::vector<FieldChunk> chunks;
+  chunks.reserve(place.size());
+  for (size_t i = 0; i < pixels; ++i) {
+    if (query[i] == 0) continue;
+    const size_t byte = (query[i] - 1) * pixels + i;
+    uint32_t& c = place[byte / 64];
+    if (c == kNone) {
+      c = static_cast<uint32_t>(chunks.size());
+      chunks.push_back({{}, static_cast<uint32_t>(byte / 64 * 64)});
+    }
+    chunks[c].mask[byte % 64] = 255;
+  }
+  return chunks;
+}
+
+/// The nearest entries met so far, at most `keep`.
+class Nearest {
+ public:
+  explicit Nearest(size_t keep) : keep_(keep) {}
+
+  /// An entry whose sum is above this is not among the nearest.
+  uint32_t limit() const { return heap_.size() < keep_ ? kNoLimit : heap_.front().sum; }
+  void add(const Candidate& candidate) {
+    if (heap_.size() == keep_) {
+      if (!(candidate < heap_.front())) return;
+      std::ranges::pop_heap(heap_);
+      heap_.pop_back();
+    }
+    heap_.push_back(candidate);
+    std::ranges::push_heap(heap_);
+  }
+  /// Best first.
+  std::vector<Candidate> sorted() && {
+    std::ranges::sort_heap(heap_);
+    return std::move(heap_);
+  }
+
+ private:
+  size_t keep_;
+  std::vector<Candidate> heap_;  ///< the farthest first
+};
+
+/// Distances of single entries to one query.
+class EntryDistances {
+ public:
+  EntryDistances(const Database& database, const LabelImage& query)
+      : fields_(database.fields(query.width(), 0)),
+        entry_bytes_(kColorCount * query.size()),
+        chunks_(chunks_of(query)) {}
+
+  /// Adds these to the nearest, in their order; `sum` of each is a lower bound of its distance, and they are sorted
+  /// by it. Asks for each entry's memory while it works on the one before.
+  void add(std::span<const Candidate> candidates, Nearest& nearest) const {
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      if (candidates[i].sum > nearest.limit()) return;
+      const uint8_t* const next = i + 1 < candidates.size() ? of(candidates[i + 1]) : nullptr;
+      nearest.add({add_chunks(of(candidates[i]), chunks_, nearest.limit(), next), candidates[i].entry});
+    }
+  }
+
+ private:
+  const uint8_t* of(const Candidate& candidate) const {
+    return fields_ + static_cast<size_t>(candidate.entry) * entry_bytes_;
+  }
+
+  const uint8_t* fields_;
+  size_t entry_bytes_;
+  std::vector<FieldChunk> chunks_;
+};
+
+/// The sums of a query over the rows of all entries.
+struct RowSums {
+  std::vector<uint16_t> sums;    ///< of whole blocks: also of what lies behind the last entry
+  std::vector<uint16_t> minima;  ///< of each block
+};
+
+RowSums sum_rows(const FieldRows& rows, const LabelImage& query) {
+  RowSums result{std::vector<uint16_t>(rows.block_count() * FieldRows::kBlock),
+                 std::vector<uint16_t>(rows.block_count())};
+  add_rows(rows, rows.rows_of(query), result.sums, result.minima);
+  return result;
+}
+
+/// The entries with the least sums, best first, by counting how often each sum occurs.
+std::vector<Candidate> least_sums(std::span<const uint16_t> sums, size_t keep) {
+  const uint16_t largest = *std::ranges::max_element(sums);
+  std::vector<uint32_t> place(size_t{largest} + 2);  // first counts, then where the next entry of a sum goes
+  for (const uint16_t sum : sums) ++place[sum + 1];
+  size_t limit = 0;  // sums from here on are not kept
+  for (size_t kept = 0; limit <= largest && kept < keep; ++limit) {
+    kept += place[limit + 1];
+    place[limit + 1] += place[limit];
+  }
+  std::vector<Candidate> candidates(place[limit]);
+  for (size_t entry = 0; entry < sums.size(); ++entry)
+    if (sums[entry] < limit) candidates[place[sums[entry]]++] = {sums[entry], static_cast<int>(entry)};
+  candidates.resize(std::min(keep, candidates.size()));
+  return candidates;
+}
+
+/// For each of the `count` blocks with the least minima, its best entry.
+std::vector<Candidate> best_of_blocks(const RowSums& bounds, size_t count) {
+  std::vector<Candidate> blocks;
+  for (size_t b = 0; b < bounds.minima.size(); ++b)
+    blocks.push_back({bounds.minima[b], static_cast<int>(b) * FieldRows::kBlock});
+  std::ranges::partial_sort(blocks, blocks.begin() + static_cast<ptrdiff_t>(count));
+  blocks.resize(count);
+  for (Candidate& block : blocks) {
+    // What fills the last block repeats its last entry: the first of the best is a real one.
+    while (bounds.sums[block.entry] != block.sum) ++block.entry;
+  }
+  return blocks;
+}
+
+/// The nearest entries by the distances themselves, though only few are computed.
+std::vector<Candidate> nearest_by_bounds(const FieldRows& rows, const EntryDistances& distances,
+                                         const LabelImage& query, size_t keep, int entry_count) {
+  const RowSums bounds = sum_rows(rows, query);
+  Nearest nearest(keep);
+  if (keep > bounds.minima.size() / 4) {  // too many for the blocks' minima to be a start
+    distances.add(least_sums(std::span(bounds.sums).first(entry_count), entry_count), nearest);
+    return std::move(nearest).sorted();
+  }
+  const std::vector<Candidate> start = best_of_blocks(bounds, keep + 1);
+  distances.add(start, nearest);
+  std::vector<Candidate> others;
+  for (size_t b = 0; b < bounds.minima.size(); ++b) {
+    if (bounds.minima[b] > nearest.limit()) continue;
+    const int first = static_cast<int>(b) * FieldRows::kBlock,
+              last = std::min(first + FieldRows::kBlock, entry_count);
+    for (int entry = first; entry < last; ++entry) {
+      const Candidate candidate{bounds.sums[entry], entry};
+      if (candidate.sum <= nearest.limit() && std::ranges::find(start, candidate) == start.end())
+        others.push_back(candidate);
+    }
+  }
+  std::ranges::sort(others);
+  distances.add(others, nearest);
+  return std::move(nearest).sorted();
+}
+
+std::vector<Candidate> first_stage(const Database& database, const LabelImage& query, size_t keep) {
+  const FieldRows& rows = database.field_rows(query.width());
+  if (!rows.exact()) {
+    return nearest_by_bounds(rows, EntryDistances(database, query), query, keep, database.entry_count());
+  }
+  const RowSums sums = sum_rows(rows, query);
+  return least_sums(std::span(sums.sums).first(database.entry_count()), keep);
+}
+
+std::vector<Candidate> later_stage(const Database& database, const LabelImage& query, size_t keep,
+                                   std::vector<Candidate> candidates) {
+  for (Candidate& candidate : candidates) candidate.sum = 0;  // nothing is known of their distances at this size
+  Nearest nearest(keep);
+  EntryDistances(database, query).add(candidates, nearest);
+  return std::move(nearest).sorted();
+}
+
+}  // namespace
+
+std::vector<Match> look_up_fast(const Database& database, const TinyImages& query, const Cascade& cascade,
+                                LookUpTrace* trace) {
+  std::vector<Candidate> candidates;
+  size_t glove_pixels = 0;
+  for (size_t s = 0; s < cascade.size(); ++s) {
+    const LabelImage& image = query.images[s];
+    glove_pixels = image.size() - static_cast<size_t>(std::ranges::count(image, uint8_t{0}));
+    if (glove_pixels == 0) return {};
+    const size_t keep = std::min<size_t>(cascade[s].keep, database.entry_count());
+    candidates =
+        s == 0 ? first_stage(database, image, keep) : later_stage(database, image, keep, std::move(candidates));
+    note_kept(candidates, trace);
+  }
+  return matches_of(candidates, glove_pixels);
+}
+
+}  // namespace glovebench

@@ -1,0 +1,185 @@
+#include "core/database/fast_look_up.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+#include "core/database/look_up_kernels.h"
+#include "core/database/test_database.h"
+#include "core/test_simd.h"
+
+namespace glovebench {
+namespace {
+
+bool equal(const std::vector<Match>& a, const std::vector<Match>& b) {
+  return std::ranges::equal(
+      a, b, [](const Match& x, const Match& y) { return x.entry == y.entry && x.error == y.error; });
+}
+
+/// The fast look-up's matches and trace are the plain one's.
+void expect_equal_to_plain(const Database& database, const TinyImages& query, const Cascade& cascade) {
+  LookUpTrace plain_trace{{{1}}}, fast_trace{{{2}}};  // of another look-up
+  const std::vector<Match> plain = look_up(database, query, cascade, Implementation::plain, &plain_trace);
+  const std::vector<Match> fast = look_up(database, query, cascade, Implementation::fast, &fast_trace);
+  EXPECT_TRUE(equal(plain, fast)) << to_string(cascade);
+  EXPECT_EQ(plain_trace.kept, fast_trace.kept) << to_string(cascade);
+}
+
+/// A query that is hard in one of several ways, as a tiny image of one size. The same number gives the same query.
+LabelImage hostile_query(const Database& database, int size, int number) {
+  RandomStream random(1, "fast look-up", number, "query");
+  const auto below = [&](int n) { return static_cast<int>(random.uniform(0, n)); };
+  LabelImage query = entry_image(database, size, below(database.entry_count()));
+  const auto any_color = [&] { return static_cast<uint8_t>(1 + below(kColorCount)); };
+  switch (number % 8) {
+    case 0:  // a view itself
+      break;
+    case 1:  // wrong labels here and there
+      for (uint8_t& label : query)
+        if (random.uniform(0, 1) < 0.1) label = static_cast<uint8_t>(below(kColorCount + 1));
+      break;
+    case 2: {  // shifted
+      const LabelImage before = query;
+      const int du = below(9) - 4, dv = below(9) - 4;
+      for (int v = 0; v < size; ++v)
+        for (int u = 0; u < size; ++u)
+          query(u, v) = before.contains(u + du, v + dv) ? before(u + du, v + dv) : uint8_t{0};
+      break;
+    }
+    case 3:  // glove everywhere, in one color: most entries are far away
+      std::ranges::fill(query, any_color());
+      break;
+    case 4:  // noise alone
+      for (uint8_t& label : query) label = static_cast<uint8_t>(below(kColorCount + 1));
+      break;
+    case 5:  // a single pixel: most entries are equally near
+      std::ranges::fill(query, uint8_t{0});
+      query[below(static_cast<int>(query.size()))] = any_color();
+      break;
+    case 6: {  // one color of a view
+      const uint8_t color = any_color();
+      for (uint8_t& label : query)
+        if (label != color) label = 0;
+      break;
+    }
+    case 7: {  // half of one view and half of another
+      const LabelImage other = entry_image(database, size, below(database.entry_count()));
+      std::copy_n(other.begin(), other.size() / 2, query.begin());
+      break;
+    }
+  }
+  return query;
+}
+
+TinyImages hostile_queries(const Database& database, const Cascade& cascade, int number) {
+  TinyImages query;
+  for (const CascadeStage& stage : cascade) query.images.push_back(hostile_query(database, stage.size, number));
+  return query;
+}
+
+TEST(FastLookUp, agrees_with_the_plain_one_on_each_instruction_set) {
+  const Database& database = test_database();
+  on_each_instruction_set([&] {
+    for (const char* text : {"16:500,64:3", "64:3", "16:1000,32:300,64:3", "8:15", "8:1512,32:7", "32:3", "32:700",
+                             "64:1512", "64:100000,64:2", "8:1"}) {
+      const Cascade cascade = parse_cascade(text);
+      for (int number = 0; number < 32; ++number) {
+        SCOPED_TRACE(number);
+        expect_equal_to_plain(database, hostile_queries(database, cascade, number), cascade);
+      }
+    }
+  });
+}
+
+TEST(FastLookUpLong, finds_the_neighbors_of_brute_force_for_ten_thousand_queries) {
+  const Database& database = test_database();
+  const Cascade exact = parse_cascade("exact:3");
+  for (int number = 0; number < 10'000; ++number) {
+    const TinyImages query = hostile_queries(database, exact, number);
+    ASSERT_TRUE(equal(look_up(database, query, exact, Implementation::plain),
+                      look_up(database, query, exact, Implementation::fast)))
+        << number;
+  }
+}
+
+TEST(FastLookUp, works_with_databases_of_any_size) {
+  std::vector<int> sizes = {4, 6, 12, 24, 25, 31, 48, 50, 64};
+  PostureSet one = test_postures();
+  one.postures.resize(1);
+  one.posture_names.resize(1);
+  const Database database =
+      Database::build(one, render::test_hand(), {}, render::label_renderer_factory(), 2, {}, sizes);
+  on_each_instruction_set([&] {
+    for (const int size : sizes) {
+      for (const int keep : {1, 3, 756, 1'000'000}) {
+        const Cascade cascade = {{size, keep}};
+        for (int number = 0; number < 8; ++number)
+          expect_equal_to_plain(database, hostile_queries(database, cascade, number), cascade);
+      }
+    }
+  });
+}
+
+TEST(FastLookUp, sums_at_the_cap_do_not_overflow) {
+  // Glove in every pixel, no color in any entry: fields at the largest cap there is.
+  for (const int size : {16, 24, 32, 64}) {
+    const size_t pixels = static_cast<size_t>(size) * size;
+    const uint8_t cap = static_cast<uint8_t>(size * kFieldScale);
+    constexpr int kEntries = 70;
+    const AlignedBytes fields(pixels * kColorCount * kEntries + 64, cap);
+    const FieldRows rows(fields.data(), size, kEntries);
+    const LabelImage query(size, size, 7);
+    std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
+    FieldChunk everywhere{{}, 0};
+    std::ranges::fill(everywhere.mask, uint8_t{255});
+    std::vector<FieldChunk> chunks(pixels / 64, everywhere);
+    on_each_instruction_set([&] {
+      add_rows(rows, rows.rows_of(query), sums, minima);
+      const size_t expected = std::min<size_t>(65535, pixels * cap);
+      EXPECT_THAT(sums, testing::Each(expected)) << size;
+      EXPECT_THAT(minima, testing::Each(expected)) << size;
+      EXPECT_TRUE(!rows.exact() || pixels * cap < 65535) << "exact sums are not cut off";
+      EXPECT_EQ(add_chunks(fields.data(), chunks, 1'000'000, nullptr), pixels / 64 * 64 * cap) << size;
+    });
+  }
+}
+
+TEST(FastLookUp, adding_chunks_stops_above_the_limit) {
+  const AlignedBytes fields(64 * 100, 10);
+  FieldChunk one{{}, 0};
+  one.mask[5] = 255;
+  std::vector<FieldChunk> chunks(100, one);
+  for (size_t c = 0; c < chunks.size(); ++c) chunks[c].offset = static_cast<uint32_t>(64 * c);
+  on_each_instruction_set([&] {
+    EXPECT_EQ(add_chunks(fields.data(), chunks, 1000, nullptr), 1000u);
+    EXPECT_EQ(add_chunks(fields.data(), chunks, 5000, fields.data()), 1000u);
+    const uint32_t stopped = add_chunks(fields.data(), chunks, 200, nullptr);
+    EXPECT_GT(stopped, 200u);
+    EXPECT_LT(stopped, 1000u) << "went on to the end";
+    EXPECT_EQ(add_chunks(fields.data(), {}, 0, nullptr), 0u);
+  });
+}
+
+TEST(FieldRows, bound_every_distance_from_below) {
+  const Database& database = test_database();
+  for (const int size : kTinySizes) {
+    const FieldRows& rows = database.field_rows(size);
+    std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
+    for (int number = 0; number < 16; ++number) {
+      const LabelImage query = hostile_query(database, size, number);
+      add_rows(rows, rows.rows_of(query), sums, minima);
+      const auto glove = static_cast<float>(query.size() - std::ranges::count(query, 0));
+      for (int entry = 0; entry < database.entry_count(); entry += 7) {
+        const long sum = std::lround(distance(database, entry, query) * glove * kFieldScale);
+        ASSERT_LE(sums[entry], sum) << size << " px, entry " << entry;
+        if (rows.exact()) {
+          ASSERT_EQ(sums[entry], sum) << size << " px, entry " << entry;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace glovebench

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <tbb/cache_aligned_allocator.h>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/image.h"
+
+namespace glovebench {
+
+/// Bytes that start at a cache line.
+using AlignedBytes = std::vector<uint8_t, tbb::cache_aligned_allocator<uint8_t>>;
+
+/// A row that a query adds up, and how often.
+struct WeightedRow {
+  uint32_t row;
+  uint16_t weight;
+};
+
+/// The distance fields of one size once more, for a look at all entries at once: blocks of 64 entries, in a block a
+/// row for each color and cell, in a row the values of the block's entries side by side. A cell of small images is
+/// a pixel; one of larger images is 4 x 4 pixels and has the least of their values, so that sums over cells are
+/// lower bounds of sums over pixels.
+class FieldRows {
+ public:
+  static constexpr int kBlock = 64;                    ///< entries: a row is a cache line
+  static constexpr int kLargestExact = 24, kPool = 4;  ///< px
+
+  FieldRows() = default;
+  /// From the fields of `entry_count` entries, kColorCount fields of size * size each.
+  FieldRows(const uint8_t* fields, int size, int entry_count);
+
+  /// Sums over rows are the distances, not just bounds.
+  bool exact() const { return pool_ == 1; }
+  size_t block_count() const { return block_count_; }
+  size_t block_bytes() const { return static_cast<size_t>(kColorCount) * cells_ * cells_ * kBlock; }
+  const uint8_t* data() const { return values_.data(); }
+  uint8_t largest_value() const { return largest_value_; }
+
+  /// The rows that a query of this size adds up: how many of its pixels of a color lie in a cell.
+  std::vector<WeightedRow> rows_of(const LabelImage& query) const;
+
+ private:
+  int pool_ = 1;   ///< px
+  int cells_ = 0;  ///< a side
+  size_t block_count_ = 0;
+  uint8_t largest_value_ = 0;
+  AlignedBytes values_;  ///< entries behind the last one repeat it
+};
+
+}  // namespace glovebench

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/database/field_rows.h"
+
+namespace glovebench {
+
+/// 64 bytes of an entry's fields, of which a query reads some.
+struct FieldChunk {
+  alignas(64) uint8_t mask[64];  ///< 255 where it reads
+  uint32_t offset;               ///< from the start of the entry's fields, bytes
+};
+
+// The inner loops of the look-up, for the best instruction set of this processor (Highway). All give the same
+// result.
+
+/// For each entry of `field_rows` the weighted sum of these rows, 65535 if it is larger; `sums` has room for whole
+/// blocks. `block_minima`: the least sum of each block.
+void add_rows(const FieldRows& field_rows, std::span<const WeightedRow> rows, std::span<uint16_t> sums,
+              std::span<uint16_t> block_minima);
+
+/// The sum of what the chunks read, or any number above `limit` if the sum is above it. While it runs it asks for
+/// the same chunks at `next`, which may be null. Reads up to 63 bytes behind an entry's fields.
+uint32_t add_chunks(const uint8_t* fields, std::span<const FieldChunk> chunks, uint32_t limit, const uint8_t* next);
+
+}  // namespace glovebench
