@@ -11,6 +11,14 @@
 namespace glovebench::render {
 namespace {
 
+/// Held by the thread that draws. Whenever a context draws or is read, llvmpipe (Mesa 22.3) looks through what all
+/// contexts of the process are about to draw, and nothing keeps their threads from changing it meanwhile: without
+/// this, a process with several drawing threads crashes once in a few hours (lp_scene_is_resource_referenced).
+std::mutex& driver() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 /// The one place where Mesa is configured. It reads the variables when the first context is made. What a user's
 /// desktop needs must not reach it: another driver would draw other pixels, and one that is not there, or another
 /// version of GLSL, crashes OSMesa.
@@ -48,7 +56,10 @@ Context::Context() : state_(std::make_unique<State>()) {
                                           OSMESA_CONTEXT_MINOR_VERSION,
                                           5,
                                           0};
-  state_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+  {
+    const std::lock_guard lock(driver());
+    state_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
+  }
   if (!state_->context) {
     throw Error("renderer", "OpenGL context", "refused by OSMesa", "an off-screen OpenGL 4.5 core context");
   }
@@ -56,17 +67,20 @@ Context::Context() : state_(std::make_unique<State>()) {
 }
 
 Context::~Context() {
-  release();
+  OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
   OSMesaDestroyContext(state_->context);
+  driver().unlock();
 }
 
 void Context::make_current() const {
+  driver().lock();
   check(OSMesaMakeCurrent(state_->context, state_->buffer.data(), 0x1401 /* GL_UNSIGNED_BYTE */, 4, 4),
         "an OSMesa context can be made current");
 }
 
 void Context::release() const {
   OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+  driver().unlock();
 }
 
 }  // namespace glovebench::render
