@@ -9,24 +9,23 @@
 namespace glovebench {
 namespace {
 
+/// A look at all entries' rows costs as much as the distances of this share of them.
+constexpr size_t kEntriesAnAddition = 64;
 constexpr uint32_t kNoLimit = std::numeric_limits<uint32_t>::max();
 
-/// What a query reads in the fields of an entry.
-std::vector<FieldChunk> chunks_of(const LabelImage& query) {
-  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-  const size_t pixels = query.size();
-  std::vector<uint32_t> place(kColorCount * pixels / 64 + 1, kNone);  // of a chunk among those that are read
+/// What a query reads in the fields of an entry: its chunks, color by color.
+std::vector<FieldChunk> chunks_of(const LabelImage& query, const QueryLabels& labels) {
+  constexpr size_t kChunk = QueryLabels::kChunk;
+  std::array<uint32_t, QueryLabels::kLargest / kChunk> colors{};  // in each chunk: a bit each
+  for (size_t i = 0; i < query.size(); ++i) colors[i / kChunk] |= 1u << labels.labels[i];
   std::vector<FieldChunk> chunks;
-  chunks.reserve(place.size());
-  for (size_t i = 0; i < pixels; ++i) {
-    if (query[i] == 0) continue;
-    const size_t byte = (query[i] - 1) * pixels + i;
-    uint32_t& c = place[byte / 64];
-    if (c == kNone) {
-      c = static_cast<uint32_t>(chunks.size());
-      chunks.push_back({{}, static_cast<uint32_t>(byte / 64 * 64)});
+  chunks.reserve(colors.size() * 4);
+  for (uint8_t color = 1; color <= kColorCount; ++color) {
+    for (size_t pixel = 0; pixel < query.size(); pixel += kChunk) {
+      if ((colors[pixel / kChunk] >> color & 1) == 0) continue;
+      chunks.push_back(
+          {static_cast<uint32_t>((color - 1) * query.size() + pixel), static_cast<uint16_t>(pixel), color});
     }
-    chunks[c].mask[byte % 64] = 255;
   }
   return chunks;
 }
@@ -62,9 +61,10 @@ class Nearest {
 class EntryDistances {
  public:
   EntryDistances(const Database& database, const LabelImage& query)
-      : fields_(database.fields(query.width(), 0)),
-        entry_bytes_(kColorCount * query.size()),
-        chunks_(chunks_of(query)) {}
+      : fields_(database.fields(query.width(), 0)), entry_bytes_(kColorCount * query.size()) {
+    std::ranges::copy(query, labels_.labels);
+    chunks_ = chunks_of(query, labels_);
+  }
 
   /// Adds these to the nearest, in their order; `sum` of each is a lower bound of its distance, and they are sorted
   /// by it. Asks for each entry's memory while it works on the one before.
@@ -72,7 +72,7 @@ class EntryDistances {
     for (size_t i = 0; i < candidates.size(); ++i) {
       if (candidates[i].sum > nearest.limit()) return;
       const uint8_t* const next = i + 1 < candidates.size() ? of(candidates[i + 1]) : nullptr;
-      nearest.add({add_chunks(of(candidates[i]), chunks_, nearest.limit(), next), candidates[i].entry});
+      nearest.add({add_chunks(of(candidates[i]), labels_, chunks_, nearest.limit(), next), candidates[i].entry});
     }
   }
 
@@ -83,6 +83,7 @@ class EntryDistances {
 
   const uint8_t* fields_;
   size_t entry_bytes_;
+  QueryLabels labels_;
   std::vector<FieldChunk> chunks_;
 };
 
@@ -168,7 +169,14 @@ std::vector<Candidate> first_stage(const Database& database, const LabelImage& q
 
 std::vector<Candidate> later_stage(const Database& database, const LabelImage& query, size_t keep,
                                    std::vector<Candidate> candidates) {
-  for (Candidate& candidate : candidates) candidate.sum = 0;  // nothing is known of their distances at this size
+  const FieldRows& rows = database.field_rows(query.width());
+  if (candidates.size() > database.entry_count() / kEntriesAnAddition) {
+    const RowSums bounds = sum_rows(rows, query);
+    for (Candidate& candidate : candidates) candidate.sum = bounds.sums[candidate.entry];
+    std::ranges::sort(candidates);
+  } else {
+    for (Candidate& candidate : candidates) candidate.sum = 0;
+  }
   Nearest nearest(keep);
   EntryDistances(database, query).add(candidates, nearest);
   return std::move(nearest).sorted();

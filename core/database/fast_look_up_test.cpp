@@ -131,33 +131,36 @@ TEST(FastLookUp, sums_at_the_cap_do_not_overflow) {
     const FieldRows rows(fields.data(), size, kEntries);
     const LabelImage query(size, size, 7);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
-    FieldChunk everywhere{{}, 0};
-    std::ranges::fill(everywhere.mask, uint8_t{255});
-    std::vector<FieldChunk> chunks(pixels / 64, everywhere);
+    QueryLabels labels;
+    std::ranges::copy(query, labels.labels);
+    std::vector<FieldChunk> chunks;
+    for (size_t pixel = 0; pixel < pixels; pixel += 64)
+      chunks.push_back({static_cast<uint32_t>(6 * pixels + pixel), static_cast<uint16_t>(pixel), 7});
     on_each_instruction_set([&] {
       add_rows(rows, rows.rows_of(query), sums, minima);
       const size_t expected = std::min<size_t>(65535, pixels * cap);
       EXPECT_THAT(sums, testing::Each(expected)) << size;
       EXPECT_THAT(minima, testing::Each(expected)) << size;
       EXPECT_TRUE(!rows.exact() || pixels * cap < 65535) << "exact sums are not cut off";
-      EXPECT_EQ(add_chunks(fields.data(), chunks, 1'000'000, nullptr), pixels / 64 * 64 * cap) << size;
+      EXPECT_EQ(add_chunks(fields.data(), labels, chunks, 1'000'000, nullptr), pixels * cap) << size;
     });
   }
 }
 
 TEST(FastLookUp, adding_chunks_stops_above_the_limit) {
   const AlignedBytes fields(64 * 100, 10);
-  FieldChunk one{{}, 0};
-  one.mask[5] = 255;
-  std::vector<FieldChunk> chunks(100, one);
-  for (size_t c = 0; c < chunks.size(); ++c) chunks[c].offset = static_cast<uint32_t>(64 * c);
+  QueryLabels labels;
+  labels.labels[5] = 3;
+  labels.labels[6] = 2;  // another color
+  std::vector<FieldChunk> chunks;
+  for (uint32_t c = 0; c < 100; ++c) chunks.push_back({64 * c, 0, 3});
   on_each_instruction_set([&] {
-    EXPECT_EQ(add_chunks(fields.data(), chunks, 1000, nullptr), 1000u);
-    EXPECT_EQ(add_chunks(fields.data(), chunks, 5000, fields.data()), 1000u);
-    const uint32_t stopped = add_chunks(fields.data(), chunks, 200, nullptr);
+    EXPECT_EQ(add_chunks(fields.data(), labels, chunks, 1000, nullptr), 1000u);
+    EXPECT_EQ(add_chunks(fields.data(), labels, chunks, 5000, fields.data()), 1000u);
+    const uint32_t stopped = add_chunks(fields.data(), labels, chunks, 200, nullptr);
     EXPECT_GT(stopped, 200u);
     EXPECT_LT(stopped, 1000u) << "went on to the end";
-    EXPECT_EQ(add_chunks(fields.data(), {}, 0, nullptr), 0u);
+    EXPECT_EQ(add_chunks(fields.data(), labels, {}, 0, nullptr), 0u);
   });
 }
 

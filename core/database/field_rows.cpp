@@ -7,14 +7,27 @@
 namespace glovebench {
 namespace {
 
+constexpr int kPool = FieldRows::kPool;
+constexpr int kWidest = 64;  // px
+
+/// The least of each kPool neighbors along a row, every one a cell.
+void pool_row(const std::array<uint8_t, kWidest + kPool>& row, int cells, uint8_t* minima) {
+  static_assert(kPool == 4, "two halvings");
+  std::array<uint8_t, kWidest + kPool> pairs{}, fours{};
+  for (int u = 0; u < kWidest + 2; ++u) pairs[u] = std::min(row[u], row[u + 1]);
+  for (int u = 0; u < kWidest; ++u) fours[u] = std::min(pairs[u], pairs[u + 2]);
+  for (int cell = 0; cell < cells; ++cell) minima[cell] = fours[cell * kPool];
+}
+
 /// The least value of each cell of one entry: kColorCount fields of cells * cells.
-void pool_entry(const uint8_t* fields, int size, int pool, int cells, uint8_t* minima) {
-  std::fill_n(minima, static_cast<size_t>(kColorCount) * cells * cells, uint8_t{255});
+void pool_entry(const uint8_t* fields, int size, int cells, uint8_t* minima) {
   for (int color = 0; color < kColorCount; ++color) {
-    uint8_t* const of_color = minima + static_cast<ptrdiff_t>(color) * cells * cells;
-    for (int v = 0; v < size; ++v) {
-      uint8_t* const row = of_color + static_cast<ptrdiff_t>(v / pool) * cells;
-      for (int u = 0; u < size; ++u, ++fields) row[u / pool] = std::min(row[u / pool], *fields);
+    for (int top = 0; top < size; top += kPool, minima += cells) {
+      std::array<uint8_t, kWidest + kPool> row;
+      row.fill(255);
+      for (int v = top; v < std::min(size, top + kPool); ++v, fields += size)
+        for (int u = 0; u < size; ++u) row[u] = std::min(row[u], fields[u]);
+      pool_row(row, cells, minima);
     }
   }
 }
@@ -29,26 +42,33 @@ FieldRows::FieldRows(const uint8_t* fields, int size, int entry_count)
   const size_t rows = static_cast<size_t>(kColorCount) * cells_ * cells_;
   const size_t entry_bytes = static_cast<size_t>(kColorCount) * size * size;
   tbb::parallel_for(size_t{0}, block_count_, [&](size_t block) {
-    std::vector<uint8_t> minima(rows);
+    std::vector<uint8_t> pooled(rows);
     uint8_t* const target = values_.data() + block * block_bytes();
     for (int e = 0; e < kBlock; ++e) {
       const size_t entry = std::min(block * kBlock + e, static_cast<size_t>(entry_count) - 1);
-      pool_entry(fields + entry * entry_bytes, size, pool_, cells_, minima.data());
-      for (size_t row = 0; row < rows; ++row) target[row * kBlock + e] = minima[row];
+      const uint8_t* values = fields + entry * entry_bytes;
+      if (!exact()) {
+        pool_entry(values, size, cells_, pooled.data());
+        values = pooled.data();
+      }
+      for (size_t row = 0; row < rows; ++row) target[row * kBlock + e] = values[row];
     }
   });
+  for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
   if (!values_.empty()) largest_value_ = *std::max_element(values_.begin(), values_.end());
 }
 
 std::vector<WeightedRow> FieldRows::rows_of(const LabelImage& query) const {
   std::vector<uint16_t> counts(static_cast<size_t>(kColorCount) * cells_ * cells_);
   for (int v = 0; v < query.height(); ++v) {
+    const uint8_t* const labels = query.data() + static_cast<ptrdiff_t>(v) * query.width();
+    uint16_t* const row_of_cells = counts.data() + static_cast<ptrdiff_t>(v / pool_) * cells_;
     for (int u = 0; u < query.width(); ++u) {
-      const int label = query(u, v);
-      if (label != 0) ++counts[((label - 1) * cells_ + v / pool_) * cells_ + u / pool_];
+      if (labels[u] != 0) ++row_of_cells[(labels[u] - 1) * cells_ * cells_ + cell_of_pixel_[u]];
     }
   }
   std::vector<WeightedRow> rows;
+  rows.reserve(counts.size() / 4);
   for (size_t row = 0; row < counts.size(); ++row)
     if (counts[row] != 0) rows.push_back({static_cast<uint32_t>(row), counts[row]});
   return rows;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <tbb/cache_aligned_allocator.h>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,8 +43,9 @@ class FieldRows {
   std::vector<WeightedRow> rows_of(const LabelImage& query) const;
 
  private:
-  int pool_ = 1;   ///< px
-  int cells_ = 0;  ///< a side
+  int pool_ = 1;                             ///< px
+  int cells_ = 0;                            ///< a side
+  std::array<uint8_t, 64> cell_of_pixel_{};  ///< along a side
   size_t block_count_ = 0;
   uint8_t largest_value_ = 0;
   AlignedBytes values_;  ///< entries behind the last one repeat it

@@ -53,17 +53,19 @@ void add_block_weighted(const uint8_t* block, const uint8_t* next, std::span<con
 }
 
 /// Of a whole chunk.
-uint32_t add_chunk(const uint8_t* fields, const FieldChunk& chunk) {
+uint32_t add_chunk(const uint8_t* fields, const uint8_t* labels, const FieldChunk& chunk) {
   uint32_t sum = 0;
-  for (size_t i = 0; i < 64; ++i) sum += fields[chunk.offset + i] & chunk.mask[i];
+  for (size_t i = 0; i < QueryLabels::kChunk; ++i)
+    sum += labels[chunk.pixels + i] == chunk.color ? fields[chunk.field + i] : uint8_t{0};
   return sum;
 }
 
-uint32_t add_stride(const uint8_t* fields, std::span<const FieldChunk> chunks, const uint8_t* next) {
+uint32_t add_stride(const uint8_t* fields, const uint8_t* labels, std::span<const FieldChunk> chunks,
+                    const uint8_t* next) {
   uint32_t sum = 0;
   for (const FieldChunk& chunk : chunks) {
-    if (next != nullptr) hwy::Prefetch(next + chunk.offset);
-    sum += add_chunk(fields, chunk);
+    if (next != nullptr) hwy::Prefetch(next + chunk.field);
+    sum += add_chunk(fields, labels, chunk);
   }
   return sum;
 }
@@ -130,13 +132,16 @@ void add_block_weighted(const uint8_t* block, const uint8_t* next, std::span<con
   store_sums(total, sums, least);
 }
 
-uint32_t add_stride(const uint8_t* fields, std::span<const FieldChunk> chunks, const uint8_t* next) {
+uint32_t add_stride(const uint8_t* fields, const uint8_t* labels, std::span<const FieldChunk> chunks,
+                    const uint8_t* next) {
   constexpr hn::ScalableTag<uint64_t> kLongs;
   auto sums = hn::Zero(kLongs);
   for (const FieldChunk& chunk : chunks) {
-    if (next != nullptr) hwy::Prefetch(next + chunk.offset);
-    for (size_t i = 0; i < 64; i += hn::Lanes(kBytes)) {
-      const auto read = hn::And(hn::LoadU(kBytes, fields + chunk.offset + i), hn::Load(kBytes, chunk.mask + i));
+    if (next != nullptr) hwy::Prefetch(next + chunk.field);
+    const Bytes color = hn::Set(kBytes, chunk.color);
+    for (size_t i = 0; i < QueryLabels::kChunk; i += hn::Lanes(kBytes)) {
+      const auto is_read = hn::Eq(hn::Load(kBytes, labels + chunk.pixels + i), color);
+      const Bytes read = hn::IfThenElseZero(is_read, hn::LoadU(kBytes, fields + chunk.field + i));
       sums = hn::Add(sums, hn::SumsOf8(read));
     }
   }
@@ -160,11 +165,12 @@ void AddRows(const FieldRows& field_rows, std::span<const WeightedRow> rows, uin
   }
 }
 
-uint32_t AddChunks(const uint8_t* fields, std::span<const FieldChunk> chunks, uint32_t limit, const uint8_t* next) {
+uint32_t AddChunks(const uint8_t* fields, const uint8_t* labels, std::span<const FieldChunk> chunks, uint32_t limit,
+                   const uint8_t* next) {
   uint32_t total = 0;
   while (!chunks.empty()) {
     const size_t count = std::min(chunks.size(), kStride);
-    total += add_stride(fields, chunks.first(count), next);
+    total += add_stride(fields, labels, chunks.first(count), next);
     if (total > limit) return total;
     chunks = chunks.subspan(count);
   }
@@ -191,9 +197,9 @@ void add_rows(const FieldRows& field_rows, std::span<const WeightedRow> rows, st
   HWY_DYNAMIC_DISPATCH(AddRows)(field_rows, rows, sums.data(), block_minima.data());
 }
 
-uint32_t add_chunks(const uint8_t* fields, std::span<const FieldChunk> chunks, uint32_t limit,
-                    const uint8_t* next) {
-  return HWY_DYNAMIC_DISPATCH(AddChunks)(fields, chunks, limit, next);
+uint32_t add_chunks(const uint8_t* fields, const QueryLabels& query, std::span<const FieldChunk> chunks,
+                    uint32_t limit, const uint8_t* next) {
+  return HWY_DYNAMIC_DISPATCH(AddChunks)(fields, query.labels, chunks, limit, next);
 }
 
 }  // namespace glovebench

@@ -9,11 +9,19 @@ namespace {
 constexpr double kNumerator = 345.489;  // m; f * 75 mm baseline * 8 steps a px
 constexpr double kInfinity = 1089.41;   // disparity at infinite depth
 
-constexpr auto kDepths = [] {
-  std::array<float, 2048> depths{};
+using DepthTable = std::array<float, 2048>;
+
+constexpr DepthTable kDepths = [] {
+  DepthTable depths{};
   for (int raw = 0; raw <= kMaxDisparity; ++raw) depths[raw] = static_cast<float>(kNumerator / (kInfinity - raw));
   return depths;
 }();
+
+DepthImage look_up_all(const Image<uint16_t>& raw, const DepthTable& depths) {
+  DepthImage depth(raw.width(), raw.height());
+  for (size_t i = 0; i < raw.size(); ++i) depth[i] = raw[i] < depths.size() ? depths[raw[i]] : 0.0f;
+  return depth;
+}
 
 }  // namespace
 
@@ -28,9 +36,14 @@ uint16_t disparity_from_depth(double z) {
 }
 
 DepthImage depth_from_disparity(const Image<uint16_t>& raw) {
-  DepthImage depth(raw.width(), raw.height());
-  for (size_t i = 0; i < raw.size(); ++i) depth[i] = depth_from_disparity(raw[i]);
-  return depth;
+  return look_up_all(raw, kDepths);
+}
+
+DepthImage depth_from_disparity(const Image<uint16_t>& raw, double z_max) {
+  DepthTable depths = kDepths;
+  for (float& z : depths)
+    if (z > z_max) z = 0;
+  return look_up_all(raw, depths);
 }
 
 }  // namespace glovebench

@@ -17,5 +17,7 @@ float depth_from_disparity(uint16_t raw);
 uint16_t disparity_from_depth(double z);
 
 DepthImage depth_from_disparity(const Image<uint16_t>& raw);
+/// The same, 0 also for what is farther than `z_max` (m).
+DepthImage depth_from_disparity(const Image<uint16_t>& raw, double z_max);
 
 }  // namespace glovebench

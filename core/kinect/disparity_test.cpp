@@ -53,5 +53,16 @@ TEST(Disparity, ConvertsImagesPixelByPixel) {
   EXPECT_EQ(depth(2, 1), depth_from_disparity(744));
 }
 
+TEST(Disparity, LeavesOutWhatIsTooFar) {
+  Image<uint16_t> raw(3, 1, kNoDisparity);
+  raw(1, 0) = 398;
+  raw(2, 0) = 744;
+  const DepthImage depth = depth_from_disparity(raw, 0.9);
+  EXPECT_EQ(depth(0, 0), 0.0f);
+  EXPECT_EQ(depth(1, 0), depth_from_disparity(398));
+  EXPECT_EQ(depth(2, 0), 0.0f) << "at 1 m";
+  EXPECT_EQ(depth_from_disparity(raw, 1.1), depth_from_disparity(raw));
+}
+
 }  // namespace
 }  // namespace glovebench

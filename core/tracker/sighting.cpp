@@ -5,12 +5,13 @@
 
 namespace glovebench {
 
-Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
-             const TrackerConfig& config, const StageObserver& observe) {
+namespace {
+
+Sighting see_in(DepthImage depth, const ColorImage& color, const RgbdCalibration& calibration,
+                const ColorTable& table, const TrackerConfig& config, const StageObserver& observe) {
   Sighting seen;
-  observe("register");
-  seen.depth = depth_from_disparity(frame.raw_disparity);
-  seen.mapped = register_color(seen.depth, frame.color, calibration, config.registration);
+  seen.depth = std::move(depth);
+  seen.mapped = register_color(seen.depth, color, calibration, config.registration);
 
   observe("segment");
   seen.labels = segment(seen.mapped, table);
@@ -23,6 +24,22 @@ Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const
   }
   seen.status = detect(seen.cloud, config.detection);
   return seen;
+}
+
+}  // namespace
+
+Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+             const TrackerConfig& config, const StageObserver& observe, Extent extent) {
+  observe("register");
+  // A filter over neighbors looks across the border of what is left out.
+  if (extent == Extent::reach && !config.segmentation.majority_filter) {
+    Sighting seen = see_in(depth_from_disparity(frame.raw_disparity, config.volume.z_max + kCutOffMargin),
+                           frame.color, calibration, table, config, observe);
+    // With too few points the status depends on what lies outside.
+    if (static_cast<int>(seen.cloud.points.size()) >= config.detection.min_pixels) return seen;
+    observe("register");
+  }
+  return see_in(depth_from_disparity(frame.raw_disparity), frame.color, calibration, table, config, observe);
 }
 
 }  // namespace glovebench

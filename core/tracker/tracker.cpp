@@ -79,7 +79,8 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
   TrackResult result;
   result.timestamp_us = frame.depth_timestamp_us;
 
-  const Sighting seen = see(frame, calibration_, *table_, config_, observe);
+  const Sighting seen =
+      see(frame, calibration_, *table_, config_, observe, trace == nullptr ? Extent::reach : Extent::everything);
   const LabeledCloud& cloud = seen.cloud;
   result.cloud_points = static_cast<int>(cloud.points.size());
   result.status = seen.status;

@@ -1,0 +1,74 @@
+#include "core/tracker/sighting.h"
+
+#include <gtest/gtest.h>
+
+#include "core/kinect/disparity.h"
+#include "core/tracker/test_scene.h"
+
+namespace glovebench {
+namespace {
+
+using render::test_pose;
+
+Sighting seen(const DeviceFrame& frame, Extent extent, const TrackerConfig& config = {}) {
+  return see(
+      frame, synthetic_calibration(), test_color_table(), config, [](std::string_view) {}, extent);
+}
+
+/// What lies beyond reach changes neither the cloud nor the status.
+void expect_alike(const DeviceFrame& frame, const TrackerConfig& config = {}) {
+  const Sighting all = seen(frame, Extent::everything, config), near = seen(frame, Extent::reach, config);
+  EXPECT_EQ(near.status, all.status);
+  EXPECT_EQ(near.cloud.labels, all.cloud.labels);
+  EXPECT_EQ(near.cloud.labeled_cut_off, all.cloud.labeled_cut_off);
+  ASSERT_EQ(near.cloud.points.size(), all.cloud.points.size());
+  for (size_t i = 0; i < all.cloud.points.size(); ++i) {
+    ASSERT_EQ(near.cloud.points[i].p, all.cloud.points[i].p);
+    ASSERT_EQ(near.cloud.points[i].label, all.cloud.points[i].label);
+  }
+}
+
+TEST(Sighting, within_reach_shows_the_same_hand) {
+  for (const double z : {0.30, 0.38, 0.45, 0.7, 0.9, 0.94, 0.97, 1.0, 1.03}) {
+    for (const double tilt : {0.0, 0.7}) {
+      SCOPED_TRACE(testing::Message() << "z " << z << ", tilt " << tilt);
+      expect_alike(shoot(test_pose({0.02, 0.03, z}, {tilt, 0.2, 0.3})).frame);
+    }
+  }
+  for (const Eigen::Vector3d& aside : {Eigen::Vector3d(0.6, 0, 0.6), Eigen::Vector3d(0.3, 0.1, 0.6)})
+    expect_alike(shoot(test_pose(aside)).frame);
+}
+
+TEST(Sighting, within_reach_leaves_the_far_scene_out) {
+  const DeviceFrame frame = shoot(test_pose({0.02, 0.03, 0.7})).frame;
+  const Sighting all = seen(frame, Extent::everything), near = seen(frame, Extent::reach);
+  const auto measured = [](const Sighting& s) {
+    return std::ranges::count_if(s.depth, [](float z) { return z > 0; });
+  };
+  EXPECT_LT(measured(near), measured(all) / 3);
+  EXPECT_EQ(seen(shoot(test_pose({0.6, 0, 0.6})).frame, Extent::reach).depth,
+            seen(shoot(test_pose({0.6, 0, 0.6})).frame, Extent::everything).depth)
+      << "without a hand everything counts";
+}
+
+TEST(Sighting, within_reach_keeps_what_hides_the_hand) {
+  // A gray board before the volume hides a part of the hand from the RGB camera more than from the IR camera.
+  DeviceFrame frame = shoot(test_pose({0.02, 0.03, 0.7})).frame;
+  const uint16_t board = disparity_from_depth(0.33);
+  for (int v = 0; v < frame.raw_disparity.height(); ++v)
+    for (int u = 250; u < 320; ++u) frame.raw_disparity(u, v) = board;
+  expect_alike(frame);
+}
+
+TEST(Sighting, within_reach_heeds_the_filters) {
+  const DeviceFrame frame = shoot(test_pose({0.02, 0.03, 0.9})).frame;
+  TrackerConfig config;
+  config.segmentation.majority_filter = true;
+  expect_alike(frame, config);
+  config.segmentation.majority_filter = false;
+  config.segmentation.largest_component = true;
+  expect_alike(frame, config);
+}
+
+}  // namespace
+}  // namespace glovebench
