@@ -23,23 +23,23 @@ class Surface {
   /// The label under which a surface without colors (`any_color`) keeps all its faces; its points have it too.
   static constexpr uint8_t kAnyColor = 0;
 
+  Surface() = default;
   /// Faces turned away from `viewpoint_hand` are culled (section III-C).
   Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
-          Coloring coloring = Coloring::by_color);
+          Coloring coloring = Coloring::by_color) {
+    assign(model, hand, viewpoint_hand, coloring);
+  }
+  /// Made anew; keeps its memory.
+  void assign(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
+              Coloring coloring);
 
-  const std::vector<Face>& faces(uint8_t label) const { return colors_[label].faces; }
+  const std::vector<Face>& faces(uint8_t label) const { return faces_[label]; }
   bool empty() const;
   /// Area-weighted center of all faces as seen from the viewpoint (projected area).
   const Eigen::Vector3f& center() const { return center_; }
 
  private:
-  friend class ClosestPointSearch;
-  /// Bounding spheres of the faces, for pruning.
-  struct Color {
-    std::vector<Face> faces;
-    std::vector<float> x, y, z, radius;
-  };
-  std::array<Color, kColorCount + 1> colors_;
+  std::array<std::vector<Face>, kColorCount + 1> faces_;
   Eigen::Vector3f center_ = Eigen::Vector3f::Zero();
 };
 
@@ -54,28 +54,8 @@ struct ClosestPoint {
 Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Face& face);
 
 /// For each point (hand frame) the closest point on the faces of its label; of equally close faces the first. As
-/// the paper describes it: every face of the color.
+/// the paper describes it: every face of the color. A point that is not finite has none (face -1), as has one so
+/// far away that the square of its distance is not finite.
 std::vector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand, const Surface& surface);
-
-/// The same answer, faster, for points that move little from call to call. A face is skipped if its bounding sphere
-/// is farther than the best so far; and a point keeps its face without a search if it has moved less than would
-/// bring any other face nearer. One object follows one set of points on one surface, which outlives it.
-class ClosestPointSearch {
- public:
-  explicit ClosestPointSearch(const Surface& surface) : surface_(surface) {}
-  std::vector<ClosestPoint> operator()(std::span<const LabeledPoint> points_hand);
-
- private:
-  struct Memory {
-    Eigen::Vector3f p_hand;  ///< where the point was at its last full search
-    int face = -1;
-    float others_beyond = 0;  ///< every other face was at least this far from p_hand, m
-  };
-  ClosestPoint search(const LabeledPoint& point, Memory& memory);
-
-  const Surface& surface_;
-  std::vector<Memory> memory_;
-  std::vector<float> gap_;  ///< reused by `search`
-};
 
 }  // namespace glovebench

@@ -89,15 +89,6 @@ std::vector<LabeledPoint> points_around_the_hand(int count) {
   return points;
 }
 
-void expect_bit_equal(const std::vector<ClosestPoint>& found, const std::vector<ClosestPoint>& expected) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (size_t i = 0; i < found.size(); ++i) {
-    ASSERT_EQ(found[i].face, expected[i].face) << "point " << i;
-    ASSERT_EQ(found[i].distance, expected[i].distance) << "point " << i;
-    ASSERT_EQ(found[i].p_hand, expected[i].p_hand) << "point " << i;
-  }
-}
-
 TEST(ClosestPoints, plain_search_finds_the_nearest_face_of_the_color) {
   const PosedHand hand = test_hand().pose(render::test_posture());
   const Surface surface(test_hand(), hand, {0, 0.7f, 0});
@@ -114,50 +105,6 @@ TEST(ClosestPoints, plain_search_finds_the_nearest_face_of_the_color) {
   }
 }
 
-TEST(ClosestPoints, the_fast_search_equals_the_plain_one_bit_for_bit_however_the_points_move) {
-  const PosedHand hand = test_hand().pose(render::test_posture());
-  const Surface surface(test_hand(), hand, {0.1f, 0.7f, 0.1f});
-  ClosestPointSearch search(surface);
-  std::vector<LabeledPoint> points = points_around_the_hand(400);
-  RandomStream random(1, "closest", 0, "motions");
-  // Steps as the alignment makes them: large, then smaller and smaller, none at all, and a jump in between.
-  const std::vector<double> steps = {0,    0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 0,
-                                     1e-5, 1e-6, 0.1,  1e-4, 1e-4, 1e-7, 0};
-  for (const double step : steps) {
-    Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-    T.linear() = Eigen::AngleAxisf(static_cast<float>(5 * step), random_point(random, 1).normalized()).matrix();
-    T.translation() = random_point(random, step);
-    for (LabeledPoint& point : points) point.p = T * point.p;
-    expect_bit_equal(search(points), closest_points_plain(points, surface));
-    if (HasFatalFailure()) FAIL() << "after a step of " << step << " m";
-  }
-}
-
-TEST(ClosestPoints, many_small_steps_do_not_add_up_to_an_error) {
-  const PosedHand hand = test_hand().pose(render::test_posture());
-  const Surface surface(test_hand(), hand, {0, -0.7f, 0.1f});
-  ClosestPointSearch search(surface);
-  std::vector<LabeledPoint> points = points_around_the_hand(150);
-  for (int i = 0; i < 100; ++i) {
-    for (LabeledPoint& point : points) point.p += Eigen::Vector3f(4e-4f, -2e-4f, 3e-4f);
-    expect_bit_equal(search(points), closest_points_plain(points, surface));
-    if (HasFatalFailure()) FAIL() << "at step " << i;
-  }
-}
-
-TEST(ClosestPoints, equally_close_faces_give_the_first) {
-  // A vertex of the mesh is equally close to all the faces around it.
-  const PosedHand hand = test_hand().pose(Posture::Zero());
-  const Surface surface(test_hand(), hand, {0, 0.7f, 0});
-  std::vector<LabeledPoint> points;
-  for (uint8_t label = 1; label <= kColorCount; ++label) {
-    for (const Surface::Face& face : surface.faces(label)) points.push_back({face.c, label});
-  }
-  ClosestPointSearch search(surface);
-  expect_bit_equal(search(points), closest_points_plain(points, surface));
-  expect_bit_equal(search(points), closest_points_plain(points, surface));
-}
-
 TEST(ClosestPoints, a_color_that_faces_away_gives_face_minus_1) {
   // From inside the palm of the open hand no face of color 7 looks at the viewer; from outside each color shows.
   const PosedHand hand = test_hand().pose(Posture::Zero());
@@ -167,10 +114,19 @@ TEST(ClosestPoints, a_color_that_faces_away_gives_face_minus_1) {
   ASSERT_TRUE(from_inside.faces(7).empty());
   EXPECT_EQ(closest_points_plain(points, from_inside)[0].face, -1);
   EXPECT_GE(closest_points_plain(points, from_outside)[0].face, 0);
-  ClosestPointSearch inside(from_inside), outside(from_outside);
-  for (int again = 0; again < 2; ++again) {
-    EXPECT_EQ(inside(points)[0].face, -1);
-    EXPECT_GE(outside(points)[0].face, 0);
+}
+
+TEST(ClosestPoints, a_point_that_is_not_finite_or_very_far_away_has_none) {
+  const Surface surface(test_hand(), test_hand().pose(Posture::Zero()), {0, 0.7f, 0});
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+  for (const Eigen::Vector3f& p :
+       {Eigen::Vector3f(kNan, 0, 0), Eigen::Vector3f(0, 0, kNan), Eigen::Vector3f(0, kInf, 0),
+        Eigen::Vector3f(-kInf, kInf, 0), Eigen::Vector3f(0, 1e30f, 0)}) {
+    const LabeledPoint point{p, 5};
+    const ClosestPoint closest = closest_points_plain({&point, 1}, surface)[0];
+    EXPECT_EQ(closest.face, -1) << p.transpose();
+    EXPECT_EQ(closest.distance, 0);
+    EXPECT_EQ(closest.p_hand, Eigen::Vector3f(0, 0, 0));
   }
 }
 

@@ -1,23 +1,11 @@
 #include "core/pose/icp.h"
 
-#include "core/pose/closest_point.h"
 #include "core/pose/horn.h"
+#include "core/pose/matcher.h"
+#include "core/pose/robust_icp.h"
 
 namespace glovebench {
 namespace {
-
-Eigen::Vector3f viewpoint(const Eigen::Isometry3d& T_camera_hand) {
-  return T_camera_hand.inverse().translation().cast<float>();
-}
-
-/// The search runs in the hand frame: moving the points by the inverse pose is the same as moving the hand.
-std::vector<LabeledPoint> in_hand_frame(std::span<const LabeledPoint> points,
-                                        const Eigen::Isometry3d& T_camera_hand) {
-  const Eigen::Isometry3f T = T_camera_hand.inverse().cast<float>();
-  std::vector<LabeledPoint> result(points.begin(), points.end());
-  for (LabeledPoint& point : result) point.p = T * point.p;
-  return result;
-}
 
 struct Pairs {
   std::vector<Eigen::Vector3f> model_camera;
@@ -25,19 +13,20 @@ struct Pairs {
   double mean_distance = 0;
 };
 
-Pairs make_pairs(std::span<const LabeledPoint> cloud, std::span<const ClosestPoint> closest,
-                 const Eigen::Isometry3d& T_camera_hand) {
-  Pairs pairs;
+/// Into `pairs`, whose memory is kept.
+void make_pairs(const Matcher& matcher, const Eigen::Isometry3d& T_camera_hand, Pairs& pairs) {
+  pairs.model_camera.clear();
+  pairs.cloud_camera.clear();
   const Eigen::Isometry3f T = T_camera_hand.cast<float>();
   double sum = 0;
-  for (size_t i = 0; i < cloud.size(); ++i) {
-    if (closest[i].face < 0) continue;
-    pairs.model_camera.push_back(T * closest[i].p_hand);
-    pairs.cloud_camera.push_back(cloud[i].p);
-    sum += closest[i].distance;
+  for (size_t i = 0; i < matcher.cloud().size(); ++i) {
+    const ClosestPoint& closest = matcher.closest()[i];
+    if (closest.face < 0) continue;
+    pairs.model_camera.push_back(T * closest.p_hand);
+    pairs.cloud_camera.push_back(matcher.cloud()[i].p);
+    sum += closest.distance;
   }
-  if (!pairs.cloud_camera.empty()) pairs.mean_distance = sum / static_cast<double>(pairs.cloud_camera.size());
-  return pairs;
+  pairs.mean_distance = pairs.cloud_camera.empty() ? 0 : sum / static_cast<double>(pairs.cloud_camera.size());
 }
 
 /// The points of a cloud that take part, with the labels under which a surface keeps its faces.
@@ -70,26 +59,23 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = R_camera_hand;
   T.translation() = center;
-  const Surface surface(model, hand, viewpoint(T));
+  const Surface surface(model, hand, viewpoint_hand(T));
   T.translation() = center - R_camera_hand * surface.center().cast<double>();
   return T;
 }
 
-Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
-                const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
-  const std::vector<LabeledPoint> points = points_to_align(cloud, config);
-  Alignment result;
-  result.T_camera_hand = T_camera_hand_coarse;
-  result.points = static_cast<int>(points.size());
-  if (points.size() < 3) return result;
+namespace {
 
-  const auto coloring = config.color_sensitive ? Surface::Coloring::by_color : Surface::Coloring::any_color;
-  Surface surface(model, hand, viewpoint(result.T_camera_hand), coloring);
-  std::optional<ClosestPointSearch> search(surface);
-  const auto pairs_now = [&] {
-    return make_pairs(points, (*search)(in_hand_frame(points, result.T_camera_hand)), result.T_camera_hand);
+/// Section III-C: Horn's alignment of all points in each iteration, from the pose in `start`.
+Alignment align_horn(Matcher& matcher, const Alignment& start, const IcpConfig& config) {
+  Alignment result = start;
+  Pairs pairs;
+  const auto pair_now = [&] {
+    matcher.match(result.T_camera_hand);
+    make_pairs(matcher, result.T_camera_hand, pairs);
   };
-  Pairs pairs = pairs_now();
+  matcher.cull(result.T_camera_hand);
+  pair_now();
   while (true) {
     if (pairs.cloud_camera.size() < 3) {
       result.status = AlignmentStatus::no_shared_color;
@@ -107,11 +93,8 @@ Alignment align(const HandModel& model, const PosedHand& hand, std::span<const L
     }
     result.T_camera_hand = *T_k * result.T_camera_hand;
     ++result.iterations;
-    if (config.cull_each_iteration) {
-      surface = Surface(model, hand, viewpoint(result.T_camera_hand), coloring);
-      search.emplace(surface);
-    }
-    pairs = pairs_now();
+    if (config.cull_each_iteration) matcher.cull(result.T_camera_hand);
+    pair_now();
     const double change = std::abs(result.residual - pairs.mean_distance);
     if (change <= config.convergence_share * result.residual) {
       result.residual = pairs.mean_distance;
@@ -119,6 +102,22 @@ Alignment align(const HandModel& model, const PosedHand& hand, std::span<const L
       return result;
     }
   }
+}
+
+}  // namespace
+
+Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
+                const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
+  Alignment start;
+  start.T_camera_hand = T_camera_hand_coarse;
+  std::vector<LabeledPoint> points = points_to_align(cloud, config);
+  start.points = static_cast<int>(points.size());
+  if (points.size() < 3) return start;
+  if (config.algorithm == IcpAlgorithm::robust) {
+    return align_robust(model, hand, points, T_camera_hand_coarse, config);
+  }
+  Matcher matcher(model, hand, std::move(points), config);
+  return align_horn(matcher, start, config);
 }
 
 }  // namespace glovebench

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "core/base/implementation.h"
 #include "core/cloud/labeled_cloud.h"
@@ -9,7 +12,21 @@
 
 namespace glovebench {
 
+/// How the closest points move the hand: Horn's alignment in each iteration (the paper), or the schedule of
+/// robust_icp.h.
+enum class IcpAlgorithm { horn, robust };
+
+constexpr std::string_view to_string(IcpAlgorithm algorithm) {
+  return algorithm == IcpAlgorithm::horn ? "horn" : "robust";
+}
+constexpr std::optional<IcpAlgorithm> icp_algorithm_from_string(std::string_view text) {
+  for (const IcpAlgorithm algorithm : {IcpAlgorithm::horn, IcpAlgorithm::robust})
+    if (text == to_string(algorithm)) return algorithm;
+  return std::nullopt;
+}
+
 struct IcpConfig {
+  IcpAlgorithm algorithm = IcpAlgorithm::horn;
   int max_points = 1000;             ///< uniform stride down to at most this many, >= 3
   int subsampling_factor = 0;        ///< every n-th point (Figure 9); 0: as many as `max_points` allows, >= 0
   int max_iterations = 100;          ///< >= 1

@@ -4,51 +4,13 @@
 
 #include <map>
 
-#include "core/base/angles.h"
 #include "core/base/random.h"
 #include "core/pose/closest_point.h"
-#include "render/label_renderer.h"
-#include "render/test_hand.h"
+#include "core/pose/closest_point_search.h"
+#include "core/pose/test_alignment.h"
 
 namespace glovebench {
 namespace {
-
-using render::test_hand;
-using render::test_pose;
-
-constexpr PinholeCamera kKinect{640, 480, 575.816, 575.816, 319.5, 239.5};
-
-PosedHand posed() {
-  return test_hand().pose(render::test_posture());
-}
-
-/// The cloud that an ideal camera sees of the hand.
-std::vector<LabeledPoint> true_cloud(const Eigen::Isometry3d& T_camera_hand) {
-  render::LabelRenderer renderer;
-  const render::HandImages images = renderer.render_ids(test_hand(), posed(), kKinect, T_camera_hand);
-  return build_cloud(images.depth, images.label, kKinect, WorkingVolume{}).points;
-}
-
-double distance_mm(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return 1000 * (a.translation() - b.translation()).norm();
-}
-double angle_deg(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return degrees_from_radians(Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear())));
-}
-
-Eigen::Vector3d random_direction(RandomStream& random) {
-  return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
-}
-
-/// Turned about the hand's own origin by up to 20 degrees and moved by up to 30 mm.
-Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T_camera_hand, int number) {
-  RandomStream random(1, "icp", number, "start");
-  const Eigen::AngleAxisd turn(radians_from_degrees(random.uniform(0, 20)), random_direction(random));
-  Eigen::Isometry3d start = T_camera_hand;
-  start.linear() = turn * T_camera_hand.linear();
-  start.translation() += random.uniform(0, 0.030) * random_direction(random);
-  return start;
-}
 
 /// Mean distance of the cloud from the faces that look at the camera of `T_culled`, the hand being at `T`.
 double mean_distance(std::span<const LabeledPoint> cloud, const Eigen::Isometry3d& T,
@@ -181,6 +143,30 @@ TEST(Icp, culling_in_each_iteration_forgives_a_start_that_hides_what_is_seen) {
   // Measured: 2.9 mm against 0.07 mm.
   EXPECT_LT(distance_mm(each.T_camera_hand, truth), 0.5);
   EXPECT_GT(distance_mm(once.T_camera_hand, truth), 1.5);
+}
+
+TEST(Icp, both_implementations_give_the_same_alignment_bit_for_bit) {
+  const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
+  std::vector<LabeledPoint> cloud = true_cloud(truth);
+  cloud[30].p.x() = std::numeric_limits<float>::quiet_NaN();  // a point that is nowhere takes no part
+  for (const IcpAlgorithm algorithm : {IcpAlgorithm::horn, IcpAlgorithm::robust}) {
+    for (const bool cull : {false, true}) {
+      for (const bool colors : {false, true}) {
+        IcpConfig config{.algorithm = algorithm, .max_points = 300, .cull_each_iteration = cull};
+        config.color_sensitive = colors;
+        config.implementation = Implementation::plain;
+        const Alignment plain = align(test_hand(), posed(), cloud, perturbed(truth, 4), config);
+        config.implementation = Implementation::fast;
+        const Alignment fast = align(test_hand(), posed(), cloud, perturbed(truth, 4), config);
+        EXPECT_EQ(plain.T_camera_hand.matrix(), fast.T_camera_hand.matrix());
+        EXPECT_EQ(plain.status, fast.status);
+        EXPECT_EQ(plain.iterations, fast.iterations);
+        EXPECT_EQ(plain.residual, fast.residual);
+        EXPECT_GT(plain.iterations, 5);
+        EXPECT_TRUE(plain.T_camera_hand.matrix().allFinite());
+      }
+    }
+  }
 }
 
 TEST(Subsample, takes_every_nth_point_and_at_most_the_limit) {

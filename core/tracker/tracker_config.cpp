@@ -54,6 +54,7 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("lookup", "implementation", c.lookup.implementation, Range{});
   visit("lookup", "interpolation_epsilon_px", c.lookup.interpolation_epsilon, kPositive);
   visit("lookup", "max_matching_error_share", c.lookup.max_matching_error, kPositive);
+  visit("icp", "algorithm", c.icp.algorithm, Range{});
   visit("icp", "max_points", c.icp.max_points, Range{3, 307200});
   visit("icp", "subsampling_factor", c.icp.subsampling_factor, Range{0, 307200});
   visit("icp", "implementation", c.icp.implementation, Range{});
@@ -96,6 +97,11 @@ void read(Implementation& value, const json& j, const std::string& where, const 
   if (!implementation) wrong_type(where, field, j, "\"plain\" or \"fast\"");
   value = *implementation;
 }
+void read(IcpAlgorithm& value, const json& j, const std::string& where, const std::string& field) {
+  const auto algorithm = j.is_string() ? icp_algorithm_from_string(j.get<std::string>()) : std::nullopt;
+  if (!algorithm) wrong_type(where, field, j, "\"horn\" or \"robust\"");
+  value = *algorithm;
+}
 void read(Cascade& value, const json& j, const std::string& where, const std::string& field) {
   if (!j.is_string()) wrong_type(where, field, j, "a cascade such as \"16:500,64:3\"");
   try {
@@ -120,6 +126,9 @@ json written(ColorSpace value) {
 json written(Implementation value) {
   return to_string(value);
 }
+json written(IcpAlgorithm value) {
+  return to_string(value);
+}
 json written(const Cascade& value) {
   return to_string(value);
 }
@@ -133,6 +142,7 @@ template <>
 void check_range(const std::string&, bool, const Range&, std::vector<std::string>&) {}
 void check_range(const std::string&, ColorSpace, const Range&, std::vector<std::string>&) {}
 void check_range(const std::string&, Implementation, const Range&, std::vector<std::string>&) {}
+void check_range(const std::string&, IcpAlgorithm, const Range&, std::vector<std::string>&) {}
 void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
   try {
     parse_cascade(to_string(value));

@@ -34,6 +34,7 @@ json changed(const json& value) {
   if (value.is_boolean()) return !value.get<bool>();
   if (value == "yuv") return "rgb";
   if (value == "fast") return "plain";
+  if (value == "horn") return "robust";
   if (value.is_string()) return "32:7";
   if (value.is_number_integer()) return value.get<int>() + 1;
   return value.get<double>() + 1e-3;
@@ -76,7 +77,7 @@ TEST(TrackerConfig, each_key_changes_its_field_alone) {
       ++fields;
     }
   }
-  EXPECT_EQ(fields, 30);
+  EXPECT_EQ(fields, 31);
 }
 
 TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
@@ -88,7 +89,7 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
     "detection": {"min_pixels": 99, "second_hand_share": 0.2, "component_depth_step_m": 0.03, "max_border_pixels": 3,
                   "max_border_share": 0.6},
     "lookup": {"cascade": "8:9", "interpolation_epsilon_px": 0.1, "max_matching_error_share": 0.2},
-    "icp": {"max_points": 500, "subsampling_factor": 20, "max_iterations": 50, "convergence_share": 0.01,
+    "icp": {"algorithm": "robust", "max_points": 500, "subsampling_factor": 20, "max_iterations": 50, "convergence_share": 0.01,
             "cull_each_iteration": true, "color_sensitive": false, "max_residual_m": 0.01},
     "smoothing": {"posture_keep": 0.5, "pose_keep": 0.25, "forget_after_frames": 4}})"));
   EXPECT_EQ(config.registration.occlusion_tolerance, 0.02);
@@ -109,6 +110,7 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
   EXPECT_EQ(config.lookup.cascade, (Cascade{{8, 9}}));
   EXPECT_EQ(config.lookup.interpolation_epsilon, 0.1);
   EXPECT_EQ(config.lookup.max_matching_error, 0.2);
+  EXPECT_EQ(config.icp.algorithm, IcpAlgorithm::robust);
   EXPECT_EQ(config.icp.max_points, 500);
   EXPECT_EQ(config.icp.subsampling_factor, 20);
   EXPECT_FALSE(config.icp.color_sensitive);
@@ -155,6 +157,7 @@ TEST(TrackerConfig, refuses_wrong_types) {
   expect_refused({{"lookup", {{"cascade", 64}}}}, {"lookup.cascade", "16:500,64:3"});
   expect_refused({{"lookup", {{"cascade", "16:3,64:500"}}}}, {"lookup.cascade", "64:500"});
   expect_refused({{"lookup", {{"cascade", ""}}}}, {"lookup.cascade"});
+  expect_refused({{"icp", {{"algorithm", "icp"}}}}, {"icp.algorithm", "icp", "horn", "robust"});
   expect_refused({{"segmentation", {{"color_space", "hsv"}}}}, {"segmentation.color_space", "hsv", "yuv", "rgb"});
   expect_refused({{"segmentation", {{"color_space", 3}}}}, {"segmentation.color_space", "yuv", "rgb"});
 }

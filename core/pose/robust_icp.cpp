@@ -1,0 +1,191 @@
+#include "core/pose/robust_icp.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/pose/horn.h"
+
+namespace glovebench {
+namespace {
+
+/// A step takes every `stride`-th point. Of the rest of a pair's distance, what is along the surface counts this
+/// much of what is across it.
+struct Step {
+  enum class Kind { horn, planes } kind;
+  double tangential = 0;
+};
+constexpr Step kHorn{Step::Kind::horn}, kMixed{Step::Kind::planes, 0.3}, kPlanes{Step::Kind::planes, 0};
+constexpr Step kOnSome[] = {kHorn, kHorn, kHorn, kMixed, kMixed, kMixed, kPlanes, kPlanes, kPlanes};
+constexpr Step kOnAll[] = {kPlanes, kPlanes};
+
+/// The share of the points for the first steps, and how many are too few to leave any out.
+constexpr size_t kStride = 5;
+constexpr size_t kEnough = 100;
+
+/// Below this the mean distance has settled, as a share of it: a step of the schedule is large beside one of
+/// Horn's.
+constexpr double kSettled = 0.01;
+
+struct Pair {
+  Eigen::Vector3d p, q;  ///< of the cloud and its closest on the hand; hand frame
+  Eigen::Vector3d normal;
+};
+
+std::vector<Pair> pairs_of(const Matcher& matcher) {
+  std::vector<Pair> pairs;
+  for (size_t i = 0; i < matcher.closest().size(); ++i) {
+    const ClosestPoint& closest = matcher.closest()[i];
+    if (closest.face < 0) continue;
+    const Surface::Face& face = matcher.surface().faces(matcher.cloud()[i].label)[closest.face];
+    const Eigen::Vector3f normal = (face.b - face.a).cross(face.c - face.a).normalized();
+    pairs.push_back(
+        {matcher.points_hand()[i].p.cast<double>(), closest.p_hand.cast<double>(), normal.cast<double>()});
+  }
+  return pairs;
+}
+
+double mean_distance(const std::vector<Pair>& pairs) {
+  double sum = 0;
+  for (const Pair& pair : pairs) sum += (pair.q - pair.p).norm();
+  return sum / static_cast<double>(pairs.size());
+}
+
+/// Tukey's biweight about zero, whose width is that many standard deviations, and those 1.4826 times the median of
+/// the absolute residuals. 4.685 is the textbook's, which keeps 95% of the efficiency of least squares under
+/// Gaussian noise. A narrower one pays where the posture is not quite right: a third of the points then do not fit,
+/// and are no noise. Measured on 37 frames with a looked-up posture, for 1, 0.7 and 0.5 times the
+/// textbook's: 4.4, 2.8 and 1.9 mm; with the true posture: 0.16, 0.16 and 0.31 mm.
+constexpr double kTukeyWidth = 0.6 * 4.685;
+
+class Tukey {
+ public:
+  explicit Tukey(std::vector<double> residuals) {
+    const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+    std::nth_element(residuals.begin(), middle, residuals.end());
+    // Never narrower than a tenth of a millimeter: without noise the median is rounding.
+    width_ = kTukeyWidth * std::max(1.4826 * *middle, 1e-4);
+  }
+  double weight(double residual) const {
+    const double share = residual / width_;
+    const double rest = 1 - share * share;
+    return rest > 0 ? rest * rest : 0;
+  }
+
+ private:
+  double width_;
+};
+
+/// The rotation vector's motion; of the points, about the hand's origin.
+Eigen::Isometry3d motion(const Eigen::Vector3d& turn, const Eigen::Vector3d& shift) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  const double angle = turn.norm();
+  if (angle > 0) T.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  T.translation() = shift;
+  return T;
+}
+
+/// One Gauss-Newton step on the weighted distances: how to move the points towards the hand. Empty if they leave a
+/// motion open.
+std::optional<Eigen::Isometry3d> step_on_planes(const std::vector<Pair>& pairs, double tangential) {
+  using Vector6d = Eigen::Matrix<double, 6, 1>;
+  std::vector<double> distances;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const Pair& pair : pairs) {
+    distances.push_back((pair.q - pair.p).norm());
+    center += pair.p;
+  }
+  center /= static_cast<double>(pairs.size());
+  const Tukey tukey(distances);
+  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
+  Vector6d g = Vector6d::Zero();
+  const auto add = [&](const Eigen::Vector3d& arm, const Eigen::Vector3d& direction, double residual,
+                       double weight) {
+    Vector6d row;
+    row << arm.cross(direction), direction;
+    H.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+    g += weight * residual * row;
+  };
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const Pair& pair = pairs[i];
+    const double weight = tukey.weight(distances[i]);
+    if (weight == 0) continue;
+    // Arms in units of ten centimeters: the two halves of the system are of one size.
+    const Eigen::Vector3d arm = 10 * (pair.p - center), apart = pair.q - pair.p;
+    add(arm, pair.normal, pair.normal.dot(apart), weight * (1 - tangential));
+    if (tangential == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) add(arm, Eigen::Vector3d::Unit(axis), apart[axis], weight * tangential);
+  }
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(H.selfadjointView<Eigen::Lower>());
+  const Vector6d pivots = solver.vectorD();
+  // Within a thousandth of the spread, as Horn's alignment tells a line.
+  if (!(pivots.minCoeff() > 1e-6 * pivots.maxCoeff())) return {};
+  const Vector6d solution = solver.solve(g);
+  if (!solution.allFinite()) return {};
+  const Eigen::Isometry3d about_center = motion(10 * solution.head<3>(), solution.tail<3>());
+  return Eigen::Translation3d(center) * about_center * Eigen::Translation3d(-center);
+}
+
+std::optional<Eigen::Isometry3d> step_of_horn(const std::vector<Pair>& pairs) {
+  std::vector<Eigen::Vector3f> from, to;
+  for (const Pair& pair : pairs) {
+    from.push_back(pair.p.cast<float>());
+    to.push_back(pair.q.cast<float>());
+  }
+  return align_points(from, to);
+}
+
+/// Takes steps until they are done, or there is a reason to stop: false.
+bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& config, Alignment& result) {
+  matcher.cull(result.T_camera_hand);
+  for (const Step& step : steps) {
+    if (result.iterations == config.max_iterations) return true;
+    if (config.cull_each_iteration) matcher.cull(result.T_camera_hand);
+    matcher.match(result.T_camera_hand);
+    const std::vector<Pair> pairs = pairs_of(matcher);
+    if (pairs.size() < 3) {
+      result.status = AlignmentStatus::no_shared_color;
+      return false;
+    }
+    result.residual = mean_distance(pairs);
+    // Planes that leave a motion open, such as a single flat patch, still have Horn's answer.
+    std::optional<Eigen::Isometry3d> moved;
+    if (step.kind == Step::Kind::planes) moved = step_on_planes(pairs, step.tangential);
+    if (!moved) moved = step_of_horn(pairs);
+    if (!moved) {
+      result.status = AlignmentStatus::degenerate_cloud;
+      return false;
+    }
+    result.T_camera_hand = result.T_camera_hand * moved->inverse();
+    ++result.iterations;
+  }
+  return true;
+}
+
+}  // namespace
+
+Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> points,
+                       const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
+  Alignment result;
+  result.T_camera_hand = T_camera_hand_coarse;
+  result.points = static_cast<int>(points.size());
+  const size_t stride = std::clamp<size_t>(points.size() / kEnough, 1, kStride);
+  Matcher some(model, hand, every_nth(points, stride), config);
+  if (!take_steps(some, kOnSome, config, result)) return result;
+  Matcher all(model, hand, {points.begin(), points.end()}, config);
+  if (!take_steps(all, kOnAll, config, result)) return result;
+  all.match(result.T_camera_hand);
+  const std::vector<Pair> pairs = pairs_of(all);
+  if (pairs.size() < 3) {
+    result.status = AlignmentStatus::no_shared_color;
+    return result;
+  }
+  const double before = result.residual;
+  result.residual = mean_distance(pairs);
+  const bool settled = std::abs(before - result.residual) <= std::max(kSettled, config.convergence_share) * before;
+  const bool whole = result.iterations == static_cast<int>(std::size(kOnSome) + std::size(kOnAll));
+  result.status = whole && settled ? AlignmentStatus::converged : AlignmentStatus::not_converged;
+  return result;
+}
+
+}  // namespace glovebench
