@@ -32,9 +32,11 @@ PointSequence make_sequence(const BenchFrame& frame, int max_points) {
   return sequence;
 }
 
+/// Of every fourth frame: the plain search takes its time.
 std::vector<PointSequence> make_sequences(int max_points) {
   std::vector<PointSequence> sequences;
-  for (const BenchFrame& frame : data().frames) sequences.push_back(make_sequence(frame, max_points));
+  for (size_t i = 0; i < data().frames.size(); i += 4)
+    sequences.push_back(make_sequence(data().frames[i], max_points));
   return sequences;
 }
 

@@ -41,20 +41,22 @@ void count_errors(benchmark::State& state, const IcpConfig& config) {
 void icp(benchmark::State& state, IcpAlgorithm algorithm, Implementation implementation, int max_points) {
   const IcpConfig config = config_of(algorithm, implementation, max_points);
   const IcpConfig plain = config_of(algorithm, Implementation::plain, max_points);
+  std::vector<const BenchFrame*> frames;  // some: the plain search takes its time
+  for (size_t i = 0; i < data().frames.size(); i += 4) frames.push_back(&data().frames[i]);
   int iterations = 0;
-  for (const BenchFrame& frame : data().frames) {
-    const Alignment alignment = align_frame(frame, config);
-    if (alignment.T_camera_hand.matrix() != align_frame(frame, plain).T_camera_hand.matrix()) {
+  for (const BenchFrame* frame : frames) {
+    const Alignment alignment = align_frame(*frame, config);
+    if (alignment.T_camera_hand.matrix() != align_frame(*frame, plain).T_camera_hand.matrix()) {
       return state.SkipWithError("the alignment differs from the plain one");
     }
     iterations += alignment.iterations;
   }
   for (auto _ : state) {
-    for (const BenchFrame& frame : data().frames) benchmark::DoNotOptimize(align_frame(frame, config));
+    for (const BenchFrame* frame : frames) benchmark::DoNotOptimize(align_frame(*frame, config));
   }
-  set_time_each(state, "frame", data().frames.size());
+  set_time_each(state, "frame", frames.size());
   set_time_each(state, "iteration", iterations);
-  count_errors(state, config);
+  if (implementation == Implementation::fast) count_errors(state, config);
 }
 BENCHMARK_CAPTURE(icp, plain, IcpAlgorithm::horn, Implementation::plain, 1000)
     ->Name("icp/horn/plain")

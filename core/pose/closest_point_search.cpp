@@ -25,6 +25,8 @@ using Mask = decltype(hn::MaskFromVec(Floats()));
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// What the roundings of a distance and of a bound may be, as a share of them: several times 2^-24.
 constexpr float kShare = 1e-6f;
+/// Makes a difference of two numbers no larger than the exact one: two roundings less.
+constexpr float kRoundedDown = 1 - 0x1p-22f;
 
 struct Vectors {
   Floats x, y, z;
@@ -249,11 +251,11 @@ HWY_INLINE bool visit_listed(Search& search, float first_bound, const Eigen::Vec
   const float moved = (p - memory.p_hand).norm() * (1 + kShare), limit = search.limit();
   if (!(limit < memory.others_beyond - moved)) return false;
   memory.p_hand = p;
-  memory.others_beyond -= moved;
+  memory.others_beyond = (memory.others_beyond - moved) * kRoundedDown;
   memory.bounds[0] = first_bound;
   int best = 0;
   for (int i = 1; i < memory.count; ++i) {
-    memory.bounds[i] -= moved;
+    memory.bounds[i] = (memory.bounds[i] - moved) * kRoundedDown;
     if (memory.bounds[i] > limit) continue;
     const float before = search.squared;
     memory.bounds[i] = search.visit(memory.packets[i]);

@@ -152,7 +152,8 @@ TEST(Icp, both_implementations_give_the_same_alignment_bit_for_bit) {
   for (const IcpAlgorithm algorithm : {IcpAlgorithm::horn, IcpAlgorithm::robust}) {
     for (const bool cull : {false, true}) {
       for (const bool colors : {false, true}) {
-        IcpConfig config{.algorithm = algorithm, .max_points = 300, .cull_each_iteration = cull};
+        IcpConfig config{
+            .algorithm = algorithm, .max_points = 150, .max_iterations = 30, .cull_each_iteration = cull};
         config.color_sensitive = colors;
         config.implementation = Implementation::plain;
         const Alignment plain = align(test_hand(), posed(), cloud, perturbed(truth, 4), config);

@@ -54,8 +54,8 @@ double mean_distance(const std::vector<Pair>& pairs) {
 /// Tukey's biweight about zero, whose width is that many standard deviations, and those 1.4826 times the median of
 /// the absolute residuals. 4.685 is the textbook's, which keeps 95% of the efficiency of least squares under
 /// Gaussian noise. A narrower one pays where the posture is not quite right: a third of the points then do not fit,
-/// and are no noise. Measured on 37 frames with a looked-up posture, for 1, 0.7 and 0.5 times the
-/// textbook's: 4.4, 2.8 and 1.9 mm; with the true posture: 0.16, 0.16 and 0.31 mm.
+/// and are no noise. Measured on 37 frames with a looked-up posture, for 1, 0.7, 0.6 and 0.5 times the
+/// textbook's: 4.4, 2.8, 2.2 and 1.9 mm; with the true posture: 0.16, 0.16, 0.19 and 0.31 mm.
 constexpr double kTukeyWidth = 0.6 * 4.685;
 
 class Tukey {
