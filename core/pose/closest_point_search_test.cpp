@@ -192,7 +192,6 @@ TEST(ClosestPointSearch, starts_anew_on_another_surface) {
   expect_bit_equal(search(points), closest_points_plain(points, first));
 }
 
-/// The distance to the triangle in double precision, by its region as in `closest_on_triangle`.
 TEST(RoundingBlur, bounds_how_far_outside_a_face_its_closest_point_comes_to_lie) {
   RandomStream random(1, "closest", 0, "thin");
   double largest = 0;

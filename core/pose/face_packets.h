@@ -40,9 +40,9 @@ struct FacePackets {
 };
 
 /// In single precision the closest point of a thin face may come to lie outside of it: for a point at most D away
-/// by up to blur * D^2, where the rounding error of the areas in `closest_on_triangle` is 8 * 2^-24 (length * D)^2
-/// (ten million random faces of every thinness stayed under 4), and the search doubles it, since points move
-/// between two looks. Infinite for a face without an area.
+/// by up to blur * D^2. That takes the rounding error of the areas in `closest_on_triangle` for 8 * 2^-24 (length *
+/// D)^2: not the worst case, but several times what independent roundings add up to; and it is doubled, since
+/// points move between two looks. Infinite for a face without an area.
 float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench
