@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "eval/thread_time.h"
@@ -9,21 +11,28 @@
 namespace glovebench::eval {
 namespace {
 
-/// Collects the processor times of a tracker's frames and of their stages as the tracker names them.
+/// Collects the processor times of a tracker's frames and of their stages as the tracker names them; a stage that
+/// is named twice in a frame has the sum.
 class StageTimer {
  public:
   void begin(std::string_view stage) {
     const double now = thread_time_ms();
     if (current_ < 0) frame_start_ = now;
-    if (current_ >= 0) stages_[current_].frame_ms.push_back(now - start_);
-    if (stage.empty()) frame_ms_.push_back(now - frame_start_);
+    if (current_ >= 0) in_this_frame_[current_] += now - start_;
+    if (stage.empty()) end_frame(now);
     current_ = stage.empty() ? -1 : index_of(stage);
+    if (current_ >= 0) in_this_frame_.try_emplace(current_, 0.0);
     start_ = now;
   }
   std::vector<reports::StageTiming> take_stages() { return std::move(stages_); }
   std::vector<double> take_frames() { return std::move(frame_ms_); }
 
  private:
+  void end_frame(double now) {
+    for (const auto& [stage, time] : in_this_frame_) stages_[stage].frame_ms.push_back(time);
+    in_this_frame_.clear();
+    frame_ms_.push_back(now - frame_start_);
+  }
   int index_of(std::string_view stage) {
     for (size_t i = 0; i < stages_.size(); ++i) {
       if (stages_[i].stage == stage) return static_cast<int>(i);
@@ -34,6 +43,7 @@ class StageTimer {
 
   std::vector<reports::StageTiming> stages_;
   std::vector<double> frame_ms_;
+  std::map<int, double> in_this_frame_;  ///< of each stage, ms
   int current_ = -1;
   double start_ = 0, frame_start_ = 0;
 };

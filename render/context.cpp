@@ -19,6 +19,9 @@ std::mutex& driver() {
   return mutex;
 }
 
+/// Whether this thread holds it.
+thread_local bool draws = false;
+
 /// The one place where Mesa is configured. It reads the variables when the first context is made. What a user's
 /// desktop needs must not reach it: another driver would draw other pixels, and one that is not there, or another
 /// version of GLSL, crashes OSMesa.
@@ -63,23 +66,34 @@ Context::Context() : state_(std::make_unique<State>()) {
   if (!state_->context) {
     throw Error("renderer", "OpenGL context", "refused by OSMesa", "an off-screen OpenGL 4.5 core context");
   }
-  make_current();
+  try {
+    make_current();
+  } catch (...) {
+    const std::lock_guard lock(driver());
+    OSMesaDestroyContext(state_->context);
+    throw;
+  }
 }
 
 Context::~Context() {
   OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
   OSMesaDestroyContext(state_->context);
+  draws = false;
   driver().unlock();
 }
 
 void Context::make_current() const {
-  driver().lock();
+  check(!draws, "a thread draws with one context at a time");
+  std::unique_lock lock(driver());
   check(OSMesaMakeCurrent(state_->context, state_->buffer.data(), 0x1401 /* GL_UNSIGNED_BYTE */, 4, 4),
         "an OSMesa context can be made current");
+  lock.release();  // `release` or the destructor unlocks
+  draws = true;
 }
 
 void Context::release() const {
   OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
+  draws = false;
   driver().unlock();
 }
 

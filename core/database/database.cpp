@@ -114,8 +114,8 @@ Database Database::build(const PostureSet& postures, const HandModel& model, con
       const std::lock_guard lock(progress_mutex);
       progress(static_cast<double>(finished) / count);
     });
+    database.arrange_rows();
   });
-  database.arrange_rows();
   return database;
 }
 

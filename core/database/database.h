@@ -44,7 +44,7 @@ class Database {
                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes);
 
   /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it; `sizes` are the
-  /// tiny-image sizes whose fields are wanted.
+  /// tiny-image sizes whose fields are wanted. Uses the threads of the caller's TBB arena.
   void save(const std::string& path) const;
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
   /// What a database made of these inputs would have as `hash()`.

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -43,7 +44,7 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
   const FileLock lock(file + ".lock");
   if (std::filesystem::exists(file)) {
     try {
-      Database database = Database::load(file, sizes);
+      Database database = tbb::task_arena(threads).execute([&] { return Database::load(file, sizes); });
       if (database.hash() == hash) return database;
       message(file + ": made of other inputs; rebuilding it");
     } catch (const Error& e) {

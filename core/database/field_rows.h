@@ -3,7 +3,6 @@
 #include <tbb/cache_aligned_allocator.h>
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/image.h"

@@ -1,6 +1,7 @@
 #include "core/pose/closest_point.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 
 namespace glovebench {

@@ -1,10 +1,12 @@
 #include "core/pose/closest_point_search.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-// This file is compiled once for each instruction set.
+// This file is compiled once for each instruction set, but not for those whose vectors have no size in a program.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/pose/closest_point_search.cpp"
 #include <hwy/foreach_target.h>
@@ -288,6 +290,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
   for (size_t i = 0; i < points.size(); ++i) {
     const uint8_t label = points[i].label;
     const FacePackets& color = colors[label];
+    if (memories[i].label != label) memories[i] = {.label = label};
     results[i] =
         color.packets.empty() ? ClosestPoint{} : find(points[i], color, bounds, memories[i], last_packets[label]);
   }
@@ -308,7 +311,7 @@ void ClosestPointSearch::start(const Surface& surface) {
     colors_[label].assign(surface.faces(label));
     boxes = std::max(boxes, colors_[label].boxes.size());
   }
-  bounds_.resize(boxes);
+  bounds_.resize(std::max<size_t>(1, boxes));
   memory_.clear();
 }
 

@@ -16,7 +16,8 @@ struct PacketMemory {
 
   Eigen::Vector3f p_hand = Eigen::Vector3f::Zero();  ///< where it was then
   float others_beyond = 0;  ///< the faces of the packets that are not listed are at least this far from p_hand, m
-  int count = 0;            ///< of the listed packets; the first has the closest face
+  uint8_t label = 0;
+  int count = 0;  ///< of the listed packets; the first has the closest face
   int packets[kPackets] = {};
   float bounds[kPackets] = {};  ///< their faces are at least this far from p_hand, m
 };
@@ -26,11 +27,12 @@ struct alignas(64) PacketBounds {
   float bounds[FacePackets::kBoxes];
 };
 
-/// The answer of `closest_points_plain`, bit for bit and on every instruction set, faster, for points that move
-/// little from call to call. Packets of neighboring faces are measured together (Highway); a packet whose box is
-/// farther than the nearest face so far is passed over; and a point looks at the few packets near it alone while it
-/// has moved less than would bring any other one nearer. One object follows one set of points on one surface; it
-/// keeps its buffers, and after the first call nothing is allocated.
+/// The answer of `closest_points_plain`, bit for bit and on every instruction set (on very thin faces as far as
+/// `rounding_blur` bounds their rounding), faster, for points that move little from call to call. Packets of
+/// neighboring faces are measured together (Highway); a packet whose box is farther than the nearest face so far is
+/// passed over; and a point looks at the few packets near it alone while it has moved less than would bring any
+/// other one nearer. One object follows one set of points on one surface; it keeps its buffers, and after the first
+/// call nothing is allocated.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;

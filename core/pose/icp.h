@@ -58,7 +58,7 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
 
 /// Color-sensitive iterative closest point-to-triangle (section III-C, equation 3): each point goes to the closest
 /// front-facing triangle of its color (or of any, if so configured), Horn's alignment moves the hand, until the
-/// mean distance settles.
+/// mean distance settles. With `IcpAlgorithm::robust` as `align_robust` says (robust_icp.h).
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 

@@ -9,8 +9,7 @@
 namespace glovebench {
 namespace {
 
-/// A step takes every `stride`-th point. Of the rest of a pair's distance, what is along the surface counts this
-/// much of what is across it.
+/// In a step on planes, what of a pair's distance lies along the surface counts this share of what lies across it.
 struct Step {
   enum class Kind { horn, planes } kind;
   double tangential = 0;
@@ -171,8 +170,13 @@ Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<
   result.points = static_cast<int>(points.size());
   const size_t stride = std::clamp<size_t>(points.size() / kEnough, 1, kStride);
   Matcher some(model, hand, every_nth(points, stride), config);
-  if (!take_steps(some, kOnSome, config, result)) return result;
   Matcher all(model, hand, {points.begin(), points.end()}, config);
+  if (!take_steps(some, kOnSome, config, result)) {
+    // What a part of the points cannot do, such as share a color with the hand, all of them may.
+    result.T_camera_hand = T_camera_hand_coarse;
+    result.iterations = 0;
+    if (!take_steps(all, kOnSome, config, result)) return result;
+  }
   if (!take_steps(all, kOnAll, config, result)) return result;
   all.match(result.T_camera_hand);
   const std::vector<Pair> pairs = pairs_of(all);

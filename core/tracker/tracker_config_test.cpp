@@ -88,11 +88,13 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
     "database": {"view_distance_m": 0.6, "field_of_view_deg": 30, "image_size_px": 128, "field_cap_share": 0.4},
     "detection": {"min_pixels": 99, "second_hand_share": 0.2, "component_depth_step_m": 0.03, "max_border_pixels": 3,
                   "max_border_share": 0.6},
-    "lookup": {"cascade": "8:9", "interpolation_epsilon_px": 0.1, "max_matching_error_share": 0.2},
-    "icp": {"algorithm": "robust", "max_points": 500, "subsampling_factor": 20, "max_iterations": 50, "convergence_share": 0.01,
+    "lookup": {"cascade": "8:9", "implementation": "plain", "interpolation_epsilon_px": 0.1, "max_matching_error_share": 0.2},
+    "icp": {"algorithm": "robust", "implementation": "plain", "max_points": 500, "subsampling_factor": 20, "max_iterations": 50, "convergence_share": 0.01,
             "cull_each_iteration": true, "color_sensitive": false, "max_residual_m": 0.01},
     "smoothing": {"posture_keep": 0.5, "pose_keep": 0.25, "forget_after_frames": 4}})"));
   EXPECT_EQ(config.registration.occlusion_tolerance, 0.02);
+  EXPECT_EQ(config.lookup.implementation, Implementation::plain);
+  EXPECT_EQ(config.icp.implementation, Implementation::plain);
   EXPECT_EQ(config.segmentation.color_space, ColorSpace::rgb);
   EXPECT_TRUE(config.segmentation.majority_filter);
   EXPECT_TRUE(config.segmentation.largest_component);
@@ -158,6 +160,11 @@ TEST(TrackerConfig, refuses_wrong_types) {
   expect_refused({{"lookup", {{"cascade", "16:3,64:500"}}}}, {"lookup.cascade", "64:500"});
   expect_refused({{"lookup", {{"cascade", ""}}}}, {"lookup.cascade"});
   expect_refused({{"icp", {{"algorithm", "icp"}}}}, {"icp.algorithm", "icp", "horn", "robust"});
+  for (const char* section : {"lookup", "icp"}) {
+    expect_refused({{section, {{"implementation", "quick"}}}},
+                   {section, "implementation", "quick", "plain", "fast"});
+    expect_refused({{section, {{"implementation", 1}}}}, {section, "implementation", "plain", "fast"});
+  }
   expect_refused({{"segmentation", {{"color_space", "hsv"}}}}, {"segmentation.color_space", "hsv", "yuv", "rgb"});
   expect_refused({{"segmentation", {{"color_space", 3}}}}, {"segmentation.color_space", "yuv", "rgb"});
 }

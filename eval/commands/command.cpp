@@ -23,7 +23,8 @@ void CommonFlags::add_tracker(CLI::App& command) {
   command.add_option("--config", config_file,
                      "JSON file with the fields to change; `glovebench list config` shows all");
   command.add_option("--method", method, "how to track (`glovebench list methods`) [the configuration's]");
-  command.add_option("--cascade", cascade, "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3");
+  command.add_option("--cascade", cascade,
+                     "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3, or exact:KEEP");
 }
 
 void CommonFlags::add_seed(CLI::App& command) {
