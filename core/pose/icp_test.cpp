@@ -57,7 +57,7 @@ Recovery recover(const IcpConfig& config) {
   return result;
 }
 
-TEST(Icp, recovers_the_pose_from_perturbed_starts) {
+TEST(IcpLong, recovers_the_pose_from_perturbed_starts) {
   // Measured: 97 of 100. The others end 2 to 6 mm away, also with a finer stop: the faces that the start hid stay
   // culled, and their points pull to others.
   const Recovery papers = recover({});
