@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-// This file is compiled once for each instruction set, but not for those whose vectors have no size in a program.
-#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+// This file is compiled once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/pose/closest_point_search.cpp"
 #include <hwy/foreach_target.h>
@@ -290,7 +289,6 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
   for (size_t i = 0; i < points.size(); ++i) {
     const uint8_t label = points[i].label;
     const FacePackets& color = colors[label];
-    if (memories[i].label != label) memories[i] = {.label = label};
     results[i] =
         color.packets.empty() ? ClosestPoint{} : find(points[i], color, bounds, memories[i], last_packets[label]);
   }

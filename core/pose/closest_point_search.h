@@ -16,8 +16,7 @@ struct PacketMemory {
 
   Eigen::Vector3f p_hand = Eigen::Vector3f::Zero();  ///< where it was then
   float others_beyond = 0;  ///< the faces of the packets that are not listed are at least this far from p_hand, m
-  uint8_t label = 0;
-  int count = 0;  ///< of the listed packets; the first has the closest face
+  int count = 0;            ///< of the listed packets; the first has the closest face
   int packets[kPackets] = {};
   float bounds[kPackets] = {};  ///< their faces are at least this far from p_hand, m
 };
