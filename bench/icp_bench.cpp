@@ -104,19 +104,13 @@ void convergence(benchmark::State& state, IcpAlgorithm algorithm) {
 BENCHMARK_CAPTURE(convergence, horn, IcpAlgorithm::horn)
     ->Name("icp/convergence/horn")
     ->ArgName("deg")
-    ->Arg(5)
-    ->Arg(15)
-    ->Arg(25)
-    ->Arg(35)
+    ->DenseRange(5, 35, 10)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(convergence, robust, IcpAlgorithm::robust)
     ->Name("icp/convergence/robust")
     ->ArgName("deg")
-    ->Arg(5)
-    ->Arg(15)
-    ->Arg(25)
-    ->Arg(35)
+    ->DenseRange(5, 35, 10)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 

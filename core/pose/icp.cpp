@@ -39,33 +39,6 @@ std::vector<LabeledPoint> points_to_align(std::span<const LabeledPoint> cloud, c
   return points;
 }
 
-}  // namespace
-
-std::vector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n) {
-  std::vector<LabeledPoint> result;
-  for (size_t i = 0; i < points.size(); i += n) result.push_back(points[i]);
-  return result;
-}
-
-std::vector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points) {
-  return every_nth(points, std::max<size_t>(1, (points.size() + max_points - 1) / max_points));
-}
-
-Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
-                              std::span<const LabeledPoint> points) {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  for (const LabeledPoint& point : points) center += point.p.cast<double>();
-  if (!points.empty()) center /= static_cast<double>(points.size());
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = R_camera_hand;
-  T.translation() = center;
-  const Surface surface(model, hand, viewpoint_hand(T));
-  T.translation() = center - R_camera_hand * surface.center().cast<double>();
-  return T;
-}
-
-namespace {
-
 /// Section III-C: Horn's alignment of all points in each iteration, from the pose in `start`.
 Alignment align_horn(Matcher& matcher, const Alignment& start, const IcpConfig& config) {
   Alignment result = start;
@@ -105,6 +78,29 @@ Alignment align_horn(Matcher& matcher, const Alignment& start, const IcpConfig& 
 }
 
 }  // namespace
+
+std::vector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n) {
+  std::vector<LabeledPoint> result;
+  for (size_t i = 0; i < points.size(); i += n) result.push_back(points[i]);
+  return result;
+}
+
+std::vector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points) {
+  return every_nth(points, std::max<size_t>(1, (points.size() + max_points - 1) / max_points));
+}
+
+Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
+                              std::span<const LabeledPoint> points) {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const LabeledPoint& point : points) center += point.p.cast<double>();
+  if (!points.empty()) center /= static_cast<double>(points.size());
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = R_camera_hand;
+  T.translation() = center;
+  const Surface surface(model, hand, viewpoint_hand(T));
+  T.translation() = center - R_camera_hand * surface.center().cast<double>();
+  return T;
+}
 
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
