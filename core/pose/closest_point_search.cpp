@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-// This file is compiled once for each instruction set.
+// This file is compiled once for each instruction set, but not for those whose vectors have no size in a program.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/pose/closest_point_search.cpp"
 #include <hwy/foreach_target.h>
