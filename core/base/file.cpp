@@ -60,7 +60,7 @@ WholeFile::WholeFile(const std::string& path) : path_(path), temporary_(temporar
   std::error_code error;
   if (!folder.empty()) fs::create_directories(folder, error);
   if (error) throw Error(folder.string(), "folder", error.message(), "a folder that can be written");
-  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "a file that can be written");
 }
 
@@ -77,6 +77,14 @@ void WholeFile::append(std::string_view content) {
     if (written <= 0) throw Error(path_, "file", std::strerror(errno), "room to write it whole");
     content.remove_prefix(static_cast<size_t>(written));
   }
+}
+
+MappedMemory WholeFile::map(uint64_t bytes) {
+  // Reserved now: a page for which there is no room later would end the process.
+  int error = EINTR;
+  while (error == EINTR) error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));
+  if (error != 0) throw Error(path_, "file", std::strerror(error), fmt::format("room for {} bytes", bytes));
+  return MappedMemory::of_descriptor(descriptor_, bytes, path_);
 }
 
 void WholeFile::commit() {

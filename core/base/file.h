@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/mapped_memory.h"
+
 namespace glovebench {
 
 /// The whole content of a file. Throws Error if it is missing, cannot be read or is larger than that.
@@ -24,6 +26,9 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   void append(std::string_view content);
+  /// Gives an empty file that many bytes, all zero, for which there is room on the disk, to write them through
+  /// memory.
+  MappedMemory map(uint64_t bytes);
   void commit();
 
  private:

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <csignal>
 
 #include "core/base/error.h"
@@ -66,6 +67,53 @@ TEST(WholeFile, leaves_nothing_without_commit) {
     EXPECT_FALSE(std::filesystem::exists(path));
   }
   EXPECT_EQ(folder.file_count(), 0);
+}
+
+TEST(WholeFile, is_written_through_memory) {
+  const TestFolder folder;
+  const std::string path = folder / "file", content = bytes(10'000);
+  WholeFile file(path);
+  MappedMemory memory = file.map(content.size());
+  EXPECT_EQ(std::ranges::count(memory.bytes(), 0), std::ssize(content));
+  std::ranges::copy(content, memory.writable().begin());
+  file.commit();
+  EXPECT_EQ(read_file(path), content);
+}
+
+TEST(WholeFile, no_room_to_map_is_an_error_at_once) {
+  const TestFolder folder;
+  WholeFile file(folder / "file");
+  EXPECT_THAT([&] { file.map(uint64_t{1} << 60); },
+              ThrowsMessage<Error>(HasSubstr("room for 1152921504606846976")));
+}
+
+TEST(MappedMemory, of_a_file_is_its_content_and_outlives_its_name) {
+  const TestFolder folder;
+  const std::string path = folder / "file", content = bytes(10'000);
+  write_file(path, content);
+  const MappedMemory memory = MappedMemory::of_file(path);
+  write_file(path, "another");
+  EXPECT_TRUE(std::ranges::equal(memory.bytes(), std::as_bytes(std::span(content)), {}, {},
+                                 [](std::byte b) { return static_cast<uint8_t>(b); }));
+}
+
+TEST(MappedMemory, of_what_is_no_file_is_an_error) {
+  const TestFolder folder;
+  EXPECT_THAT([&] { MappedMemory::of_file(folder / "none"); }, ThrowsMessage<Error>(HasSubstr(folder / "none")));
+  EXPECT_THAT([&] { MappedMemory::of_file(folder.path()); }, ThrowsMessage<Error>(HasSubstr("a folder")));
+  EXPECT_THAT([] { MappedMemory::of_file("/dev/null"); }, ThrowsMessage<Error>(HasSubstr("/dev/null")));
+  write_file(folder / "empty", "");
+  EXPECT_TRUE(MappedMemory::of_file(folder / "empty").bytes().empty());
+}
+
+TEST(MappedMemory, moves_and_starts_with_zeros) {
+  MappedMemory a = MappedMemory::zeros(5000), b;
+  a.writable()[4999] = 7;
+  b = std::move(a);
+  ASSERT_EQ(b.bytes().size(), 5000u);
+  EXPECT_EQ(b.bytes()[4998], 0);
+  EXPECT_EQ(b.bytes()[4999], 7);
+  EXPECT_TRUE(MappedMemory::zeros(0).bytes().empty());
 }
 
 TEST(WholeFile, keeps_the_old_content_until_commit) {

@@ -12,6 +12,7 @@
 #include "core/base/angles.h"
 #include "core/base/check.h"
 #include "core/base/error.h"
+#include "core/base/file.h"
 #include "core/base/hash.h"
 
 namespace glovebench {
@@ -26,16 +27,12 @@ PinholeCamera view_camera(const ViewConfig& views) {
   return {views.image_size, views.image_size, f, f, c, c};
 }
 
-/// px. Larger images do not fit: chamfer_field steps at most 64 px along a row, and a stored distance is a byte,
-/// also when the cap is the whole side. Smaller ones tell nothing.
-constexpr int kSmallestSize = 4, kLargestSize = 64;
-
 void check_sizes(const std::string& name, std::span<const int> sizes) {
   if (sizes.empty()) throw Error(name, "tiny images", "no sizes", "at least one");
   for (size_t i = 0; i < sizes.size(); ++i) {
-    if (sizes[i] < kSmallestSize || sizes[i] > kLargestSize) {
+    if (sizes[i] < kSmallestTinySize || sizes[i] > kLargestTinySize) {
       throw Error(name, "tiny images", fmt::format("{} px", sizes[i]),
-                  fmt::format("{} to {} px", kSmallestSize, kLargestSize));
+                  fmt::format("{} to {} px", kSmallestTinySize, kLargestTinySize));
     }
     if (std::ranges::find(sizes.first(i), sizes[i]) != sizes.first(i).end()) {
       throw Error(name, "tiny images", fmt::format("{} px twice", sizes[i]), "each size once");
@@ -59,44 +56,51 @@ std::string Database::input_hash(const PostureSet& postures, const HandModel& mo
   return hash_text(text);
 }
 
-Database Database::build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
-                         const ViewRendererFactory& renderers, int threads,
-                         const std::function<void(double)>& progress, std::span<const int> sizes) {
+namespace {
+
+/// All inputs but the tiny images' sizes.
+struct BuildInputs {
+  const PostureSet& postures;
+  const HandModel& model;
+  const ViewConfig& views;
+  const ViewRendererFactory& renderers;
+};
+
+DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes) {
+  const auto& [postures, model, views, renderers] = inputs;
   check_sizes(postures.name, sizes);
   if (postures.postures.empty()) throw Error(postures.name, "postures", "none", "at least one");
-  Database database;
-  database.postures_ = postures;
-  database.side_ = model.side();
-  database.hash_ = input_hash(postures, model, views);
-  const int count = database.entry_count();
-  database.box_rays_.resize(count);
-  for (const int size : sizes) {
+  DatabaseHeader header{postures, model.side(), Database::input_hash(postures, model, views), {}};
+  for (const int size : sizes) header.sizes_px[size] = field_cap(views, size);
+  return DatabaseLayout(std::move(header));
+}
+
+/// Renders one view and writes what is stored of it.
+void fill_entry(const BuildInputs& inputs, const DatabaseLayout& layout, ViewRenderer& renderer,
+                const PosedHand& hand, int entry, uint8_t* file) {
+  const PinholeCamera camera = view_camera(inputs.views);
+  Eigen::Isometry3d T_view_hand = Eigen::Isometry3d::Identity();
+  T_view_hand.linear() = view_rotations()[Database::view(entry)];
+  T_view_hand.translation().z() = inputs.views.distance;
+  const LabelImage image = renderer.render_labels(inputs.model, hand, camera, T_view_hand);
+  const Square square = bounding_square(image);
+  check(square.side > 0, "the hand is in every view");
+  reinterpret_cast<Eigen::Vector3d*>(file + layout.box_rays().offset)[entry] = square_ray(square, camera);
+  for (const auto& [size, sections] : layout.sizes()) {
     const size_t pixels = static_cast<size_t>(size) * size;
-    database.sizes_[size].labels.resize(count * pixels);
-    database.sizes_[size].fields.resize(count * pixels * kColorCount + kBehind);
+    const LabelImage tiny = make_tiny_image(image, square, size);
+    std::copy(tiny.begin(), tiny.end(), file + sections.labels.offset + entry * pixels);
+    uint8_t* const fields = file + sections.fields.offset + entry * pixels * kColorCount;
+    for (int color = 1; color <= kColorCount; ++color)
+      chamfer_field(tiny, static_cast<uint8_t>(color), layout.header().sizes_px.at(size),
+                    {fields + (color - 1) * pixels, pixels});
   }
+}
 
-  const PinholeCamera camera = view_camera(views);
-  const auto fill_entry = [&](ViewRenderer& renderer, const PosedHand& hand, int entry) {
-    Eigen::Isometry3d T_view_hand = Eigen::Isometry3d::Identity();
-    T_view_hand.linear() = view_rotations()[view(entry)];
-    T_view_hand.translation().z() = views.distance;
-    const LabelImage image = renderer.render_labels(model, hand, camera, T_view_hand);
-    const Square square = bounding_square(image);
-    check(square.side > 0, "the hand is in every view");
-    database.box_rays_[entry] = square_ray(square, camera);
-    for (auto& [size, data] : database.sizes_) {
-      const size_t pixels = static_cast<size_t>(size) * size;
-      const LabelImage tiny = make_tiny_image(image, square, size);
-      std::copy(tiny.begin(), tiny.end(), data.labels.begin() + entry * pixels);
-      for (int color = 1; color <= kColorCount; ++color) {
-        const std::span field(
-            data.fields.data() + (size_t{static_cast<unsigned>(entry)} * kColorCount + color - 1) * pixels, pixels);
-        chamfer_field(tiny, static_cast<uint8_t>(color), field_cap(views, size), field);
-      }
-    }
-  };
-
+/// Writes a whole database of this layout.
+void fill(const BuildInputs& inputs, const DatabaseLayout& layout, int threads,
+          const std::function<void(double)>& progress, std::span<uint8_t> file) {
+  const int count = static_cast<int>(inputs.postures.postures.size()) * kViewCount;
   // A renderer belongs to the thread that made it.
   tbb::enumerable_thread_specific<std::unique_ptr<ViewRenderer>> thread_renderers;
   std::atomic<int> done{0};
@@ -106,38 +110,100 @@ Database Database::build(const PostureSet& postures, const HandModel& model, con
   arena.execute([&] {
     tbb::parallel_for(0, count / kBlock, [&](int block) {
       std::unique_ptr<ViewRenderer>& renderer = thread_renderers.local();
-      if (!renderer) renderer = renderers();
-      const PosedHand hand = model.pose(database.posture(block * kBlock));
-      for (int i = 0; i < kBlock; ++i) fill_entry(*renderer, hand, block * kBlock + i);
+      if (!renderer) renderer = inputs.renderers();
+      const PosedHand hand = inputs.model.pose(inputs.postures.postures[block * kBlock / kViewCount]);
+      for (int i = 0; i < kBlock; ++i) fill_entry(inputs, layout, *renderer, hand, block * kBlock + i, file.data());
       const int finished = done += kBlock;
       if (!progress) return;
       const std::lock_guard lock(progress_mutex);
       progress(static_cast<double>(finished) / count);
     });
-    database.arrange_rows();
+    for (const auto& [size, sections] : layout.sizes())
+      FieldRows::arrange(file.data() + sections.fields.offset, size, count,
+                         file.subspan(sections.rows.offset, sections.rows.bytes));
+    layout.seal(file);
   });
+}
+
+/// In memory that large pages make up.
+std::shared_ptr<const MappedMemory> copy_of(std::span<const uint8_t> bytes) {
+  auto copy = std::make_shared<MappedMemory>(MappedMemory::zeros(bytes.size()));
+  constexpr size_t kPiece = 4 << 20;
+  tbb::parallel_for(size_t{0}, (bytes.size() + kPiece - 1) / kPiece, [&](size_t piece) {
+    const auto source = bytes.subspan(piece * kPiece, std::min(kPiece, bytes.size() - piece * kPiece));
+    std::ranges::copy(source, copy->writable().begin() + static_cast<ptrdiff_t>(piece * kPiece));
+  });
+  return copy;
+}
+
+}  // namespace
+
+Database Database::build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
+                         const ViewRendererFactory& renderers, int threads,
+                         const std::function<void(double)>& progress, std::span<const int> sizes) {
+  const BuildInputs inputs{postures, model, views, renderers};
+  const DatabaseLayout layout = layout_of(inputs, sizes);
+  auto bytes = std::make_shared<MappedMemory>(MappedMemory::zeros(layout.bytes()));
+  fill(inputs, layout, threads, progress, bytes->writable());
+  return Database(bytes, layout, sizes);
+}
+
+void Database::build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
+                          const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
+                          const std::function<void(double)>& progress, std::span<const int> sizes) {
+  const BuildInputs inputs{postures, model, views, renderers};
+  const DatabaseLayout layout = layout_of(inputs, sizes);
+  WholeFile file(path);
+  MappedMemory bytes = file.map(layout.bytes());
+  fill(inputs, layout, threads, progress, bytes.writable());
+  file.commit();
+}
+
+void Database::save(const std::string& path) const {
+  const std::span<const uint8_t> bytes = bytes_->bytes();
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Database Database::load(const std::string& path, std::span<const int> sizes) {
+  const auto bytes = std::make_shared<const MappedMemory>(MappedMemory::of_file(path));
+  const DatabaseLayout layout(bytes->bytes(), path);
+  layout.check_sections(bytes->bytes(), path, sizes);
+  Database database(bytes, layout, sizes);
+  for (auto& [size, data] : database.sizes_) {
+    const auto copy = database.copies_.emplace_back(
+        copy_of({data.rows.data(), data.rows.block_count() * data.rows.block_bytes()}));
+    data.rows = FieldRows(size, database.entry_count(), data.rows.largest_value(), copy->bytes().data());
+  }
   return database;
 }
 
-void Database::arrange_rows() {
-  for (auto& [size, data] : sizes_) data.rows = FieldRows(data.fields.data(), size, entry_count());
+Database::Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout,
+                   std::span<const int> sizes)
+    : bytes_(std::move(bytes)), header_(layout.header()) {
+  const uint8_t* const file = bytes_->bytes().data();
+  box_rays_ = reinterpret_cast<const Eigen::Vector3d*>(file + layout.box_rays().offset);
+  for (const auto& [size, sections] : layout.sizes()) {
+    if (std::ranges::find(sizes, size) == sizes.end()) continue;
+    sizes_[size] = {file + sections.labels.offset, file + sections.fields.offset,
+                    FieldRows(size, entry_count(), header_.sizes_px.at(size), file + sections.rows.offset)};
+  }
 }
 
 const Database::SizeData& Database::data(int size) const {
   const auto it = sizes_.find(size);
   if (it == sizes_.end()) {
-    throw Error("database " + postures_.name, "tiny images", fmt::format("no {} px", size),
+    throw Error("database " + header_.postures.name, "tiny images", fmt::format("no {} px", size),
                 "a size that was loaded");
   }
   return it->second;
 }
 
 const uint8_t* Database::labels(int size, int entry) const {
-  return data(size).labels.data() + static_cast<size_t>(entry) * size * size;
+  return data(size).labels + static_cast<size_t>(entry) * size * size;
 }
 
 const uint8_t* Database::fields(int size, int entry) const {
-  return data(size).fields.data() + static_cast<size_t>(entry) * size * size * kColorCount;
+  return data(size).fields + static_cast<size_t>(entry) * size * size * kColorCount;
 }
 
 }  // namespace glovebench

@@ -3,25 +3,21 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "core/base/mapped_memory.h"
+#include "core/database/database_file.h"
 #include "core/database/distance_field.h"
 #include "core/database/field_rows.h"
+#include "core/database/posture_set.h"
 #include "core/database/tiny_image.h"
 #include "core/database/view_renderer.h"
 #include "core/database/view_sphere.h"
 #include "core/hand/hand_model.h"
 
 namespace glovebench {
-
-/// Postures of one database, e.g. "DB_open_power".
-struct PostureSet {
-  std::string name;
-  std::vector<std::string> posture_names;
-  std::vector<Posture> postures;
-};
 
 /// How the views of a posture are rendered.
 struct ViewConfig {
@@ -32,7 +28,8 @@ struct ViewConfig {
 };
 
 /// The image database of section III: 756 views of each posture, as tiny images of several sizes with one
-/// distance field a color. Entry = posture * 756 + view. Immutable, shared between threads.
+/// distance field a color. Entry = posture * 756 + view. Immutable, shared between threads; copies share the
+/// memory.
 class Database {
  public:
   /// Renders all views; the renderer factory is called once a thread. The result does not depend on `threads`.
@@ -42,23 +39,29 @@ class Database {
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes);
+  /// The same into a file, which may be larger than memory. Throws Error also for want of room on the disk.
+  static void build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
+                         const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
+                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes);
 
-  /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it; `sizes` are the
-  /// tiny-image sizes whose fields are wanted. Uses the threads of the caller's TBB arena.
+  /// A versioned, checksummed file (database_file.h).
   void save(const std::string& path) const;
+  /// `sizes` are the tiny-image sizes that are wanted, of those that the file has. Labels and fields stay in the
+  /// file, which must not change meanwhile, and take memory that the system can take back; the rows are copied.
+  /// Uses the threads of the caller's TBB arena. Throws Error naming the file and what is wrong with it.
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
   /// What a database made of these inputs would have as `hash()`.
   static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);
 
-  int entry_count() const { return static_cast<int>(postures_.postures.size()) * kViewCount; }
-  const PostureSet& posture_set() const { return postures_; }
-  const Posture& posture(int entry) const { return postures_.postures[entry / kViewCount]; }
+  int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
+  const PostureSet& posture_set() const { return header_.postures; }
+  const Posture& posture(int entry) const { return header_.postures.postures[entry / kViewCount]; }
   static int view(int entry) { return entry % kViewCount; }
   /// Direction, in the view's camera, from the camera to the center of the hand's bounding square.
   const Eigen::Vector3d& box_ray(int entry) const { return box_rays_[entry]; }
-  Side side() const { return side_; }
+  Side side() const { return header_.side; }
   /// Hash of all inputs.
-  const std::string& hash() const { return hash_; }
+  const std::string& hash() const { return header_.hash; }
 
   /// Labels of one entry, size*size. Throws Error if that size was not loaded.
   const uint8_t* labels(int size, int entry) const;
@@ -71,21 +74,19 @@ class Database {
 
  private:
   struct SizeData {
-    std::vector<uint8_t> labels;  ///< [entry][pixel]
-    AlignedBytes fields;          ///< [entry][color][pixel], and kBehind bytes
+    const uint8_t* labels = nullptr;  ///< [entry][pixel]
+    const uint8_t* fields = nullptr;  ///< [entry][color][pixel]; 64 bytes more may be read
     FieldRows rows;
   };
-  /// What look-ups may read behind the last field, bytes.
-  static constexpr size_t kBehind = 64;
 
+  /// Of the sizes that are wanted.
+  Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout, std::span<const int> sizes);
   const SizeData& data(int size) const;
-  /// To be called when the fields are complete.
-  void arrange_rows();
 
-  PostureSet postures_;
-  Side side_ = Side::right;
-  std::string hash_;
-  std::vector<Eigen::Vector3d> box_rays_;
+  std::shared_ptr<const MappedMemory> bytes_;                ///< as in the file
+  std::vector<std::shared_ptr<const MappedMemory>> copies_;  ///< of what is read here and there
+  DatabaseHeader header_;
+  const Eigen::Vector3d* box_rays_ = nullptr;
   std::map<int, SizeData> sizes_;
 };
 

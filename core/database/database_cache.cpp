@@ -42,18 +42,18 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
   if (error) throw Error(folder, "cache folder", error.message(), "a folder that can be written");
 
   const FileLock lock(file + ".lock");
+  const auto load = [&] { return tbb::task_arena(threads).execute([&] { return Database::load(file, sizes); }); };
   if (std::filesystem::exists(file)) {
     try {
-      Database database = tbb::task_arena(threads).execute([&] { return Database::load(file, sizes); });
+      Database database = load();
       if (database.hash() == hash) return database;
       message(file + ": made of other inputs; rebuilding it");
     } catch (const Error& e) {
       message(fmt::format("{}; rebuilding it", e.what()));
     }
   }
-  Database built = Database::build(postures, model, views, renderers, threads, progress);
-  built.save(file);
-  return built;
+  Database::build_file(file, postures, model, views, renderers, threads, progress);
+  return load();
 }
 
 std::string DatabaseCache::path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const {

@@ -1,75 +1,36 @@
-// The file of a database: magic, length and checksum of a JSON header, the header, then the sections that it lists,
-// each with its checksum. Everything is little-endian.
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include "core/database/database_file.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
-#include "core/database/database.h"
+#include "core/database/field_rows.h"
+#include "core/database/tiny_image.h"
+#include "core/database/view_sphere.h"
 
 namespace glovebench {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kMagic = "glovebench-database-1\n";
+constexpr std::string_view kMagic = "glovebench-database-2\n";
 constexpr size_t kHashLength = 32;
+constexpr size_t kHeaderBegin = kMagic.size() + sizeof(uint64_t) + kHashLength;
 constexpr uint64_t kMaxHeader = 64 << 20;
+constexpr uint64_t kPage = 4096;
+constexpr uint64_t kChunk = 16 << 20;
 
-template <typename Values>
-std::string_view bytes_of(const Values& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0])};
+uint64_t whole_pages(uint64_t bytes) {
+  return (bytes + kPage - 1) / kPage * kPage;
 }
 
-/// Reads a database file piece by piece and says what is wrong with it.
-class Reader {
- public:
-  explicit Reader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
-    if (!in_) throw Error(path, "file", std::strerror(errno), "a database file");
-    std::error_code error;  // a folder opens, too
-    size_ = std::filesystem::file_size(path, error);
-    if (error) throw Error(path, "file", error.message(), "a database file");
-  }
-  void fill(void* target, uint64_t count, const std::string& what) {
-    in_.read(static_cast<char*>(target), static_cast<std::streamsize>(count));
-    if (static_cast<uint64_t>(in_.gcount()) != count) {
-      throw Error(path_, what, fmt::format("{} of {} bytes", in_.gcount(), count), "a complete file");
-    }
-  }
-  std::string text(uint64_t count, const std::string& what) {
-    if (count > size_) throw Error(path_, what, fmt::format("a length of {} bytes", count), "a complete file");
-    std::string result(count, '\0');
-    fill(result.data(), count, what);
-    return result;
-  }
-  void seek(uint64_t offset) { in_.seekg(static_cast<std::streamoff>(offset)); }
-  uint64_t position() { return static_cast<uint64_t>(in_.tellg()); }
-  uint64_t size() const { return size_; }
-
- private:
-  std::string path_;
-  std::ifstream in_;
-  uint64_t size_ = 0;
-};
-
-json read_header(Reader& reader, const std::string& path) {
-  const std::string magic = reader.text(std::min<uint64_t>(kMagic.size(), reader.size()), "magic");
-  if (magic != kMagic) throw Error(path, "magic", "another format", "glovebench-database-1");
-  uint64_t length = 0;
-  reader.fill(&length, sizeof(length), "header length");
-  if (length > kMaxHeader) throw Error(path, "header length", fmt::format("{} bytes", length), "at most 64 MiB");
-  const std::string checksum = reader.text(kHashLength, "header checksum");
-  const std::string header = reader.text(length, "header");
-  if (hash_text(header) != checksum) throw Error(path, "header checksum", hash_text(header), checksum);
-  return json::parse(header);  // intact, so it is what `save` wrote
-}
-
-json posture_header(const PostureSet& set) {
+json postures_to_json(const PostureSet& set) {
   json postures = json::array();
   for (size_t p = 0; p < set.postures.size(); ++p) {
     const Posture& angles = set.postures[p];
@@ -79,93 +40,151 @@ json posture_header(const PostureSet& set) {
   return postures;
 }
 
-}  // namespace
-
-void Database::save(const std::string& path) const {
-  json sections = json::array();
-  std::vector<std::string_view> contents;
-  const auto add = [&](const std::string& name, std::string_view content) {
-    sections.push_back({{"name", name}, {"bytes", content.size()}, {"checksum", hash_text(content)}});
-    contents.push_back(content);
-  };
-  add("box_rays", bytes_of(box_rays_));
-  for (const auto& [size, size_data] : sizes_) {
-    add(fmt::format("labels_{}", size), bytes_of(size_data.labels));
-    add(fmt::format("fields_{}", size), bytes_of(size_data.fields).substr(0, size_data.fields.size() - kBehind));
+/// Throws json::exception for what `seal` does not write, Error naming `path` for what no database has.
+DatabaseHeader header_from_json(const json& text, const std::string& path) {
+  DatabaseHeader header;
+  header.postures.name = text.at("name");
+  header.hash = text.at("hash");
+  header.side = text.at("side") == "right" ? Side::right : Side::left;
+  for (const json& posture : text.at("postures")) {
+    header.postures.posture_names.push_back(posture.at("name"));
+    const std::vector<double> angles = posture.at("angles_rad");
+    if (angles.size() != kAngleCount) {
+      throw Error(path, "angles_rad", fmt::format("{} angles", angles.size()), fmt::format("{}", kAngleCount));
+    }
+    header.postures.postures.push_back(Eigen::Map<const Posture>(angles.data()));
   }
-  const json header = {{"name", postures_.name},
-                       {"hash", hash_},
-                       {"side", side_ == Side::right ? "right" : "left"},
-                       {"postures", posture_header(postures_)},
-                       {"sections", sections}};
-  const std::string text = header.dump();
-  const uint64_t length = text.size();
-
-  WholeFile file(path);
-  file.append(kMagic);
-  file.append({reinterpret_cast<const char*>(&length), sizeof(length)});
-  file.append(hash_text(text));
-  file.append(text);
-  for (const std::string_view content : contents) file.append(content);
-  file.commit();
+  for (const json& size : text.at("sizes")) {
+    const int px = size.at("px");
+    if (px < kSmallestTinySize || px > kLargestTinySize) {
+      throw Error(path, "tiny images", fmt::format("{} px", px),
+                  fmt::format("{} to {} px", kSmallestTinySize, kLargestTinySize));
+    }
+    header.sizes_px[px] = size.at("largest_distance");
+  }
+  return header;
 }
 
-Database Database::load(const std::string& path, std::span<const int> sizes) {
-  Reader reader(path);
-  const json header = read_header(reader, path);
-  Database database;
-  database.postures_.name = header.at("name");
-  database.hash_ = header.at("hash");
-  database.side_ = header.at("side") == "right" ? Side::right : Side::left;
-  for (const json& posture : header.at("postures")) {
-    database.postures_.posture_names.push_back(posture.at("name"));
-    const std::vector<double> angles = posture.at("angles_rad");
-    database.postures_.postures.push_back(Eigen::Map<const Posture>(angles.data()));
-  }
-  const auto wanted = [&](const std::string& name, int& size) {
-    for (const int s : sizes) {
-      if (name == fmt::format("labels_{}", s) || name == fmt::format("fields_{}", s)) return size = s, true;
+std::string hash_of(std::span<const uint8_t> bytes) {
+  return hash_bytes(std::as_bytes(bytes));
+}
+
+}  // namespace
+
+DatabaseLayout::DatabaseLayout(DatabaseHeader header) : header_(std::move(header)) {
+  place(0);  // the number of checksums, and with it the header's length, does not depend on the place
+  const uint64_t length =
+      header_text(std::vector<std::string>(chunks().size(), std::string(kHashLength, '0'))).size();
+  place(kHeaderBegin + length);
+}
+
+DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string& path) {
+  const auto text_at = [&](size_t offset, size_t count, const std::string& what) {
+    if (offset + count > file.size()) {
+      throw Error(path, what, fmt::format("a file of {} bytes", file.size()), "a complete file");
     }
-    return false;
+    return std::string(reinterpret_cast<const char*>(file.data()) + offset, count);
   };
-  uint64_t offset = reader.position();
-  for (const json& section : header.at("sections")) {
-    const std::string name = section.at("name");
-    const uint64_t bytes = section.at("bytes");
-    if (offset + bytes > reader.size()) {
-      throw Error(path, name, fmt::format("a file of {} bytes", reader.size()), "a complete file");
-    }
-    reader.seek(offset);
-    offset += bytes;
-    int size = 0;
-    std::string_view content;
-    if (name == "box_rays") {
-      database.box_rays_.resize(bytes / sizeof(Eigen::Vector3d));
-      reader.fill(database.box_rays_.data(), bytes, name);
-      content = bytes_of(database.box_rays_);
-    } else if (wanted(name, size)) {
-      SizeData& data = database.sizes_[size];
-      uint8_t* target = nullptr;
-      if (name.starts_with("labels")) {
-        data.labels.resize(bytes);
-        target = data.labels.data();
-      } else {
-        data.fields.resize(bytes + kBehind);
-        target = data.fields.data();
-      }
-      reader.fill(target, bytes, name);
-      content = {reinterpret_cast<const char*>(target), bytes};
-    } else {
-      continue;
-    }
-    const std::string checksum = section.at("checksum");
-    if (hash_text(content) != checksum) throw Error(path, name + " checksum", hash_text(content), checksum);
+  const std::string magic = text_at(0, std::min(kMagic.size(), file.size()), "magic");
+  if (magic != kMagic)
+    throw Error(path, "magic", "another format", std::string(kMagic.substr(0, kMagic.size() - 1)));
+  uint64_t length = 0;
+  std::memcpy(&length, text_at(kMagic.size(), sizeof(length), "header length").data(), sizeof(length));
+  if (length > kMaxHeader) throw Error(path, "header length", fmt::format("{} bytes", length), "at most 64 MiB");
+  const std::string checksum = text_at(kMagic.size() + sizeof(length), kHashLength, "header checksum");
+  const std::string text = text_at(kHeaderBegin, length, "header");
+  if (hash_text(text) != checksum) throw Error(path, "header checksum", hash_text(text), checksum);
+
+  try {
+    const json parsed = json::parse(text);
+    header_ = header_from_json(parsed, path);
+    checksums_ = parsed.at("checksums").get<std::vector<std::string>>();
+  } catch (const json::exception& e) {
+    throw Error(path, "header", e.what(), "what a database of this version says");
   }
-  if (offset != reader.size()) {
-    throw Error(path, "length", fmt::format("{} bytes", reader.size()), fmt::format("{} bytes", offset));
+  place(kHeaderBegin + length);
+  if (checksums_.size() != chunks().size()) {
+    throw Error(path, "checksums", fmt::format("{}", checksums_.size()), fmt::format("{}", chunks().size()));
   }
-  database.arrange_rows();
-  return database;
+  if (bytes_ != file.size()) {
+    throw Error(path, "length", fmt::format("{} bytes", file.size()), fmt::format("{} bytes", bytes_));
+  }
+}
+
+void DatabaseLayout::place(uint64_t header_bytes) {
+  const uint64_t entries = header_.postures.postures.size() * kViewCount;
+  uint64_t end = whole_pages(header_bytes);
+  const auto next = [&](uint64_t bytes) {
+    const Section section{end, bytes};
+    end = whole_pages(end + bytes + kBehind);
+    return section;
+  };
+  box_rays_ = next(entries * sizeof(Eigen::Vector3d));
+  for (const auto& [size, largest] : header_.sizes_px) {
+    const uint64_t pixels = static_cast<uint64_t>(size) * size;
+    SizeSections& sections = sizes_[size];
+    sections.labels = next(entries * pixels);
+    sections.fields = next(entries * pixels * kColorCount);
+    sections.rows = next(FieldRows::bytes(size, static_cast<int>(entries)));
+  }
+  bytes_ = end;
+}
+
+std::vector<DatabaseLayout::Chunk> DatabaseLayout::chunks() const {
+  std::vector<Chunk> chunks;
+  // With the zeros behind it: every byte of the file is in a checksum.
+  const auto add = [&](const std::string& name, const Section& section) {
+    const uint64_t end = whole_pages(section.offset + section.bytes + kBehind);
+    for (uint64_t offset = section.offset; offset < end; offset += kChunk)
+      chunks.push_back({name, offset, std::min(kChunk, end - offset)});
+  };
+  add("box_rays", box_rays_);
+  for (const auto& [size, sections] : sizes_) {
+    add(fmt::format("labels_{}", size), sections.labels);
+    add(fmt::format("fields_{}", size), sections.fields);
+    add(fmt::format("rows_{}", size), sections.rows);
+  }
+  return chunks;
+}
+
+std::string DatabaseLayout::header_text(const std::vector<std::string>& checksums) const {
+  json sizes = json::array();
+  for (const auto& [size, largest] : header_.sizes_px)
+    sizes.push_back({{"px", size}, {"largest_distance", largest}});
+  std::string text = json{
+      {"name", header_.postures.name},
+      {"hash", header_.hash},
+      {"side", header_.side == Side::right ? "right" : "left"},
+      {"postures", postures_to_json(header_.postures)},
+      {"sizes", sizes},
+      {"checksums",
+       checksums}}.dump();
+  text.resize(whole_pages(kHeaderBegin + text.size()) - kHeaderBegin, ' ');
+  return text;
+}
+
+void DatabaseLayout::seal(std::span<uint8_t> file) const {
+  const std::vector<Chunk> all = chunks();
+  std::vector<std::string> checksums(all.size());
+  tbb::parallel_for(size_t{0}, all.size(),
+                    [&](size_t i) { checksums[i] = hash_of(file.subspan(all[i].offset, all[i].bytes)); });
+  const std::string text = header_text(checksums);
+  const uint64_t length = text.size();
+  std::string header(kMagic);
+  header.append(reinterpret_cast<const char*>(&length), sizeof(length));
+  header += hash_text(text) + text;
+  std::memcpy(file.data(), header.data(), header.size());
+}
+
+void DatabaseLayout::check_sections(std::span<const uint8_t> file, const std::string& path,
+                                    std::span<const int> sizes_px) const {
+  std::vector<Chunk> all = chunks();
+  tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
+    const auto is_of = [&](int size) { return all[i].section.ends_with(fmt::format("_{}", size)); };
+    if (all[i].section != "box_rays" && std::ranges::none_of(sizes_px, is_of)) return;
+    const std::string found = hash_of(file.subspan(all[i].offset, all[i].bytes));
+    if (found != checksums_[i]) throw Error(path, all[i].section + " checksum", found, checksums_[i]);
+  });
 }
 
 }  // namespace glovebench

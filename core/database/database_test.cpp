@@ -2,10 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <set>
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/hash.h"
 #include "core/base/random.h"
 #include "core/database/test_database.h"
 
@@ -241,10 +243,43 @@ TEST_F(DatabaseFile, another_format_and_trailing_bytes_are_errors_that_say_so) {
   expect_refused(good_ + '\0', "one byte more");
   expect_refused("PNG\n" + good_, "something in front");
   std::string newer = good_;
-  newer[newer.find("-1\n") + 1] = '2';
+  newer[newer.find("-2\n") + 1] = '3';
   write_file(path_, newer);
   EXPECT_THAT([&] { Database::load(path_); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("magic"), HasSubstr("glovebench-database-1"))));
+              ThrowsMessage<Error>(AllOf(HasSubstr("magic"), HasSubstr("glovebench-database-2"))));
+}
+
+/// The file with another header of the same length, whose checksum is right.
+std::string with_header(std::string file, const std::string& from, const std::string& to) {
+  constexpr size_t kLength = 22, kHash = 30, kHeader = 62;
+  uint64_t length = 0;
+  std::memcpy(&length, file.data() + kLength, sizeof(length));
+  std::string header = file.substr(kHeader, length);
+  header.replace(header.find(from), from.size(), to);
+  header.resize(length, ' ');
+  return file.replace(kHash, 32, hash_text(header)).replace(kHeader, length, header);
+}
+
+TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
+  for (const auto& [from, to] : {std::pair{"\"px\":16", "\"px\":96"},
+                                 {"\"px\":16", "\"px\":-1"},
+                                 {"\"px\":16", "\"px\":17"},
+                                 {"\"px\":16", "\"px\":{}"},
+                                 {"\"angles_rad\":[0.0,", "\"angles_rad\":["},
+                                 {"\"angles_rad\":[", "\"angles_rad\":[{},"},
+                                 {"\"checksums\":[", "\"checksums\":[\"\","},
+                                 {"\"postures\":[", "\"postures\":[{},"},
+                                 {"\"postures\":[", "\"postures\":3,\"p\":["},
+                                 {"\"name\":", "\"nome\":"},
+                                 {"{", "["}})
+    expect_refused(with_header(good_, from, to), to);
+}
+
+TEST_F(DatabaseFile, is_the_same_whether_it_was_built_in_memory_or_not) {
+  const auto renderers = [] { return std::make_unique<BlockRenderer>(); };
+  const std::string built = folder_ / "built.glovedb";
+  Database::build_file(built, one_posture(), render::test_hand(), kSmallViews, renderers, 2);
+  EXPECT_TRUE(read_file(built) == good_);
 }
 
 TEST_F(DatabaseFile, a_missing_file_and_a_folder_are_errors) {

@@ -129,8 +129,10 @@ TEST(FastLookUp, sums_at_the_cap_do_not_overflow) {
     const size_t pixels = static_cast<size_t>(size) * size;
     const uint8_t cap = static_cast<uint8_t>(size * kFieldScale);
     constexpr int kEntries = 70;
-    const AlignedBytes fields(pixels * kColorCount * kEntries + 64, cap);
-    const FieldRows rows(fields.data(), size, kEntries);
+    const std::vector<uint8_t> fields(pixels * kColorCount * kEntries + 64, cap);
+    MappedMemory values = MappedMemory::zeros(FieldRows::bytes(size, kEntries));
+    FieldRows::arrange(fields.data(), size, kEntries, values.writable());
+    const FieldRows rows(size, kEntries, cap, values.bytes().data());
     const LabelImage query(size, size, 7);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
     QueryLabels labels;
@@ -150,7 +152,7 @@ TEST(FastLookUp, sums_at_the_cap_do_not_overflow) {
 }
 
 TEST(FastLookUp, adding_chunks_stops_above_the_limit) {
-  const AlignedBytes fields(64 * 100, 10);
+  const std::vector<uint8_t> fields(64 * 100, 10);
   QueryLabels labels;
   labels.labels[5] = 3;
   labels.labels[6] = 2;  // another color

@@ -34,28 +34,37 @@ void pool_entry(const uint8_t* fields, int size, int cells, uint8_t* minima) {
 
 }  // namespace
 
-FieldRows::FieldRows(const uint8_t* fields, int size, int entry_count)
+FieldRows::FieldRows(int size, int entry_count, uint8_t largest, const uint8_t* values)
     : pool_(size <= kLargestExact ? 1 : kPool),
       cells_((size + pool_ - 1) / pool_),
       block_count_((static_cast<size_t>(entry_count) + kBlock - 1) / kBlock),
-      values_(block_count_ * block_bytes()) {
-  const size_t rows = static_cast<size_t>(kColorCount) * cells_ * cells_;
+      largest_value_(largest),
+      values_(values) {
+  for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
+}
+
+size_t FieldRows::bytes(int size, int entry_count) {
+  const FieldRows rows(size, entry_count, 0, nullptr);
+  return rows.block_count() * rows.block_bytes();
+}
+
+void FieldRows::arrange(const uint8_t* fields, int size, int entry_count, std::span<uint8_t> values) {
+  const FieldRows shape(size, entry_count, 0, nullptr);
+  const size_t rows = shape.block_bytes() / kBlock;
   const size_t entry_bytes = static_cast<size_t>(kColorCount) * size * size;
-  tbb::parallel_for(size_t{0}, block_count_, [&](size_t block) {
+  tbb::parallel_for(size_t{0}, shape.block_count(), [&](size_t block) {
     std::vector<uint8_t> pooled(rows);
-    uint8_t* const target = values_.data() + block * block_bytes();
+    uint8_t* const target = values.data() + block * shape.block_bytes();
     for (int e = 0; e < kBlock; ++e) {
       const size_t entry = std::min(block * kBlock + e, static_cast<size_t>(entry_count) - 1);
-      const uint8_t* values = fields + entry * entry_bytes;
-      if (!exact()) {
-        pool_entry(values, size, cells_, pooled.data());
-        values = pooled.data();
+      const uint8_t* values_of_entry = fields + entry * entry_bytes;
+      if (!shape.exact()) {
+        pool_entry(values_of_entry, size, shape.cells_, pooled.data());
+        values_of_entry = pooled.data();
       }
-      for (size_t row = 0; row < rows; ++row) target[row * kBlock + e] = values[row];
+      for (size_t row = 0; row < rows; ++row) target[row * kBlock + e] = values_of_entry[row];
     }
   });
-  for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
-  if (!values_.empty()) largest_value_ = *std::max_element(values_.begin(), values_.end());
 }
 
 std::vector<WeightedRow> FieldRows::rows_of(const LabelImage& query) const {

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <tbb/cache_aligned_allocator.h>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/base/image.h"
 
 namespace glovebench {
-
-/// Bytes that start at a cache line.
-using AlignedBytes = std::vector<uint8_t, tbb::cache_aligned_allocator<uint8_t>>;
 
 /// A row that a query adds up, and how often.
 struct WeightedRow {
@@ -28,14 +25,19 @@ class FieldRows {
   static constexpr int kLargestExact = 24, kPool = 4;  ///< px
 
   FieldRows() = default;
-  /// From the fields of `entry_count` entries, kColorCount fields of size * size each.
-  FieldRows(const uint8_t* fields, int size, int entry_count);
+  /// Rows that lie in `values`, whose lifetime is the caller's concern; of tiny images of that size, px, with no
+  /// value larger than `largest`.
+  FieldRows(int size, int entry_count, uint8_t largest, const uint8_t* values);
+  /// What the rows of so many entries take.
+  static size_t bytes(int size, int entry_count);
+  /// Makes the rows of the fields of all entries, kColorCount fields of size * size each, in `values`.
+  static void arrange(const uint8_t* fields, int size, int entry_count, std::span<uint8_t> values);
 
   /// Sums over rows are the distances, not just bounds.
   bool exact() const { return pool_ == 1; }
   size_t block_count() const { return block_count_; }
   size_t block_bytes() const { return static_cast<size_t>(kColorCount) * cells_ * cells_ * kBlock; }
-  const uint8_t* data() const { return values_.data(); }
+  const uint8_t* data() const { return values_; }
   uint8_t largest_value() const { return largest_value_; }
 
   /// The rows that a query of this size adds up: how many of its pixels of a color lie in a cell.
@@ -47,7 +49,7 @@ class FieldRows {
   std::array<uint8_t, 64> cell_of_pixel_{};  ///< along a side
   size_t block_count_ = 0;
   uint8_t largest_value_ = 0;
-  AlignedBytes values_;  ///< entries behind the last one repeat it
+  const uint8_t* values_ = nullptr;  ///< entries behind the last one repeat it
 };
 
 }  // namespace glovebench

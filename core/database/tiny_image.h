@@ -9,6 +9,9 @@ namespace glovebench {
 
 /// Edge lengths of the tiny images, px (section III).
 inline constexpr std::array<int, 4> kTinySizes = {8, 16, 32, 64};
+/// What a database may have, px. Larger images do not fit: chamfer_field steps at most 64 px along a row, and a
+/// stored distance is a byte, also when the cap is the whole side. Smaller ones tell nothing.
+inline constexpr int kSmallestTinySize = 4, kLargestTinySize = 64;
 
 /// A square in an image: half-open pixel ranges, may reach beyond the image.
 struct Square {

@@ -21,12 +21,12 @@ struct Build {
                                    : trajectories::posture_set(trajectory_folder(), postures);
     Workbench workbench = common.workbench();
     Progress progress("building " + set.name, common.quiet);
-    const Database database =
-        Database::build(set, *workbench.model(), workbench.config().views, render::label_renderer_factory(),
-                        workbench.config().threads, [&](double share) { progress.show(share); });
-    database.save(common.output);
+    const HandModel& model = *workbench.model();
+    const WorkbenchConfig& config = workbench.config();
+    Database::build_file(common.output, set, model, config.views, render::label_renderer_factory(), config.threads,
+                         [&](double share) { progress.show(share); });
     fmt::print("{}: {} postures x {} views = {} entries, hash {}\n", common.output, set.postures.size(), kViewCount,
-               database.entry_count(), database.hash());
+               set.postures.size() * kViewCount, Database::input_hash(set, model, config.views));
   }
 };
 

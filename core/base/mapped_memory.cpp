@@ -1,0 +1,60 @@
+#include "core/base/mapped_memory.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+
+MappedMemory MappedMemory::zeros(size_t bytes) {
+  if (bytes == 0) return {};
+  void* const data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (data == MAP_FAILED) throw std::bad_alloc();
+  ::madvise(data, bytes, MADV_HUGEPAGE);  // a wish: small pages do, too
+  return {data, bytes};
+}
+
+MappedMemory MappedMemory::of_file(const std::string& path) {
+  constexpr const char* kExpected = "a readable file";
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw Error(path, "file", std::strerror(errno), kExpected);
+  struct stat status = {};
+  const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  const auto bytes = static_cast<size_t>(status.st_size);
+  void* const data = is_file && bytes > 0 ? ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, descriptor, 0) : nullptr;
+  const int error = errno;
+  ::close(descriptor);
+  if (!is_file) throw Error(path, "file", S_ISDIR(status.st_mode) ? "a folder" : "no file", kExpected);
+  if (data == MAP_FAILED) throw Error(path, "file", std::strerror(error), kExpected);
+  return data ? MappedMemory(data, bytes) : MappedMemory();
+}
+
+MappedMemory MappedMemory::of_descriptor(int descriptor, size_t bytes, const std::string& path) {
+  if (bytes == 0) return {};
+  void* const data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  if (data == MAP_FAILED) throw Error(path, "file", std::strerror(errno), "a file that can be mapped");
+  return {data, bytes};
+}
+
+MappedMemory::~MappedMemory() {
+  if (data_) ::munmap(data_, size_);
+}
+
+MappedMemory::MappedMemory(MappedMemory&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+
+MappedMemory& MappedMemory::operator=(MappedMemory&& other) noexcept {
+  std::swap(data_, other.data_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+}  // namespace glovebench

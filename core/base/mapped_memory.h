@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace glovebench {
+
+/// Whole pages of memory: of this process alone, or of a file whose bytes they are.
+class MappedMemory {
+ public:
+  MappedMemory() = default;
+  /// Zeroed memory. Asks for large pages: what is read here and there in it misses fewer translations. Throws
+  /// std::bad_alloc.
+  static MappedMemory zeros(size_t bytes);
+  /// The bytes of a file, to read; they are in memory when they are first looked at. The file must not become
+  /// shorter meanwhile, which ends the process: files are replaced, not changed (WholeFile). Throws Error.
+  static MappedMemory of_file(const std::string& path);
+  /// The first bytes of an open file, to write. Throws Error naming `path`.
+  static MappedMemory of_descriptor(int descriptor, size_t bytes, const std::string& path);
+  ~MappedMemory();
+  MappedMemory(MappedMemory&& other) noexcept;
+  MappedMemory& operator=(MappedMemory&& other) noexcept;
+
+  std::span<const uint8_t> bytes() const { return {data_, size_}; }
+  /// Not of memory from `of_file`.
+  std::span<uint8_t> writable() { return {data_, size_}; }
+
+ private:
+  MappedMemory(void* data, size_t size) : data_(static_cast<uint8_t*>(data)), size_(size) {}
+  uint8_t* data_ = nullptr;
+  size_t size_ = 0;
+};
+
+}  // namespace glovebench

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/hand/posture.h"
+
+namespace glovebench {
+
+/// Postures of one database, e.g. "DB_open_power".
+struct PostureSet {
+  std::string name;
+  std::vector<std::string> posture_names;
+  std::vector<Posture> postures;
+};
+
+}  // namespace glovebench
