@@ -152,7 +152,7 @@ AblationRuns::AblationRuns(const StudyContext& context, const std::vector<Ablati
     // What looks the same stands together, to be rendered once.
     std::ranges::stable_sort(
         settings, {}, [](const Setting& setting) { return std::pair(setting.subject, setting.clutter_in_volume); });
-    auto passes = run_settings(context, movements_for(context, database), settings, {database}, Pace::parallel);
+    auto passes = run_settings(context, movements_for(context, database), settings, {database});
     for (size_t s = 0; s < settings.size(); ++s)
       passes_[{settings[s].name, database}] = std::move(passes[s].front());
   }

@@ -117,7 +117,7 @@ Table tracking_table(const StudyContext& context) {
     }
   }
   const auto passes = run_settings(context, movements(context, reports::TruthKind::source, {"Tr4"}), settings,
-                                   {"DB_open_pinch_power"}, Pace::parallel);
+                                   {"DB_open_pinch_power"});
   Table table = empty_tracking_table();
   for (const ColorSpace space : kSpaces) {
     for (size_t i = 0; i < settings.size(); ++i) {

@@ -98,8 +98,7 @@ std::vector<Cell> row_of(const Setting& setting, const std::string& database, co
 
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases) {
   const std::vector<Setting> settings = settings_of(context.options.tracker);
-  const auto passes =
-      run_settings(context, movements(context, TruthKind::source), settings, databases, Pace::parallel);
+  const auto passes = run_settings(context, movements(context, TruthKind::source), settings, databases);
   Table table = empty_table();
   for (size_t s = 0; s < settings.size(); ++s)
     for (size_t d = 0; d < databases.size(); ++d)

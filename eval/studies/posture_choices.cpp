@@ -73,9 +73,8 @@ void add_posture_choices(const StudyContext& context, const std::vector<PostureS
     Workbench workbench(context.workbench.config());
     workbench.database(set);
     const StudyContext own{workbench, context.options, context.run_folder};
-    auto passes =
-        run_settings(own, movements(own, reports::TruthKind::source),
-                     {{.name = kDefaultSetting, .tracker = context.options.tracker}}, {set.name}, Pace::parallel);
+    auto passes = run_settings(own, movements(own, reports::TruthKind::source),
+                               {{.name = kDefaultSetting, .tracker = context.options.tracker}}, {set.name});
     runs.add(kDefaultSetting, set.name, std::move(passes.front().front()));
   }
 }

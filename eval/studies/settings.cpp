@@ -12,6 +12,9 @@ using trajectories::Trajectory;
 /// What a quick reproduction looks at, and a stretch that all movements have.
 constexpr const char* kQuickTrajectory = "Tr4";
 constexpr FrameRange kQuickFrames = {44, 16};
+/// What is timed of each movement; so many that a 95th percentile over five of them is one of several frames.
+constexpr FrameRange kTimedFrames = {44, 24};
+constexpr int kQuickTimedFrames = 2;
 
 Replay replay_of(const Setting& setting, const std::shared_ptr<const Trajectory>& truth, uint64_t seed,
                  const std::vector<std::string>& databases, const Movements& movements) {
@@ -25,6 +28,41 @@ Replay replay_of(const Setting& setting, const std::shared_ptr<const Trajectory>
   replay.lighting = setting.lighting;
   replay.clutter_in_volume = setting.clutter_in_volume;
   return replay;
+}
+
+std::vector<std::vector<Passes>> run_on(const StudyContext& context, const Movements& movements,
+                                        const std::vector<Setting>& settings,
+                                        const std::vector<std::string>& databases, int threads,
+                                        const RunFolder* run_folder) {
+  // Settings stand innermost: what shares its images stands together and is rendered once.
+  std::vector<Replay> replays;
+  for (const auto& truth : movements.truths)
+    for (const uint64_t seed : context.options.seeds)
+      for (const Setting& setting : settings)
+        replays.push_back(replay_of(setting, truth, seed, databases, movements));
+  prepare(context.workbench, replays);
+  std::vector<TrackedReplays> tracked = replay_all(context.workbench, replays, threads, run_folder);
+
+  std::vector<std::vector<Passes>> result(settings.size(), std::vector<Passes>(databases.size()));
+  size_t next = 0;
+  for (size_t t = 0; t < movements.truths.size(); ++t) {
+    for (size_t s = 0; s < context.options.seeds.size(); ++s) {
+      for (std::vector<Passes>& of_setting : result) {
+        TrackedReplays& of_replay = tracked[next++];
+        for (size_t d = 0; d < databases.size(); ++d) {
+          of_setting[d].strata.resize(movements.truths.size());
+          of_setting[d].strata[t].push_back(std::move(of_replay[d]));
+        }
+      }
+    }
+  }
+  for (std::vector<Passes>& of_setting : result) {
+    for (Passes& passes : of_setting) {
+      passes.truths = movements.truths;
+      passes.range = movements.range;
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -47,38 +85,22 @@ Movements movements(const StudyContext& context, TruthKind truth, const std::vec
 
 std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const Movements& movements,
                                               const std::vector<Setting>& settings,
-                                              const std::vector<std::string>& databases, Pace pace) {
-  // Settings stand innermost: what shares its images stands together and is rendered once.
-  std::vector<Replay> replays;
-  for (const auto& truth : movements.truths)
-    for (const uint64_t seed : context.options.seeds)
-      for (const Setting& setting : settings)
-        replays.push_back(replay_of(setting, truth, seed, databases, movements));
-  prepare(context.workbench, replays);
-  const int threads = pace == Pace::timed ? 1 : context.workbench.config().threads;
-  std::vector<TrackedReplays> tracked =
-      replay_all(context.workbench, replays, threads, pace == Pace::timed ? nullptr : context.run_folder);
+                                              const std::vector<std::string>& databases) {
+  return run_on(context, movements, settings, databases, context.workbench.config().threads, context.run_folder);
+}
 
-  std::vector<std::vector<Passes>> result(settings.size(), std::vector<Passes>(databases.size()));
-  size_t next = 0;
-  for (size_t t = 0; t < movements.truths.size(); ++t) {
-    for (size_t s = 0; s < context.options.seeds.size(); ++s) {
-      for (std::vector<Passes>& of_setting : result) {
-        TrackedReplays& of_replay = tracked[next++];
-        for (size_t d = 0; d < databases.size(); ++d) {
-          of_setting[d].strata.resize(movements.truths.size());
-          of_setting[d].strata[t].push_back(std::move(of_replay[d]));
-        }
-      }
-    }
+std::vector<std::vector<Passes>> time_settings(const StudyContext& context, const Movements& movements,
+                                               std::vector<Setting> settings,
+                                               const std::vector<std::string>& databases,
+                                               Implementation implementation) {
+  for (Setting& setting : settings) {
+    setting.tracker.lookup.implementation = implementation;
+    setting.tracker.icp.implementation = implementation;
   }
-  for (std::vector<Passes>& of_setting : result) {
-    for (Passes& passes : of_setting) {
-      passes.truths = movements.truths;
-      passes.range = movements.range;
-    }
-  }
-  return result;
+  Movements stretches = movements;
+  stretches.range = kTimedFrames;
+  if (context.options.quick) stretches.range.count = kQuickTimedFrames;
+  return run_on(context, stretches, settings, databases, 1, nullptr);
 }
 
 Sample sample_of(const Passes& passes,

@@ -37,14 +37,19 @@ FrameRange frames_of(const StudyOptions& options);
 Movements movements(const StudyContext& context, reports::TruthKind truth,
                     const std::vector<std::string>& names = {});
 
-/// How the replays share the machine. Timed ones run alone, on one thread; their replays are not kept for a run
-/// that goes on after an interrupt, so that no times come from a parallel pass or another machine.
-enum class Pace { timed, parallel };
-
-/// Every setting with every database over the same device frames, gradient noise x 1: [setting][database].
+/// Every setting with every database over the same device frames, gradient noise x 1: [setting][database]. For
+/// errors: the replays share the machine, so that their times say little.
 std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const Movements& movements,
                                               const std::vector<Setting>& settings,
-                                              const std::vector<std::string>& databases, Pace pace);
+                                              const std::vector<std::string>& databases);
+
+/// The same for times: with that look-up and closest-point search, on one thread, nothing beside it, over a stretch
+/// of each movement (the plain search takes up to a second a frame). Nothing of it is kept for a run that goes on
+/// after an interrupt, so that no times come from another run or machine.
+std::vector<std::vector<Passes>> time_settings(const StudyContext& context, const Movements& movements,
+                                               std::vector<Setting> settings,
+                                               const std::vector<std::string>& databases,
+                                               Implementation implementation);
 
 /// A value of each frame.
 Sample sample_of(const Passes& passes,

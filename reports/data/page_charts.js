@@ -124,7 +124,7 @@ function curve(figure, metric, title, paperColumn, isLast) {
 }
 
 // Lines with the intervals of their points, one color and shape a group (`only`: the first group alone). `floor` is
-// the column of a dashed line.
+// the column of dashed lines.
 function lines(table, options) {
   return tables => {
     const {x, y, group, low, high, xTitle, yTitle, xBase, yLog, floor, floorTitle, only} = options;
@@ -157,15 +157,16 @@ function lines(table, options) {
         mark: {type: 'rule', strokeWidth: 1.5},
         encoding: {x: xEncoding, y: {field: low, type: 'quantitative'}, y2: {field: high}, color}
       });
-    if (floor)
+    if (floor) {
+      const height = {field: floor, aggregate: 'median', type: 'quantitative', scale: yScale};
       layer.push({
-        mark: {type: 'line', strokeDash: [5, 4], strokeWidth: 1.5, color: 'var(--muted)'},
-        encoding: {x: xEncoding, y: {field: floor, aggregate: 'median', type: 'quantitative', scale: yScale}}
+        mark: {type: 'line', strokeDash: [5, 4], strokeWidth: 1.5}, encoding: {x: xEncoding, y: height, color}
       }, {
         transform: [{filter: `datum['${x}'] === ${xs[0]}`}],
         mark: {type: 'text', align: 'left', dx: 4, dy: -7, color: 'var(--muted)', text: floorTitle},
-        encoding: {x: xEncoding, y: {field: floor, aggregate: 'median', type: 'quantitative', scale: yScale}}
+        encoding: {x: xEncoding, y: height, detail: {field: group}}
       });
+    }
     return {data: {values: rows}, width: options.width || 400, height: 220, layer};
   };
 }
@@ -287,8 +288,8 @@ charts['figure9-rotation'] = lines('figure9', {
   ...factor, y: 'rotation_error_deg', low: 'rotation_error_deg_low', high: 'rotation_error_deg_high',
   yTitle: 'rotation error (deg)'
 });
-charts['figure9-time'] = lines('figure9', {
-  ...factor, y: 'frame_ms_p50', yTitle: 'time of a frame, median (ms)', floor: 'look_up_ms_p50', floorTitle: 'look-up'
+charts['figure9-time'] = lines('figure9_times', {
+  ...factor, group: 'implementation', y: 'frame_ms_p50', yTitle: 'time of a frame, median (ms)', yLog: true, floor: 'look_up_ms_p50', floorTitle: 'look-up'
 });
 [['position', 'position_change_mm', 'position error (mm)'], ['posture', 'posture_change_deg', 'posture error (deg)'],
  ['rotation', 'rotation_change_deg', 'rotation error (deg)']].forEach(([name, change, title], i) => {

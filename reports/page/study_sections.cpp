@@ -21,7 +21,7 @@ constexpr std::array<StudyChart, 9> kCharts = {{
     {"figure8", "figure8", "Posture error against time for each cascade"},
     {"figure9", "figure9-position", "Position error against the factor of the sub-sampling"},
     {"figure9", "figure9-rotation", "Rotation error against the factor of the sub-sampling"},
-    {"figure9", "figure9-time", "Time of a frame against the factor of the sub-sampling"},
+    {"figure9_times", "figure9-time", "Time of a frame against the factor of the sub-sampling"},
     {"ablations", "ablations-position", "Change of the position error with each setting"},
     {"ablations", "ablations-posture", "Change of the posture error with each setting"},
     {"ablations", "ablations-rotation", "Change of the rotation error with each setting"},
