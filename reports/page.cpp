@@ -72,7 +72,7 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
   for (Section& section : experiment_sections(result, paper, material.sheets))
     sections.push_back(std::move(section));
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));
-  sections.push_back(metrics_section(result));
+  if (!result.experiments.empty()) sections.push_back(metrics_section(result));
   if (!material.worst_frames.empty()) sections.push_back(gallery_section(material.worst_frames));
   sections.push_back(configuration_section(result));
   if (!result.studies.empty()) sections.push_back(environment_section(timings));

@@ -9,6 +9,7 @@ namespace glovebench::reports {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -42,7 +43,9 @@ TEST(Page, LeavesOutWhatWasNotRun) {
   for (const char* part : {"figure5", "figure6", "figure7", "id=\"worst\"", "id=\"environment\""})
     EXPECT_THAT(page, Not(HasSubstr(part)));
   result.experiments.clear();
-  EXPECT_THAT(html_page(result, paper_numbers()), HasSubstr("</html>"));
+  const std::string empty = html_page(result, paper_numbers());
+  EXPECT_THAT(empty, AllOf(HasSubstr("</html>"), HasSubstr("id=\"configuration\"")));
+  EXPECT_THAT(empty, Not(AnyOf(HasSubstr("id=\"figure4\""), HasSubstr("id=\"metrics\""))));
 }
 
 TEST(Page, ContentsLeadToEverySection) {

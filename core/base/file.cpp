@@ -60,7 +60,11 @@ WholeFile::WholeFile(const std::string& path) : path_(path), temporary_(temporar
   std::error_code error;
   if (!folder.empty()) fs::create_directories(folder, error);
   if (error) throw Error(folder.string(), "folder", error.message(), "a folder that can be written");
-  descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  const auto create = [&] {
+    return descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  };
+  // A killed process of the same number may have left one.
+  while (create() < 0 && errno == EEXIST) temporary_ = temporary_name(path);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "a file that can be written");
 }
 

@@ -13,8 +13,9 @@ class MappedMemory {
   /// Zeroed memory. Asks for large pages: what is read here and there in it misses fewer translations. Throws
   /// std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// The bytes of a file, to read; they are in memory when they are first looked at. The file must not become
-  /// shorter meanwhile, which ends the process: files are replaced, not changed (WholeFile). Throws Error.
+  /// The bytes of a file, to read; they come into memory when they are looked at, and may leave it again. The file
+  /// must be replaced (WholeFile), not changed, while it is mapped: other bytes would be seen, and a byte that is
+  /// no longer there, or that the disk cannot read, ends the process (SIGBUS). Throws Error.
   static MappedMemory of_file(const std::string& path);
   /// The first bytes of an open file, to write. Throws Error naming `path`.
   static MappedMemory of_descriptor(int descriptor, size_t bytes, const std::string& path);

@@ -46,9 +46,10 @@ class Database {
 
   /// A versioned, checksummed file (database_file.h).
   void save(const std::string& path) const;
-  /// `sizes` are the tiny-image sizes that are wanted, of those that the file has. Labels and fields stay in the
-  /// file, which must not change meanwhile, and take memory that the system can take back; the rows are copied.
-  /// Uses the threads of the caller's TBB arena. Throws Error naming the file and what is wrong with it.
+  /// `sizes` are the tiny-image sizes that are wanted, of those that the file has. All bytes of these are read and
+  /// checked. Labels and fields stay in the file (MappedMemory::of_file says what that asks of it) and take memory
+  /// that the system can take back; the rows are copied. Uses the threads of the caller's TBB arena. Throws Error
+  /// naming the file and what is wrong with it.
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
   /// What a database made of these inputs would have as `hash()`.
   static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);

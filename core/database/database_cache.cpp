@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
+#include "core/base/file.h"
 
 namespace glovebench {
 namespace {
@@ -52,6 +53,8 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
       message(fmt::format("{}; rebuilding it", e.what()));
     }
   }
+  // What a killed build left, as large as a database; no other process builds this one.
+  remove_leftovers(folder, [&](const std::string& name) { return folder + "/" + name == file; });
   Database::build_file(file, postures, model, views, renderers, threads, progress);
   return load();
 }

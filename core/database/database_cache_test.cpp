@@ -109,6 +109,17 @@ TEST_F(DatabaseCacheTest, a_file_of_other_inputs_under_this_name_is_rebuilt) {
   EXPECT_THAT(messages_, ElementsAre(HasSubstr("other inputs")));
 }
 
+TEST_F(DatabaseCacheTest, removes_what_a_killed_build_left) {
+  get();
+  const std::string left = file() + ".tmp-1-0", other = cache_.folder + "/other.glovedb.tmp-1-0";
+  std::filesystem::remove(file());
+  write_file(left, "half a database");
+  write_file(other, "another's, which may still be in work");
+  get();
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(other));
+}
+
 TEST_F(DatabaseCacheTest, a_changed_input_makes_another_file) {
   get();
   views_.field_of_view_deg = 25;

@@ -40,7 +40,8 @@ json postures_to_json(const PostureSet& set) {
   return postures;
 }
 
-/// Throws json::exception for what `seal` does not write, Error naming `path` for what no database has.
+/// Throws json::exception for what has another shape, Error naming `path` for what no database has. What else
+/// `seal` does not write is for the caller to find.
 DatabaseHeader header_from_json(const json& text, const std::string& path) {
   DatabaseHeader header;
   header.postures.name = text.at("name");
@@ -60,8 +61,13 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
       throw Error(path, "tiny images", fmt::format("{} px", px),
                   fmt::format("{} to {} px", kSmallestTinySize, kLargestTinySize));
     }
-    header.sizes_px[px] = size.at("largest_distance");
+    const int largest = size.at("largest_distance");
+    if (largest < 1 || largest > 255) {
+      throw Error(path, "largest_distance", fmt::format("{}", largest), "1 to 255");
+    }
+    header.sizes_px[px] = static_cast<uint8_t>(largest);
   }
+  if (header.postures.postures.empty()) throw Error(path, "postures", "none", "at least one");
   return header;
 }
 
@@ -103,12 +109,14 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
     throw Error(path, "header", e.what(), "what a database of this version says");
   }
   place(kHeaderBegin + length);
-  if (checksums_.size() != chunks().size()) {
-    throw Error(path, "checksums", fmt::format("{}", checksums_.size()), fmt::format("{}", chunks().size()));
-  }
   if (bytes_ != file.size()) {
     throw Error(path, "length", fmt::format("{} bytes", file.size()), fmt::format("{} bytes", bytes_));
   }
+  if (checksums_.size() != chunks().size()) {
+    throw Error(path, "checksums", fmt::format("{}", checksums_.size()), fmt::format("{}", chunks().size()));
+  }
+  if (header_text(checksums_) != text)
+    throw Error(path, "header", "another text", header_text(checksums_).substr(0, 60));
 }
 
 void DatabaseLayout::place(uint64_t header_bytes) {
@@ -133,16 +141,16 @@ void DatabaseLayout::place(uint64_t header_bytes) {
 std::vector<DatabaseLayout::Chunk> DatabaseLayout::chunks() const {
   std::vector<Chunk> chunks;
   // With the zeros behind it: every byte of the file is in a checksum.
-  const auto add = [&](const std::string& name, const Section& section) {
+  const auto add = [&](const std::string& name, int size, const Section& section) {
     const uint64_t end = whole_pages(section.offset + section.bytes + kBehind);
     for (uint64_t offset = section.offset; offset < end; offset += kChunk)
-      chunks.push_back({name, offset, std::min(kChunk, end - offset)});
+      chunks.push_back({name, size, offset, std::min(kChunk, end - offset)});
   };
-  add("box_rays", box_rays_);
+  add("box_rays", 0, box_rays_);
   for (const auto& [size, sections] : sizes_) {
-    add(fmt::format("labels_{}", size), sections.labels);
-    add(fmt::format("fields_{}", size), sections.fields);
-    add(fmt::format("rows_{}", size), sections.rows);
+    add(fmt::format("labels_{}", size), size, sections.labels);
+    add(fmt::format("fields_{}", size), size, sections.fields);
+    add(fmt::format("rows_{}", size), size, sections.rows);
   }
   return chunks;
 }
@@ -180,8 +188,8 @@ void DatabaseLayout::check_sections(std::span<const uint8_t> file, const std::st
                                     std::span<const int> sizes_px) const {
   std::vector<Chunk> all = chunks();
   tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
-    const auto is_of = [&](int size) { return all[i].section.ends_with(fmt::format("_{}", size)); };
-    if (all[i].section != "box_rays" && std::ranges::none_of(sizes_px, is_of)) return;
+    const int size = all[i].size_px;
+    if (size != 0 && std::ranges::find(sizes_px, size) == sizes_px.end()) return;
     const std::string found = hash_of(file.subspan(all[i].offset, all[i].bytes));
     if (found != checksums_[i]) throw Error(path, all[i].section + " checksum", found, checksums_[i]);
   });

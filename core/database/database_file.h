@@ -56,6 +56,7 @@ class DatabaseLayout {
  private:
   struct Chunk {
     std::string section;
+    int size_px = 0;  ///< of the tiny images; 0: of all
     uint64_t offset = 0, bytes = 0;
   };
   /// Places the sections behind a header of that many bytes.

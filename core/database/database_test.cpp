@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
+#include <optional>
 #include <set>
 
 #include "core/base/error.h"
@@ -118,6 +119,23 @@ TEST(Database, comes_back_from_its_file) {
   database.save(folder / "db");
   expect_equal(Database::load(folder / "db"), database);
   EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(Database, a_copy_outlives_its_original_and_the_file_its_name) {
+  const TestFolder folder;
+  std::optional<Database> loaded;
+  {
+    small_database().save(folder / "db");
+    loaded = Database::load(folder / "db");
+  }
+  write_file(folder / "db", "another");
+  const Database copy = *loaded, small = small_database();
+  loaded.reset();
+  expect_equal(copy, small);
+  for (const int size : kTinySizes) {
+    const FieldRows &a = copy.field_rows(size), &b = small.field_rows(size);
+    EXPECT_TRUE(std::equal(a.data(), a.data() + a.block_count() * a.block_bytes(), b.data())) << size;
+  }
 }
 
 TEST(Database, loads_only_the_sizes_asked_for) {
@@ -265,6 +283,14 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
                                  {"\"px\":16", "\"px\":-1"},
                                  {"\"px\":16", "\"px\":17"},
                                  {"\"px\":16", "\"px\":{}"},
+                                 {"\"px\":16", "\"px\":16.5"},
+                                 {"\"px\":16", "\"px\":4294967312"},
+                                 {"\"px\":8", "\"px\":16"},
+                                 {"\"largest_distance\":", "\"largest_distance\":1"},
+                                 {"\"largest_distance\":", "\"largest_distance\":-"},
+                                 {"\"largest_distance\":12", "\"largest_distance\":0"},
+                                 {"\"right\"", "\"Right\""},
+                                 {"\"side\":", "\"more\":1,\"side\":"},
                                  {"\"angles_rad\":[0.0,", "\"angles_rad\":["},
                                  {"\"angles_rad\":[", "\"angles_rad\":[{},"},
                                  {"\"checksums\":[", "\"checksums\":[\"\","},
@@ -273,6 +299,15 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
                                  {"\"name\":", "\"nome\":"},
                                  {"{", "["}})
     expect_refused(with_header(good_, from, to), to);
+}
+
+TEST_F(DatabaseFile, damage_in_a_size_that_is_not_wanted_is_not_looked_for) {
+  std::string damaged = good_;
+  damaged[good_.size() - 4200] ^= 1;  // the last section: the rows of the largest images
+  write_file(path_, damaged);
+  const std::array<int, 2> wanted = {8, 16};
+  expect_equal(Database::load(path_, wanted), small_database(), wanted);
+  EXPECT_THAT([&] { Database::load(path_); }, ThrowsMessage<Error>(HasSubstr("rows_64 checksum")));
 }
 
 TEST_F(DatabaseFile, is_the_same_whether_it_was_built_in_memory_or_not) {

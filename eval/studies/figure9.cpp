@@ -29,10 +29,8 @@ Table empty_errors_table() {
   return {"figure9",
           "Sub-sampling of the point cloud",
           "Every n-th point of the cloud goes into the alignment (n = factor). Means over the frames of Tr3, Tr4 "
-          "and Tr5 "
-          "(a quick run: a stretch of Tr4) that the tracker answers, with DB_open_power and 95% intervals over "
-          "blocks of "
-          "frames. The paper's figure prints no numbers.",
+          "and Tr5 (a quick run: a stretch of Tr4) that the tracker answers, with DB_open_power and 95% "
+          "intervals over blocks of frames. The paper's figure prints no numbers.",
           {{"truth", "truth"},
            {"factor", "factor", 0},
            {"icp_points", "points", 0},
@@ -50,11 +48,7 @@ Table empty_errors_table() {
 Table empty_times_table() {
   return {"figure9_times",
           "Time with sub-sampling",
-          "Processor time of one thread of this machine over 24 frames of each of the three movements (a quick "
-          "run: 2). "
-          "Plain are the look-up that goes entry after entry and the closest-point search that goes face after "
-          "face, as "
-          "the paper describes them; fast are those that give the same matches and points sooner.",
+          std::string(kTimesExplanation),
           {{"implementation", "implementation"},
            {"factor", "factor", 0},
            {"frame_ms_p50", "frame ms", 2, true},
@@ -123,7 +117,7 @@ std::vector<Measure> error_measures(const PassesOfFactors& passes) {
 
 reports::StudyResult run_figure9(const StudyContext& context) {
   reports::StudyResult result{"fig9", "Figure 9: sub-sampling", {empty_errors_table(), empty_times_table()}, {}};
-  // The recorded truth would double the longest part of a reproduction, and no claim rests on it.
+  // No claim rests on the recorded truth.
   const TruthKind truth = TruthKind::source;
   const Movements replayed = movements(context, truth, kTrajectories);
   const std::vector<Setting> settings = settings_of(context.options.tracker);

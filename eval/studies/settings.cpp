@@ -12,9 +12,9 @@ using trajectories::Trajectory;
 /// What a quick reproduction looks at, and a stretch that all movements have.
 constexpr const char* kQuickTrajectory = "Tr4";
 constexpr FrameRange kQuickFrames = {44, 16};
-/// What is timed of each movement; so many that a 95th percentile over five of them is one of several frames.
-constexpr FrameRange kTimedFrames = {44, 24};
-constexpr int kQuickTimedFrames = 2;
+/// What is timed of each movement (kTimesExplanation says it); so many that a 95th percentile over five of them is
+/// one of several frames.
+constexpr FrameRange kTimedFrames = {44, 24}, kQuickTimedFrames = {44, 2};
 
 Replay replay_of(const Setting& setting, const std::shared_ptr<const Trajectory>& truth, uint64_t seed,
                  const std::vector<std::string>& databases, const Movements& movements) {
@@ -90,17 +90,20 @@ std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const
 }
 
 std::vector<std::vector<Passes>> time_settings(const StudyContext& context, const Movements& movements,
-                                               std::vector<Setting> settings,
+                                               const std::vector<Setting>& settings,
                                                const std::vector<std::string>& databases,
                                                Implementation implementation) {
-  for (Setting& setting : settings) {
+  Movements stretches = movements;
+  stretches.range = context.options.quick ? kQuickTimedFrames : kTimedFrames;
+  std::vector<std::vector<Passes>> result;
+  for (Setting setting : settings) {
     setting.tracker.lookup.implementation = implementation;
     setting.tracker.icp.implementation = implementation;
+    std::vector<Passes>& of_setting = result.emplace_back();
+    for (const std::string& database : databases)
+      of_setting.push_back(run_on(context, stretches, {setting}, {database}, 1, nullptr)[0][0]);
   }
-  Movements stretches = movements;
-  stretches.range = kTimedFrames;
-  if (context.options.quick) stretches.range.count = kQuickTimedFrames;
-  return run_on(context, stretches, settings, databases, 1, nullptr);
+  return result;
 }
 
 Sample sample_of(const Passes& passes,

@@ -43,13 +43,20 @@ std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const
                                               const std::vector<Setting>& settings,
                                               const std::vector<std::string>& databases);
 
-/// The same for times: with that look-up and closest-point search, on one thread, nothing beside it, over a stretch
-/// of each movement (the plain search takes up to a second a frame). Nothing of it is kept for a run that goes on
-/// after an interrupt, so that no times come from another run or machine.
+/// The same for times: with that look-up and closest-point search, on one thread, one tracker at a time, so that
+/// none finds its caches emptied by another, over a stretch of each movement (the plain search takes up to a second
+/// a frame). The replays are not kept for a run that goes on after an interrupt; the times of a study that was
+/// finished are, for this machine.
 std::vector<std::vector<Passes>> time_settings(const StudyContext& context, const Movements& movements,
-                                               std::vector<Setting> settings,
+                                               const std::vector<Setting>& settings,
                                                const std::vector<std::string>& databases,
                                                Implementation implementation);
+/// What a table says of times that were measured so.
+inline constexpr std::string_view kTimesExplanation =
+    "Times are processor time of one thread of this machine over 24 frames of each movement (a quick run: 2), "
+    "the paper's of four cores of 2009. Plain are the look-up that goes entry after entry and the closest-point "
+    "search that goes face after face, as the paper describes them; fast are those that give the same matches "
+    "and points sooner.";
 
 /// A value of each frame.
 Sample sample_of(const Passes& passes,

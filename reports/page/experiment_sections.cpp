@@ -76,6 +76,7 @@ void add_curve_section(std::vector<Section>& sections, const std::string& figure
 
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets) {
+  if (result.experiments.empty()) return {};
   const NoiseSetting noise = headline_noise(result);
   std::vector<Section> sections = {figure4_section(result, paper, noise)};
   const auto add = [&](const std::string& figure, const std::string& title, const PaperCurve& curve) {
