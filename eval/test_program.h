@@ -3,6 +3,7 @@
 // Runs programs as a user would, for the tests of this module.
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -32,9 +33,10 @@ inline std::string make_test_folder() {
   return folder;
 }
 
-/// Databases and color tables, kept from test to test: their names hold the hashes of what they are made of.
+/// Databases and color tables, kept from test to test: their names hold the hashes of what they are made of. Those
+/// of another version would be rebuilt with a message.
 inline std::string test_cache_folder() {
-  return testing::TempDir() + "glovebench-test-cache-" + std::to_string(getuid());
+  return fmt::format("{}glovebench-test-cache-{}-{}", testing::TempDir(), kDatabaseVersion, getuid());
 }
 
 /// For a workbench of this process.

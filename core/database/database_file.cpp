@@ -19,6 +19,7 @@ namespace {
 
 using nlohmann::json;
 
+static_assert(kDatabaseVersion == 2);
 constexpr std::string_view kMagic = "glovebench-database-2\n";
 constexpr size_t kHashLength = 32;
 constexpr size_t kHeaderBegin = kMagic.size() + sizeof(uint64_t) + kHashLength;

@@ -10,6 +10,9 @@
 
 namespace glovebench {
 
+/// Of the file. A database of another version is refused.
+inline constexpr int kDatabaseVersion = 2;
+
 /// What the header of a database's file says.
 struct DatabaseHeader {
   PostureSet postures;
