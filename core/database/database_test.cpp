@@ -286,7 +286,7 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
                                  {"\"px\":16", "\"px\":16.5"},
                                  {"\"px\":16", "\"px\":4294967312"},
                                  {"\"px\":8", "\"px\":16"},
-                                 {"\"largest_distance\":", "\"largest_distance\":1"},
+                                 {"\"largest_distance\":", "\"largest_distance\":9"},
                                  {"\"largest_distance\":", "\"largest_distance\":-"},
                                  {"\"largest_distance\":12", "\"largest_distance\":0"},
                                  {"\"right\"", "\"Right\""},
