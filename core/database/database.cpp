@@ -71,7 +71,7 @@ DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes) 
   check_sizes(postures.name, sizes);
   if (postures.postures.empty()) throw Error(postures.name, "postures", "none", "at least one");
   DatabaseHeader header{postures, model.side(), Database::input_hash(postures, model, views), {}};
-  for (const int size : sizes) header.sizes_px[size] = field_cap(views, size);
+  header.sizes_px.insert(sizes.begin(), sizes.end());
   return DatabaseLayout(std::move(header));
 }
 
@@ -92,7 +92,7 @@ void fill_entry(const BuildInputs& inputs, const DatabaseLayout& layout, ViewRen
     std::copy(tiny.begin(), tiny.end(), file + sections.labels.offset + entry * pixels);
     uint8_t* const fields = file + sections.fields.offset + entry * pixels * kColorCount;
     for (int color = 1; color <= kColorCount; ++color)
-      chamfer_field(tiny, static_cast<uint8_t>(color), layout.header().sizes_px.at(size),
+      chamfer_field(tiny, static_cast<uint8_t>(color), field_cap(inputs.views, size),
                     {fields + (color - 1) * pixels, pixels});
   }
 }
@@ -168,13 +168,7 @@ Database Database::load(const std::string& path, std::span<const int> sizes) {
   const auto bytes = std::make_shared<const MappedMemory>(MappedMemory::of_file(path));
   const DatabaseLayout layout(bytes->bytes(), path);
   layout.check_sections(bytes->bytes(), path, sizes);
-  Database database(bytes, layout, sizes);
-  for (auto& [size, data] : database.sizes_) {
-    const auto copy = database.copies_.emplace_back(
-        copy_of({data.rows.data(), data.rows.block_count() * data.rows.block_bytes()}));
-    data.rows = FieldRows(size, database.entry_count(), data.rows.largest_value(), copy->bytes().data());
-  }
-  return database;
+  return Database(bytes, layout, sizes);
 }
 
 Database::Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout,
@@ -184,8 +178,9 @@ Database::Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayo
   box_rays_ = reinterpret_cast<const Eigen::Vector3d*>(file + layout.box_rays().offset);
   for (const auto& [size, sections] : layout.sizes()) {
     if (std::ranges::find(sizes, size) == sizes.end()) continue;
-    sizes_[size] = {file + sections.labels.offset, file + sections.fields.offset,
-                    FieldRows(size, entry_count(), header_.sizes_px.at(size), file + sections.rows.offset)};
+    const auto rows = copy_of(bytes_->bytes().subspan(sections.rows.offset, sections.rows.bytes));
+    sizes_[size] = {file + sections.labels.offset, file + sections.fields.offset, rows,
+                    FieldRows(size, entry_count(), rows->bytes())};
   }
 }
 

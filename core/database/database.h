@@ -76,7 +76,9 @@ class Database {
  private:
   struct SizeData {
     const uint8_t* labels = nullptr;  ///< [entry][pixel]
-    const uint8_t* fields = nullptr;  ///< [entry][color][pixel]; 64 bytes more may be read
+    const uint8_t* fields = nullptr;  ///< [entry][color][pixel]; kBehind bytes more may be read
+    /// Where the rows lie: in large pages, since they are read here and there.
+    std::shared_ptr<const MappedMemory> row_values;
     FieldRows rows;
   };
 
@@ -84,8 +86,7 @@ class Database {
   Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout, std::span<const int> sizes);
   const SizeData& data(int size) const;
 
-  std::shared_ptr<const MappedMemory> bytes_;                ///< as in the file
-  std::vector<std::shared_ptr<const MappedMemory>> copies_;  ///< of what is read here and there
+  std::shared_ptr<const MappedMemory> bytes_;  ///< as in the file
   DatabaseHeader header_;
   const Eigen::Vector3d* box_rays_ = nullptr;
   std::map<int, SizeData> sizes_;

@@ -56,17 +56,12 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
     }
     header.postures.postures.push_back(Eigen::Map<const Posture>(angles.data()));
   }
-  for (const json& size : text.at("sizes")) {
-    const int px = size.at("px");
+  for (const int px : text.at("sizes_px")) {
     if (px < kSmallestTinySize || px > kLargestTinySize) {
       throw Error(path, "tiny images", fmt::format("{} px", px),
                   fmt::format("{} to {} px", kSmallestTinySize, kLargestTinySize));
     }
-    const int largest = size.at("largest_distance");
-    if (largest < 1 || largest > 255) {
-      throw Error(path, "largest_distance", fmt::format("{}", largest), "1 to 255");
-    }
-    header.sizes_px[px] = static_cast<uint8_t>(largest);
+    header.sizes_px.insert(px);
   }
   if (header.postures.postures.empty()) throw Error(path, "postures", "none", "at least one");
   return header;
@@ -129,7 +124,7 @@ void DatabaseLayout::place(uint64_t header_bytes) {
     return section;
   };
   box_rays_ = next(entries * sizeof(Eigen::Vector3d));
-  for (const auto& [size, largest] : header_.sizes_px) {
+  for (const int size : header_.sizes_px) {
     const uint64_t pixels = static_cast<uint64_t>(size) * size;
     SizeSections& sections = sizes_[size];
     sections.labels = next(entries * pixels);
@@ -157,15 +152,12 @@ std::vector<DatabaseLayout::Chunk> DatabaseLayout::chunks() const {
 }
 
 std::string DatabaseLayout::header_text(const std::vector<std::string>& checksums) const {
-  json sizes = json::array();
-  for (const auto& [size, largest] : header_.sizes_px)
-    sizes.push_back({{"px", size}, {"largest_distance", largest}});
   std::string text = json{
       {"name", header_.postures.name},
       {"hash", header_.hash},
       {"side", header_.side == Side::right ? "right" : "left"},
       {"postures", postures_to_json(header_.postures)},
-      {"sizes", sizes},
+      {"sizes_px", header_.sizes_px},
       {"checksums",
        checksums}}.dump();
   text.resize(whole_pages(kHeaderBegin + text.size()) - kHeaderBegin, ' ');

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +18,8 @@ inline constexpr int kDatabaseVersion = 2;
 struct DatabaseHeader {
   PostureSet postures;
   Side side = Side::right;
-  std::string hash;                 ///< of all inputs
-  std::map<int, uint8_t> sizes_px;  ///< the tiny images', each with the largest distance that its fields may hold
+  std::string hash;        ///< of all inputs
+  std::set<int> sizes_px;  ///< the tiny images'
 };
 
 /// A part of the file.

@@ -279,16 +279,15 @@ std::string with_header(std::string file, const std::string& from, const std::st
 }
 
 TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
-  for (const auto& [from, to] : {std::pair{"\"px\":16", "\"px\":96"},
-                                 {"\"px\":16", "\"px\":-1"},
-                                 {"\"px\":16", "\"px\":17"},
-                                 {"\"px\":16", "\"px\":{}"},
-                                 {"\"px\":16", "\"px\":16.5"},
-                                 {"\"px\":16", "\"px\":4294967312"},
-                                 {"\"px\":8", "\"px\":16"},
-                                 {"\"largest_distance\":", "\"largest_distance\":9"},
-                                 {"\"largest_distance\":", "\"largest_distance\":-"},
-                                 {"\"largest_distance\":12", "\"largest_distance\":0"},
+  const std::string sizes = "\"sizes_px\":[8,16,";
+  for (const auto& [from, to] : {std::pair{sizes, std::string("\"sizes_px\":[8,96,")},
+                                 {sizes, "\"sizes_px\":[8,-1,"},
+                                 {sizes, "\"sizes_px\":[8,17,"},
+                                 {sizes, "\"sizes_px\":[8,{},"},
+                                 {sizes, "\"sizes_px\":[8,16.5,"},
+                                 {sizes, "\"sizes_px\":[8,4294967312,"},
+                                 {sizes, "\"sizes_px\":[8,16,16,"},
+                                 {sizes, "\"sizes_px\":[16,8,"},
                                  {"\"right\"", "\"Right\""},
                                  {"\"side\":", "\"more\":1,\"side\":"},
                                  {"\"angles_rad\":[0.0,", "\"angles_rad\":["},

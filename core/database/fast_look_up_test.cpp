@@ -132,7 +132,7 @@ TEST(FastLookUp, sums_at_the_cap_do_not_overflow) {
     const std::vector<uint8_t> fields(pixels * kColorCount * kEntries + 64, cap);
     MappedMemory values = MappedMemory::zeros(FieldRows::bytes(size, kEntries));
     FieldRows::arrange(fields.data(), size, kEntries, values.writable());
-    const FieldRows rows(size, kEntries, cap, values.bytes().data());
+    const FieldRows rows(size, kEntries, values.bytes());
     const LabelImage query(size, size, 7);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
     QueryLabels labels;

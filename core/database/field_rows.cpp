@@ -34,22 +34,22 @@ void pool_entry(const uint8_t* fields, int size, int cells, uint8_t* minima) {
 
 }  // namespace
 
-FieldRows::FieldRows(int size, int entry_count, uint8_t largest, const uint8_t* values)
+FieldRows::FieldRows(int size, int entry_count, std::span<const uint8_t> values)
     : pool_(size <= kLargestExact ? 1 : kPool),
       cells_((size + pool_ - 1) / pool_),
       block_count_((static_cast<size_t>(entry_count) + kBlock - 1) / kBlock),
-      largest_value_(largest),
+      largest_value_(values.empty() ? uint8_t{0} : *std::ranges::max_element(values)),
       values_(values) {
   for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
 }
 
 size_t FieldRows::bytes(int size, int entry_count) {
-  const FieldRows rows(size, entry_count, 0, nullptr);
+  const FieldRows rows(size, entry_count, {});
   return rows.block_count() * rows.block_bytes();
 }
 
 void FieldRows::arrange(const uint8_t* fields, int size, int entry_count, std::span<uint8_t> values) {
-  const FieldRows shape(size, entry_count, 0, nullptr);
+  const FieldRows shape(size, entry_count, {});
   const size_t rows = shape.block_bytes() / kBlock;
   const size_t entry_bytes = static_cast<size_t>(kColorCount) * size * size;
   tbb::parallel_for(size_t{0}, shape.block_count(), [&](size_t block) {

@@ -25,9 +25,8 @@ class FieldRows {
   static constexpr int kLargestExact = 24, kPool = 4;  ///< px
 
   FieldRows() = default;
-  /// Rows that lie in `values`, whose lifetime is the caller's concern; of tiny images of that size, px, with no
-  /// value larger than `largest`.
-  FieldRows(int size, int entry_count, uint8_t largest, const uint8_t* values);
+  /// Rows of tiny images of that size, px, that were arranged in `values`, whose lifetime is the caller's concern.
+  FieldRows(int size, int entry_count, std::span<const uint8_t> values);
   /// What the rows of so many entries take.
   static size_t bytes(int size, int entry_count);
   /// Makes the rows of the fields of all entries, kColorCount fields of size * size each, in `values`.
@@ -37,7 +36,7 @@ class FieldRows {
   bool exact() const { return pool_ == 1; }
   size_t block_count() const { return block_count_; }
   size_t block_bytes() const { return static_cast<size_t>(kColorCount) * cells_ * cells_ * kBlock; }
-  const uint8_t* data() const { return values_; }
+  const uint8_t* data() const { return values_.data(); }
   uint8_t largest_value() const { return largest_value_; }
 
   /// The rows that a query of this size adds up: how many of its pixels of a color lie in a cell.
@@ -49,7 +48,7 @@ class FieldRows {
   std::array<uint8_t, 64> cell_of_pixel_{};  ///< along a side
   size_t block_count_ = 0;
   uint8_t largest_value_ = 0;
-  const uint8_t* values_ = nullptr;  ///< entries behind the last one repeat it
+  std::span<const uint8_t> values_;  ///< entries behind the last one repeat it
 };
 
 }  // namespace glovebench

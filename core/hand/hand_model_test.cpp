@@ -186,8 +186,7 @@ TEST(HandModel, each_angle_moves_its_patches_and_no_other) {
 }
 
 TEST(HandModel, its_hash_does_not_depend_on_the_instruction_set) {
-  // It names the databases and the baselines. Compiled with any -march it is this one; another hand has another
-  // one.
+  // It names the databases and the baselines. Compiled with any -march it is this one; change it with the hand.
   EXPECT_EQ(right_hand().hash(), "e197462616f76a361875a07357e5de64");
 }
 

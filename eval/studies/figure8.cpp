@@ -43,7 +43,7 @@ Table empty_errors_table() {
       "answers, with 95% intervals over blocks of frames. They were measured with the configured implementation: "
       "both give the same matches and points. Posture error is the RMS over the 22 angles, filtered as always; "
       "the paper does not say over which movements its posture errors are. " +
-          std::string(kTimesExplanation) +
+          times_explanation() +
           " They are of the movements themselves, also beside errors on recorded truths; of so few frames the "
           "99th percentile is about the longest. A frame's true nearest neighbor is the database entry with the "
           "smallest mean vertex distance to the true hand, both centered at the hand and seen along the ray to "

@@ -48,7 +48,7 @@ Table empty_errors_table() {
 Table empty_times_table() {
   return {"figure9_times",
           "Time with sub-sampling",
-          std::string(kTimesExplanation),
+          times_explanation(),
           {{"implementation", "implementation"},
            {"factor", "factor", 0},
            {"frame_ms_p50", "frame ms", 2, true},

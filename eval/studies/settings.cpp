@@ -1,5 +1,7 @@
 #include "eval/studies/settings.h"
 
+#include <fmt/format.h>
+
 #include "eval/share.h"
 #include "trajectories/catalog.h"
 
@@ -12,7 +14,7 @@ using trajectories::Trajectory;
 /// What a quick reproduction looks at, and a stretch that all movements have.
 constexpr const char* kQuickTrajectory = "Tr4";
 constexpr FrameRange kQuickFrames = {44, 16};
-/// What is timed of each movement (kTimesExplanation says it); so many that a 95th percentile over five of them is
+/// What is timed of each movement (times_explanation); so many that a 95th percentile over five of them is
 /// one of several frames.
 constexpr FrameRange kTimedFrames = {44, 24}, kQuickTimedFrames = {44, 2};
 
@@ -104,6 +106,15 @@ std::vector<std::vector<Passes>> time_settings(const StudyContext& context, cons
       of_setting.push_back(run_on(context, stretches, {setting}, {database}, 1, nullptr)[0][0]);
   }
   return result;
+}
+
+std::string times_explanation() {
+  return fmt::format(
+      "Times are processor time of one thread of this machine over {} frames of each movement (a quick run: {}), "
+      "the paper's of four cores of 2009. Plain are the look-up that goes entry after entry and the closest-point "
+      "search that goes face after face, as the paper describes them; fast are those that give the same matches "
+      "and points sooner.",
+      *kTimedFrames.count, *kQuickTimedFrames.count);
 }
 
 Sample sample_of(const Passes& passes,

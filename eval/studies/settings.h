@@ -52,11 +52,7 @@ std::vector<std::vector<Passes>> time_settings(const StudyContext& context, cons
                                                const std::vector<std::string>& databases,
                                                Implementation implementation);
 /// What a table says of times that were measured so.
-inline constexpr std::string_view kTimesExplanation =
-    "Times are processor time of one thread of this machine over 24 frames of each movement (a quick run: 2), "
-    "the paper's of four cores of 2009. Plain are the look-up that goes entry after entry and the closest-point "
-    "search that goes face after face, as the paper describes them; fast are those that give the same matches "
-    "and points sooner.";
+std::string times_explanation();
 
 /// A value of each frame.
 Sample sample_of(const Passes& passes,

@@ -289,7 +289,8 @@ charts['figure9-rotation'] = lines('figure9', {
   yTitle: 'rotation error (deg)'
 });
 charts['figure9-time'] = lines('figure9_times', {
-  ...factor, group: 'implementation', y: 'frame_ms_p50', yTitle: 'time of a frame, median (ms)', yLog: true, floor: 'look_up_ms_p50', floorTitle: 'look-up'
+  ...factor, group: 'implementation', y: 'frame_ms_p50', yTitle: 'time of a frame, median (ms)', yLog: true,
+  floor: 'look_up_ms_p50', floorTitle: 'look-up'
 });
 [['position', 'position_change_mm', 'position error (mm)'], ['posture', 'posture_change_deg', 'posture error (deg)'],
  ['rotation', 'rotation_change_deg', 'rotation error (deg)']].forEach(([name, change, title], i) => {
