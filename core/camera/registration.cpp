@@ -1,9 +1,11 @@
 #include "core/camera/registration.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "core/base/check.h"
 
@@ -18,28 +20,47 @@ Eigen::Matrix3d intrinsic_matrix(const PinholeCamera& camera) {
   return K;
 }
 
-/// Half-open ranges of pixels.
-struct PixelBox {
-  int left, top, right, bottom;
+/// A half-open range of columns.
+struct Span {
+  int left, right;
 };
 
-/// The pixels with a depth; empty if there are none.
-PixelBox box_of(const DepthImage& depth) {
-  PixelBox box{depth.width(), depth.height(), 0, 0};
+/// Where a depth image has values: its columns in each row, and the depths.
+struct Extent {
+  std::vector<Span> rows;
+  int left, right, top, bottom;
+  float least, largest;
+};
+
+/// Ranges are empty where there are no values.
+Extent extent_of(const DepthImage& depth) {
+  Extent extent{std::vector<Span>(depth.height()), depth.width(), 0, depth.height(), 0, kInfinity, 0};
+  // Of positive numbers the order is that of their bits, which compilers know to compare side by side.
+  int32_t largest = 0;
+  uint32_t least = std::bit_cast<uint32_t>(kInfinity);
   for (int v = 0; v < depth.height(); ++v) {
     const float* const row = &depth(0, v);
-    bool any = false;
-    for (int u = 0; u < depth.width(); ++u) any |= row[u] > 0;
-    if (!any) continue;
-    box.top = std::min(box.top, v);
-    box.bottom = v + 1;
+    int32_t row_largest = 0;
+    for (int u = 0; u < depth.width(); ++u) {
+      const auto bits = std::bit_cast<int32_t>(row[u]);
+      row_largest = std::max(row_largest, bits);
+      least = std::min(least, static_cast<uint32_t>(bits) - 1);  // neither zero nor what is negative
+    }
+    if (row_largest == 0) continue;
+    largest = std::max(largest, row_largest);
     const auto has_depth = [](float z) { return z > 0; };
-    box.left = static_cast<int>(std::find_if(row, row + box.left, has_depth) - row);
-    int right = depth.width();
-    while (right > box.right && !(row[right - 1] > 0)) --right;
-    box.right = right;
+    Span& span = extent.rows[v];
+    span.left = static_cast<int>(std::find_if(row, row + depth.width(), has_depth) - row);
+    span.right = depth.width();
+    while (span.right > span.left && !(row[span.right - 1] > 0)) --span.right;
+    extent.left = std::min(extent.left, span.left);
+    extent.right = std::max(extent.right, span.right);
+    extent.top = std::min(extent.top, v);
+    extent.bottom = v + 1;
   }
-  return box;
+  extent.least = std::bit_cast<float>(least + 1);
+  extent.largest = std::bit_cast<float>(largest);
+  return extent;
 }
 
 /// The pixels of one depth row in the RGB camera; z is 0 or negative where there is nothing to see.
@@ -59,8 +80,7 @@ class RowProjector {
     row_ = {std::vector<float>(width), std::vector<float>(width), std::vector<float>(width)};
   }
 
-  /// The columns of `box`.
-  const ProjectedRow& project(const DepthImage& depth, int v, const PixelBox& box) {
+  const ProjectedRow& project(const DepthImage& depth, int v, const Span& span) {
     const Eigen::Vector3f start = M_.col(1) * static_cast<float>(v) + M_.col(2);
     const Eigen::Vector3f step = M_.col(0);
     const Eigen::Vector3f b = b_;
@@ -68,7 +88,7 @@ class RowProjector {
     float* const u_out = row_.u_px.data();
     float* const v_out = row_.v_px.data();
     float* const z_out = row_.z.data();
-    for (int u = box.left; u < box.right; ++u) {
+    for (int u = span.left; u < span.right; ++u) {
       const float fu = static_cast<float>(u);
       const float z = d[u] * (start.z() + step.z() * fu) + b.z();
       const float x = d[u] * (start.x() + step.x() * fu) + b.x();
@@ -79,6 +99,23 @@ class RowProjector {
       z_out[u] = d[u] > 0 ? z : 0.0f;
     }
     return row_;
+  }
+
+  /// Pixels of the RGB camera among which all values lie, within a rounding; empty if it cannot be told.
+  std::optional<Eigen::AlignedBox2f> bounds(const Extent& extent) const {
+    // A perspective image of a convex body lies among those of its corners.
+    Eigen::AlignedBox2f box;
+    for (const int u : {extent.left, extent.right - 1}) {
+      for (const int v : {extent.top, extent.bottom - 1}) {
+        for (const float z : {extent.least, extent.largest}) {
+          const Eigen::Vector3f pixel =
+              z * (M_ * Eigen::Vector3f(static_cast<float>(u), static_cast<float>(v), 1)) + b_;
+          if (!(pixel.z() > 0 && pixel.allFinite())) return {};
+          box.extend(Eigen::Vector2f(pixel.hnormalized()));
+        }
+      }
+    }
+    return box;
   }
 
  private:
@@ -95,39 +132,51 @@ int splat_radius(const RgbdCalibration& calibration) {
   return std::max(1, static_cast<int>(std::ceil(0.75 * magnification)));
 }
 
-/// The nearest surface that the RGB camera sees at each of its pixels, from the depth samples within the splat
-/// radius; infinite where there is none. The result is padded at the right and at the bottom.
-cv::Mat nearest_surface(const DepthImage& depth, const PixelBox& box, const RgbdCalibration& calibration,
-                        RowProjector& projector) {
-  const int radius = splat_radius(calibration);
-  // Cell (i, j) collects the samples with floor(u) = i - radius, floor(v) = j - radius, so that the minimum over
-  // the cells i .. i + 2 radius - 1 is the one over u in [i - radius, i + radius).
-  cv::Mat cells(calibration.rgb.height + 2 * radius - 1, calibration.rgb.width + 2 * radius - 1, CV_32F,
-                cv::Scalar(kInfinity));
-  const float width = static_cast<float>(cells.cols), height = static_cast<float>(cells.rows);
-  const float offset = static_cast<float>(radius);
-  PixelBox reached{cells.cols, cells.rows, 0, 0};  // cells with samples
-  for (int v = box.top; v < box.bottom; ++v) {
-    const ProjectedRow& row = projector.project(depth, v, box);
-    for (int u = box.left; u < box.right; ++u) {
-      const float i = row.u_px[u] + offset, j = row.v_px[u] + offset;
-      if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
-      const int column = static_cast<int>(i), line = static_cast<int>(j);
-      float& cell = cells.at<float>(line, column);
-      cell = std::min(cell, row.z[u]);
-      reached = {std::min(reached.left, column), std::min(reached.top, line), std::max(reached.right, column + 1),
-                 std::max(reached.bottom, line + 1)};
+/// The nearest surface that the RGB camera sees at its pixels, from the depth samples within the splat radius;
+/// infinite where there is none.
+class NearestSurface {
+ public:
+  NearestSurface(const DepthImage& depth, const Extent& extent, const RgbdCalibration& calibration,
+                 RowProjector& projector)
+      : radius_(splat_radius(calibration)), cells_of_(cells_of(extent, calibration, projector)) {
+    // Cell (i, j) collects the samples with floor(u) = i - radius, floor(v) = j - radius, so that the minimum over
+    // the cells i .. i + 2 radius - 1 is the one over u in [i - radius, i + radius).
+    cv::Mat cells(cells_of_.size(), CV_32F, cv::Scalar(kInfinity));
+    const float width = static_cast<float>(cells.cols), height = static_cast<float>(cells.rows);
+    const float left = static_cast<float>(radius_ - cells_of_.x), top = static_cast<float>(radius_ - cells_of_.y);
+    for (int v = extent.top; v < extent.bottom; ++v) {
+      const ProjectedRow& row = projector.project(depth, v, extent.rows[v]);
+      for (int u = extent.rows[v].left; u < extent.rows[v].right; ++u) {
+        const float i = row.u_px[u] + left, j = row.v_px[u] + top;
+        if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
+        float& cell = cells.at<float>(static_cast<int>(j), static_cast<int>(i));
+        cell = std::min(cell, row.z[u]);
+      }
     }
+    cv::erode(cells, nearest_, cv::Mat::ones(2 * radius_, 2 * radius_, CV_8U), cv::Point(0, 0));
   }
-  cv::Mat nearest(cells.rows, cells.cols, CV_32F, cv::Scalar(kInfinity));
-  if (reached.right == 0) return nearest;
-  // A sample is the nearest of cells up to its reach to the left and above.
-  const cv::Rect part(cv::Point(std::max(0, reached.left - 2 * radius), std::max(0, reached.top - 2 * radius)),
-                      cv::Point(reached.right, reached.bottom));
-  cv::Mat target = nearest(part);
-  cv::erode(cells(part), target, cv::Mat::ones(2 * radius, 2 * radius, CV_8U), cv::Point(0, 0));
-  return nearest;
-}
+
+  /// Of a pixel on which a sample lies.
+  float operator()(int u, int v) const { return nearest_.at<float>(v - cells_of_.y, u - cells_of_.x); }
+
+ private:
+  /// The cells that a sample or a pixel on which one lies can have.
+  cv::Rect cells_of(const Extent& extent, const RgbdCalibration& calibration, const RowProjector& projector) const {
+    const cv::Rect all(0, 0, calibration.rgb.width + 2 * radius_ - 1, calibration.rgb.height + 2 * radius_ - 1);
+    const auto bounds = projector.bounds(extent);
+    if (!bounds) return all;
+    // A pixel more on each side for rounding; clamped while these are numbers of any size.
+    const Eigen::Array2f limit(static_cast<float>(all.width), static_cast<float>(all.height));
+    const Eigen::Array2i low = (bounds->min().array() - 2).max(0).min(limit - 1).cast<int>();
+    const Eigen::Array2i high =
+        (bounds->max().array() + static_cast<float>(2 * radius_ + 2)).max(1).min(limit).cast<int>();
+    return all & cv::Rect(cv::Point(low.x(), low.y()), cv::Point(high.x(), high.y()));
+  }
+
+  int radius_;
+  cv::Rect cells_of_;
+  cv::Mat nearest_;
+};
 
 }  // namespace
 
@@ -139,19 +188,20 @@ RegisteredImage register_color(const DepthImage& depth, const ColorImage& color,
         "the color image has the size of the calibrated RGB camera");
 
   RowProjector projector(calibration);
-  const PixelBox box = box_of(depth);
-  const cv::Mat nearest = nearest_surface(depth, box, calibration, projector);
+  const Extent extent = extent_of(depth);
+  RegisteredImage mapped{ColorImage(depth.width(), depth.height()), Image<uint8_t>(depth.width(), depth.height())};
+  if (extent.top >= extent.bottom) return mapped;
+  const NearestSurface nearest(depth, extent, calibration, projector);
   const float tolerance = static_cast<float>(config.occlusion_tolerance);
   const float width = static_cast<float>(color.width()), height = static_cast<float>(color.height());
 
-  RegisteredImage mapped{ColorImage(depth.width(), depth.height()), Image<uint8_t>(depth.width(), depth.height())};
-  for (int v = box.top; v < box.bottom; ++v) {
-    const ProjectedRow& row = projector.project(depth, v, box);
-    for (int u = box.left; u < box.right; ++u) {
+  for (int v = extent.top; v < extent.bottom; ++v) {
+    const ProjectedRow& row = projector.project(depth, v, extent.rows[v]);
+    for (int u = extent.rows[v].left; u < extent.rows[v].right; ++u) {
       const float i = row.u_px[u] + 0.5f, j = row.v_px[u] + 0.5f;  // truncated: the nearest pixel
       if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
       const int u_rgb = static_cast<int>(i), v_rgb = static_cast<int>(j);
-      if (row.z[u] > nearest.at<float>(v_rgb, u_rgb) + tolerance) continue;
+      if (row.z[u] > nearest(u_rgb, v_rgb) + tolerance) continue;
       mapped.color(u, v) = color(u_rgb, v_rgb);
       mapped.has_color(u, v) = 1;
     }

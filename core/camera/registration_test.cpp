@@ -115,6 +115,34 @@ TEST(Registration, FootprintClosesTheGapsOfAMagnifyingCamera) {
   EXPECT_TRUE(mapped.has_color(285, 250));
 }
 
+TEST(Registration, what_lies_far_away_in_the_image_changes_nothing) {
+  // Wherever the samples are, only a part of the images is looked at: with samples in all corners it is the whole.
+  RandomStream random(1, "registration", 0, "blobs");
+  for (int i = 0; i < 20; ++i) {
+    const int left = static_cast<int>(random.index(600)), top = static_cast<int>(random.index(440));
+    DepthImage depth(640, 480);
+    for (int v = top; v < std::min(480, top + 80); ++v)
+      for (int u = left; u < std::min(640, left + 80); ++u)
+        if (random.index(4) != 0) depth(u, v) = static_cast<float>(random.uniform(0.4, 0.9));
+    DepthImage whole = depth;
+    for (const int v : {0, 479})
+      for (const int u : {0, 639}) whole(u, v) = 9;
+    whole(320, 0) = std::numeric_limits<float>::infinity();
+    const ColorImage color = coordinate_image(640, 480);
+    const RegisteredImage part = register_color(depth, color, synthetic_calibration(), {}),
+                          all = register_color(whole, color, synthetic_calibration(), {});
+    int compared = 0;
+    for (size_t pixel = 0; pixel < depth.size(); ++pixel) {
+      if (depth[pixel] == 0) continue;
+      ASSERT_EQ(part.has_color[pixel], all.has_color[pixel]);
+      ASSERT_EQ(part.color[pixel], all.color[pixel]);
+      compared += part.has_color[pixel];
+    }
+    const bool inside = left > 40 && left < 520 && top > 40 && top < 360;
+    EXPECT_GT(compared, inside ? 1000 : -1);
+  }
+}
+
 TEST(Registration, IgnoresPixelsWithoutDepth) {
   DepthImage depth(640, 480);
   depth(5, 5) = -1.0f;

@@ -20,6 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::CappedTag<float, FacePackets::kFaces> kFloats;
 constexpr hn::RebindToSigned<decltype(kFloats)> kInts;
 constexpr hn::CappedTag<float, FacePackets::kBoxes> kBoxFloats;
+constexpr hn::CappedTag<float, PointMemory::kFaces> kListFloats;
 using Floats = hn::VFromD<decltype(kFloats)>;
 using Ints = hn::VFromD<decltype(kInts)>;
 using Mask = decltype(hn::MaskFromVec(Floats()));
@@ -34,7 +35,8 @@ struct Vectors {
   Floats x, y, z;
 };
 
-HWY_INLINE Vectors load(const float (&values)[3][FacePackets::kFaces], size_t first) {
+template <size_t kCount>
+HWY_INLINE Vectors load(const float (&values)[3][kCount], size_t first) {
   return {hn::Load(kFloats, values[0] + first), hn::Load(kFloats, values[1] + first),
           hn::Load(kFloats, values[2] + first)};
 }
@@ -57,14 +59,20 @@ HWY_INLINE Floats cross(Floats a, Floats b, Floats c, Floats d) {
 HWY_INLINE Vectors choose(Mask mask, const Vectors& yes, const Vectors& no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
+template <size_t kCount>
+HWY_INLINE void store(const Vectors& v, float (&values)[3][kCount], size_t first) {
+  hn::Store(v.x, kFloats, values[0] + first);
+  hn::Store(v.y, kFloats, values[1] + first);
+  hn::Store(v.z, kFloats, values[2] + first);
+}
 HWY_INLINE Mask all(Mask a, Mask b, Mask c) {
   return hn::And(a, hn::And(b, c));
 }
 
-/// `closest_on_triangle` for some faces of a packet, with exactly its operations in each lane.
-HWY_INLINE Vectors closest_on_faces(const Vectors& p, const FacePackets::Packet& packet, size_t first) {
-  const Vectors a = load(packet.a, first), b = load(packet.b, first), c = load(packet.c, first);
-  const Vectors ab = load(packet.ab, first), ac = load(packet.ac, first);
+/// `closest_on_triangle` with exactly its operations in each lane: a difference rounded otherwise would be another
+/// face's victory.
+HWY_INLINE Vectors closest_on_faces(const Vectors& p, const Vectors& a, const Vectors& b, const Vectors& c) {
+  const Vectors ab = b - a, ac = c - a;
   const Vectors ap = p - a, bp = p - b, cp = p - c;
   const Floats d1 = dot(ab, ap), d2 = dot(ac, ap);
   const Floats d3 = dot(ab, bp), d4 = dot(ac, bp);
@@ -98,6 +106,35 @@ HWY_INLINE Vectors closest_on_faces(const Vectors& p, const FacePackets::Packet&
   return choose(at_a, a, result);
 }
 
+/// What rounding leaves in doubt of a face's distance, seen from so far away.
+template <typename V>
+HWY_INLINE V doubt(V distance, V length, V blur, V slack, V share) {
+  const V reach = hn::Add(distance, length);
+  return hn::Add(hn::Add(slack, hn::Mul(share, distance)), hn::Mul(blur, hn::Mul(reach, reach)));
+}
+HWY_INLINE float doubt(float distance, float length, float blur, float slack) {
+  const float reach = distance + length;
+  return slack + kShare * distance + blur * (reach * reach);
+}
+HWY_INLINE Floats doubt(Floats distance, const FacePackets::Packet& packet, size_t first, float slack) {
+  return doubt(distance, hn::Load(kFloats, packet.length + first), hn::Load(kFloats, packet.blur + first),
+               hn::Set(kFloats, slack), hn::Set(kFloats, kShare));
+}
+
+/// The planes through the closest points, across the way to them: a face, being convex, lies behind its plane. If
+/// rounding has put a closest point beside its place, the plane is tilted; what a face may then stick out is taken
+/// off.
+HWY_INLINE void set_planes(const Vectors& closest, const Vectors& apart, Floats squared,
+                           const FacePackets::Packet& packet, size_t first, float slack, FacePlanes& planes) {
+  const Floats distance = hn::Sqrt(squared), inverse = hn::Div(hn::Set(kFloats, -1.0f), distance);
+  const Vectors normal = inverse * apart;
+  const Floats tilt = hn::NegMulAdd(inverse, hn::Load(kFloats, packet.length + first), hn::Set(kFloats, 2.0f));
+  const Floats sticks_out = hn::Mul(doubt(distance, packet, first, slack), tilt);
+  store(normal, planes.normal, first);
+  hn::Store(hn::Add(dot(normal, closest), sticks_out), kFloats, planes.offset + first);
+  hn::Store(hn::Sub(distance, sticks_out), kFloats, planes.distance + first);
+}
+
 /// The nearest faces so far, a lane each.
 struct Nearest {
   Floats squared = hn::Set(kFloats, kInfinity);
@@ -105,12 +142,15 @@ struct Nearest {
   Vectors p = {hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)};
 };
 
-/// Takes the faces of a packet where they are nearer, or as near and come first. Returns the square of the least
-/// distance in the packet.
-HWY_INLINE float consider(const Vectors& p, const FacePackets::Packet& packet, Nearest& nearest) {
+/// Takes the faces of a packet where they are nearer, or as near and come first, and notes their planes if asked
+/// to. Returns the square of the least distance in the packet.
+template <bool kWithPlanes>
+HWY_INLINE float consider(const Vectors& p, const FacePackets::Packet& packet, float slack, Nearest& nearest,
+                          FacePlanes& planes) {
   Floats least = hn::Set(kFloats, kInfinity);
   for (size_t first = 0; first < FacePackets::kFaces; first += hn::Lanes(kFloats)) {
-    const Vectors closest = closest_on_faces(p, packet, first);
+    const Vectors closest =
+        closest_on_faces(p, load(packet.a, first), load(packet.b, first), load(packet.c, first));
     const Vectors apart = closest - p;
     const Floats squared = dot(apart, apart);
     const Ints face = hn::Load(kInts, packet.face + first);
@@ -121,6 +161,7 @@ HWY_INLINE float consider(const Vectors& p, const FacePackets::Packet& packet, N
     nearest.face = hn::IfThenElse(hn::RebindMask(kInts, better), face, nearest.face);
     nearest.p = choose(better, closest, nearest.p);
     least = hn::IfThenElse(hn::Lt(squared, least), squared, least);  // never one that is not a number
+    if constexpr (kWithPlanes) set_planes(closest, apart, squared, packet, first, slack, planes);
   }
   return hn::GetLane(hn::MinOfLanes(kFloats, least));
 }
@@ -142,14 +183,6 @@ HWY_INLINE ClosestPoint best_of_lanes(const Nearest& nearest, float squared) {
   return {Eigen::Vector3f(x[best], y[best], z[best]), std::sqrt(squared), face[best]};
 }
 
-/// What rounding leaves in doubt of the distance of a packet's faces.
-HWY_INLINE float doubt(const FacePackets& color, int packet, float distance) {
-  const FacePackets::Boxes& boxes = color.boxes[packet / FacePackets::kBoxes];
-  const int i = packet % FacePackets::kBoxes;
-  const float reach = distance + boxes.diagonal[i];
-  return color.slack + kShare * distance + boxes.blur[i] * (reach * reach);
-}
-
 template <typename V>
 HWY_INLINE V outside(V at, const float* low, const float* high) {
   const V below = hn::Sub(hn::Load(kBoxFloats, low), at), above = hn::Sub(at, hn::Load(kBoxFloats, high));
@@ -157,7 +190,7 @@ HWY_INLINE V outside(V at, const float* low, const float* high) {
 }
 
 /// For each packet how near its faces can be to the point: its box's distance less the same doubt.
-HWY_INLINE void bound_packets(const Eigen::Vector3f& p, const FacePackets& color, float* bounds) {
+HWY_INLINE void bound_packets(const Eigen::Vector3f& p, const FacePackets& color, PacketLook* looks) {
   const auto x = hn::Set(kBoxFloats, p.x()), y = hn::Set(kBoxFloats, p.y()), z = hn::Set(kBoxFloats, p.z());
   const auto share = hn::Set(kBoxFloats, kShare), slack = hn::Set(kBoxFloats, color.slack);
   for (const FacePackets::Boxes& boxes : color.boxes) {
@@ -166,35 +199,13 @@ HWY_INLINE void bound_packets(const Eigen::Vector3f& p, const FacePackets& color
       const auto dy = outside(y, boxes.low[1] + i, boxes.high[1] + i);
       const auto dz = outside(z, boxes.low[2] + i, boxes.high[2] + i);
       const auto distance = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Add(hn::Mul(dy, dy), hn::Mul(dz, dz))));
-      const auto reach = hn::Add(distance, hn::Load(kBoxFloats, boxes.diagonal + i));
-      const auto blur = hn::Mul(hn::Load(kBoxFloats, boxes.blur + i), hn::Mul(reach, reach));
-      const auto in_doubt = hn::Add(hn::Add(slack, hn::Mul(share, distance)), blur);
-      hn::Store(hn::Sub(distance, in_doubt), kBoxFloats, bounds + i);
+      const auto in_doubt = doubt(distance, hn::Load(kBoxFloats, boxes.length + i),
+                                  hn::Load(kBoxFloats, boxes.blur + i), slack, share);
+      hn::Store(hn::Sub(distance, in_doubt), kBoxFloats, looks->bounds + i);
     }
-    bounds += FacePackets::kBoxes;
+    (looks++)->visited = 0;
   }
 }
-
-/// The search of one point over the packets of its color.
-struct Search {
-  const FacePackets& color;
-  const Vectors& p;
-  Nearest nearest = {};
-  float squared = kInfinity;  ///< of the nearest face
-  int packet = 0;             ///< of the nearest face
-
-  /// Looks at all faces of a packet. Returns what its faces are at least away from the point. No branch: which
-  /// packet is nearest cannot be foretold.
-  HWY_INLINE float visit(int i) {
-    const float found = consider(p, color.packets[i], nearest);
-    packet = found < squared ? i : packet;
-    squared = found < squared ? found : squared;
-    const float distance = std::sqrt(found);
-    return distance - doubt(color, i, distance);
-  }
-  /// No face of a packet whose bound is above this is as near.
-  HWY_INLINE float limit() const { return std::sqrt(squared) * (1 + kShare) + color.slack; }
-};
 
 /// The packets of some boxes, a bit each, whose bounds are not above the limit.
 HWY_INLINE uint32_t not_above(const float* bounds, float limit) {
@@ -204,95 +215,272 @@ HWY_INLINE uint32_t not_above(const float* bounds, float limit) {
   return bits[0] | uint32_t{bits[1]} << 8;
 }
 
-/// Looks at the packets whose boxes are near enough; one has been looked at. These are then known better than by
-/// their boxes.
-HWY_INLINE void visit_near_packets(Search& search, float* bounds, int done) {
-  const float limit = search.limit();
-  const int count = static_cast<int>(search.color.packets.size()), lanes = hn::MaxLanes(kBoxFloats);
-  for (int first = 0; first < count; first += lanes) {
-    for (uint32_t bits = not_above(bounds + first, limit); bits != 0; bits &= bits - 1) {
-      const int i = first + std::countr_zero(bits);
-      if (i != done && i < count) bounds[i] = search.visit(i);
+/// The faces that are near a point: what its memory will hold.
+class FaceList {
+ public:
+  explicit FaceList(float near) : near_(near) {}
+
+  /// Adds the faces of a packet that are near; those added first are the last to fall off.
+  HWY_INLINE void add(const FacePackets& color, int packet, const PacketLook* looks) {
+    const FacePlanes& planes = looks[packet / FacePackets::kBoxes].planes[packet % FacePackets::kBoxes];
+    const Floats near = hn::Set(kFloats, near_);
+    for (size_t first = 0; first < FacePackets::kFaces; first += hn::Lanes(kFloats)) {
+      const Floats in_doubt = doubt(near, color.packets[packet], first, color.slack);
+      const Floats distance = hn::Sub(hn::Load(kFloats, planes.distance + first), in_doubt);
+      const Mask far = hn::Gt(distance, near), is_near = hn::Not(far);
+      others_beyond_ = std::min(
+          others_beyond_,
+          hn::GetLane(hn::MinOfLanes(kFloats, hn::IfThenElse(far, distance, hn::Set(kFloats, kInfinity)))));
+      for (int axis = 0; axis < 3; ++axis)
+        hn::CompressStore(hn::Load(kFloats, planes.normal[axis] + first), is_near, kFloats, normal_[axis] + count_);
+      hn::CompressStore(hn::Add(hn::Load(kFloats, planes.offset + first), in_doubt), is_near, kFloats,
+                        offset_ + count_);
+      hn::CompressStore(distance, is_near, kFloats, distance_ + count_);
+      const Ints places = hn::Iota(kInts, static_cast<int32_t>(packet * FacePackets::kFaces + first));
+      hn::CompressStore(places, hn::RebindMask(kInts, is_near), kInts, place_ + count_);
+      count_ += hn::CountTrue(kFloats, is_near);
+    }
+    for (; count_ > PointMemory::kFaces; --count_) {
+      // What is not a number bounds nothing.
+      const float distance = distance_[count_ - 1];
+      others_beyond_ = distance >= -kInfinity ? std::min(others_beyond_, distance) : -kInfinity;
     }
   }
-}
+  /// Returns what all other faces of the packets that were added are at least away.
+  HWY_INLINE float copy_to(PointMemory& memory) {
+    std::fill(offset_ + count_, offset_ + PointMemory::kFaces, -kInfinity);  // never nearest
+    std::fill(place_ + count_, place_ + PointMemory::kFaces, 0);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::fill(normal_[axis] + count_, normal_[axis] + PointMemory::kFaces, 0.0f);
+      std::copy_n(normal_[axis], PointMemory::kFaces, memory.normal[axis]);
+    }
+    std::copy_n(offset_, PointMemory::kFaces, memory.offset);
+    std::copy_n(place_, PointMemory::kFaces, memory.place);
+    return others_beyond_;
+  }
 
-/// Lists the packets that may be nearest when the point comes again, having moved a little.
-HWY_INLINE void remember(const Search& search, float* bounds, const Eigen::Vector3f& p, PacketMemory& memory) {
-  memory = {.p_hand = p,
-            .others_beyond = kInfinity,
-            .count = 1,
-            .packets = {search.packet},
-            .bounds = {bounds[search.packet]}};
-  bounds[search.packet] = kInfinity;
-  const float near = search.limit() + PacketMemory::kNear;
-  const auto infinity = hn::Set(kBoxFloats, kInfinity);
-  auto others = infinity;
-  const int count = static_cast<int>(search.color.packets.size()), lanes = hn::MaxLanes(kBoxFloats);
-  for (int first = 0; first < count; first += lanes) {
-    const auto some = hn::Load(kBoxFloats, bounds + first);
-    others = hn::Min(others, hn::IfThenElse(hn::Gt(some, hn::Set(kBoxFloats, near)), some, infinity));
-    for (uint32_t bits = not_above(bounds + first, near); bits != 0; bits &= bits - 1) {
-      const int i = first + std::countr_zero(bits);
-      if (i >= count) break;
-      // What is not a number bounds nothing.
-      const float bound = bounds[i] >= -kInfinity ? bounds[i] : -kInfinity;
-      if (memory.count < PacketMemory::kPackets) {
-        memory.packets[memory.count] = i;
-        memory.bounds[memory.count++] = bound;
-      } else {
-        memory.others_beyond = std::min(memory.others_beyond, bound);
+ private:
+  static constexpr int kCapacity = PointMemory::kFaces + 2 * FacePackets::kFaces;
+
+  float near_;
+  float others_beyond_ = kInfinity;
+  size_t count_ = 0;
+  alignas(64) float normal_[3][kCapacity], offset_[kCapacity], distance_[kCapacity];
+  alignas(64) int32_t place_[kCapacity];
+};
+
+/// The search of one point over the packets of its color. One that is to be remembered takes longer.
+template <bool kRemembered>
+struct Search {
+  const FacePackets& color;
+  const Vectors& p;
+  PacketLook* looks;
+  Nearest nearest = {};
+  float squared = kInfinity;  ///< of the nearest face
+  int packet = 0;             ///< of the nearest face
+
+  /// Looks at all faces of a packet, which are then known better than by its box. No branch: which packet is
+  /// nearest cannot be foretold.
+  HWY_INLINE void visit(int i) {
+    PacketLook& look = looks[i / FacePackets::kBoxes];
+    const int place = i % FacePackets::kBoxes;
+    const float found = consider<kRemembered>(p, color.packets[i], color.slack, nearest, look.planes[place]);
+    packet = found < squared ? i : packet;
+    squared = found < squared ? found : squared;
+    look.bounds[place] = kInfinity;
+    look.visited |= 1u << place;
+  }
+  /// No face of a packet whose bound is above this is as near.
+  HWY_INLINE float limit() const { return std::sqrt(squared) * (1 + kShare) + color.slack; }
+
+  /// Looks at the packets whose boxes are that near, and have not been looked at.
+  HWY_INLINE void visit_near(float limit) {
+    const int count = static_cast<int>(color.packets.size()), lanes = hn::MaxLanes(kBoxFloats);
+    for (int first = 0; first < count; first += lanes) {
+      const int place = first % FacePackets::kBoxes;
+      const PacketLook& look = looks[first / FacePackets::kBoxes];
+      for (uint32_t bits = not_above(look.bounds + place, limit) & ~(look.visited >> place); bits != 0;
+           bits &= bits - 1) {
+        const int i = first + std::countr_zero(bits);
+        if (i < count) visit(i);
       }
     }
   }
-  memory.others_beyond = std::min(memory.others_beyond, hn::GetLane(hn::MinOfLanes(kBoxFloats, others)));
-}
 
-/// Looks at the listed packets alone if none of the others can be nearest. False if one can.
-HWY_INLINE bool visit_listed(Search& search, float first_bound, const Eigen::Vector3f& p, PacketMemory& memory) {
-  const float moved = (p - memory.p_hand).norm() * (1 + kShare), limit = search.limit();
-  if (!(limit < memory.others_beyond - moved)) return false;
-  memory.p_hand = p;
-  memory.others_beyond = (memory.others_beyond - moved) * kRoundedDown;
-  memory.bounds[0] = first_bound;
-  int best = 0;
-  for (int i = 1; i < memory.count; ++i) {
-    memory.bounds[i] = (memory.bounds[i] - moved) * kRoundedDown;
-    if (memory.bounds[i] > limit) continue;
-    const float before = search.squared;
-    memory.bounds[i] = search.visit(memory.packets[i]);
-    best = search.squared < before ? i : best;
+  /// Lists the faces that may be nearest when the point comes again, having moved a little.
+  HWY_INLINE void remember(float near, PointMemory& memory) const {
+    FaceList list(near);
+    list.add(color, packet, looks);
+    auto others = hn::Set(kBoxFloats, kInfinity);
+    const int count = static_cast<int>(color.packets.size());
+    for (int group = 0; group * FacePackets::kBoxes < count; ++group) {
+      const PacketLook& look = looks[group];
+      for (size_t i = 0; i < FacePackets::kBoxes; i += hn::Lanes(kBoxFloats))
+        others = hn::Min(others, hn::Load(kBoxFloats, look.bounds + i));
+      for (uint32_t bits = look.visited; bits != 0; bits &= bits - 1) {
+        const int i = group * FacePackets::kBoxes + std::countr_zero(bits);
+        if (i != packet) list.add(color, i, looks);
+      }
+    }
+    memory.reach = near;
+    memory.others_beyond = std::min(list.copy_to(memory), hn::GetLane(hn::MinOfLanes(kBoxFloats, others)));
   }
-  std::swap(memory.packets[0], memory.packets[best]);
-  std::swap(memory.bounds[0], memory.bounds[best]);
-  return true;
-}
+};
 
-HWY_INLINE ClosestPoint find(const LabeledPoint& point, const FacePackets& color, float* bounds,
-                             PacketMemory& memory, int& last_packet) {
-  const Vectors p = {hn::Set(kFloats, point.p.x()), hn::Set(kFloats, point.p.y()), hn::Set(kFloats, point.p.z())};
-  Search search{color, p};
-  const int start = memory.count > 0 ? memory.packets[0] : last_packet;
-  const float first_bound = search.visit(start);
-  if (memory.count == 0 || !visit_listed(search, first_bound, point.p, memory)) {
-    bound_packets(point.p, color, bounds);
-    bounds[start] = first_bound;
-    visit_near_packets(search, bounds, start);
-    remember(search, bounds, point.p, memory);
-    last_packet = search.packet;
+template <bool kRemembered>
+HWY_INLINE ClosestPoint search_all(const Eigen::Vector3f& p_hand, const FacePackets& color, int start,
+                                   PacketLook* looks, PointMemory& memory) {
+  const Vectors p = {hn::Set(kFloats, p_hand.x()), hn::Set(kFloats, p_hand.y()), hn::Set(kFloats, p_hand.z())};
+  Search<kRemembered> search{color, p, looks};
+  bound_packets(p_hand, color, looks);
+  search.visit(start);
+  search.visit_near(search.limit());
+  memory.p_hand = p_hand;
+  memory.others_beyond = -kInfinity;
+  if constexpr (kRemembered) {
+    const float near = search.limit() + PointMemory::kNear;
+    search.visit_near(near);
+    search.remember(near, memory);
   }
-  return best_of_lanes(search.nearest, search.squared);
+  const ClosestPoint closest = best_of_lanes(search.nearest, search.squared);
+  const int32_t* const faces = color.packets[search.packet].face;
+  memory.nearest = search.packet * FacePackets::kFaces +
+                   static_cast<int>(std::find(faces, faces + FacePackets::kFaces - 1, closest.face) - faces);
+  return closest;
 }
 
-void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points, PacketMemory* memories,
-                 float* bounds, ClosestPoint* results) {
+/// Nothing is listed for a point that comes for the first time, or from so far away that it will not stay.
+HWY_INLINE ClosestPoint search(const Eigen::Vector3f& p_hand, const FacePackets& color, int start,
+                               PacketLook* looks, PointMemory& memory) {
+  const bool stays = memory.nearest >= 0 && (p_hand - memory.p_hand).norm() < PointMemory::kStays;
+  return stays ? search_all<true>(p_hand, color, start, looks, memory)
+               : search_all<false>(p_hand, color, start, looks, memory);
+}
+
+/// Pairs of a point and a face that may be its nearest, those of a point together: to be measured side by side.
+class Contenders {
+ public:
+  Contenders(std::span<PointMemory> memories, ClosestPoint* results) : memories_(memories), results_(results) {}
+
+  /// Room for all that one point may bring.
+  HWY_INLINE void make_room() {
+    if (count_ + PointMemory::kFaces > kCapacity) measure();
+  }
+  HWY_INLINE void add(int point, const Eigen::Vector3f& p, const FacePackets& color, int place) {
+    const FacePackets::Packet& packet = color.packets[place / FacePackets::kFaces];
+    const int face = place % FacePackets::kFaces;
+    for (int axis = 0; axis < 3; ++axis) {
+      p_[axis][count_] = p[axis];
+      a_[axis][count_] = packet.a[axis][face];
+      b_[axis][count_] = packet.b[axis][face];
+      c_[axis][count_] = packet.c[axis][face];
+    }
+    point_[count_] = point;
+    face_[count_] = packet.face[face];
+    place_[count_++] = place;
+  }
+  /// Gives each point that is here its nearest face.
+  HWY_INLINE void measure() {
+    for (int i = 0; i < count_; i += hn::MaxLanes(kFloats)) {
+      const Vectors p = load(p_, i);
+      const Vectors closest = closest_on_faces(p, load(a_, i), load(b_, i), load(c_, i)), apart = closest - p;
+      store(closest, p_, i);
+      hn::Store(dot(apart, apart), kFloats, squared_ + i);
+    }
+    for (int i = 0; i < count_;) {
+      const int point = point_[i];
+      float least = kInfinity;
+      int best = -1;
+      for (; i < count_ && point_[i] == point; ++i) {
+        if (!(squared_[i] < least || (squared_[i] == least && best >= 0 && face_[i] < face_[best]))) continue;
+        least = squared_[i];
+        best = i;
+      }
+      if (best < 0) continue;
+      results_[point] = {Eigen::Vector3f(p_[0][best], p_[1][best], p_[2][best]), std::sqrt(least), face_[best]};
+      memories_[point].nearest = place_[best];
+    }
+    count_ = 0;
+  }
+
+ private:
+  static constexpr int kCapacity = 128;
+
+  std::span<PointMemory> memories_;
+  ClosestPoint* results_;
+  int count_ = 0;
+  alignas(64) float p_[3][kCapacity] = {}, a_[3][kCapacity] = {}, b_[3][kCapacity] = {}, c_[3][kCapacity] = {};
+  alignas(64) float squared_[kCapacity] = {};
+  int point_[kCapacity], face_[kCapacity], place_[kCapacity];
+};
+
+/// The listed faces, a bit each, whose planes are not farther than the limit.
+HWY_INLINE uint32_t not_behind(const PointMemory& memory, const Eigen::Vector3f& p, float limit) {
+  const auto x = hn::Set(kListFloats, p.x()), y = hn::Set(kListFloats, p.y()), z = hn::Set(kListFloats, p.z());
+  uint32_t faces = 0;
+  for (size_t first = 0; first < PointMemory::kFaces; first += hn::Lanes(kListFloats)) {
+    const auto along = hn::MulAdd(hn::Load(kListFloats, memory.normal[0] + first), x,
+                                  hn::MulAdd(hn::Load(kListFloats, memory.normal[1] + first), y,
+                                             hn::MulSub(hn::Load(kListFloats, memory.normal[2] + first), z,
+                                                        hn::Load(kListFloats, memory.offset + first))));
+    uint8_t bits[8] = {};  // StoreMaskBits may write eight bytes
+    hn::StoreMaskBits(kListFloats, hn::Not(hn::Gt(along, hn::Set(kListFloats, limit))), bits);
+    faces |= (bits[0] | uint32_t{bits[1]} << 8) << first;
+  }
+  return faces;
+}
+
+/// Whether the nearest face of a point is one of those it has listed; and the listed faces, a bit each, that may be
+/// it. No branch: what follows from one point would wait for its square roots.
+struct Listed {
+  bool all;
+  uint32_t faces;
+};
+HWY_INLINE Listed listed(const Eigen::Vector3f& p_hand, const FacePackets& color, const PointMemory& memory,
+                         const ClosestPoint& last) {
+  // Where the closest point was there still is the face: that was in doubt then, and may be now.
+  const int place = std::max(0, memory.nearest), face = place % FacePackets::kFaces;
+  const FacePackets::Packet& packet = color.packets[place / FacePackets::kFaces];
+  const float apart = (p_hand - last.p_hand).norm(), farther = std::max(apart, last.distance);
+  const float limit =
+      apart * (1 + kShare) + 2 * doubt(farther, packet.length[face], packet.blur[face], color.slack);
+  const float moved = (p_hand - memory.p_hand).norm() * (1 + kShare);
+  const bool all = (memory.nearest >= 0) & (limit < memory.others_beyond - moved) & (limit <= memory.reach);
+  return {all, not_behind(memory, p_hand, limit)};
+}
+
+void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points, std::span<PointMemory> memories,
+                 PacketLook* looks, ClosestPoint* results) {
   int last_packets[kColorCount + 1] = {};  // the point before is a neighbor
-  for (size_t i = 0; i < points.size(); ++i) {
-    const uint8_t label = points[i].label;
-    const FacePackets& color = colors[label];
-    results[i] =
-        color.packets.empty() ? ClosestPoint{} : find(points[i], color, bounds, memories[i], last_packets[label]);
+  Contenders contenders(memories, results);
+  constexpr size_t kBlock = 64;
+  Listed lists[kBlock];
+  for (size_t begin = 0; begin < points.size(); begin += kBlock) {
+    const size_t count = std::min(kBlock, points.size() - begin);
+    for (size_t i = 0; i < count; ++i) {
+      const LabeledPoint& point = points[begin + i];
+      const FacePackets& color = colors[point.label];
+      if (color.packets.empty()) continue;
+      lists[i] = listed(point.p, color, memories[begin + i], results[begin + i]);
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const LabeledPoint& point = points[begin + i];
+      const FacePackets& color = colors[point.label];
+      PointMemory& memory = memories[begin + i];
+      if (color.packets.empty()) {
+        results[begin + i] = {};
+      } else if (lists[i].all) {
+        contenders.make_room();
+        for (uint32_t bits = lists[i].faces; bits != 0; bits &= bits - 1)
+          contenders.add(static_cast<int>(begin + i), point.p, color, memory.place[std::countr_zero(bits)]);
+      } else {
+        const int start = memory.nearest >= 0 ? memory.nearest / FacePackets::kFaces : last_packets[point.label];
+        results[begin + i] = search(point.p, color, start, looks, memory);
+        last_packets[point.label] = memory.nearest / FacePackets::kFaces;
+      }
+    }
   }
+  contenders.measure();
 }
 
 }  // namespace glovebench::HWY_NAMESPACE
@@ -310,7 +498,7 @@ void ClosestPointSearch::start(const Surface& surface) {
     colors_[label].assign(surface.faces(label));
     boxes = std::max(boxes, colors_[label].boxes.size());
   }
-  bounds_.resize(std::max<size_t>(1, boxes));
+  looks_.resize(boxes);
   memory_.clear();
 }
 
@@ -318,7 +506,7 @@ const std::vector<ClosestPoint>& ClosestPointSearch::operator()(std::span<const 
   memory_.resize(points_hand.size());
   closest_.resize(points_hand.size());
   HWY_DYNAMIC_DISPATCH(FindClosest)
-  (colors_.data(), points_hand, memory_.data(), bounds_.data()->bounds, closest_.data());
+  (colors_.data(), points_hand, memory_, looks_.data(), closest_.data());
   return closest_;
 }
 

@@ -29,57 +29,49 @@ void sort_into_packets(std::span<int32_t> order, const std::vector<Eigen::Vector
   sort_into_packets(order.subspan(left), middles);
 }
 
+float longest_edge2(const Surface::Face& face) {
+  return std::max(
+      {(face.b - face.a).squaredNorm(), (face.c - face.a).squaredNorm(), (face.c - face.b).squaredNorm()});
+}
+
 FacePackets::Packet make_packet(std::span<const int32_t> order, std::span<const Surface::Face> faces) {
   FacePackets::Packet packet;
   for (int i = 0; i < FacePackets::kFaces; ++i) {
     packet.face[i] = order[std::min<size_t>(i, order.size() - 1)];
     const Surface::Face& face = faces[packet.face[i]];
-    // The very operations of `closest_on_triangle`: a difference rounded otherwise would be another face's victory.
-    const Eigen::Vector3f ab = face.b - face.a, ac = face.c - face.a;
     for (int axis = 0; axis < 3; ++axis) {
       packet.a[axis][i] = face.a[axis];
       packet.b[axis][i] = face.b[axis];
       packet.c[axis][i] = face.c[axis];
-      packet.ab[axis][i] = ab[axis];
-      packet.ac[axis][i] = ac[axis];
     }
+    packet.length[i] = std::sqrt(longest_edge2(face));
+    packet.blur[i] = rounding_blur(face);
   }
   return packet;
 }
 
-struct Bound {
-  Eigen::Array3f low = Eigen::Array3f::Constant(kInfinity), high = -low;
-  float blur = 0;
-};
-
-Bound bound(std::span<const int32_t> order, std::span<const Surface::Face> faces) {
-  Bound result;
-  for (const int32_t f : order) {
-    for (const Eigen::Vector3f& corner : {faces[f].a, faces[f].b, faces[f].c}) {
-      result.low = result.low.min(corner.array());
-      result.high = result.high.max(corner.array());
-    }
-    result.blur = std::max(result.blur, rounding_blur(faces[f]));
-  }
-  return result;
-}
-
-void set_box(FacePackets::Boxes& boxes, int i, const Bound& bound) {
+void set_box(FacePackets::Boxes& boxes, int i, const FacePackets::Packet& packet) {
+  boxes.blur[i] = *std::ranges::max_element(packet.blur);
   // A face that rounding may put anywhere (or that is not finite) is looked at from everywhere.
-  const bool boundless = !(bound.blur < kInfinity);
+  const bool boundless = !(boxes.blur[i] < kInfinity);
+  boxes.length[i] = boundless ? 1 : *std::ranges::max_element(packet.length);
   for (int axis = 0; axis < 3; ++axis) {
-    boxes.low[axis][i] = boundless ? -kInfinity : bound.low[axis];
-    boxes.high[axis][i] = boundless ? kInfinity : bound.high[axis];
+    boxes.low[axis][i] = -kInfinity;
+    boxes.high[axis][i] = kInfinity;
+    if (boundless) continue;
+    const auto [low_a, high_a] = std::ranges::minmax(packet.a[axis]);
+    const auto [low_b, high_b] = std::ranges::minmax(packet.b[axis]);
+    const auto [low_c, high_c] = std::ranges::minmax(packet.c[axis]);
+    boxes.low[axis][i] = std::min({low_a, low_b, low_c});
+    boxes.high[axis][i] = std::max({high_a, high_b, high_c});
   }
-  boxes.diagonal[i] = boundless ? 1 : (bound.high - bound.low).matrix().norm();
-  boxes.blur[i] = bound.blur;
 }
 
 FacePackets::Boxes boxes_of_none() {
   FacePackets::Boxes boxes;
   for (int i = 0; i < FacePackets::kBoxes; ++i) {
     for (int axis = 0; axis < 3; ++axis) boxes.low[axis][i] = boxes.high[axis][i] = kFar;
-    boxes.diagonal[i] = boxes.blur[i] = 0;
+    boxes.length[i] = boxes.blur[i] = 0;
   }
   return boxes;
 }
@@ -87,8 +79,7 @@ FacePackets::Boxes boxes_of_none() {
 }  // namespace
 
 float rounding_blur(const Surface::Face& face) {
-  const float length2 =
-      std::max({(face.b - face.a).squaredNorm(), (face.c - face.a).squaredNorm(), (face.c - face.b).squaredNorm()});
+  const float length2 = longest_edge2(face);
   const float height2 = (face.b - face.a).cross(face.c - face.a).squaredNorm() / length2;
   // Below this share the height itself is rounding.
   if (!(height2 > 1e-10f * length2) || length2 == kInfinity) return kInfinity;
@@ -118,7 +109,7 @@ void FacePackets::assign(std::span<const Surface::Face> faces) {
     const int place = static_cast<int>(packets.size()) % kBoxes;
     if (place == 0) boxes.push_back(boxes_of_none());
     packets.push_back(make_packet(some, faces));
-    set_box(boxes.back(), place, bound(some, faces));
+    set_box(boxes.back(), place, packets.back());
   }
 }
 

@@ -15,16 +15,17 @@ struct FacePackets {
   /// Boxes that lie together: the most lanes of any instruction set.
   static constexpr int kBoxes = 16;
 
-  /// Corners and edges of each face, [axis][face]. A packet that is not full repeats its last face.
+  /// Corners of each face, [axis][face]. A packet that is not full repeats its last face.
   struct alignas(64) Packet {
-    float a[3][kFaces], b[3][kFaces], c[3][kFaces], ab[3][kFaces], ac[3][kFaces];
+    float a[3][kFaces], b[3][kFaces], c[3][kFaces];
     int32_t face[kFaces];  ///< in Surface::faces
+    float length[kFaces];  ///< of the longest edge
+    float blur[kFaces];    ///< 1/m: see `rounding_blur`
   };
   /// Bounds of the packets, [axis][packet]. Behind the last packet they are very far away.
   struct alignas(64) Boxes {
     float low[3][kBoxes], high[3][kBoxes];
-    float diagonal[kBoxes];
-    float blur[kBoxes];  ///< 1/m: see `rounding_blur`
+    float length[kBoxes], blur[kBoxes];  ///< the largest
   };
 
   std::vector<Packet> packets;

@@ -15,11 +15,14 @@ Eigen::Vector3d mean(std::span<const Eigen::Vector3f> points) {
 
 /// The points spread in one direction only, within a thousandth of it.
 bool on_a_line(std::span<const Eigen::Vector3f> points, const Eigen::Vector3d& center) {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  // The six sums as locals: each waits for its last addition only, not for a matrix in memory.
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d d = p.cast<double>() - center;
-    covariance += d * d.transpose();
+    const double x = p.x() - center.x(), y = p.y() - center.y(), z = p.z() - center.z();
+    xx += x * x, xy += x * y, xz += x * z, yy += y * y, yz += y * z, zz += z * z;
   }
+  Eigen::Matrix3d covariance;
+  covariance << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   const Eigen::Vector3d spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
   return spread[1] <= 1e-6 * spread[2];
