@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/base/check.h"
+#include "core/base/for_each_nonzero.h"
 
 namespace glovebench {
 namespace {
@@ -43,14 +44,13 @@ std::vector<int> component_roots(const LabeledCloud& cloud, double depth_step) {
   for (int v = 0; v < cloud.labels.height(); ++v) {
     std::swap(above, current);
     std::fill(current.begin(), current.end(), -1);
-    for (int u = 0; u < width; ++u) {
-      if (cloud.labels(u, v) == 0) continue;
+    for_each_nonzero(cloud.labels, v, [&](int u) {
       const int point = next++;
       current[u + 1] = point;
       for (int neighbor : {current[u], above[u], above[u + 1], above[u + 2]})
         if (neighbor >= 0 && std::abs(cloud.points[neighbor].p.z() - cloud.points[point].p.z()) <= depth_step)
           sets.unite(neighbor, point);
-    }
+    });
   }
   check(next == static_cast<int>(cloud.points.size()), "a cloud has one point for each labeled pixel");
   std::vector<int> roots(cloud.points.size());
@@ -74,18 +74,17 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
   LabeledCloud cloud;
   cloud.labels = LabelImage(labels.width(), labels.height());
   for (int v = 0; v < labels.height(); ++v) {
-    for (int u = 0; u < labels.width(); ++u) {
-      const uint8_t label = labels(u, v);
+    for_each_nonzero(labels, v, [&](int u) {
       const double z = depth(u, v);
-      if (label == 0 || !(z > 0)) continue;
+      if (!(z > 0)) return;
       if (z < volume.z_min || z > volume.z_max) {
         ++cloud.labeled_outside;
         cloud.labeled_cut_off += z > volume.z_min - kCutOffMargin && z < volume.z_max + kCutOffMargin;
-        continue;
+        return;
       }
-      cloud.labels(u, v) = label;
-      cloud.points.push_back({camera.back_project(u, v, z).cast<float>(), label});
-    }
+      cloud.labels(u, v) = labels(u, v);
+      cloud.points.push_back({camera.back_project(u, v, z).cast<float>(), labels(u, v)});
+    });
   }
   return cloud;
 }
@@ -107,14 +106,15 @@ LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step) {
   kept.labeled_outside = cloud.labeled_outside;
   kept.labeled_cut_off = cloud.labeled_cut_off;
   size_t point = 0;
-  for (uint8_t& label : kept.labels) {
-    if (label == 0) continue;
-    if (roots[point] == largest) {
-      kept.points.push_back(cloud.points[point]);
-    } else {
-      label = 0;
-    }
-    ++point;
+  for (int v = 0; v < kept.labels.height(); ++v) {
+    for_each_nonzero(cloud.labels, v, [&](int u) {
+      if (roots[point] == largest) {
+        kept.points.push_back(cloud.points[point]);
+      } else {
+        kept.labels(u, v) = 0;
+      }
+      ++point;
+    });
   }
   return kept;
 }

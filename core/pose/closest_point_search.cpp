@@ -389,15 +389,18 @@ class Contenders {
     }
     for (int i = 0; i < count_;) {
       const int point = point_[i];
-      float least = kInfinity;
-      int best = -1;
+      // The order of distances, and of faces where they are equal, is that of these numbers. What is not a number
+      // comes after all that are. No branch: which is nearest cannot be foretold.
+      uint64_t least = kNone;
+      int best = i;
       for (; i < count_ && point_[i] == point; ++i) {
-        if (!(squared_[i] < least || (squared_[i] == least && best >= 0 && face_[i] < face_[best]))) continue;
-        least = squared_[i];
-        best = i;
+        const uint64_t key = uint64_t{std::bit_cast<uint32_t>(squared_[i])} << 32 | static_cast<uint32_t>(face_[i]);
+        best = key < least ? i : best;
+        least = key < least ? key : least;
       }
-      if (best < 0) continue;
-      results_[point] = {Eigen::Vector3f(p_[0][best], p_[1][best], p_[2][best]), std::sqrt(least), face_[best]};
+      if (least >= kNone) continue;
+      results_[point] = {Eigen::Vector3f(p_[0][best], p_[1][best], p_[2][best]), std::sqrt(squared_[best]),
+                         face_[best]};
       memories_[point].nearest = place_[best];
     }
     count_ = 0;
@@ -405,6 +408,7 @@ class Contenders {
 
  private:
   static constexpr int kCapacity = 128;
+  static constexpr uint64_t kNone = uint64_t{std::bit_cast<uint32_t>(kInfinity)} << 32;
 
   std::span<PointMemory> memories_;
   ClosestPoint* results_;
