@@ -113,6 +113,11 @@ void set_time_each(benchmark::State& state, const std::string& name, size_t coun
       static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
+void set_bytes_touched(benchmark::State& state, const BytesTouched& touched) {
+  if (touched.near > 0) state.counters[kNearBytes] = touched.near;
+  if (touched.far > 0) state.counters[kFarBytes] = touched.far;
+}
+
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

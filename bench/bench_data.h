@@ -50,8 +50,20 @@ void prepare(const Settings& settings);
 /// What `prepare` made.
 const BenchData& data();
 
+/// The error of a benchmark whose library this build lacks. It is shown, and no failure.
+inline constexpr const char* kMissing = "missing";
+
 /// Says that each iteration did something with all `count` of these: adds the time for one as a counter.
 void set_time_each(benchmark::State& state, const std::string& name, size_t count);
+
+/// The bytes that one frame (or another item) makes a stage read and write at least.
+struct BytesTouched {
+  double near = 0;  ///< in the core's own caches: what was touched a moment ago
+  double far = 0;   ///< behind them
+};
+/// The counters that say so.
+inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";
+void set_bytes_touched(benchmark::State& state, const BytesTouched& touched);
 
 /// The peak of the process's resident memory so far, bytes.
 double peak_memory();

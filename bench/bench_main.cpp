@@ -1,13 +1,15 @@
-// glovebench_bench [--cache FOLDER] [--database NAME] [Google Benchmark's options]
+// glovebench_bench [--cache FOLDER] [--database NAME] [--table FILE] [Google Benchmark's options]
 
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "bench/bench_data.h"
 #include "bench/ratio_reporter.h"
 #include "core/base/error.h"
+#include "core/base/file.h"
 
 namespace glovebench::bench {
 namespace {
@@ -17,27 +19,37 @@ std::string default_cache_folder() {
   return chosen != nullptr ? chosen : (std::filesystem::temp_directory_path() / "glovebench-bench").string();
 }
 
-/// Takes the options of this program; what is left is Google Benchmark's.
-Settings parse(int argc, char** argv) {
+struct Options {
   Settings settings{.cache_folder = default_cache_folder()};
+  std::string table;  ///< Markdown file with the ratios; empty: none
+};
+
+/// Takes the options of this program; what is left is Google Benchmark's.
+Options parse(int argc, char** argv) {
+  Options options;
+  const std::map<std::string, std::string*> values = {{"--cache", &options.settings.cache_folder},
+                                                      {"--database", &options.settings.database},
+                                                      {"--table", &options.table}};
   for (int i = 1; i < argc; i += 2) {
-    const std::string option = argv[i];
-    if (option != "--cache" && option != "--database") {
-      throw Error("command line", option, "an unknown option",
-                  "--cache FOLDER, --database NAME or an option of Google Benchmark (--help)");
+    const auto option = values.find(argv[i]);
+    if (option == values.end()) {
+      throw Error("command line", argv[i], "an unknown option",
+                  "--cache FOLDER, --database NAME, --table FILE or an option of Google Benchmark (--help)");
     }
-    if (i + 1 == argc) throw Error("command line", option, "nothing after it", "a value");
-    (option == "--cache" ? settings.cache_folder : settings.database) = argv[i + 1];
+    if (i + 1 == argc) throw Error("command line", argv[i], "nothing after it", "a value");
+    *option->second = argv[i + 1];
   }
-  return settings;
+  return options;
 }
 
 int run(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  prepare(parse(argc, argv));
+  const Options options = parse(argc, argv);
+  prepare(options.settings);
   RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
+  if (!options.table.empty()) write_file(options.table, speed_markdown(reporter.measurements()));
   return reporter.error_count() == 0 ? 0 : 1;
 }
 

@@ -1,7 +1,11 @@
+// Both alignments, plain and fast, and PCL's.
+
 #include "bench/bench_data.h"
+#include "bench/peers/peers.h"
 #include "core/base/angles.h"
 #include "core/base/random.h"
 #include "core/pose/icp.h"
+#include "core/pose/matcher.h"
 
 namespace glovebench::bench {
 namespace {
@@ -25,24 +29,40 @@ double angle_deg(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return degrees_from_radians(Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear())));
 }
 
-/// Says how far the alignments end from the truth, in the looked-up posture: means over the frames.
-void count_errors(benchmark::State& state, const IcpConfig& config) {
-  const double count = static_cast<double>(data().frames.size());
-  double position_mm = 0, rotation_deg = 0;
+/// Mean distance to the truth, in the looked-up posture.
+struct Errors {
+  double position_mm = 0;
+  double rotation_deg = 0;
+};
+
+template <typename Align>
+Errors mean_errors(const Align& align_one) {
+  Errors errors;
+  const auto count = static_cast<double>(data().frames.size());
   for (const BenchFrame& frame : data().frames) {
-    const Alignment alignment = align_frame(frame, config);
-    position_mm += distance_mm(alignment.T_camera_hand, frame.hand.T_camera_hand) / count;
-    rotation_deg += angle_deg(alignment.T_camera_hand, frame.hand.T_camera_hand) / count;
+    const Eigen::Isometry3d T_camera_hand = align_one(frame).T_camera_hand;
+    errors.position_mm += distance_mm(T_camera_hand, frame.hand.T_camera_hand) / count;
+    errors.rotation_deg += angle_deg(T_camera_hand, frame.hand.T_camera_hand) / count;
   }
-  state.counters["position_mm"] = position_mm;
-  state.counters["rotation_deg"] = rotation_deg;
+  return errors;
+}
+
+void set_errors(benchmark::State& state, const Errors& errors) {
+  state.counters["position_mm"] = errors.position_mm;
+  state.counters["rotation_deg"] = errors.rotation_deg;
+}
+
+/// Some: the plain search takes its time.
+std::vector<const BenchFrame*> some_frames() {
+  std::vector<const BenchFrame*> frames;
+  for (size_t i = 0; i < data().frames.size(); i += 4) frames.push_back(&data().frames[i]);
+  return frames;
 }
 
 void icp(benchmark::State& state, IcpAlgorithm algorithm, Implementation implementation, int max_points) {
   const IcpConfig config = config_of(algorithm, implementation, max_points);
   const IcpConfig plain = config_of(algorithm, Implementation::plain, max_points);
-  std::vector<const BenchFrame*> frames;  // some: the plain search takes its time
-  for (size_t i = 0; i < data().frames.size(); i += 4) frames.push_back(&data().frames[i]);
+  const std::vector<const BenchFrame*> frames = some_frames();
   int iterations = 0;
   for (const BenchFrame* frame : frames) {
     const Alignment alignment = align_frame(*frame, config);
@@ -56,7 +76,8 @@ void icp(benchmark::State& state, IcpAlgorithm algorithm, Implementation impleme
   }
   set_time_each(state, "frame", frames.size());
   set_time_each(state, "iteration", iterations);
-  if (implementation == Implementation::fast) count_errors(state, config);
+  if (implementation == Implementation::fast)
+    set_errors(state, mean_errors([&](const BenchFrame& frame) { return align_frame(frame, config); }));
 }
 BENCHMARK_CAPTURE(icp, plain, IcpAlgorithm::horn, Implementation::plain, 1000)
     ->Name("icp/horn/plain")
@@ -73,6 +94,33 @@ BENCHMARK_CAPTURE(icp, robust, IcpAlgorithm::robust, Implementation::fast, 1000)
 BENCHMARK_CAPTURE(icp, robust_3000, IcpAlgorithm::robust, Implementation::fast, 3000)
     ->Name("icp/robust_3000")
     ->Unit(benchmark::kMillisecond);
+
+/// With the same points, the same start and the same rule to stop as Horn's. Its pairs are others, since it knows
+/// no colors and no triangles: so is its answer, whose errors are shown, and which must be nearer than the start.
+void icp_peer(benchmark::State& state, AlignPeer peer, int max_points) {
+  if (peer == nullptr) return state.SkipWithError(kMissing);
+  const IcpConfig config = config_of(IcpAlgorithm::horn, Implementation::fast, max_points);
+  const auto align_one = [&](const BenchFrame& frame) {
+    const Eigen::Isometry3d& coarse = frame.result.T_camera_hand_coarse;
+    const Surface surface(*data().model, frame.posed, viewpoint_hand(coarse));
+    return peer(surface, subsample(frame.trace.cloud.points, max_points), coarse, config);
+  };
+  const Errors errors = mean_errors(align_one),
+               at_start = mean_errors([](const BenchFrame&frame) {
+                 return Alignment{.T_camera_hand = frame.result.T_camera_hand_coarse};
+               });
+  if (!(errors.position_mm < at_start.position_mm)) return state.SkipWithError("it ends farther than it starts");
+  const std::vector<const BenchFrame*> frames = some_frames();
+  int iterations = 0;
+  for (const BenchFrame* frame : frames) iterations += align_one(*frame).iterations;
+  for (auto _ : state) {
+    for (const BenchFrame* frame : frames) benchmark::DoNotOptimize(align_one(*frame));
+  }
+  set_time_each(state, "frame", frames.size());
+  set_time_each(state, "iteration", iterations);
+  set_errors(state, errors);
+}
+BENCHMARK_CAPTURE(icp_peer, pcl, kPcl, 1000)->Name("icp/horn/pcl")->Unit(benchmark::kMillisecond);
 
 /// Starts 3 cm and so many degrees from the truth, in the true posture: the share that ends within 2 mm and 1
 /// degree of where an alignment that starts at the truth ends.

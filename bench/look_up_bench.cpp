@@ -1,10 +1,13 @@
-// The matching cascade, plain and fast; each query is a frame's.
+// The matching cascade, plain and fast, and its peers' brute force; each query is a frame's.
 
 #include "core/database/look_up.h"
 
 #include <chrono>
+#include <map>
+#include <set>
 
 #include "bench/bench_data.h"
+#include "bench/peers/peers.h"
 
 namespace glovebench::bench {
 namespace {
@@ -35,6 +38,16 @@ double plain_reads(const std::vector<TinyImages>& queries, const Cascade& cascad
     }
   }
   return reads;
+}
+
+/// The rows of the first stage that one query adds up, of all blocks: the least that a look-up over all entries
+/// reads.
+double row_bytes(const std::vector<TinyImages>& queries, const Cascade& cascade) {
+  const FieldRows& rows = data().database->field_rows(cascade[0].size);
+  size_t touched = 0;
+  for (const TinyImages& query : queries) touched += rows.rows_of(query.images[0]).size();
+  return static_cast<double>(touched * FieldRows::kBlock * rows.block_count()) /
+         static_cast<double>(queries.size());
 }
 
 /// What a share of the values lies below, us.
@@ -68,17 +81,92 @@ void run_look_up(benchmark::State& state, const char* text, Implementation imple
   state.counters["p50_us"] = quantile_us(seconds, 0.5);
   state.counters["p99_us"] = quantile_us(seconds, 0.99);
   state.counters["entries"] = database.entry_count();
+  if (implementation == Implementation::fast && cascade.size() == 1)
+    set_bytes_touched(state, {.far = row_bytes(queries, cascade)});
   if (implementation == Implementation::plain)
     set_time_each(state, "read", static_cast<size_t>(plain_reads(queries, cascade)));
 }
 
+/// One query after the other, or all at once.
+enum class Batch { single, all };
+
+using AllMatches = std::vector<std::vector<Match>>;
+
+/// A peer looks up all queries: nothing, or what is wrong with what it finds.
+const char* find_mistake(const AllMatches& found, const std::vector<LabelImage>& queries, const Cascade& cascade) {
+  for (size_t i = 0; i < queries.size(); ++i) {
+    const std::vector<Match> expected = look_up(*data().database, {{queries[i]}}, cascade);
+    // Of equally near entries it may take others.
+    if (!std::ranges::equal(found[i], expected, {}, &Match::error, &Match::error))
+      return "the matches are not the nearest";
+    for (const Match& match : found[i])
+      if (match.error != distance(*data().database, match.entry, queries[i]))
+        return "a match's error is not the distance of equation (2)";
+  }
+  return nullptr;
+}
+
+/// A peer with its copy of the database, which may be of four times its size. It is kept, and checked once each
+/// way.
+struct PreparedPeer {
+  std::unique_ptr<LookUpPeer> look_up;
+  std::set<Batch> checked;
+};
+
+PreparedPeer& prepared(MakeLookUpPeer make, int size) {
+  static std::map<std::pair<MakeLookUpPeer, int>, PreparedPeer> peers;
+  PreparedPeer& peer = peers[{make, size}];
+  if (peer.look_up == nullptr) peer.look_up = make(*data().database, size);
+  return peer;
+}
+
+/// With a cascade of one stage.
+void run_peer(benchmark::State& state, const char* text, MakeLookUpPeer make, Batch batch) {
+  if (make == nullptr) return state.SkipWithError(kMissing);
+  const Cascade cascade = parse_cascade(text);
+  const int keep = cascade[0].keep;
+  PreparedPeer& peer = prepared(make, cascade[0].size);
+  // Brute force takes as long for every query; alone, some of them say as much in less time.
+  const size_t step = batch == Batch::all ? 1 : 4;
+  std::vector<LabelImage> queries;
+  for (size_t i = 0; i < data().frames.size(); i += step) {
+    const BenchFrame& frame = data().frames[i];
+    queries.push_back(make_tiny_image(frame.trace.cloud.labels, frame.square, cascade[0].size));
+  }
+  const auto find = [&] {
+    if (batch == Batch::all) return (*peer.look_up)(queries, keep);
+    AllMatches found;
+    for (const LabelImage& query : queries) found.push_back((*peer.look_up)({&query, 1}, keep)[0]);
+    return found;
+  };
+  if (!peer.checked.contains(batch)) {
+    if (const char* mistake = find_mistake(find(), queries, cascade)) return state.SkipWithError(mistake);
+    peer.checked.insert(batch);
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(find());
+  set_time_each(state, "frame", queries.size());
+  state.counters["entries"] = data().database->entry_count();
+}
+
 const int registered = [] {
+  const auto name = [](const char* cascade, std::string_view engine) {
+    return std::string("look_up/") + cascade + "/" + std::string(engine);
+  };
   for (const char* cascade : {"16:500,64:3", "16:1000,32:300,64:3", "8:15", "16:3", "32:3", "exact:3"}) {
     for (const Implementation implementation : {Implementation::plain, Implementation::fast}) {
-      const std::string name = std::string("look_up/") + cascade + "/" + std::string(to_string(implementation));
-      benchmark::RegisterBenchmark(name.c_str(), run_look_up, cascade, implementation)
+      benchmark::RegisterBenchmark(name(cascade, to_string(implementation)).c_str(), run_look_up, cascade,
+                                   implementation)
           ->Unit(benchmark::kMillisecond);
     }
+  }
+  for (const char* cascade : {"16:3", "exact:3"}) {
+    const auto add = [&](std::string_view engine, MakeLookUpPeer make, Batch batch) {
+      benchmark::RegisterBenchmark(name(cascade, engine).c_str(), run_peer, cascade, make, batch)
+          ->Unit(benchmark::kMillisecond);
+    };
+    add("faiss", kFaiss, Batch::single);
+    add("faiss_batch", kFaiss, Batch::all);
+    add("opencv", kOpenCv, Batch::single);
   }
   return 0;
 }();

@@ -6,33 +6,39 @@
 #include "bench/bench_data.h"
 
 namespace glovebench::bench {
+namespace {
+
+double counter(const benchmark::UserCounters& counters, const char* name, double otherwise) {
+  const auto found = counters.find(name);
+  return found == counters.end() ? otherwise : found->second.value;
+}
+
+}  // namespace
 
 RatioReporter::RatioReporter() : ConsoleReporter(isatty(STDOUT_FILENO) != 0 ? OO_ColorTabular : OO_Tabular) {}
 
 void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
-  for (const Run& run : runs) {
-    if (run.error_occurred) {
-      ++error_count_;
-      continue;
-    }
-    const bool aggregate = run.run_type == Run::RT_Aggregate;
-    if (aggregate && run.aggregate_name != "median") continue;
-    // An aggregate's time is already that of one iteration; it comes after the runs it is made of.
-    const double iterations = aggregate ? 1 : static_cast<double>(run.iterations);
-    seconds_[run.run_name.function_name] = run.cpu_accumulated_time / iterations;
-  }
+  for (const Run& run : runs) add(run);
   ConsoleReporter::ReportRuns(runs);
 }
 
-void RatioReporter::Finalize() {
-  for (const auto& [name, seconds] : seconds_) {
-    if (!name.ends_with("/plain")) continue;
-    const std::string stem = name.substr(0, name.size() - std::string_view("/plain").size());
-    const auto fast = seconds_.find(stem + "/fast");
-    if (fast == seconds_.end()) continue;
-    GetOutputStream() << fmt::format("plain / fast  {:<24} {:6.2f}\n", stem, seconds / fast->second);
+void RatioReporter::add(const Run& run) {
+  if (run.run_type == Run::RT_Aggregate) return;
+  Measured& measured = measurements_[run.run_name.function_name];
+  if (run.error_occurred) {
+    measured.missing = run.error_message == kMissing;
+    error_count_ += !measured.missing;
+    return;
   }
-  GetOutputStream() << fmt::format("peak memory   {:.0f} MB\n", 1e-6 * peak_memory());
+  const double iteration = run.cpu_accumulated_time / static_cast<double>(run.iterations);
+  measured.seconds[run.repetition_index] = counter(run.counters, "frame", counter(run.counters, "view", iteration));
+  measured.near_bytes = counter(run.counters, kNearBytes, 0);
+  measured.far_bytes = counter(run.counters, kFarBytes, 0);
+}
+
+void RatioReporter::Finalize() {
+  GetOutputStream() << ratio_lines(engine_ratios(measurements_));
+  GetOutputStream() << fmt::format("peak memory {:.0f} MB\n", 1e-6 * peak_memory());
   ConsoleReporter::Finalize();
 }
 

@@ -2,13 +2,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <map>
-#include <string>
+#include "bench/speed_table.h"
 
 namespace glovebench::bench {
 
-/// The usual table, and after it the ratio plain / fast of every pair of benchmarks "NAME/plain" and "NAME/fast",
-/// both timed in this process: of the medians if there were repetitions.
+/// The usual table, and after it the ratio of every engine to our fast one (speed_table.h).
 class RatioReporter : public benchmark::ConsoleReporter {
  public:
   /// Colors go to a terminal only.
@@ -17,11 +15,14 @@ class RatioReporter : public benchmark::ConsoleReporter {
   void ReportRuns(const std::vector<Run>& runs) override;
   void Finalize() override;
 
-  /// Benchmarks that ended with an error, such as a failed check.
+  const Measurements& measurements() const { return measurements_; }
+  /// Benchmarks that ended with an error, such as a failed check. A missing library is none.
   int error_count() const { return error_count_; }
 
  private:
-  std::map<std::string, double> seconds_;  ///< CPU time of an iteration by the benchmark's name
+  void add(const Run& run);
+
+  Measurements measurements_;
   int error_count_ = 0;
 };
 

@@ -6,9 +6,15 @@
 namespace glovebench::bench {
 namespace {
 
-/// Times `stage` on every frame, after its answers have been found right.
+template <typename T>
+double bytes_of(const Image<T>& image) {
+  return static_cast<double>(image.size() * sizeof(T));
+}
+
+/// Times `stage` on every frame, after its answers have been found right. `touched`: bytes of a frame, read and
+/// written.
 template <typename Stage, typename IsRight>
-void run_stage(benchmark::State& state, Stage stage, IsRight is_right) {
+void run_stage(benchmark::State& state, Stage stage, IsRight is_right, double touched = 0) {
   for (const BenchFrame& frame : data().frames) {
     if (!is_right(frame, stage(frame))) return state.SkipWithError("the answer is wrong");
   }
@@ -16,12 +22,19 @@ void run_stage(benchmark::State& state, Stage stage, IsRight is_right) {
     for (const BenchFrame& frame : data().frames) benchmark::DoNotOptimize(stage(frame));
   }
   set_time_each(state, "frame", data().frames.size());
+  set_bytes_touched(state, {.far = touched});
+}
+
+/// All have images of the same size.
+const FrameTrace& first_trace() {
+  return data().frames[0].trace;
 }
 
 void depth(benchmark::State& state) {
   run_stage(
       state, [](const BenchFrame& frame) { return depth_from_disparity(frame.device.raw_disparity); },
-      [](const BenchFrame& frame, const DepthImage& answer) { return answer == frame.trace.depth; });
+      [](const BenchFrame& frame, const DepthImage& answer) { return answer == frame.trace.depth; },
+      bytes_of(data().frames[0].device.raw_disparity) + bytes_of(first_trace().depth));
 }
 BENCHMARK(depth)->Name("depth_from_disparity")->Unit(benchmark::kMillisecond);
 
@@ -34,7 +47,9 @@ void registration(benchmark::State& state) {
       },
       [](const BenchFrame& frame, const RegisteredImage& answer) {
         return answer.color == frame.trace.mapped.color && answer.has_color == frame.trace.mapped.has_color;
-      });
+      },
+      bytes_of(first_trace().depth) + bytes_of(data().frames[0].device.color) +
+          bytes_of(first_trace().mapped.color) + bytes_of(first_trace().mapped.has_color));
 }
 BENCHMARK(registration)->Name("register")->Unit(benchmark::kMillisecond);
 
@@ -49,7 +64,9 @@ void segmentation(benchmark::State& state) {
           right += frame.images.label[i] != 0 && frame.images.label[i] == answer[i];
         }
         return answer == frame.trace.labels && right > 0.7 * static_cast<double>(glove);
-      });
+      },
+      bytes_of(first_trace().mapped.color) + bytes_of(first_trace().mapped.has_color) +
+          bytes_of(first_trace().labels));
 }
 BENCHMARK(segmentation)->Name("segment")->Unit(benchmark::kMillisecond);
 
@@ -66,9 +83,8 @@ void cloud(benchmark::State& state) {
       [](const BenchFrame& frame) {
         return build_cloud(frame.trace.depth, frame.trace.labels, data().calibration.ir, data().config.volume);
       },
-      [](const BenchFrame& frame, const LabeledCloud& answer) {
-        return answer.labels == frame.trace.cloud.labels;
-      });
+      [](const BenchFrame& frame, const LabeledCloud& answer) { return answer.labels == frame.trace.cloud.labels; },
+      bytes_of(first_trace().depth) + bytes_of(first_trace().labels) + bytes_of(first_trace().cloud.labels));
 }
 BENCHMARK(cloud)->Name("cloud")->Unit(benchmark::kMillisecond);
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+
+#include "core/pose/closest_point.h"
+
+namespace glovebench::bench {
+
+/// Where the search for a point's closest point starts: at its last face; at first, at that of the point of its
+/// color before it.
+class WarmStart {
+ public:
+  /// The closest point of that face; face -1 if there is none yet. `last` is the point's last answer, or has face
+  /// -1.
+  ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
+    const int face = last.face >= 0 ? last.face : faces_[point.label];
+    if (face < 0) return {};
+    const Eigen::Vector3f p = closest_on_triangle(point.p, surface.faces(point.label)[face]);
+    return {p, (p - point.p).norm(), face};
+  }
+  void found(const LabeledPoint& point, const ClosestPoint& closest) { faces_[point.label] = closest.face; }
+
+ private:
+  std::array<int, kColorCount + 1> faces_ = [] {
+    std::array<int, kColorCount + 1> none;
+    none.fill(-1);
+    return none;
+  }();
+};
+
+}  // namespace glovebench::bench
