@@ -1,5 +1,6 @@
 #include <embree3/rtcore.h>
 
+#include <cmath>
 #include <limits>
 
 #include "bench/peers/peers.h"
@@ -40,6 +41,7 @@ void bounds(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = {low.x(), low.y(), low.z(), 0, high.x(), high.y(), high.z(), 0};
 }
 
+/// User geometry: what has triangles of its own would call `consider` for every face of a leaf.
 class EmbreeSearch : public ClosestPointPeer {
  public:
   explicit EmbreeSearch(const Surface& surface) : surface_(surface) {
@@ -56,11 +58,9 @@ class EmbreeSearch : public ClosestPointPeer {
     WarmStart warm_start;
     for (size_t i = 0; i < points_hand.size(); ++i) {
       const LabeledPoint& point = points_hand[i];
-      Nearest nearest{surface_.faces(point.label), warm_start(point, closest_[i], surface_)};
-      if (nearest.closest.face < 0) nearest.closest.distance = std::numeric_limits<float>::infinity();
-      if (!nearest.faces.empty()) query(point, nearest);
-      closest_[i] = nearest.closest;
-      warm_start.found(point, nearest.closest);
+      const std::vector<Surface::Face>& faces = surface_.faces(point.label);
+      closest_[i] = faces.empty() ? ClosestPoint{} : find(point, faces, warm_start(point, closest_[i], surface_));
+      warm_start.found(point, closest_[i]);
     }
     return closest_;
   }
@@ -81,11 +81,15 @@ class EmbreeSearch : public ClosestPointPeer {
     rtcCommitScene(scene);
   }
 
-  void query(const LabeledPoint& point, Nearest& nearest) const {
+  ClosestPoint find(const LabeledPoint& point, const std::vector<Surface::Face>& faces,
+                    const ClosestPoint& start) const {
+    Nearest nearest{faces, start};
+    const float radius = start.face < 0 ? std::numeric_limits<float>::infinity() : start.distance;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    RTCPointQuery query{point.p.x(), point.p.y(), point.p.z(), 0, nearest.closest.distance};
+    RTCPointQuery query{point.p.x(), point.p.y(), point.p.z(), 0, radius};
     rtcPointQuery(scenes_[point.label], &query, &context, consider, &nearest);
+    return nearest.closest;
   }
 
   const Surface& surface_;
