@@ -77,11 +77,11 @@ bool nearly_equal(const ClosestPoint& a, const ClosestPoint& b) {
   return (a.face < 0) == (b.face < 0) && std::abs(a.distance - b.distance) <= kRounding;
 }
 
-/// What the fast search touches at least: at each pose of each point one packet, its memory (read and written), the
-/// point and the answer.
+/// What the fast search touches at least: at each pose of each point one face, its memory, the point and the
+/// answer.
 double least_bytes(double points) {
   return kIterations * points *
-         (sizeof(FacePackets::Packet) + 2 * sizeof(PacketMemory) + sizeof(LabeledPoint) + sizeof(ClosestPoint));
+         (sizeof(Surface::Face) + sizeof(PointMemory) + sizeof(LabeledPoint) + sizeof(ClosestPoint));
 }
 
 /// Returns the mean number of points.
