@@ -169,18 +169,14 @@ HWY_INLINE float consider(const Vectors& p, const FacePackets::Packet& packet, f
 /// The nearest of all lanes; of equally near ones the first face.
 HWY_INLINE ClosestPoint best_of_lanes(const Nearest& nearest, float squared) {
   if (!(squared < kInfinity)) return {};
-  constexpr size_t kLanes = hn::MaxLanes(kFloats);
-  alignas(64) float distance[kLanes], x[kLanes], y[kLanes], z[kLanes];
-  alignas(64) int32_t face[kLanes];
-  hn::Store(nearest.squared, kFloats, distance);
-  hn::Store(nearest.face, kInts, face);
-  hn::Store(nearest.p.x, kFloats, x);
-  hn::Store(nearest.p.y, kFloats, y);
-  hn::Store(nearest.p.z, kFloats, z);
-  size_t best = static_cast<size_t>(hn::FindFirstTrue(kFloats, hn::Eq(nearest.squared, hn::Set(kFloats, squared))));
-  for (size_t i = best + 1; i < kLanes; ++i)
-    if (distance[i] == squared && face[i] < face[best]) best = i;
-  return {Eigen::Vector3f(x[best], y[best], z[best]), std::sqrt(squared), face[best]};
+  const auto is_near = hn::RebindMask(kInts, hn::Eq(nearest.squared, hn::Set(kFloats, squared)));
+  const Ints none = hn::Set(kInts, std::numeric_limits<int32_t>::max());
+  const Ints faces = hn::IfThenElse(is_near, nearest.face, none);
+  const Ints first = hn::MinOfLanes(kInts, faces);
+  const auto lane = static_cast<size_t>(hn::FindFirstTrue(kInts, hn::Eq(faces, first)));
+  alignas(64) float p[3][hn::MaxLanes(kFloats)];
+  store(nearest.p, p, 0);
+  return {Eigen::Vector3f(p[0][lane], p[1][lane], p[2][lane]), std::sqrt(squared), hn::GetLane(first)};
 }
 
 template <typename V>
@@ -295,15 +291,10 @@ struct Search {
 
   /// Looks at the packets whose boxes are that near, and have not been looked at.
   HWY_INLINE void visit_near(float limit) {
-    const int count = static_cast<int>(color.packets.size()), lanes = hn::MaxLanes(kBoxFloats);
-    for (int first = 0; first < count; first += lanes) {
-      const int place = first % FacePackets::kBoxes;
-      const PacketLook& look = looks[first / FacePackets::kBoxes];
-      for (uint32_t bits = not_above(look.bounds + place, limit) & ~(look.visited >> place); bits != 0;
-           bits &= bits - 1) {
-        const int i = first + std::countr_zero(bits);
-        if (i < count) visit(i);
-      }
+    const int count = static_cast<int>(color.packets.size());
+    for (int first = 0; first < count; first += kMany) {
+      for (uint64_t bits = near_packets(first, limit); bits != 0; bits &= bits - 1)
+        visit(first + std::countr_zero(bits));
     }
   }
 
@@ -317,13 +308,36 @@ struct Search {
       const PacketLook& look = looks[group];
       for (size_t i = 0; i < FacePackets::kBoxes; i += hn::Lanes(kBoxFloats))
         others = hn::Min(others, hn::Load(kBoxFloats, look.bounds + i));
-      for (uint32_t bits = look.visited; bits != 0; bits &= bits - 1) {
-        const int i = group * FacePackets::kBoxes + std::countr_zero(bits);
+    }
+    for (int first = 0; first < count; first += kMany) {
+      for (uint64_t bits = visited(first); bits != 0; bits &= bits - 1) {
+        const int i = first + std::countr_zero(bits);
         if (i != packet) list.add(color, i, looks);
       }
     }
     memory.reach = near;
     memory.others_beyond = std::min(list.copy_to(memory), hn::GetLane(hn::MinOfLanes(kBoxFloats, others)));
+  }
+
+ private:
+  /// Packets that a number has a bit for: in one loop over them less is foretold wrongly than in several.
+  static constexpr int kMany = 64;
+
+  HWY_INLINE uint64_t near_packets(int first, float limit) const {
+    const int count = std::min(kMany, static_cast<int>(color.packets.size()) - first);
+    uint64_t bits = 0;
+    for (int i = 0; i < count; i += hn::MaxLanes(kBoxFloats)) {
+      const PacketLook& look = looks[(first + i) / FacePackets::kBoxes];
+      bits |= uint64_t{not_above(look.bounds + i % FacePackets::kBoxes, limit)} << i;
+    }
+    return bits & ~visited(first) & (~uint64_t{0} >> (kMany - count));
+  }
+  HWY_INLINE uint64_t visited(int first) const {
+    const int count = std::min(kMany, static_cast<int>(color.packets.size()) - first);
+    uint64_t bits = 0;
+    for (int i = 0; i < count; i += FacePackets::kBoxes)
+      bits |= uint64_t{looks[(first + i) / FacePackets::kBoxes].visited} << i;
+    return bits;
   }
 };
 
@@ -334,14 +348,11 @@ HWY_INLINE ClosestPoint search_all(const Eigen::Vector3f& p_hand, const FacePack
   Search<kRemembered> search{color, p, looks};
   bound_packets(p_hand, color, looks);
   search.visit(start);
-  search.visit_near(search.limit());
+  // A point that stays is near the packet where it was: what is near it, too, will be wanted.
+  search.visit_near(search.limit() + (kRemembered ? PointMemory::kNear : 0));
   memory.p_hand = p_hand;
   memory.others_beyond = -kInfinity;
-  if constexpr (kRemembered) {
-    const float near = search.limit() + PointMemory::kNear;
-    search.visit_near(near);
-    search.remember(near, memory);
-  }
+  if constexpr (kRemembered) search.remember(search.limit() + PointMemory::kNear, memory);
   const ClosestPoint closest = best_of_lanes(search.nearest, search.squared);
   const int32_t* const faces = color.packets[search.packet].face;
   memory.nearest = search.packet * FacePackets::kFaces +
