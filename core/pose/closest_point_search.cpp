@@ -21,6 +21,7 @@ constexpr hn::CappedTag<float, FacePackets::kFaces> kFloats;
 constexpr hn::RebindToSigned<decltype(kFloats)> kInts;
 constexpr hn::CappedTag<float, FacePackets::kBoxes> kBoxFloats;
 constexpr hn::CappedTag<float, PointMemory::kFaces> kListFloats;
+constexpr hn::RebindToSigned<decltype(kListFloats)> kListInts;
 using Floats = hn::VFromD<decltype(kFloats)>;
 using Ints = hn::VFromD<decltype(kInts)>;
 using Mask = decltype(hn::MaskFromVec(Floats()));
@@ -224,9 +225,7 @@ class FaceList {
       const Floats in_doubt = doubt(near, color.packets[packet], first, color.slack);
       const Floats distance = hn::Sub(hn::Load(kFloats, planes.distance + first), in_doubt);
       const Mask far = hn::Gt(distance, near), is_near = hn::Not(far);
-      others_beyond_ = std::min(
-          others_beyond_,
-          hn::GetLane(hn::MinOfLanes(kFloats, hn::IfThenElse(far, distance, hn::Set(kFloats, kInfinity)))));
+      others_beyond_ = hn::Min(others_beyond_, hn::IfThenElse(far, distance, hn::Set(kFloats, kInfinity)));
       for (int axis = 0; axis < 3; ++axis)
         hn::CompressStore(hn::Load(kFloats, planes.normal[axis] + first), is_near, kFloats, normal_[axis] + count_);
       hn::CompressStore(hn::Add(hn::Load(kFloats, planes.offset + first), in_doubt), is_near, kFloats,
@@ -238,28 +237,31 @@ class FaceList {
     }
     for (; count_ > PointMemory::kFaces; --count_) {
       // What is not a number bounds nothing.
-      const float distance = distance_[count_ - 1];
-      others_beyond_ = distance >= -kInfinity ? std::min(others_beyond_, distance) : -kInfinity;
+      const float distance = distance_[count_ - 1] >= -kInfinity ? distance_[count_ - 1] : -kInfinity;
+      others_beyond_ = hn::Min(others_beyond_, hn::Set(kFloats, distance));
     }
   }
   /// Returns what all other faces of the packets that were added are at least away.
-  HWY_INLINE float copy_to(PointMemory& memory) {
-    std::fill(offset_ + count_, offset_ + PointMemory::kFaces, -kInfinity);  // never nearest
-    std::fill(place_ + count_, place_ + PointMemory::kFaces, 0);
-    for (int axis = 0; axis < 3; ++axis) {
-      std::fill(normal_[axis] + count_, normal_[axis] + PointMemory::kFaces, 0.0f);
-      std::copy_n(normal_[axis], PointMemory::kFaces, memory.normal[axis]);
+  HWY_INLINE float copy_to(PointMemory& memory) const {
+    for (size_t first = 0; first < PointMemory::kFaces; first += hn::Lanes(kListFloats)) {
+      const auto none = hn::Zero(kListFloats), never_nearest = hn::Set(kListFloats, -kInfinity);
+      const auto taken = hn::FirstN(kListFloats, count_ > first ? count_ - first : 0);
+      const auto copy = [&](const float* from, float* to, auto filling) {
+        hn::Store(hn::IfThenElse(taken, hn::Load(kListFloats, from + first), filling), kListFloats, to + first);
+      };
+      for (int axis = 0; axis < 3; ++axis) copy(normal_[axis], memory.normal[axis], none);
+      copy(offset_, memory.offset, never_nearest);
+      const auto places = hn::Load(kListInts, place_ + first);
+      hn::Store(hn::IfThenElseZero(hn::RebindMask(kListInts, taken), places), kListInts, memory.place + first);
     }
-    std::copy_n(offset_, PointMemory::kFaces, memory.offset);
-    std::copy_n(place_, PointMemory::kFaces, memory.place);
-    return others_beyond_;
+    return hn::GetLane(hn::MinOfLanes(kFloats, others_beyond_));
   }
 
  private:
   static constexpr int kCapacity = PointMemory::kFaces + 2 * FacePackets::kFaces;
 
   float near_;
-  float others_beyond_ = kInfinity;
+  Floats others_beyond_ = hn::Set(kFloats, kInfinity);
   size_t count_ = 0;
   alignas(64) float normal_[3][kCapacity], offset_[kCapacity], distance_[kCapacity];
   alignas(64) int32_t place_[kCapacity];
