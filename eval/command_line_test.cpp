@@ -258,7 +258,7 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
 
 TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   const std::vector<std::string> tracker = {"--profile", "--config", "--method", "--cascade"};
-  const std::vector<std::string> machine = {"--threads", "--cache", "--quiet"};
+  const std::vector<std::string> machine = {"--threads", "--cache", "--low-memory", "--quiet"};
   const std::vector<std::string> random = {"--seed"};
   const auto expect_flags = [](std::vector<std::string> command, const std::vector<std::vector<std::string>>& all) {
     command.push_back("--help");

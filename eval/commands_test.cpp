@@ -95,6 +95,19 @@ TEST_F(CommandsLong, LeftHandWithARightDatabase) {
   EXPECT_THAT(tracked.out, HasSubstr("4 of 4 frames tracked"));
 }
 
+TEST_F(CommandsLong, LowMemoryChangesNoResult) {
+  run_trajectory("good.json", "normal");
+  run_trajectory("good.json", "low", {"--low-memory"});
+  EXPECT_EQ(read_file(path("normal/results.json")), read_file(path("low/results.json")));
+  EXPECT_EQ(read_folder(path("normal/tables")), read_folder(path("low/tables")));
+
+  expect_fine(
+      run_glovebench({"db", "build", "--postures", "DB_open_power", "--low-memory", "-o", path("low.glovedb")}));
+  EXPECT_THAT(run_glovebench({"db", "info", path("low.glovedb")}).out, HasSubstr("low memory"));
+  expect_fine(run_glovebench(
+      {"run", "--trajectory", path("good.json"), "--database", path("low.glovedb"), "-o", path("file")}));
+}
+
 TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
   write_file(path("gestures.csv"), read_file(fs::path(GLOVEBENCH_PROGRAM).parent_path().parent_path() /
                                              "share/glovebench/trajectories/data/gestures.csv"));

@@ -32,12 +32,6 @@ ColorImage overlay(const HandModel& model, const TrackResult& result, const Eige
       renderer.render_labels(model, model.pose(result.posture_unfiltered), camera, T_camera_hand));
 }
 
-LabelImage entry_image(const Database& database, int size, int entry) {
-  LabelImage image(size, size);
-  std::copy_n(database.labels(size, entry), image.size(), image.begin());
-  return image;
-}
-
 std::string depth_title(const TrackResult& result) {
   return fmt::format("depth, {} cloud points", result.cloud_points);
 }
@@ -69,7 +63,7 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
     const int posture = match.entry / kViewCount;
     panels.push_back({fmt::format("{}, view {}: E {:.2f} px", database->posture_set().posture_names[posture],
                                   Database::view(match.entry), match.error),
-                      render::picture_of_labels(entry_image(*database, trace.tiny.width(), match.entry))});
+                      render::picture_of_labels(database->labels(trace.tiny.width(), match.entry))});
   }
   if (result.status == TrackStatus::tracked) {
     const HandModel& model = *workbench.model();

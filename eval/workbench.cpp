@@ -100,6 +100,7 @@ DatabaseCache Workbench::database_cache() const {
   cache.folder = config_.cache_folder;
   cache.renderers = render::label_renderer_factory();
   cache.threads = config_.threads;
+  cache.memory = config_.memory;
   cache.message = [](const std::string& text) { fmt::print(stderr, "glovebench: {}\n", text); };
   return cache;
 }

@@ -16,6 +16,7 @@ struct WorkbenchConfig {
   std::string cache_folder;
   Side side = Side::right;
   int threads = 1;
+  DatabaseMemory memory = DatabaseMemory::normal;  ///< of databases that are built
   bool quiet = false;
   ViewConfig views;
 };

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -19,7 +20,7 @@ MappedMemory MappedMemory::zeros(size_t bytes) {
   void* const data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (data == MAP_FAILED) throw std::bad_alloc();
   ::madvise(data, bytes, MADV_HUGEPAGE);  // a wish: small pages do, too
-  return {data, bytes};
+  return {data, bytes, false};
 }
 
 MappedMemory MappedMemory::of_file(const std::string& path) {
@@ -34,14 +35,29 @@ MappedMemory MappedMemory::of_file(const std::string& path) {
   ::close(descriptor);
   if (!is_file) throw Error(path, "file", S_ISDIR(status.st_mode) ? "a folder" : "no file", kExpected);
   if (data == MAP_FAILED) throw Error(path, "file", std::strerror(error), kExpected);
-  return data ? MappedMemory(data, bytes) : MappedMemory();
+  return data ? MappedMemory(data, bytes, true) : MappedMemory();
 }
 
 MappedMemory MappedMemory::of_descriptor(int descriptor, size_t bytes, const std::string& path) {
   if (bytes == 0) return {};
   void* const data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
   if (data == MAP_FAILED) throw Error(path, "file", std::strerror(errno), "a file that can be mapped");
-  return {data, bytes};
+  return {data, bytes, true};
+}
+
+void MappedMemory::release(size_t offset, size_t bytes) const {
+  advise(offset, bytes, MADV_DONTNEED);
+}
+
+void MappedMemory::expect_random_reads(size_t offset, size_t bytes) const {
+  advise(offset, bytes, MADV_RANDOM);
+}
+
+void MappedMemory::advise(size_t offset, size_t bytes, int advice) const {
+  if (!is_file_) return;  // private memory would be lost
+  const auto page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
+  const size_t begin = (offset + page - 1) / page * page, end = std::min(offset + bytes, size_) / page * page;
+  if (begin < end) ::madvise(data_ + begin, end - begin, advice);  // a wish
 }
 
 MappedMemory::~MappedMemory() {
@@ -49,11 +65,14 @@ MappedMemory::~MappedMemory() {
 }
 
 MappedMemory::MappedMemory(MappedMemory&& other) noexcept
-    : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    : data_(std::exchange(other.data_, nullptr)),
+      size_(std::exchange(other.size_, 0)),
+      is_file_(std::exchange(other.is_file_, false)) {}
 
 MappedMemory& MappedMemory::operator=(MappedMemory&& other) noexcept {
   std::swap(data_, other.data_);
   std::swap(size_, other.size_);
+  std::swap(is_file_, other.is_file_);
   return *this;
 }
 

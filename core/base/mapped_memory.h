@@ -23,14 +23,24 @@ class MappedMemory {
   MappedMemory(MappedMemory&& other) noexcept;
   MappedMemory& operator=(MappedMemory&& other) noexcept;
 
+  /// Takes the pages of a file that lie wholly in this range out of this process's memory, not out of the file;
+  /// they come back when they are looked at. What was written stays written. Memory from `zeros` is left as it is.
+  void release(size_t offset, size_t bytes) const;
+  /// Says that this range of a file will be looked at here and there: a page that is missing comes alone.
+  void expect_random_reads(size_t offset, size_t bytes) const;
+
   std::span<const uint8_t> bytes() const { return {data_, size_}; }
   /// Not of memory from `of_file`.
   std::span<uint8_t> writable() { return {data_, size_}; }
 
  private:
-  MappedMemory(void* data, size_t size) : data_(static_cast<uint8_t*>(data)), size_(size) {}
+  MappedMemory(void* data, size_t size, bool is_file)
+      : data_(static_cast<uint8_t*>(data)), size_(size), is_file_(is_file) {}
+  void advise(size_t offset, size_t bytes, int advice) const;
+
   uint8_t* data_ = nullptr;
   size_t size_ = 0;
+  bool is_file_ = false;
 };
 
 }  // namespace glovebench

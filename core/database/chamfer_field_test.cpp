@@ -52,5 +52,25 @@ TEST(ChamferField, fast_equals_plain) {
   }
 }
 
+TEST(ChamferField, of_some_rows_is_right_in_these) {
+  for (int i = 0; i < 300; ++i) {
+    RandomStream random(1, "distance field test", i, "rows");
+    const int width = 1 + static_cast<int>(random.index(64)), height = 1 + static_cast<int>(random.index(64));
+    LabelImage labels(width, height);
+    const double density = std::pow(10.0, -random.uniform(0, 4));
+    for (uint8_t& label : labels) label = random.uniform(0, 1) < density ? 3 : 1;
+    const int first = static_cast<int>(random.index(height)),
+              last = first + static_cast<int>(random.index(height - first + 1));
+    const Field whole = plain(labels, 3, 96);
+    Field some(labels.size());
+    chamfer_field(labels, 3, 96, some, {first, last});
+    const auto begin = static_cast<ptrdiff_t>(first) * width, end = static_cast<ptrdiff_t>(last) * width;
+    ASSERT_TRUE(std::equal(some.begin() + begin, some.begin() + end, whole.begin() + begin)) << i;
+  }
+  Field field(4);
+  EXPECT_THROW(chamfer_field(LabelImage(2, 2), 1, 9, field, {1, 3}), std::logic_error);
+  EXPECT_THROW(chamfer_field(LabelImage(2, 2), 1, 9, field, {-1, 1}), std::logic_error);
+}
+
 }  // namespace
 }  // namespace glovebench

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/database/packed_labels.h"
 
 namespace glovebench {
 namespace {
@@ -40,11 +41,11 @@ void check_sizes(const std::string& name, std::span<const int> sizes) {
   }
 }
 
-uint8_t field_cap(const ViewConfig& views, int size) {
-  return static_cast<uint8_t>(std::clamp(std::lround(views.field_cap_share * size * kFieldScale), 1l, 255l));
-}
-
 }  // namespace
+
+uint8_t field_cap(double cap_share, int size) {
+  return static_cast<uint8_t>(std::clamp(std::lround(cap_share * size * kFieldScale), 1l, 255l));
+}
 
 std::string Database::input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views) {
   std::string text = fmt::format("{}/{}/{}/{}/{}/{}/{}", kBuilderVersion, postures.name, model.hash(),
@@ -66,61 +67,95 @@ struct BuildInputs {
   const ViewRendererFactory& renderers;
 };
 
-DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes) {
+DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes, DatabaseMemory memory) {
   const auto& [postures, model, views, renderers] = inputs;
   check_sizes(postures.name, sizes);
   if (postures.postures.empty()) throw Error(postures.name, "postures", "none", "at least one");
-  DatabaseHeader header{postures, model.side(), Database::input_hash(postures, model, views), {}};
-  header.sizes_px.insert(sizes.begin(), sizes.end());
+  DatabaseHeader header{.postures = postures,
+                        .side = model.side(),
+                        .hash = Database::input_hash(postures, model, views),
+                        .memory = memory,
+                        .field_cap_share = views.field_cap_share,
+                        .sizes_px = {sizes.begin(), sizes.end()}};
   return DatabaseLayout(std::move(header));
 }
 
-/// Renders one view and writes what is stored of it.
-void fill_entry(const BuildInputs& inputs, const DatabaseLayout& layout, ViewRenderer& renderer,
-                const PosedHand& hand, int entry, uint8_t* file) {
-  const PinholeCamera camera = view_camera(inputs.views);
-  Eigen::Isometry3d T_view_hand = Eigen::Isometry3d::Identity();
-  T_view_hand.linear() = view_rotations()[Database::view(entry)];
-  T_view_hand.translation().z() = inputs.views.distance;
-  const LabelImage image = renderer.render_labels(inputs.model, hand, camera, T_view_hand);
-  const Square square = bounding_square(image);
-  check(square.side > 0, "the hand is in every view");
-  reinterpret_cast<Eigen::Vector3d*>(file + layout.box_rays().offset)[entry] = square_ray(square, camera);
-  for (const auto& [size, sections] : layout.sizes()) {
-    const size_t pixels = static_cast<size_t>(size) * size;
-    const LabelImage tiny = make_tiny_image(image, square, size);
-    std::copy(tiny.begin(), tiny.end(), file + sections.labels.offset + entry * pixels);
-    uint8_t* const fields = file + sections.fields.offset + entry * pixels * kColorCount;
-    for (int color = 1; color <= kColorCount; ++color)
-      chamfer_field(tiny, static_cast<uint8_t>(color), field_cap(inputs.views, size),
-                    {fields + (color - 1) * pixels, pixels});
+/// Where the parts of a file lie.
+class Filler {
+ public:
+  Filler(const BuildInputs& inputs, const DatabaseLayout& layout, std::span<uint8_t> file)
+      : inputs_(inputs), layout_(layout), file_(file), camera_(view_camera(inputs.views)) {
+    const int count = static_cast<int>(inputs.postures.postures.size()) * kViewCount;
+    for (const auto& [size, sections] : layout.sizes())
+      rows_.emplace(size, FieldRows(size, layout.header().memory, count));
   }
-}
 
-/// Writes a whole database of this layout.
+  /// Renders one view and writes what is held of it. `scratch` is the caller's, for fields that are not stored.
+  void fill_entry(ViewRenderer& renderer, const PosedHand& hand, int entry, std::vector<uint8_t>& scratch) const {
+    Eigen::Isometry3d T_view_hand = Eigen::Isometry3d::Identity();
+    T_view_hand.linear() = view_rotations()[Database::view(entry)];
+    T_view_hand.translation().z() = inputs_.views.distance;
+    const LabelImage image = renderer.render_labels(inputs_.model, hand, camera_, T_view_hand);
+    const Square square = bounding_square(image);
+    check(square.side > 0, "the hand is in every view");
+    reinterpret_cast<Eigen::Vector3d*>(file_.data() + layout_.box_rays().offset)[entry] =
+        square_ray(square, camera_);
+    for (const auto& [size, sections] : layout_.sizes()) {
+      const LabelImage tiny = make_tiny_image(image, square, size);
+      pack_labels(tiny, part(sections.labels, entry, packed_bytes(tiny.size())));
+      const size_t field_bytes = tiny.size() * kColorCount;
+      scratch.resize(std::max(scratch.size(), field_bytes));
+      const std::span<uint8_t> fields = sections.fields.bytes > 0 ? part(sections.fields, entry, field_bytes)
+                                                                  : std::span(scratch).first(field_bytes);
+      for (int color = 1; color <= kColorCount; ++color)
+        chamfer_field(tiny, static_cast<uint8_t>(color), field_cap(inputs_.views.field_cap_share, size),
+                      fields.subspan((color - 1) * tiny.size(), tiny.size()));
+      rows_.at(size).put(entry, fields.data(), file_.subspan(sections.rows.offset, sections.rows.bytes));
+    }
+  }
+
+ private:
+  std::span<uint8_t> part(const Section& section, int entry, size_t entry_bytes) const {
+    return file_.subspan(section.offset + entry * entry_bytes, entry_bytes);
+  }
+
+  const BuildInputs& inputs_;
+  const DatabaseLayout& layout_;
+  std::span<uint8_t> file_;
+  PinholeCamera camera_;
+  std::map<int, FieldRows> rows_;  ///< their shapes
+};
+
+/// What a thread needs to draw views.
+struct Drawing {
+  std::unique_ptr<ViewRenderer> renderer;  ///< belongs to the thread that made it
+  std::vector<uint8_t> scratch;
+};
+
+/// Writes a whole database of this layout, posture after posture.
 void fill(const BuildInputs& inputs, const DatabaseLayout& layout, int threads,
-          const std::function<void(double)>& progress, std::span<uint8_t> file) {
+          const std::function<void(double)>& progress, MappedMemory& file) {
   const int count = static_cast<int>(inputs.postures.postures.size()) * kViewCount;
-  // A renderer belongs to the thread that made it.
-  tbb::enumerable_thread_specific<std::unique_ptr<ViewRenderer>> thread_renderers;
+  const Filler filler(inputs, layout, file.writable());
+  tbb::enumerable_thread_specific<Drawing> thread_drawings;
   std::atomic<int> done{0};
   std::mutex progress_mutex;
   constexpr int kBlock = 54;  // entries a task: one posture is posed once a block
+  static_assert(kViewCount % kBlock == 0);
   tbb::task_arena arena(threads);
   arena.execute([&] {
     tbb::parallel_for(0, count / kBlock, [&](int block) {
-      std::unique_ptr<ViewRenderer>& renderer = thread_renderers.local();
-      if (!renderer) renderer = inputs.renderers();
+      Drawing& drawing = thread_drawings.local();
+      if (!drawing.renderer) drawing.renderer = inputs.renderers();
       const PosedHand hand = inputs.model.pose(inputs.postures.postures[block * kBlock / kViewCount]);
-      for (int i = 0; i < kBlock; ++i) fill_entry(inputs, layout, *renderer, hand, block * kBlock + i, file.data());
+      for (int i = 0; i < kBlock; ++i)
+        filler.fill_entry(*drawing.renderer, hand, block * kBlock + i, drawing.scratch);
       const int finished = done += kBlock;
+      if (finished % kViewCount == 0) file.release(0, file.bytes().size());
       if (!progress) return;
       const std::lock_guard lock(progress_mutex);
       progress(static_cast<double>(finished) / count);
     });
-    for (const auto& [size, sections] : layout.sizes())
-      FieldRows::arrange(file.data() + sections.fields.offset, size, count,
-                         file.subspan(sections.rows.offset, sections.rows.bytes));
     layout.seal(file);
   });
 }
@@ -140,22 +175,24 @@ std::shared_ptr<const MappedMemory> copy_of(std::span<const uint8_t> bytes) {
 
 Database Database::build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                          const ViewRendererFactory& renderers, int threads,
-                         const std::function<void(double)>& progress, std::span<const int> sizes) {
+                         const std::function<void(double)>& progress, std::span<const int> sizes,
+                         DatabaseMemory memory) {
   const BuildInputs inputs{postures, model, views, renderers};
-  const DatabaseLayout layout = layout_of(inputs, sizes);
+  const DatabaseLayout layout = layout_of(inputs, sizes, memory);
   auto bytes = std::make_shared<MappedMemory>(MappedMemory::zeros(layout.bytes()));
-  fill(inputs, layout, threads, progress, bytes->writable());
+  fill(inputs, layout, threads, progress, *bytes);
   return Database(bytes, layout, sizes);
 }
 
 void Database::build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
                           const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
-                          const std::function<void(double)>& progress, std::span<const int> sizes) {
+                          const std::function<void(double)>& progress, std::span<const int> sizes,
+                          DatabaseMemory memory) {
   const BuildInputs inputs{postures, model, views, renderers};
-  const DatabaseLayout layout = layout_of(inputs, sizes);
+  const DatabaseLayout layout = layout_of(inputs, sizes, memory);
   WholeFile file(path);
   MappedMemory bytes = file.map(layout.bytes());
-  fill(inputs, layout, threads, progress, bytes.writable());
+  fill(inputs, layout, threads, progress, bytes);
   file.commit();
 }
 
@@ -167,7 +204,7 @@ void Database::save(const std::string& path) const {
 Database Database::load(const std::string& path, std::span<const int> sizes) {
   const auto bytes = std::make_shared<const MappedMemory>(MappedMemory::of_file(path));
   const DatabaseLayout layout(bytes->bytes(), path);
-  layout.check_sections(bytes->bytes(), path, sizes);
+  layout.check_sections(*bytes, path, sizes);
   return Database(bytes, layout, sizes);
 }
 
@@ -179,8 +216,13 @@ Database::Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayo
   for (const auto& [size, sections] : layout.sizes()) {
     if (std::ranges::find(sizes, size) == sizes.end()) continue;
     const auto rows = copy_of(bytes_->bytes().subspan(sections.rows.offset, sections.rows.bytes));
-    sizes_[size] = {file + sections.labels.offset, file + sections.fields.offset, rows,
-                    FieldRows(size, entry_count(), rows->bytes())};
+    if (memory() == DatabaseMemory::low) {
+      bytes_->release(sections.rows.offset, sections.rows.bytes);
+      bytes_->expect_random_reads(sections.labels.offset, sections.labels.bytes);
+    }
+    sizes_[size] = {file + sections.labels.offset,
+                    sections.fields.bytes > 0 ? file + sections.fields.offset : nullptr, rows,
+                    FieldRows(size, memory(), entry_count(), rows->bytes())};
   }
 }
 
@@ -193,12 +235,17 @@ const Database::SizeData& Database::data(int size) const {
   return it->second;
 }
 
-const uint8_t* Database::labels(int size, int entry) const {
-  return data(size).labels + static_cast<size_t>(entry) * size * size;
+LabelImage Database::labels(int size, int entry) const {
+  const size_t bytes = packed_bytes(static_cast<size_t>(size) * size);
+  return unpack_labels({data(size).labels + entry * bytes, bytes}, size, size);
 }
 
 const uint8_t* Database::fields(int size, int entry) const {
-  return data(size).fields + static_cast<size_t>(entry) * size * size * kColorCount;
+  const uint8_t* const fields = data(size).fields;
+  if (fields == nullptr) {
+    throw Error("database " + header_.postures.name, "fields", "a low-memory database", "one that stores them");
+  }
+  return fields + static_cast<size_t>(entry) * size * size * kColorCount;
 }
 
 }  // namespace glovebench

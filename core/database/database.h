@@ -27,9 +27,12 @@ struct ViewConfig {
   double field_cap_share = 0.5;  ///< largest distance, also that of an absent color, as a share of the side, (0, 1]
 };
 
+/// The largest value of a field, also that of an absent color, 1/kFieldScale px.
+uint8_t field_cap(double cap_share, int size);
+
 /// The image database of section III: 756 views of each posture, as tiny images of several sizes with one
-/// distance field a color. Entry = posture * 756 + view. Immutable, shared between threads; copies share the
-/// memory.
+/// distance field a color, which a low-memory database makes when it is asked for (entry_fields.h). Entry = posture
+/// * 756 + view. Immutable, shared between threads; copies share the memory.
 class Database {
  public:
   /// Renders all views; the renderer factory is called once a thread. The result does not depend on `threads`.
@@ -38,11 +41,14 @@ class Database {
   /// twice or no postures.
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
-                        const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes);
-  /// The same into a file, which may be larger than memory. Throws Error also for want of room on the disk.
+                        const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes,
+                        DatabaseMemory memory = DatabaseMemory::normal);
+  /// The same into a file, which may be larger than memory: what was written of a posture does not stay resident.
+  /// Throws Error also for want of room on the disk.
   static void build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
                          const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
-                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes);
+                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes,
+                         DatabaseMemory memory = DatabaseMemory::normal);
 
   /// A versioned, checksummed file (database_file.h).
   void save(const std::string& path) const;
@@ -61,22 +67,25 @@ class Database {
   /// Direction, in the view's camera, from the camera to the center of the hand's bounding square.
   const Eigen::Vector3d& box_ray(int entry) const { return box_rays_[entry]; }
   Side side() const { return header_.side; }
-  /// Hash of all inputs.
+  /// Hash of all inputs, the same however much memory it takes.
   const std::string& hash() const { return header_.hash; }
+  DatabaseMemory memory() const { return header_.memory; }
 
   /// Labels of one entry, size*size. Throws Error if that size was not loaded.
-  const uint8_t* labels(int size, int entry) const;
+  LabelImage labels(int size, int entry) const;
   /// Distance fields of one entry: kColorCount fields of size*size, in steps of 1/kFieldScale px, chamfer metric,
-  /// capped at the view configuration's cap.
+  /// capped at `field_cap`. Throws Error as `labels` does, and for a low-memory database, which holds none.
   const uint8_t* fields(int size, int entry) const;
+  /// What made fields of a size are capped at to equal stored ones, 1/kFieldScale px.
+  uint8_t field_cap(int size) const { return glovebench::field_cap(header_.field_cap_share, size); }
   /// The same fields, arranged for a look at all entries at once. Throws Error as `labels` does.
   const FieldRows& field_rows(int size) const { return data(size).rows; }
   bool has_size(int size) const { return sizes_.contains(size); }
 
  private:
   struct SizeData {
-    const uint8_t* labels = nullptr;  ///< [entry][pixel]
-    const uint8_t* fields = nullptr;  ///< [entry][color][pixel]; kBehind bytes more may be read
+    const uint8_t* labels = nullptr;  ///< [entry][packed_bytes(pixels)]
+    const uint8_t* fields = nullptr;  ///< [entry][color][pixel]; kBehind bytes more may be read; none: low memory
     /// Where the rows lie: in large pages, since they are read here and there.
     std::shared_ptr<const MappedMemory> row_values;
     FieldRows rows;

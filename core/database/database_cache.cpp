@@ -47,21 +47,24 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
   if (std::filesystem::exists(file)) {
     try {
       Database database = load();
-      if (database.hash() == hash) return database;
-      message(file + ": made of other inputs; rebuilding it");
+      if (database.hash() == hash && database.memory() == memory) return database;
+      message(database.hash() == hash ? fmt::format("{}: memory: found {}, expected {}; rebuilding it", file,
+                                                    to_string(database.memory()), to_string(memory))
+                                      : file + ": made of other inputs; rebuilding it");
     } catch (const Error& e) {
       message(fmt::format("{}; rebuilding it", e.what()));
     }
   }
   // What a killed build left, as large as a database; no other process builds this one.
   remove_leftovers(folder, [&](const std::string& name) { return folder + "/" + name == file; });
-  Database::build_file(file, postures, model, views, renderers, threads, progress);
+  Database::build_file(file, postures, model, views, renderers, threads, progress, kTinySizes, memory);
   return load();
 }
 
 std::string DatabaseCache::path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const {
   const std::string hash = Database::input_hash(postures, model, views);
-  return fmt::format("{}/{}-{}.glovedb", folder, postures.name, hash.substr(0, 16));
+  return fmt::format("{}/{}-{}{}.glovedb", folder, postures.name, hash.substr(0, 16),
+                     memory == DatabaseMemory::low ? "-low" : "");
 }
 
 }  // namespace glovebench

@@ -8,12 +8,13 @@
 namespace glovebench {
 
 /// Loads the database of these inputs from `folder`, or builds and stores it there. The file's name holds the hash
-/// of all inputs, so a changed input makes another file. Two processes that want the same one wait for each other;
-/// a damaged file is named through `message` and rebuilt.
+/// of all inputs, so a changed input makes another file; so does low memory. Two processes that want the same one
+/// wait for each other; a damaged file is named through `message` and rebuilt.
 struct DatabaseCache {
   std::string folder;
   ViewRendererFactory renderers;
   int threads = 1;
+  DatabaseMemory memory = DatabaseMemory::normal;
   std::function<void(const std::string&)> message = [](const std::string&) {};
   std::function<void(double)> progress;  ///< share built, 0..1; may be empty
 

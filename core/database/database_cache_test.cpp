@@ -12,6 +12,7 @@
 namespace glovebench {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -131,6 +132,22 @@ TEST_F(DatabaseCacheTest, a_changed_input_makes_another_file) {
   EXPECT_EQ(renderers_made_, 3);
 }
 
+TEST_F(DatabaseCacheTest, one_of_low_memory_is_another_file) {
+  const Database normal = get();
+  const std::string content = read_file(file());
+  cache_.memory = DatabaseMemory::low;
+  const Database low = get();
+  EXPECT_EQ(database_count(), 2);
+  EXPECT_EQ(low.memory(), DatabaseMemory::low);
+  EXPECT_EQ(low.hash(), normal.hash());
+  EXPECT_THAT(messages_, IsEmpty());
+  // Under the other's name it is named and rebuilt.
+  const std::string path = cache_.path(postures_, render::test_hand(), views_);
+  write_file(path, content);
+  EXPECT_EQ(get().memory(), DatabaseMemory::low);
+  EXPECT_THAT(messages_, ElementsAre(AllOf(HasSubstr(path), HasSubstr("memory: found normal, expected low"))));
+}
+
 TEST_F(DatabaseCacheTest, a_folder_that_cannot_be_made_is_an_error) {
   write_file(folder_ / "file", "x");
   cache_.folder = folder_ / "file/cache";
@@ -169,7 +186,7 @@ TEST_F(DatabaseCacheTest, two_processes_that_want_the_same_one_build_it_once) {
   EXPECT_EQ(a.hash(), b.hash());
   for (const int size : sizes_) {
     const size_t bytes = size_t{756} * size * size;
-    EXPECT_TRUE(std::equal(a.labels(size, 0), a.labels(size, 0) + bytes, b.labels(size, 0)));
+    for (int entry = 0; entry < kViewCount; ++entry) ASSERT_EQ(a.labels(size, entry), b.labels(size, entry));
     EXPECT_TRUE(std::equal(a.fields(size, 0), a.fields(size, 0) + bytes * kColorCount, b.fields(size, 0)));
   }
 }

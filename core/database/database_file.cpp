@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/database/field_rows.h"
+#include "core/database/packed_labels.h"
 #include "core/database/tiny_image.h"
 #include "core/database/view_sphere.h"
 
@@ -19,11 +20,11 @@ namespace {
 
 using nlohmann::json;
 
-static_assert(kDatabaseVersion == 2);
-constexpr std::string_view kMagic = "glovebench-database-2\n";
+static_assert(kDatabaseVersion == 3);
+constexpr std::string_view kMagic = "glovebench-database-3\n";
 constexpr size_t kHashLength = 32;
 constexpr size_t kHeaderBegin = kMagic.size() + sizeof(uint64_t) + kHashLength;
-constexpr uint64_t kMaxHeader = 64 << 20;
+constexpr uint64_t kMaxHeader = 256 << 20;  // of 100 million entries: 70 MB
 constexpr uint64_t kPage = 4096;
 constexpr uint64_t kChunk = 16 << 20;
 
@@ -48,6 +49,14 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
   header.postures.name = text.at("name");
   header.hash = text.at("hash");
   header.side = text.at("side") == "right" ? Side::right : Side::left;
+  const std::string memory = text.at("memory");
+  const auto known = database_memory_from_string(memory);
+  if (!known) throw Error(path, "memory", '"' + memory + '"', "\"normal\" or \"low\"");
+  header.memory = *known;
+  header.field_cap_share = text.at("field_cap_share");
+  if (!(header.field_cap_share > 0 && header.field_cap_share <= 1)) {
+    throw Error(path, "field_cap_share", fmt::format("{}", header.field_cap_share), "(0, 1]");
+  }
   for (const json& posture : text.at("postures")) {
     header.postures.posture_names.push_back(posture.at("name"));
     const std::vector<double> angles = posture.at("angles_rad");
@@ -92,7 +101,7 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
     throw Error(path, "magic", "another format", std::string(kMagic.substr(0, kMagic.size() - 1)));
   uint64_t length = 0;
   std::memcpy(&length, text_at(kMagic.size(), sizeof(length), "header length").data(), sizeof(length));
-  if (length > kMaxHeader) throw Error(path, "header length", fmt::format("{} bytes", length), "at most 64 MiB");
+  if (length > kMaxHeader) throw Error(path, "header length", fmt::format("{} bytes", length), "at most 256 MiB");
   const std::string checksum = text_at(kMagic.size() + sizeof(length), kHashLength, "header checksum");
   const std::string text = text_at(kHeaderBegin, length, "header");
   if (hash_text(text) != checksum) throw Error(path, "header checksum", hash_text(text), checksum);
@@ -127,9 +136,9 @@ void DatabaseLayout::place(uint64_t header_bytes) {
   for (const int size : header_.sizes_px) {
     const uint64_t pixels = static_cast<uint64_t>(size) * size;
     SizeSections& sections = sizes_[size];
-    sections.labels = next(entries * pixels);
-    sections.fields = next(entries * pixels * kColorCount);
-    sections.rows = next(FieldRows::bytes(size, static_cast<int>(entries)));
+    sections.labels = next(entries * packed_bytes(pixels));
+    if (header_.memory == DatabaseMemory::normal) sections.fields = next(entries * pixels * kColorCount);
+    sections.rows = next(FieldRows(size, header_.memory, static_cast<int>(entries)).bytes());
   }
   bytes_ = end;
 }
@@ -145,7 +154,7 @@ std::vector<DatabaseLayout::Chunk> DatabaseLayout::chunks() const {
   add("box_rays", 0, box_rays_);
   for (const auto& [size, sections] : sizes_) {
     add(fmt::format("labels_{}", size), size, sections.labels);
-    add(fmt::format("fields_{}", size), size, sections.fields);
+    if (sections.fields.bytes > 0) add(fmt::format("fields_{}", size), size, sections.fields);
     add(fmt::format("rows_{}", size), size, sections.rows);
   }
   return chunks;
@@ -156,6 +165,8 @@ std::string DatabaseLayout::header_text(const std::vector<std::string>& checksum
       {"name", header_.postures.name},
       {"hash", header_.hash},
       {"side", header_.side == Side::right ? "right" : "left"},
+      {"memory", to_string(header_.memory)},
+      {"field_cap_share", header_.field_cap_share},
       {"postures", postures_to_json(header_.postures)},
       {"sizes_px", header_.sizes_px},
       {"checksums",
@@ -164,26 +175,29 @@ std::string DatabaseLayout::header_text(const std::vector<std::string>& checksum
   return text;
 }
 
-void DatabaseLayout::seal(std::span<uint8_t> file) const {
+void DatabaseLayout::seal(MappedMemory& file) const {
   const std::vector<Chunk> all = chunks();
   std::vector<std::string> checksums(all.size());
-  tbb::parallel_for(size_t{0}, all.size(),
-                    [&](size_t i) { checksums[i] = hash_of(file.subspan(all[i].offset, all[i].bytes)); });
+  tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
+    checksums[i] = hash_of(file.bytes().subspan(all[i].offset, all[i].bytes));
+    file.release(all[i].offset, all[i].bytes);
+  });
   const std::string text = header_text(checksums);
   const uint64_t length = text.size();
   std::string header(kMagic);
   header.append(reinterpret_cast<const char*>(&length), sizeof(length));
   header += hash_text(text) + text;
-  std::memcpy(file.data(), header.data(), header.size());
+  std::memcpy(file.writable().data(), header.data(), header.size());
 }
 
-void DatabaseLayout::check_sections(std::span<const uint8_t> file, const std::string& path,
+void DatabaseLayout::check_sections(const MappedMemory& file, const std::string& path,
                                     std::span<const int> sizes_px) const {
-  std::vector<Chunk> all = chunks();
+  const std::vector<Chunk> all = chunks();
   tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
     const int size = all[i].size_px;
     if (size != 0 && std::ranges::find(sizes_px, size) == sizes_px.end()) return;
-    const std::string found = hash_of(file.subspan(all[i].offset, all[i].bytes));
+    const std::string found = hash_of(file.bytes().subspan(all[i].offset, all[i].bytes));
+    if (header_.memory == DatabaseMemory::low) file.release(all[i].offset, all[i].bytes);
     if (found != checksums_[i]) throw Error(path, all[i].section + " checksum", found, checksums_[i]);
   });
 }

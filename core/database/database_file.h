@@ -7,19 +7,23 @@
 #include <string>
 #include <vector>
 
+#include "core/base/mapped_memory.h"
+#include "core/database/database_memory.h"
 #include "core/database/posture_set.h"
 
 namespace glovebench {
 
 /// Of the file. A database of another version is refused.
-inline constexpr int kDatabaseVersion = 2;
+inline constexpr int kDatabaseVersion = 3;
 
 /// What the header of a database's file says.
 struct DatabaseHeader {
   PostureSet postures;
   Side side = Side::right;
-  std::string hash;        ///< of all inputs
-  std::set<int> sizes_px;  ///< the tiny images'
+  std::string hash;  ///< of all inputs
+  DatabaseMemory memory = DatabaseMemory::normal;
+  double field_cap_share = 0;  ///< as in the view configuration: what made fields are capped at
+  std::set<int> sizes_px;      ///< the tiny images'
 };
 
 /// A part of the file.
@@ -28,14 +32,14 @@ struct Section {
 };
 /// Of the tiny images of one size.
 struct SizeSections {
-  Section labels;  ///< [entry][pixel]
-  Section fields;  ///< [entry][color][pixel]
+  Section labels;  ///< [entry][packed_bytes(pixels)], as pack_labels
+  Section fields;  ///< [entry][color][pixel]; none in a low-memory database
   Section rows;    ///< as FieldRows
 };
 
 /// The bytes of a database, in its file and in memory: magic, length and checksum of a JSON header, the header,
 /// then sections, each of whole pages and followed by at least kBehind bytes that are zero. Where a section lies
-/// follows from the postures and the sizes. Little-endian.
+/// follows from the postures, the sizes and what is held of a view. Little-endian.
 class DatabaseLayout {
  public:
   /// What may be read behind the last value of a section, bytes.
@@ -51,11 +55,11 @@ class DatabaseLayout {
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
 
-  /// Writes the header with the checksums of the sections, which are complete.
-  void seal(std::span<uint8_t> file) const;
+  /// Writes the header with the checksums of the sections, which are complete. Keeps no page of a file resident.
+  void seal(MappedMemory& file) const;
   /// Throws Error naming `path` if a section that all databases have, or one of these sizes, is not what was
-  /// sealed.
-  void check_sections(std::span<const uint8_t> file, const std::string& path, std::span<const int> sizes_px) const;
+  /// sealed. Keeps no page of a low-memory database resident.
+  void check_sections(const MappedMemory& file, const std::string& path, std::span<const int> sizes_px) const;
 
  private:
   struct Chunk {

@@ -1,10 +1,12 @@
 #include "core/database/database.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cstring>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "core/base/error.h"
 #include "core/base/file.h"
@@ -42,9 +44,10 @@ PostureSet one_posture() {
   return {"DB_one", {"open"}, {Posture::Zero()}};
 }
 
-Database small_database() {
+Database small_database(DatabaseMemory memory = DatabaseMemory::normal) {
   return Database::build(
-      one_posture(), render::test_hand(), kSmallViews, [] { return std::make_unique<BlockRenderer>(); }, 1);
+      one_posture(), render::test_hand(), kSmallViews, [] { return std::make_unique<BlockRenderer>(); }, 1, {},
+      kTinySizes, memory);
 }
 
 void expect_equal(const Database& a, const Database& b, std::span<const int> sizes = kTinySizes) {
@@ -53,13 +56,15 @@ void expect_equal(const Database& a, const Database& b, std::span<const int> siz
   EXPECT_EQ(a.posture_set().name, b.posture_set().name);
   EXPECT_EQ(a.posture_set().posture_names, b.posture_set().posture_names);
   EXPECT_EQ(a.posture_set().postures, b.posture_set().postures);
+  EXPECT_EQ(a.memory(), b.memory());
   ASSERT_EQ(a.entry_count(), b.entry_count());
   for (int entry = 0; entry < a.entry_count(); ++entry) {
     ASSERT_EQ(a.box_ray(entry), b.box_ray(entry)) << "entry " << entry;
     for (const int size : sizes) {
       const size_t pixels = static_cast<size_t>(size) * size;
-      ASSERT_TRUE(std::equal(a.labels(size, entry), a.labels(size, entry) + pixels, b.labels(size, entry)))
-          << size << " px, entry " << entry;
+      ASSERT_EQ(a.labels(size, entry), b.labels(size, entry)) << size << " px, entry " << entry;
+      ASSERT_EQ(a.field_cap(size), b.field_cap(size));
+      if (a.memory() == DatabaseMemory::low) continue;
       ASSERT_TRUE(
           std::equal(a.fields(size, entry), a.fields(size, entry) + pixels * kColorCount, b.fields(size, entry)))
           << size << " px, entry " << entry;
@@ -136,6 +141,25 @@ TEST(Database, a_copy_outlives_its_original_and_the_file_its_name) {
     const FieldRows &a = copy.field_rows(size), &b = small.field_rows(size);
     EXPECT_TRUE(std::equal(a.data(), a.data() + a.block_count() * a.block_bytes(), b.data())) << size;
   }
+}
+
+TEST(Database, of_low_memory_holds_the_same_labels_and_no_fields) {
+  const TestFolder folder;
+  const Database normal = small_database(), low = small_database(DatabaseMemory::low);
+  low.save(folder / "low");
+  normal.save(folder / "normal");
+  const Database loaded = Database::load(folder / "low");
+  expect_equal(loaded, low);
+  EXPECT_EQ(loaded.memory(), DatabaseMemory::low);
+  EXPECT_EQ(loaded.hash(), normal.hash());
+  for (const int size : kTinySizes) {
+    EXPECT_EQ(loaded.field_cap(size), normal.field_cap(size));
+    for (int entry = 0; entry < normal.entry_count(); ++entry)
+      ASSERT_EQ(loaded.labels(size, entry), normal.labels(size, entry)) << size << " px, entry " << entry;
+    EXPECT_THAT([&] { loaded.fields(size, 0); },
+                ThrowsMessage<Error>(AllOf(HasSubstr("DB_one"), HasSubstr("fields"), HasSubstr("low-memory"))));
+  }
+  EXPECT_LT(std::filesystem::file_size(folder / "low") * 8, std::filesystem::file_size(folder / "normal"));
 }
 
 TEST(Database, loads_only_the_sizes_asked_for) {
@@ -261,10 +285,10 @@ TEST_F(DatabaseFile, another_format_and_trailing_bytes_are_errors_that_say_so) {
   expect_refused(good_ + '\0', "one byte more");
   expect_refused("PNG\n" + good_, "something in front");
   std::string newer = good_;
-  newer[newer.find("-2\n") + 1] = '3';
+  newer[newer.find("-3\n") + 1] = '4';
   write_file(path_, newer);
   EXPECT_THAT([&] { Database::load(path_); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("magic"), HasSubstr("glovebench-database-2"))));
+              ThrowsMessage<Error>(AllOf(HasSubstr("magic"), HasSubstr("glovebench-database-3"))));
 }
 
 /// The file with another header of the same length, whose checksum is right.
@@ -289,6 +313,11 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
                                  {sizes, "\"sizes_px\":[8,16,16,"},
                                  {sizes, "\"sizes_px\":[16,8,"},
                                  {"\"right\"", "\"Right\""},
+                                 {"\"memory\":\"normal\"", "\"memory\":\"low\""},
+                                 {"\"memory\":\"normal\"", "\"memory\":1"},
+                                 {"\"field_cap_share\":0.5", "\"field_cap_share\":0.0"},
+                                 {"\"field_cap_share\":0.5", "\"field_cap_share\":1.5"},
+                                 {"\"field_cap_share\":0.5", "\"field_cap_share\":null"},
                                  {"\"side\":", "\"more\":1,\"side\":"},
                                  {"\"angles_rad\":[0.0,", "\"angles_rad\":["},
                                  {"\"angles_rad\":[", "\"angles_rad\":[{},"},
@@ -298,6 +327,26 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
                                  {"\"name\":", "\"nome\":"},
                                  {"{", "["}})
     expect_refused(with_header(good_, from, to), to);
+}
+
+TEST_F(DatabaseFile, of_a_memory_that_nobody_knows_is_an_error_that_says_what_is_known) {
+  write_file(path_, with_header(good_, "\"memory\":\"normal\"", "\"memory\":\"tiny\""));
+  EXPECT_THAT([&] { Database::load(path_); },
+              ThrowsMessage<Error>(AllOf(HasSubstr(path_ + ": memory: found \"tiny\""),
+                                         HasSubstr("expected \"normal\" or \"low\""))));
+}
+
+TEST_F(DatabaseFile, of_low_memory_that_is_damaged_anywhere_is_an_error) {
+  small_database(DatabaseMemory::low).save(path_);
+  const std::string good = read_file(path_);
+  RandomStream random(1, "low-memory file", 0, "places");
+  for (int i = 0; i < 20; ++i) {
+    const size_t place = random.index(good.size());
+    std::string flipped = good;
+    flipped[place] = static_cast<char>(flipped[place] ^ (1 << random.index(8)));
+    expect_refused(flipped, "byte " + std::to_string(place));
+    expect_refused(good.substr(0, place), std::to_string(place) + " bytes");
+  }
 }
 
 TEST_F(DatabaseFile, damage_in_a_size_that_is_not_wanted_is_not_looked_for) {
@@ -312,8 +361,40 @@ TEST_F(DatabaseFile, damage_in_a_size_that_is_not_wanted_is_not_looked_for) {
 TEST_F(DatabaseFile, is_the_same_whether_it_was_built_in_memory_or_not) {
   const auto renderers = [] { return std::make_unique<BlockRenderer>(); };
   const std::string built = folder_ / "built.glovedb";
-  Database::build_file(built, one_posture(), render::test_hand(), kSmallViews, renderers, 2);
-  EXPECT_TRUE(read_file(built) == good_);
+  for (const DatabaseMemory memory : {DatabaseMemory::normal, DatabaseMemory::low}) {
+    Database::build_file(built, one_posture(), render::test_hand(), kSmallViews, renderers, 2, {}, kTinySizes,
+                         memory);
+    small_database(memory).save(path_);
+    EXPECT_TRUE(read_file(built) == read_file(path_)) << to_string(memory);
+  }
+}
+
+/// What this process has in memory: its own and of files, bytes.
+int64_t resident_bytes() {
+  std::istringstream numbers(read_file("/proc/self/statm"));
+  int64_t whole = 0, resident = 0;
+  numbers >> whole >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
+TEST_F(DatabaseFile, of_any_length_is_written_in_little_memory) {
+  PostureSet postures{"DB_many", {}, {}};
+  for (int p = 0; p < 24; ++p) {
+    postures.posture_names.push_back(std::to_string(p));
+    postures.postures.push_back(Posture::Constant(0.01 * p));
+  }
+  int64_t start = 0, most = 0;
+  const auto progress = [&](double) {
+    if (start == 0) start = resident_bytes();  // the threads have what they need
+    most = std::max(most, resident_bytes());
+  };
+  const std::string built = folder_ / "built.glovedb";
+  Database::build_file(
+      built, postures, render::test_hand(), kSmallViews, [] { return std::make_unique<BlockRenderer>(); }, 2,
+      progress, std::array{16});
+  const auto file_bytes = static_cast<int64_t>(std::filesystem::file_size(built));
+  EXPECT_GT(file_bytes, 80 << 20);
+  EXPECT_LT(most - start, file_bytes / 4);
 }
 
 TEST_F(DatabaseFile, a_missing_file_and_a_folder_are_errors) {

@@ -1,6 +1,7 @@
 #include "core/database/distance_field.h"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "core/base/check.h"
@@ -95,9 +96,15 @@ void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, s
 }
 
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field) {
-  check(field.size() == labels.size(), "a field has the size of its image");
+  chamfer_field(labels, color, cap, field, {0, labels.height()});
+}
+
+void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field,
+                   RowRange wanted) {
   const int w = labels.width(), h = labels.height();
-  if (std::find(labels.begin(), labels.end(), color) == labels.end()) {
+  check(field.size() == labels.size(), "a field has the size of its image");
+  check(wanted.first >= 0 && wanted.first <= wanted.last && wanted.last <= h, "rows of the image");
+  if (std::memchr(labels.data(), color, labels.size()) == nullptr) {
     std::fill(field.begin(), field.end(), cap);
     return;
   }
@@ -106,12 +113,12 @@ void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::sp
     const uint8_t* const label = labels.data() + static_cast<ptrdiff_t>(v) * w;
     for (int u = 0; u < w; ++u) rows[v][u] = label[u] == color ? 0 : cap;
   }
-  for (int v = 1; v < h; ++v) relax_vertically(rows[v], rows[v - 1], w);
-  for (int v = h - 2; v >= 0; --v) relax_vertically(rows[v], rows[v + 1], w);
+  for (int v = 1; v < wanted.last; ++v) relax_vertically(rows[v], rows[v - 1], w);
+  for (int v = h - 2; v >= wanted.first; --v) relax_vertically(rows[v], rows[v + 1], w);
 
   // Steps of 1, 2, 4, ... pixels add up to every distance. None needs to cost as much as the cap.
   PaddedRows spare(w, 1, cap);
-  for (int v = 0; v < h; ++v) {
+  for (int v = wanted.first; v < wanted.last; ++v) {
     uint8_t* row = rows[v];
     uint8_t* other = spare[0];
     for (int step = 1; step <= PaddedRows::kMaxStep && step < w && kStraight * step < cap; step *= 2) {

@@ -16,8 +16,15 @@ inline constexpr int kFieldScale = 3;
 /// size. Two passes over the image, as chamfering is described.
 void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 
+/// Rows of an image: from the first up to, not including, the last.
+struct RowRange {
+  int first = 0, last = 0;
+};
+
 /// The same field, faster: a shortest path runs diagonally or vertically first and horizontally last, so that whole
 /// rows can be relaxed at once.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
+/// The same, but of these rows alone: others of `field` get any values.
+void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
 
 }  // namespace glovebench

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/database/candidate.h"
 #include "core/database/look_up_kernels.h"
+#include "core/database/made_distances.h"
 
 namespace glovebench {
 namespace {
@@ -60,8 +62,12 @@ class Nearest {
 /// Distances of single entries to one query.
 class EntryDistances {
  public:
-  EntryDistances(const Database& database, const LabelImage& query)
-      : fields_(database.fields(query.width(), 0)), entry_bytes_(kColorCount * query.size()) {
+  EntryDistances(const Database& database, const LabelImage& query) : entry_bytes_(kColorCount * query.size()) {
+    if (database.memory() == DatabaseMemory::low) {
+      made_.emplace(database, query);
+      return;
+    }
+    fields_ = database.fields(query.width(), 0);
     std::ranges::copy(query, labels_.labels);
     chunks_ = chunks_of(query, labels_);
   }
@@ -71,8 +77,10 @@ class EntryDistances {
   void add(std::span<const Candidate> candidates, Nearest& nearest) const {
     for (size_t i = 0; i < candidates.size(); ++i) {
       if (candidates[i].sum > nearest.limit()) return;
-      const uint8_t* const next = i + 1 < candidates.size() ? of(candidates[i + 1]) : nullptr;
-      nearest.add({add_chunks(of(candidates[i]), labels_, chunks_, nearest.limit(), next), candidates[i].entry});
+      const uint8_t* const next = !made_ && i + 1 < candidates.size() ? of(candidates[i + 1]) : nullptr;
+      const uint32_t sum = made_ ? made_->sum(candidates[i].entry, nearest.limit())
+                                 : add_chunks(of(candidates[i]), labels_, chunks_, nearest.limit(), next);
+      nearest.add({sum, candidates[i].entry});
     }
   }
 
@@ -81,10 +89,11 @@ class EntryDistances {
     return fields_ + static_cast<size_t>(candidate.entry) * entry_bytes_;
   }
 
-  const uint8_t* fields_;
+  const uint8_t* fields_ = nullptr;  ///< of all entries, where they are stored
   size_t entry_bytes_;
   QueryLabels labels_;
   std::vector<FieldChunk> chunks_;
+  std::optional<MadeDistances> made_;  ///< of a low-memory database
 };
 
 /// The sums of a query over the rows of all entries.

@@ -6,6 +6,7 @@
 
 #include "core/base/random.h"
 #include "core/database/look_up_kernels.h"
+#include "core/database/made_distances.h"
 #include "core/database/test_database.h"
 #include "core/test_simd.h"
 
@@ -81,11 +82,11 @@ TinyImages hostile_queries(const Database& database, const Cascade& cascade, int
   return query;
 }
 
-Database database_of_one_posture(std::span<const int> sizes) {
+Database database_of_one_posture(std::span<const int> sizes, DatabaseMemory memory = DatabaseMemory::normal) {
   PostureSet one = test_postures();
   one.postures.resize(1);
   one.posture_names.resize(1);
-  return Database::build(one, render::test_hand(), {}, render::label_renderer_factory(), 2, {}, sizes);
+  return Database::build(one, render::test_hand(), {}, render::label_renderer_factory(), 2, {}, sizes, memory);
 }
 
 TEST(FastLookUp, agrees_with_the_plain_one_on_each_instruction_set) {
@@ -96,6 +97,47 @@ TEST(FastLookUp, agrees_with_the_plain_one_on_each_instruction_set) {
     for (int number = 0; number < 16; ++number) {
       SCOPED_TRACE(number);
       expect_equal_to_plain(database, hostile_queries(database, cascade, number), cascade);
+    }
+  }
+}
+
+TEST(FastLookUp, finds_the_same_in_a_low_memory_database) {
+  const Database &normal = test_database(), &low = test_database(DatabaseMemory::low);
+  for (const char* text : {"16:500,64:3", "64:3", "exact:3", "16:1000,32:300,64:3", "8:15", "8:1512,32:7", "32:3",
+                           "64:700", "8:1", "8:1512,16:100,64:50"}) {
+    const Cascade cascade = parse_cascade(text);
+    for (int number = 0; number < 16; ++number) {  // 5 and 13, a single pixel: most entries are equally near
+      SCOPED_TRACE(number);
+      const TinyImages query = hostile_queries(normal, cascade, number);
+      LookUpTrace expected, found;
+      const std::vector<Match> matches = look_up(normal, query, cascade, Implementation::plain, &expected);
+      on_each_instruction_set([&] {
+        EXPECT_TRUE(equal(matches, look_up(low, query, cascade, Implementation::fast, &found))) << text;
+        EXPECT_EQ(expected.kept, found.kept) << text;
+      });
+    }
+    const TinyImages query = hostile_queries(normal, cascade, 7);
+    EXPECT_TRUE(equal(look_up(normal, query, cascade), look_up(low, query, cascade, Implementation::plain)))
+        << text;
+  }
+}
+
+TEST(FastLookUp, made_distances_are_the_stored_ones_or_above_the_limit) {
+  const Database &normal = test_database(), &low = test_database(DatabaseMemory::low);
+  for (const int size : kTinySizes) {
+    for (int number = 0; number < 16; ++number) {
+      const LabelImage query = hostile_query(normal, size, number);
+      const auto glove = static_cast<float>(query.size() - std::ranges::count(query, 0));
+      const MadeDistances made(low, query);
+      for (int entry = 0; entry < low.entry_count(); entry += 101) {
+        const auto sum = static_cast<uint32_t>(std::lround(distance(normal, entry, query) * glove * kFieldScale));
+        ASSERT_EQ(distance(low, entry, query), distance(normal, entry, query));
+        ASSERT_EQ(made.sum(entry, 1u << 31), sum) << size << " px, entry " << entry;
+        ASSERT_EQ(made.sum(entry, sum), sum) << size << " px, entry " << entry;
+        if (sum > 0) {
+          ASSERT_GT(made.sum(entry, sum - 1), sum - 1) << size << " px, entry " << entry;
+        }
+      }
     }
   }
 }
@@ -113,26 +155,33 @@ TEST(FastLookUpLong, finds_the_neighbors_of_brute_force_for_ten_thousand_queries
 
 TEST(FastLookUp, works_with_databases_of_any_size) {
   const std::vector<int> sizes = {4, 6, 12, 24, 25, 31, 48, 50, 64};
-  const Database database = database_of_one_posture(sizes);
-  for (const int size : sizes) {
-    for (const int keep : {1, 3, 756, 1'000'000}) {
-      const Cascade cascade = {{size, keep}};
-      for (int number = 0; number < 8; ++number)
-        expect_equal_to_plain(database, hostile_queries(database, cascade, number), cascade);
+  for (const DatabaseMemory memory : {DatabaseMemory::normal, DatabaseMemory::low}) {
+    const Database database = database_of_one_posture(sizes, memory);
+    for (const int size : sizes) {
+      for (const int keep : {1, 3, 756, 1'000'000}) {
+        const Cascade cascade = {{size, keep}};
+        for (int number = 0; number < 8; ++number)
+          expect_equal_to_plain(database, hostile_queries(database, cascade, number), cascade);
+      }
     }
   }
 }
 
-TEST(FastLookUp, sums_at_the_cap_do_not_overflow) {
+class FastLookUpMemory : public testing::TestWithParam<DatabaseMemory> {};
+INSTANTIATE_TEST_SUITE_P(Memory, FastLookUpMemory, testing::Values(DatabaseMemory::normal, DatabaseMemory::low),
+                         [](const auto& tested) { return std::string(to_string(tested.param)); });
+
+TEST_P(FastLookUpMemory, sums_at_the_cap_do_not_overflow) {
   // Glove in every pixel, no color in any entry: fields at the largest cap there is.
   for (const int size : {16, 24, 32, 64}) {
     const size_t pixels = static_cast<size_t>(size) * size;
     const uint8_t cap = static_cast<uint8_t>(size * kFieldScale);
     constexpr int kEntries = 70;
     const std::vector<uint8_t> fields(pixels * kColorCount * kEntries + 64, cap);
-    MappedMemory values = MappedMemory::zeros(FieldRows::bytes(size, kEntries));
-    FieldRows::arrange(fields.data(), size, kEntries, values.writable());
-    const FieldRows rows(size, kEntries, values.bytes());
+    const FieldRows shape(size, GetParam(), kEntries);
+    MappedMemory values = MappedMemory::zeros(shape.bytes());
+    for (int entry = 0; entry < kEntries; ++entry) shape.put(entry, fields.data(), values.writable());
+    const FieldRows rows(size, GetParam(), kEntries, values.bytes());
     const LabelImage query(size, size, 7);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
     QueryLabels labels;
@@ -168,8 +217,8 @@ TEST(FastLookUp, adding_chunks_stops_above_the_limit) {
   });
 }
 
-TEST(FieldRows, bound_every_distance_from_below) {
-  const Database& database = test_database();
+TEST_P(FastLookUpMemory, rows_bound_every_distance_from_below) {
+  const Database& database = test_database(GetParam());
   for (const int size : kTinySizes) {
     const FieldRows& rows = database.field_rows(size);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
@@ -183,6 +232,7 @@ TEST(FieldRows, bound_every_distance_from_below) {
         if (rows.exact()) {
           ASSERT_EQ(sums[entry], sum) << size << " px, entry " << entry;
         }
+        ASSERT_EQ(std::min(65535u, rows.sum(entry, rows.rows_of(query))), sums[entry]);
       }
     }
   }

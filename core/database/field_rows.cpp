@@ -1,70 +1,69 @@
 #include "core/database/field_rows.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 namespace glovebench {
 namespace {
 
-constexpr int kPool = FieldRows::kPool;
-constexpr int kWidest = 64;  // px
+constexpr int kLargestPool = 8, kWidest = 64;  // px
 
-/// The least of each kPool neighbors along a row, every one a cell.
-void pool_row(const std::array<uint8_t, kWidest + kPool>& row, int cells, uint8_t* minima) {
-  static_assert(kPool == 4, "two halvings");
-  std::array<uint8_t, kWidest + kPool> pairs{}, fours{};
-  for (int u = 0; u < kWidest + 2; ++u) pairs[u] = std::min(row[u], row[u + 1]);
-  for (int u = 0; u < kWidest; ++u) fours[u] = std::min(pairs[u], pairs[u + 2]);
-  for (int cell = 0; cell < cells; ++cell) minima[cell] = fours[cell * kPool];
+int pool_of(int size, DatabaseMemory memory) {
+  if (size <= FieldRows::kLargestExact) return 1;
+  return memory == DatabaseMemory::low && size > FieldRows::kLargestFinePool ? kLargestPool : kLargestPool / 2;
+}
+
+/// The least of each `pool` neighbors along a row, every one a cell.
+void pool_row(std::array<uint8_t, kWidest + kLargestPool>& row, int pool, int cells, uint8_t* minima) {
+  for (int step = 1; step < pool; step *= 2)
+    for (int u = 0; u < kWidest; ++u) row[u] = std::min(row[u], row[u + step]);
+  for (int cell = 0; cell < cells; ++cell) minima[cell] = row[cell * pool];
 }
 
 /// The least value of each cell of one entry: kColorCount fields of cells * cells.
-void pool_entry(const uint8_t* fields, int size, int cells, uint8_t* minima) {
+void pool_entry(const uint8_t* fields, int size, int pool, int cells, uint8_t* minima) {
   for (int color = 0; color < kColorCount; ++color) {
-    for (int top = 0; top < size; top += kPool, minima += cells) {
-      std::array<uint8_t, kWidest + kPool> row;
+    for (int top = 0; top < size; top += pool, minima += cells) {
+      std::array<uint8_t, kWidest + kLargestPool> row;
       row.fill(255);
-      for (int v = top; v < std::min(size, top + kPool); ++v, fields += size)
+      for (int v = top; v < std::min(size, top + pool); ++v, fields += size)
         for (int u = 0; u < size; ++u) row[u] = std::min(row[u], fields[u]);
-      pool_row(row, cells, minima);
+      pool_row(row, pool, cells, minima);
     }
   }
 }
 
 }  // namespace
 
-FieldRows::FieldRows(int size, int entry_count, std::span<const uint8_t> values)
-    : pool_(size <= kLargestExact ? 1 : kPool),
+FieldRows::FieldRows(int size, DatabaseMemory memory, int entry_count, std::span<const uint8_t> values)
+    : size_(size),
+      entry_count_(entry_count),
+      pool_(pool_of(size, memory)),
       cells_((size + pool_ - 1) / pool_),
       block_count_((static_cast<size_t>(entry_count) + kBlock - 1) / kBlock),
-      largest_value_(values.empty() ? uint8_t{0} : *std::ranges::max_element(values)),
       values_(values) {
+  for (const uint8_t value : values) largest_value_ = std::max(largest_value_, value);
   for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
 }
 
-size_t FieldRows::bytes(int size, int entry_count) {
-  const FieldRows rows(size, entry_count, {});
-  return rows.block_count() * rows.block_bytes();
+void FieldRows::put(int entry, const uint8_t* fields, std::span<uint8_t> values) const {
+  std::array<uint8_t, static_cast<size_t>(kColorCount) * 16 * 16> pooled;
+  if (!exact()) {
+    pool_entry(fields, size_, pool_, cells_, pooled.data());
+    fields = pooled.data();
+  }
+  const int place = entry % kBlock;
+  uint8_t* const target = values.data() + entry / kBlock * block_bytes();
+  // The last entry fills its block.
+  const int end = entry + 1 == entry_count_ ? kBlock : place + 1;
+  for (size_t row = 0; row < row_count(); ++row)
+    std::fill(target + row * kBlock + place, target + row * kBlock + end, fields[row]);
 }
 
-void FieldRows::arrange(const uint8_t* fields, int size, int entry_count, std::span<uint8_t> values) {
-  const FieldRows shape(size, entry_count, {});
-  const size_t rows = shape.block_bytes() / kBlock;
-  const size_t entry_bytes = static_cast<size_t>(kColorCount) * size * size;
-  tbb::parallel_for(size_t{0}, shape.block_count(), [&](size_t block) {
-    std::vector<uint8_t> pooled(rows);
-    uint8_t* const target = values.data() + block * shape.block_bytes();
-    for (int e = 0; e < kBlock; ++e) {
-      const size_t entry = std::min(block * kBlock + e, static_cast<size_t>(entry_count) - 1);
-      const uint8_t* values_of_entry = fields + entry * entry_bytes;
-      if (!shape.exact()) {
-        pool_entry(values_of_entry, size, shape.cells_, pooled.data());
-        values_of_entry = pooled.data();
-      }
-      for (size_t row = 0; row < rows; ++row) target[row * kBlock + e] = values_of_entry[row];
-    }
-  });
+uint32_t FieldRows::sum(int entry, std::span<const WeightedRow> rows) const {
+  const uint8_t* const values = data() + entry / kBlock * block_bytes() + entry % kBlock;
+  uint32_t sum = 0;
+  for (const WeightedRow& weighted : rows) sum += weighted.weight * values[size_t{weighted.row} * kBlock];
+  return sum;
 }
 
 std::vector<WeightedRow> FieldRows::rows_of(const LabelImage& query) const {

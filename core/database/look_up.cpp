@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/database/candidate.h"
+#include "core/database/entry_fields.h"
 #include "core/database/fast_look_up.h"
 
 namespace glovebench {
@@ -18,8 +19,8 @@ std::vector<int> glove_offsets(const LabelImage& query) {
   return offsets;
 }
 
-/// Sum of the stored distances, in steps of 1/kFieldScale px; at most 4096 * 255.
-uint32_t stored_sum(const uint8_t* fields, const std::vector<int>& offsets) {
+/// Sum of the distances, in steps of 1/kFieldScale px; at most 4096 * 255.
+uint32_t sum_of(const uint8_t* fields, const std::vector<int>& offsets) {
   uint32_t sum = 0;
   for (const int offset : offsets) sum += fields[offset];
   return sum;
@@ -34,9 +35,8 @@ std::vector<Match> look_up_plain(const Database& database, const TinyImages& que
   for (size_t s = 0; s < cascade.size(); ++s) {
     const std::vector<int> offsets = glove_offsets(query.images[s]);
     if (offsets.empty()) return {};
-    for (Candidate& candidate : candidates) {
-      candidate.sum = stored_sum(database.fields(cascade[s].size, candidate.entry), offsets);
-    }
+    EntryFields fields(database, query.images[s]);
+    for (Candidate& candidate : candidates) candidate.sum = sum_of(fields.of(candidate.entry), offsets);
     const size_t keep = std::min<size_t>(cascade[s].keep, candidates.size());
     std::partial_sort(candidates.begin(), candidates.begin() + static_cast<ptrdiff_t>(keep), candidates.end());
     candidates.resize(keep);
@@ -59,16 +59,16 @@ TinyImages make_tiny_images(const LabelImage& labels, const Square& square, cons
 float distance(const Database& database, int entry, const LabelImage& query) {
   const std::vector<int> offsets = glove_offsets(query);
   if (offsets.empty()) return 0;
-  return pixels_from_sum(stored_sum(database.fields(query.width(), entry), offsets), offsets.size());
+  return pixels_from_sum(sum_of(EntryFields(database, query).of(entry), offsets), offsets.size());
 }
 
 std::vector<float> distances(const Database& database, const LabelImage& query) {
   const std::vector<int> offsets = glove_offsets(query);
   std::vector<float> result(database.entry_count(), 0.0f);
   if (offsets.empty()) return result;
-  for (int entry = 0; entry < database.entry_count(); ++entry) {
-    result[entry] = pixels_from_sum(stored_sum(database.fields(query.width(), entry), offsets), offsets.size());
-  }
+  EntryFields fields(database, query);
+  for (int entry = 0; entry < database.entry_count(); ++entry)
+    result[entry] = pixels_from_sum(sum_of(fields.of(entry), offsets), offsets.size());
   return result;
 }
 

@@ -20,7 +20,7 @@ struct TinyImages {
 };
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade);
 
-/// Equation (2) over the stored fields: the mean over the query's glove pixels of the distance to the entry's
+/// Equation (2) over the entry's fields: the mean over the query's glove pixels of the distance to the entry's
 /// nearest pixel of the same color, px. 0 for a query without glove pixels.
 float distance(const Database& database, int entry, const LabelImage& query);
 

@@ -26,22 +26,26 @@ inline PostureSet test_postures() {
 }
 
 /// The database of these postures; built by the first test process that asks.
-inline const Database& test_database() {
-  static const Database database = [] {
+inline const Database& test_database(DatabaseMemory memory = DatabaseMemory::normal) {
+  const auto get = [](DatabaseMemory which) {
     DatabaseCache cache;
     cache.folder = shared_test_folder();
     cache.renderers = render::label_renderer_factory();
     cache.threads = 2;
+    cache.memory = which;
     return cache.get(test_postures(), render::test_hand(), ViewConfig{}, kTinySizes);
-  }();
-  return database;
+  };
+  if (memory == DatabaseMemory::low) {
+    static const Database low = get(DatabaseMemory::low);
+    return low;
+  }
+  static const Database normal = get(DatabaseMemory::normal);
+  return normal;
 }
 
 /// Labels of an entry as an image, as if it were a query.
 inline LabelImage entry_image(const Database& database, int size, int entry) {
-  LabelImage image(size, size);
-  std::copy_n(database.labels(size, entry), image.size(), image.begin());
-  return image;
+  return database.labels(size, entry);
 }
 
 }  // namespace glovebench

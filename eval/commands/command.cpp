@@ -37,6 +37,9 @@ void CommonFlags::add_machine(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--cache", cache_folder,
                      "folder for databases and color tables [GLOVEBENCH_CACHE or ~/.cache/glovebench]");
+  command.add_flag("--low-memory", low_memory,
+                   "databases that take a ninth of the memory and make their distance fields when these are asked "
+                   "for; results do not depend on it");
   command.add_flag("-q,--quiet", quiet, "no progress, no messages");
 }
 
@@ -55,6 +58,7 @@ Workbench CommonFlags::workbench() const {
   config.cache_folder = cache_folder.empty() ? default_cache_folder() : cache_folder;
   config.side = left ? Side::left : Side::right;
   config.threads = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  config.memory = low_memory ? DatabaseMemory::low : DatabaseMemory::normal;
   config.quiet = quiet;
   config.views = tracker_config().views;
   return Workbench(config);

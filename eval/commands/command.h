@@ -21,6 +21,7 @@ struct CommonFlags {
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
+  bool low_memory = false;
   bool left = false;
   bool quiet = false;
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/progress.h"
@@ -23,8 +25,9 @@ struct Build {
     Progress progress("building " + set.name, common.quiet);
     const HandModel& model = *workbench.model();
     const WorkbenchConfig& config = workbench.config();
-    Database::build_file(common.output, set, model, config.views, render::label_renderer_factory(), config.threads,
-                         [&](double share) { progress.show(share); });
+    Database::build_file(
+        common.output, set, model, config.views, render::label_renderer_factory(), config.threads,
+        [&](double share) { progress.show(share); }, kTinySizes, config.memory);
     fmt::print("{}: {} postures x {} views = {} entries, hash {}\n", common.output, set.postures.size(), kViewCount,
                set.postures.size() * kViewCount, Database::input_hash(set, model, config.views));
   }
@@ -32,8 +35,10 @@ struct Build {
 
 void show(const std::string& path) {
   const Database database = Database::load(path);  // all of it, so that damage is found
-  fmt::print("{}: {}, {} hand, {} entries, hash {}\n", path, database.posture_set().name,
-             database.side() == Side::right ? "right" : "left", database.entry_count(), database.hash());
+  const double bytes = static_cast<double>(std::filesystem::file_size(path));
+  fmt::print("{}: {}, {} hand, {} entries of {:.0f} bytes, {} memory, hash {}\n", path, database.posture_set().name,
+             database.side() == Side::right ? "right" : "left", database.entry_count(),
+             bytes / database.entry_count(), to_string(database.memory()), database.hash());
   for (const std::string& name : database.posture_set().posture_names) fmt::print("  {}\n", name);
 }
 

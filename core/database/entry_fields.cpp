@@ -1,0 +1,23 @@
+#include "core/database/entry_fields.h"
+
+#include <algorithm>
+
+namespace glovebench {
+
+EntryFields::EntryFields(const Database& database, const LabelImage& query)
+    : database_(database), size_(query.width()) {
+  for (uint8_t color = 1; color <= kColorCount; ++color)
+    if (std::ranges::find(query, color) != query.end()) colors_.push_back(color);
+  if (database.memory() == DatabaseMemory::low) made_.resize(kColorCount * query.size());
+}
+
+const uint8_t* EntryFields::of(int entry) {
+  if (made_.empty()) return database_.fields(size_, entry);
+  const LabelImage labels = database_.labels(size_, entry);
+  const uint8_t cap = database_.field_cap(size_);
+  for (const uint8_t color : colors_)
+    chamfer_field(labels, color, cap, std::span(made_).subspan((color - 1) * labels.size(), labels.size()));
+  return made_.data();
+}
+
+}  // namespace glovebench
