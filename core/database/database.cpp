@@ -160,13 +160,17 @@ void fill(const BuildInputs& inputs, const DatabaseLayout& layout, int threads,
   });
 }
 
-/// In memory that large pages make up.
-std::shared_ptr<const MappedMemory> copy_of(std::span<const uint8_t> bytes) {
-  auto copy = std::make_shared<MappedMemory>(MappedMemory::zeros(bytes.size()));
+/// A section, in memory that large pages make up. What was copied of a low-memory database does not stay resident
+/// twice.
+std::shared_ptr<const MappedMemory> copy_of(const MappedMemory& file, const Section& section,
+                                            DatabaseMemory memory) {
+  auto copy = std::make_shared<MappedMemory>(MappedMemory::zeros(section.bytes));
   constexpr size_t kPiece = 4 << 20;
-  tbb::parallel_for(size_t{0}, (bytes.size() + kPiece - 1) / kPiece, [&](size_t piece) {
-    const auto source = bytes.subspan(piece * kPiece, std::min(kPiece, bytes.size() - piece * kPiece));
-    std::ranges::copy(source, copy->writable().begin() + static_cast<ptrdiff_t>(piece * kPiece));
+  tbb::parallel_for(size_t{0}, (section.bytes + kPiece - 1) / kPiece, [&](size_t piece) {
+    const size_t begin = piece * kPiece, bytes = std::min(kPiece, section.bytes - begin);
+    std::ranges::copy(file.bytes().subspan(section.offset + begin, bytes),
+                      copy->writable().begin() + static_cast<ptrdiff_t>(begin));
+    if (memory == DatabaseMemory::low) file.release(section.offset + begin, bytes);
   });
   return copy;
 }
@@ -215,11 +219,8 @@ Database::Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayo
   box_rays_ = reinterpret_cast<const Eigen::Vector3d*>(file + layout.box_rays().offset);
   for (const auto& [size, sections] : layout.sizes()) {
     if (std::ranges::find(sizes, size) == sizes.end()) continue;
-    const auto rows = copy_of(bytes_->bytes().subspan(sections.rows.offset, sections.rows.bytes));
-    if (memory() == DatabaseMemory::low) {
-      bytes_->release(sections.rows.offset, sections.rows.bytes);
-      bytes_->expect_random_reads(sections.labels.offset, sections.labels.bytes);
-    }
+    const auto rows = copy_of(*bytes_, sections.rows, memory());
+    if (memory() == DatabaseMemory::low) bytes_->expect_random_reads(sections.labels.offset, sections.labels.bytes);
     sizes_[size] = {file + sections.labels.offset,
                     sections.fields.bytes > 0 ? file + sections.fields.offset : nullptr, rows,
                     FieldRows(size, memory(), entry_count(), rows->bytes())};
