@@ -20,7 +20,8 @@ constexpr size_t kKept = 3;
 std::vector<float> euclidean_distances(int entry, const std::vector<LabelImage>& queries) {
   const Database& database = *data().database;
   const float cap = static_cast<float>(data().config.views.field_cap_share * kSize);
-  const cv::Mat labels(kSize, kSize, CV_8U, const_cast<uint8_t*>(database.labels(kSize, entry)));
+  LabelImage image = database.labels(kSize, entry);
+  const cv::Mat labels(kSize, kSize, CV_8U, image.data());
   std::vector<double> sums(queries.size());
   for (int color = 1; color <= kColorCount; ++color) {
     cv::Mat field(kSize, kSize, CV_32F, cv::Scalar(cap));
