@@ -65,6 +65,9 @@ struct BytesTouched {
 inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";
 void set_bytes_touched(benchmark::State& state, const BytesTouched& touched);
 
+/// What a share of the values lies below, us. Reorders them.
+double quantile_us(std::vector<double>& seconds, double share);
+
 /// The peak of the process's resident memory so far, bytes.
 double peak_memory();
 

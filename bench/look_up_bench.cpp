@@ -50,13 +50,6 @@ double row_bytes(const std::vector<TinyImages>& queries, const Cascade& cascade)
          static_cast<double>(queries.size());
 }
 
-/// What a share of the values lies below, us.
-double quantile_us(std::vector<double>& seconds, double share) {
-  const auto nth = seconds.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(seconds.size() - 1));
-  std::nth_element(seconds.begin(), nth, seconds.end());
-  return 1e6 * *nth;
-}
-
 void run_look_up(benchmark::State& state, const char* text, Implementation implementation) {
   const Database& database = *data().database;
   const Cascade cascade = parse_cascade(text);
