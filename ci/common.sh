@@ -26,7 +26,7 @@ build() {
     shift
   done
   shift $(($# > 0)) # the --
-  quietly cmake --preset "$preset" "${options[@]}"
+  quietly cmake --preset "$preset" -DGLOVEBENCH_PEERS=OFF "${options[@]}"
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 

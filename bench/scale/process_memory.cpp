@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -40,9 +41,10 @@ PageFaults page_faults() {
 void drop_from_memory(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw Error(path, "file", std::strerror(errno), "a readable file");
+  const std::string canonical = std::filesystem::canonical(path);
   std::ifstream maps("/proc/self/maps");
   for (std::string line; std::getline(maps, line);) {
-    if (!line.ends_with(" " + path)) continue;
+    if (!line.ends_with(" " + canonical)) continue;
     uintptr_t begin = 0, end = 0;
     char dash = 0;
     if (std::istringstream(line) >> std::hex >> begin >> dash >> end)

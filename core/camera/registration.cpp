@@ -42,7 +42,8 @@ Extent extent_of(const DepthImage& depth) {
     const float* const row = &depth(0, v);
     int32_t row_largest = 0;
     for (int u = 0; u < depth.width(); ++u) {
-      const auto bits = std::bit_cast<int32_t>(row[u]);
+      const auto of_value = std::bit_cast<int32_t>(row[u]);
+      const int32_t bits = of_value <= std::bit_cast<int32_t>(kInfinity) ? of_value : 0;  // 0 for what is no number
       row_largest = std::max(row_largest, bits);
       least = std::min(least, static_cast<uint32_t>(bits) - 1);  // neither zero nor what is negative
     }
@@ -110,7 +111,8 @@ class RowProjector {
         for (const float z : {extent.least, extent.largest}) {
           const Eigen::Vector3f pixel =
               z * (M_ * Eigen::Vector3f(static_cast<float>(u), static_cast<float>(v), 1)) + b_;
-          if (!(pixel.z() > 0 && pixel.allFinite())) return {};
+          // Beside the camera, what little is left of a difference is rounding.
+          if (!(pixel.z() > 1e-3f * (z + std::abs(b_.z())) && pixel.allFinite())) return {};
           box.extend(Eigen::Vector2f(pixel.hnormalized()));
         }
       }
@@ -142,14 +144,15 @@ class NearestSurface {
     // Cell (i, j) collects the samples with floor(u) = i - radius, floor(v) = j - radius, so that the minimum over
     // the cells i .. i + 2 radius - 1 is the one over u in [i - radius, i + radius).
     cv::Mat cells(cells_of_.size(), CV_32F, cv::Scalar(kInfinity));
-    const float width = static_cast<float>(cells.cols), height = static_cast<float>(cells.rows);
-    const float left = static_cast<float>(radius_ - cells_of_.x), top = static_cast<float>(radius_ - cells_of_.y);
+    const float width = static_cast<float>(calibration.rgb.width + 2 * radius_ - 1),
+                height = static_cast<float>(calibration.rgb.height + 2 * radius_ - 1),
+                offset = static_cast<float>(radius_);
     for (int v = extent.top; v < extent.bottom; ++v) {
       const ProjectedRow& row = projector.project(depth, v, extent.rows[v]);
       for (int u = extent.rows[v].left; u < extent.rows[v].right; ++u) {
-        const float i = row.u_px[u] + left, j = row.v_px[u] + top;
+        const float i = row.u_px[u] + offset, j = row.v_px[u] + offset;
         if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
-        float& cell = cells.at<float>(static_cast<int>(j), static_cast<int>(i));
+        float& cell = cells.at<float>(static_cast<int>(j) - cells_of_.y, static_cast<int>(i) - cells_of_.x);
         cell = std::min(cell, row.z[u]);
       }
     }

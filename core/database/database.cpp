@@ -71,6 +71,9 @@ DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes, 
   const auto& [postures, model, views, renderers] = inputs;
   check_sizes(postures.name, sizes);
   if (postures.postures.empty()) throw Error(postures.name, "postures", "none", "at least one");
+  if (!(views.field_cap_share > 0 && views.field_cap_share <= 1)) {
+    throw Error(postures.name, "field_cap_share", fmt::format("{}", views.field_cap_share), "above 0, at most 1");
+  }
   DatabaseHeader header{.postures = postures,
                         .side = model.side(),
                         .hash = Database::input_hash(postures, model, views),
@@ -160,8 +163,8 @@ void fill(const BuildInputs& inputs, const DatabaseLayout& layout, int threads,
   });
 }
 
-/// A section, in memory that large pages make up. What was copied of a low-memory database does not stay resident
-/// twice.
+/// A section, in memory that large pages make up. What was copied of a low-memory database's file does not stay
+/// resident twice.
 std::shared_ptr<const MappedMemory> copy_of(const MappedMemory& file, const Section& section,
                                             DatabaseMemory memory) {
   auto copy = std::make_shared<MappedMemory>(MappedMemory::zeros(section.bytes));

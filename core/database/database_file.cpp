@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -126,6 +127,9 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
 
 void DatabaseLayout::place(uint64_t header_bytes) {
   const uint64_t entries = header_.postures.postures.size() * kViewCount;
+  if (entries > std::numeric_limits<int>::max()) {
+    throw Error(header_.postures.name, "views", fmt::format("{}", entries), "at most 2147483647");
+  }
   uint64_t end = whole_pages(header_bytes);
   const auto next = [&](uint64_t bytes) {
     const Section section{end, bytes};

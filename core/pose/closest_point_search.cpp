@@ -343,6 +343,18 @@ struct Search {
   }
 };
 
+/// Where in the packets a face is: as a rule in this one. Of equally near faces the first may be in another.
+HWY_INLINE int place_of(int face, const FacePackets& color, int packet) {
+  const auto place_in = [&](int i) {
+    const int32_t* const faces = color.packets[i].face;
+    const auto lane = static_cast<int>(std::find(faces, faces + FacePackets::kFaces, face) - faces);
+    return lane < FacePackets::kFaces ? i * FacePackets::kFaces + lane : -1;
+  };
+  int place = place_in(packet);
+  for (int i = 0; place < 0 && i < static_cast<int>(color.packets.size()); ++i) place = place_in(i);
+  return place;  // -1: no face was found
+}
+
 template <bool kRemembered>
 HWY_INLINE ClosestPoint search_all(const Eigen::Vector3f& p_hand, const FacePackets& color, int start,
                                    PacketLook* looks, PointMemory& memory) {
@@ -356,9 +368,7 @@ HWY_INLINE ClosestPoint search_all(const Eigen::Vector3f& p_hand, const FacePack
   memory.others_beyond = -kInfinity;
   if constexpr (kRemembered) search.remember(search.limit() + PointMemory::kNear, memory);
   const ClosestPoint closest = best_of_lanes(search.nearest, search.squared);
-  const int32_t* const faces = color.packets[search.packet].face;
-  memory.nearest = search.packet * FacePackets::kFaces +
-                   static_cast<int>(std::find(faces, faces + FacePackets::kFaces - 1, closest.face) - faces);
+  memory.nearest = place_of(closest.face, color, search.packet);
   return closest;
 }
 
@@ -411,7 +421,10 @@ class Contenders {
         best = key < least ? i : best;
         least = key < least ? key : least;
       }
-      if (least >= kNone) continue;
+      if (least >= kNone) {
+        results_[point] = {};
+        continue;
+      }
       results_[point] = {Eigen::Vector3f(p_[0][best], p_[1][best], p_[2][best]), std::sqrt(squared_[best]),
                          face_[best]};
       memories_[point].nearest = place_[best];
@@ -462,8 +475,10 @@ HWY_INLINE Listed listed(const Eigen::Vector3f& p_hand, const FacePackets& color
   const float limit =
       apart * (1 + kShare) + 2 * doubt(farther, packet.length[face], packet.blur[face], color.slack);
   const float moved = (p_hand - memory.p_hand).norm() * (1 + kShare);
+  const uint32_t faces = not_behind(memory, p_hand, limit);
   const bool all = (memory.nearest >= 0) & (limit < memory.others_beyond - moved) & (limit <= memory.reach);
-  return {all, not_behind(memory, p_hand, limit)};
+  const bool any = faces != 0;
+  return {all && any, faces};
 }
 
 void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points, std::span<PointMemory> memories,
@@ -478,7 +493,9 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
       const LabeledPoint& point = points[begin + i];
       const FacePackets& color = colors[point.label];
       if (color.packets.empty()) continue;
-      lists[i] = listed(point.p, color, memories[begin + i], results[begin + i]);
+      PointMemory& memory = memories[begin + i];
+      if (memory.label != point.label) memory = {.label = point.label};
+      lists[i] = listed(point.p, color, memory, results[begin + i]);
     }
     for (size_t i = 0; i < count; ++i) {
       const LabeledPoint& point = points[begin + i];
@@ -493,7 +510,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
       } else {
         const int start = memory.nearest >= 0 ? memory.nearest / FacePackets::kFaces : last_packets[point.label];
         results[begin + i] = search(point.p, color, start, looks, memory);
-        last_packets[point.label] = memory.nearest / FacePackets::kFaces;
+        last_packets[point.label] = std::max(0, memory.nearest) / FacePackets::kFaces;
       }
     }
   }

@@ -22,7 +22,8 @@ struct alignas(64) PointMemory {
   Eigen::Vector3f p_hand = Eigen::Vector3f::Zero();  ///< where it was then
   float others_beyond = 0;                           ///< all other faces are at least this far from p_hand, m
   float reach = 0;
-  int nearest = -1;  ///< the place of the closest face, also of later looks; -1 before the first
+  int nearest = -1;   ///< the place of the closest face, also of later looks; -1 if there is none
+  uint8_t label = 0;  ///< whose packets these are
 };
 
 /// Of the faces of a packet that was visited.

@@ -181,6 +181,33 @@ TEST(ClosestPointSearch, no_points_no_faces_and_colors_without_faces) {
   expect_plain_answers(Surface(), {points, {}, points});
 }
 
+TEST(ClosestPointSearch, points_may_change_their_labels_and_their_number) {
+  const Points points = points_around_the_hand(150);
+  Points others = points;
+  for (LabeledPoint& point : others) point.label = static_cast<uint8_t>(1 + point.label % kColorCount);
+  const Points fewer(others.begin(), others.begin() + 50);
+  expect_plain_answers(test_surface(), {points, points, points, others, others, fewer, points, points, others});
+}
+
+TEST(ClosestPointSearch, equals_the_plain_one_near_vertices_of_thin_faces) {
+  // Faces of several packets are equally near, and what rounding does to one does not say what it does to another.
+  const Surface surface(test_hand(), collapsed_hand(), {0.1f, 0.7f, 0.1f});
+  Points points;
+  for (uint8_t label = 1; label <= kColorCount; ++label)
+    for (size_t f = 0; f < surface.faces(label).size(); f += 5) {
+      const Surface::Face& face = surface.faces(label)[f];
+      points.push_back({face.c, label});
+      points.push_back({face.a + 0.05f * (face.a - (face.b + face.c) / 2), label});
+    }
+  std::vector<Points> sequence = {points};
+  RandomStream random(1, "closest", 0, "nudges");
+  for (const double nudge : {1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 1e-5, 0.0}) {
+    for (LabeledPoint& point : points) point.p += random_point(random, nudge);
+    sequence.push_back(points);
+  }
+  expect_plain_answers(surface, sequence);
+}
+
 TEST(ClosestPointSearch, starts_anew_on_another_surface) {
   const Points points = points_around_the_hand(100);
   const Surface first = test_surface(), second(test_hand(), test_hand().pose(Posture::Zero()), {0, -0.7f, 0});
