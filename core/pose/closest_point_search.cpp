@@ -29,8 +29,6 @@ using Mask = decltype(hn::MaskFromVec(Floats()));
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// What the roundings of a distance and of a bound may be, as a share of them: several times 2^-24.
 constexpr float kShare = 1e-6f;
-/// Makes a difference of two numbers no larger than the exact one: two roundings less.
-constexpr float kRoundedDown = 1 - 0x1p-22f;
 
 struct Vectors {
   Floats x, y, z;
