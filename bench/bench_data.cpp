@@ -118,10 +118,10 @@ void set_bytes_touched(benchmark::State& state, const BytesTouched& touched) {
   if (touched.far > 0) state.counters[kFarBytes] = touched.far;
 }
 
-double quantile_us(std::vector<double>& seconds, double share) {
-  const auto nth = seconds.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(seconds.size() - 1));
-  std::nth_element(seconds.begin(), nth, seconds.end());
-  return 1e6 * *nth;
+double quantile(std::vector<double>& values, double share) {
+  const auto nth = values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
 }
 
 double peak_memory() {

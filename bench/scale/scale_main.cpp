@@ -89,12 +89,6 @@ std::pair<Database, ordered_json> load(const std::string& path) {
            {"minor_faults", page_faults().minor - faults.minor}}};
 }
 
-/// Of a sample that is sorted here.
-double quantile(std::vector<double>& sample, double share) {
-  std::ranges::sort(sample);
-  return sample[static_cast<size_t>(share * static_cast<double>(sample.size() - 1))];
-}
-
 /// Looks up each frame. `before` is called before each, outside of the time.
 ordered_json look_up_all(const Database& database, const Cascade& cascade, int repetitions,
                          const std::function<void()>& before) {

@@ -83,7 +83,7 @@ DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes, 
   return DatabaseLayout(std::move(header));
 }
 
-/// Where the parts of a file lie.
+/// Draws entries and writes what is held of them into the sections of a file.
 class Filler {
  public:
   Filler(const BuildInputs& inputs, const DatabaseLayout& layout, std::span<uint8_t> file)

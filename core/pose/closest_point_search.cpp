@@ -458,14 +458,10 @@ HWY_INLINE uint32_t not_behind(const PointMemory& memory, const Eigen::Vector3f&
   return faces;
 }
 
-/// Whether the nearest face of a point is one of those it has listed; and the listed faces, a bit each, that may be
-/// it. No branch: what follows from one point would wait for its square roots.
-struct Listed {
-  bool all;
-  uint32_t faces;
-};
-HWY_INLINE Listed listed(const Eigen::Vector3f& p_hand, const FacePackets& color, const PointMemory& memory,
-                         const ClosestPoint& last) {
+/// The listed faces of a point, a bit each, that may be its nearest; 0 if a face that is not listed may be it. No
+/// branch: what follows from one point would wait for its square roots.
+HWY_INLINE uint32_t nearest_among_listed(const Eigen::Vector3f& p_hand, const FacePackets& color,
+                                         const PointMemory& memory, const ClosestPoint& last) {
   // Where the closest point was there still is the face: that was in doubt then, and may be now.
   const int place = std::max(0, memory.nearest), face = place % FacePackets::kFaces;
   const FacePackets::Packet& packet = color.packets[place / FacePackets::kFaces];
@@ -473,10 +469,8 @@ HWY_INLINE Listed listed(const Eigen::Vector3f& p_hand, const FacePackets& color
   const float limit =
       apart * (1 + kShare) + 2 * doubt(farther, packet.length[face], packet.blur[face], color.slack);
   const float moved = (p_hand - memory.p_hand).norm() * (1 + kShare);
-  const uint32_t faces = not_behind(memory, p_hand, limit);
-  const bool all = (memory.nearest >= 0) & (limit < memory.others_beyond - moved) & (limit <= memory.reach);
-  const bool any = faces != 0;
-  return {all && any, faces};
+  const int all = (memory.nearest >= 0) & (limit < memory.others_beyond - moved) & (limit <= memory.reach);
+  return all * not_behind(memory, p_hand, limit);
 }
 
 void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points, std::span<PointMemory> memories,
@@ -484,7 +478,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
   int last_packets[kColorCount + 1] = {};  // the point before is a neighbor
   Contenders contenders(memories, results);
   constexpr size_t kBlock = 64;
-  Listed lists[kBlock];
+  uint32_t listed[kBlock];
   for (size_t begin = 0; begin < points.size(); begin += kBlock) {
     const size_t count = std::min(kBlock, points.size() - begin);
     for (size_t i = 0; i < count; ++i) {
@@ -493,7 +487,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
       if (color.packets.empty()) continue;
       PointMemory& memory = memories[begin + i];
       if (memory.label != point.label) memory = {.label = point.label};
-      lists[i] = listed(point.p, color, memory, results[begin + i]);
+      listed[i] = nearest_among_listed(point.p, color, memory, results[begin + i]);
     }
     for (size_t i = 0; i < count; ++i) {
       const LabeledPoint& point = points[begin + i];
@@ -501,9 +495,9 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
       PointMemory& memory = memories[begin + i];
       if (color.packets.empty()) {
         results[begin + i] = {};
-      } else if (lists[i].all) {
+      } else if (listed[i] != 0) {
         contenders.make_room();
-        for (uint32_t bits = lists[i].faces; bits != 0; bits &= bits - 1)
+        for (uint32_t bits = listed[i]; bits != 0; bits &= bits - 1)
           contenders.add(static_cast<int>(begin + i), point.p, color, memory.place[std::countr_zero(bits)]);
       } else {
         const int start = memory.nearest >= 0 ? memory.nearest / FacePackets::kFaces : last_packets[point.label];
