@@ -47,11 +47,8 @@ Json row_json(const ComparisonRow& row) {
 }
 
 Json speed_row_json(const SpeedRow& row) {
-  return {{"name", row.name},
-          {"baseline", rounded(row.baseline)},
-          {"candidate", rounded(row.candidate)},
-          {"limit", rounded(row.limit)},
-          {"slower", row.slower}};
+  return {{"name", row.name},          {"baseline", rounded(row.baseline)}, {"candidate", rounded(row.candidate)},
+          {"best", rounded(row.best)}, {"limit", rounded(row.limit)},       {"slower", row.slower}};
 }
 
 Json stage_time_json(const StageTimeChange& stage) {

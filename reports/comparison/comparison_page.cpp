@@ -63,11 +63,13 @@ std::string speed_section(const std::vector<SpeedRow>& speed) {
   if (speed.empty()) return "";
   std::string html =
       "<h2>Speed</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th class=\"name\">times faster than plain</th>"
-      "<th class=\"name\">verdict</th><th>baseline</th><th>candidate</th><th>limit</th></tr></thead>\n<tbody>\n";
+      "<th class=\"name\">verdict</th><th>baseline</th><th>candidate</th><th>at "
+      "best</th><th>limit</th></tr></thead>\n<tbody>\n";
   for (const SpeedRow& row : speed)
-    html += fmt::format("<tr><td class=\"name\">{}</td>{}<td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
-                        escape_html(row.name), verdict_cell(row.slower ? "worse" : "same", speed_verdict(row)),
-                        row.baseline, row.candidate, row.limit);
+    html += fmt::format(
+        "<tr><td class=\"name\">{}</td>{}<td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
+        escape_html(row.name), verdict_cell(row.slower ? "worse" : "same", speed_verdict(row)), row.baseline,
+        row.candidate, row.best, row.limit);
   return html + "</tbody></table></div>\n";
 }
 

@@ -167,7 +167,7 @@ std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,
     if (after == candidate.end())
       throw Incomparable(candidate_name, before.name, "nothing", "this ratio, which the baseline has");
     const double limit = kSpeedShare * before.ratio;
-    rows.push_back({before.name, before.ratio, after->ratio, limit, after->ratio < limit});
+    rows.push_back({before.name, before.ratio, after->ratio, after->high, limit, after->high < limit});
   }
   return rows;
 }

@@ -29,11 +29,12 @@ struct SpeedRow {
   std::string name;
   double baseline = 0;
   double candidate = 0;
-  double limit = 0;  ///< below it the fast implementation has become slower: kSpeedShare of the baseline's
+  double best = 0;   ///< the candidate's, of its best pair of repetitions
+  double limit = 0;  ///< kSpeedShare of the baseline's: the fast implementation is slower if all pairs are below it
   bool slower = false;
 };
-/// Another processor or a busy one moves a ratio by a third; a fast path that stopped being one is far below a
-/// half.
+/// Another processor moves a ratio by a third, and other work on this one some repetitions by more; a fast path
+/// that stopped being one is far below a half in each.
 inline constexpr double kSpeedShare = 0.5;
 /// In the baseline's order; ratios that only the candidate has are new and not compared. Throws Incomparable if the
 /// candidate lacks a ratio of the baseline's.
