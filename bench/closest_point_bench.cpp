@@ -12,7 +12,7 @@ namespace {
 /// One frame's points in the hand frame as an alignment sees them: at the coarse pose, then nearer the final one.
 struct PointSequence {
   Surface surface;
-  std::vector<std::vector<LabeledPoint>> points_hand;
+  std::vector<RecycledVector<LabeledPoint>> points_hand;
 };
 
 constexpr int kIterations = 10;
@@ -22,13 +22,13 @@ PointSequence make_sequence(const BenchFrame& frame, int max_points) {
   const Eigen::Isometry3d& fine = frame.result.T_camera_hand_unfiltered;
   const Eigen::Quaterniond q_coarse(coarse.linear()), q_fine(fine.linear());
   PointSequence sequence{Surface(*data().model, frame.posed, coarse.inverse().translation().cast<float>()), {}};
-  const std::vector<LabeledPoint> cloud = subsample(frame.trace.cloud.points, max_points);
+  const RecycledVector<LabeledPoint> cloud = subsample(frame.trace.cloud.points, max_points);
   for (int i = 0; i < kIterations; ++i) {
     const double share = 1 - std::pow(0.5, i);  // an alignment's steps shrink
     Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
     T_camera_hand.linear() = q_coarse.slerp(share, q_fine).toRotationMatrix();
     T_camera_hand.translation() = (1 - share) * coarse.translation() + share * fine.translation();
-    std::vector<LabeledPoint> points = cloud;
+    RecycledVector<LabeledPoint> points = cloud;
     for (LabeledPoint& point : points) point.p = (T_camera_hand.inverse() * point.p.cast<double>()).cast<float>();
     sequence.points_hand.push_back(std::move(points));
   }
@@ -44,7 +44,7 @@ std::vector<PointSequence> make_sequences(int max_points) {
 }
 
 // One entry an engine: it takes a sequence and returns what it found at each pose, to be compared.
-using Found = std::vector<std::vector<ClosestPoint>>;
+using Found = std::vector<RecycledVector<ClosestPoint>>;
 
 Found find_plain(const PointSequence& sequence) {
   Found found;

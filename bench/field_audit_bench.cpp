@@ -41,8 +41,8 @@ std::vector<float> euclidean_distances(int entry, const std::vector<LabelImage>&
   return distances;
 }
 
-std::vector<Match> nearest(const std::vector<float>& distances) {
-  std::vector<Match> matches;
+RecycledVector<Match> nearest(const std::vector<float>& distances) {
+  RecycledVector<Match> matches;
   for (size_t entry = 0; entry < distances.size(); ++entry)
     matches.push_back({static_cast<int>(entry), distances[entry]});
   std::ranges::partial_sort(matches, matches.begin() + kKept, [](const Match& a, const Match& b) {
@@ -53,7 +53,7 @@ std::vector<Match> nearest(const std::vector<float>& distances) {
 }
 
 /// Mean over the angles of the squared error of the posture that the matches make, rad^2.
-double squared_posture_error(const std::vector<Match>& matches, const BenchFrame& frame) {
+double squared_posture_error(const RecycledVector<Match>& matches, const BenchFrame& frame) {
   const CoarseEstimate estimate =
       interpolate(*data().database, matches, square_ray(frame.square, data().calibration.ir),
                   data().config.lookup.interpolation_epsilon);
@@ -75,8 +75,8 @@ void field_audit(benchmark::State& state) {
   }
   double same_first = 0, same_three = 0, rank = 0, stored_error = 0, euclidean_error = 0;
   for (size_t q = 0; q < frames.size(); ++q) {
-    const std::vector<Match> stored = look_up(*data().database, {{queries[q]}}, exact);
-    const std::vector<Match> euclidean = nearest(distances[q]);
+    const RecycledVector<Match> stored = look_up(*data().database, {{queries[q]}}, exact);
+    const RecycledVector<Match> euclidean = nearest(distances[q]);
     const auto entry = [](const Match& match) { return match.entry; };
     same_first += stored.front().entry == euclidean.front().entry;
     same_three += std::ranges::is_permutation(stored, euclidean, {}, entry, entry);

@@ -14,7 +14,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-bool equal(const std::vector<Match>& a, const std::vector<Match>& b) {
+bool equal(const RecycledVector<Match>& a, const RecycledVector<Match>& b) {
   return std::ranges::equal(
       a, b, [](const Match& x, const Match& y) { return x.entry == y.entry && x.error == y.error; });
 }
@@ -55,7 +55,7 @@ void run_look_up(benchmark::State& state, const char* text, Implementation imple
   const Cascade cascade = parse_cascade(text);
   const std::vector<TinyImages> queries = queries_of(cascade);
   for (const TinyImages& query : queries) {
-    const std::vector<Match> matches = look_up(database, query, cascade, implementation);
+    const RecycledVector<Match> matches = look_up(database, query, cascade, implementation);
     if (!equal(matches, look_up(database, query, cascade, Implementation::plain)))
       return state.SkipWithError("the matches are not the plain ones");
     for (const Match& match : matches)
@@ -83,12 +83,12 @@ void run_look_up(benchmark::State& state, const char* text, Implementation imple
 /// One query after the other, or all at once.
 enum class Batch { single, all };
 
-using AllMatches = std::vector<std::vector<Match>>;
+using AllMatches = std::vector<RecycledVector<Match>>;
 
 /// A peer looks up all queries: nothing, or what is wrong with what it finds.
 const char* find_mistake(const AllMatches& found, const std::vector<LabelImage>& queries, const Cascade& cascade) {
   for (size_t i = 0; i < queries.size(); ++i) {
-    const std::vector<Match> expected = look_up(*data().database, {{queries[i]}}, cascade);
+    const RecycledVector<Match> expected = look_up(*data().database, {{queries[i]}}, cascade);
     // Of equally near entries it may take others.
     if (!std::ranges::equal(found[i], expected, {}, &Match::error, &Match::error))
       return "the matches are not the nearest";

@@ -94,7 +94,7 @@ void components(benchmark::State& state) {
       [](const BenchFrame& frame) {
         return component_sizes(frame.trace.cloud, data().config.detection.component_depth_step);
       },
-      [](const BenchFrame&, const std::vector<int>& answer) { return !answer.empty(); });
+      [](const BenchFrame&, const RecycledVector<int>& answer) { return !answer.empty(); });
 }
 BENCHMARK(components)->Name("component_sizes")->Unit(benchmark::kMillisecond);
 

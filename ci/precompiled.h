@@ -1,5 +1,8 @@
-// What nearly every translation unit includes anyway; compiled once a target.
+// What nearly every translation unit includes, or takes long to read; compiled once for all modules.
 #pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -9,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>

@@ -22,7 +22,7 @@ HandMesh make_hand_mesh(const HandModel& model) {
   return mesh;
 }
 
-std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, const std::vector<Eigen::Vector3f>& values) {
+std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, std::span<const Eigen::Vector3f> values) {
   std::vector<Eigen::Vector3f> result(mesh.source.size());
   for (size_t i = 0; i < result.size(); ++i) result[i] = values[mesh.source[i]];
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/hand/hand_model.h"
@@ -18,7 +19,7 @@ struct HandMesh {
 HandMesh make_hand_mesh(const HandModel& model);
 
 /// One value per vertex of the mesh, from one per vertex of the model.
-std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, const std::vector<Eigen::Vector3f>& values);
+std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, std::span<const Eigen::Vector3f> values);
 
 /// Unit normals of the posed model's vertices in the hand frame, area-weighted, pointing outwards.
 std::vector<Eigen::Vector3f> vertex_normals(const HandModel& model, const PosedHand& hand);

@@ -44,7 +44,7 @@ class RegionFinder {
  public:
   explicit RegionFinder(const PinholeCamera& camera) : camera_(camera) {}
 
-  void add(const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_view_object) {
+  void add(std::span<const Eigen::Vector3f> points, const Eigen::Isometry3d& T_view_object) {
     for (const Eigen::Vector3f& point : points) {
       const Eigen::Vector3d p_view = T_view_object * point.cast<double>();
       // Behind or almost at the camera a point says nothing about where its triangles are seen.
@@ -253,7 +253,7 @@ struct RgbdRenderer::State {
   Scene scene;
   SurfaceMesh forearm_mesh;
   HandMesh mesh;
-  std::vector<Eigen::Vector3f> hand_points;
+  RecycledVector<Eigen::Vector3f> hand_points;
   Eigen::Isometry3d T_ir_hand = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_ir_forearm = Eigen::Isometry3d::Identity();
   DepthImage empty_depth;  ///< of the scene without a hand

@@ -117,7 +117,7 @@ TEST_P(GroundTruth, stays_inside_both_images) {
 /// The share of the hand's vertices that both cameras see.
 double visible_share(const TrajectoryFrame& frame) {
   const RgbdCalibration calibration = synthetic_calibration();
-  const std::vector<Eigen::Vector3f> vertices = right_hand().pose(frame.posture).vertices;
+  const RecycledVector<Eigen::Vector3f> vertices = right_hand().pose(frame.posture).vertices;
   const auto is_inside = [](const Eigen::Vector2d& uv_px) {
     return uv_px.minCoeff() >= 0 && uv_px.x() <= 639 && uv_px.y() <= 479;
   };

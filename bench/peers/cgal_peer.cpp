@@ -22,7 +22,7 @@ Eigen::Vector3f from_cgal(const Kernel::Point_3& p) {
 }
 
 struct ColorTree {
-  explicit ColorTree(const std::vector<Surface::Face>& faces) {
+  explicit ColorTree(const RecycledVector<Surface::Face>& faces) {
     for (const Surface::Face& face : faces)
       triangles.emplace_back(to_cgal(face.a), to_cgal(face.b), to_cgal(face.c));
     tree.insert(triangles.begin(), triangles.end());
@@ -40,7 +40,7 @@ class CgalSearch : public ClosestPointPeer {
       colors_.push_back(std::make_unique<ColorTree>(surface.faces(label)));
   }
 
-  const std::vector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) override {
+  const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) override {
     closest_.resize(points_hand.size());
     WarmStart warm_start;
     for (size_t i = 0; i < points_hand.size(); ++i) {
@@ -65,7 +65,7 @@ class CgalSearch : public ClosestPointPeer {
 
   const Surface& surface_;
   std::vector<std::unique_ptr<ColorTree>> colors_;  ///< one a label
-  std::vector<ClosestPoint> closest_;
+  RecycledVector<ClosestPoint> closest_;
 };
 
 std::unique_ptr<ClosestPointPeer> make(const Surface& surface) {

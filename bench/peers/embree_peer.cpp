@@ -17,7 +17,7 @@ RTCDevice device() {
 
 /// The nearest face so far of one point query.
 struct Nearest {
-  const std::vector<Surface::Face>& faces;
+  const RecycledVector<Surface::Face>& faces;
   ClosestPoint closest;
 };
 
@@ -53,12 +53,12 @@ class EmbreeSearch : public ClosestPointPeer {
   EmbreeSearch(const EmbreeSearch&) = delete;
   EmbreeSearch& operator=(const EmbreeSearch&) = delete;
 
-  const std::vector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) override {
+  const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) override {
     closest_.resize(points_hand.size());
     WarmStart warm_start;
     for (size_t i = 0; i < points_hand.size(); ++i) {
       const LabeledPoint& point = points_hand[i];
-      const std::vector<Surface::Face>& faces = surface_.faces(point.label);
+      const RecycledVector<Surface::Face>& faces = surface_.faces(point.label);
       closest_[i] = faces.empty() ? ClosestPoint{} : find(point, faces, warm_start(point, closest_[i], surface_));
       warm_start.found(point, closest_[i]);
     }
@@ -66,7 +66,7 @@ class EmbreeSearch : public ClosestPointPeer {
   }
 
  private:
-  void add_scene(const std::vector<Surface::Face>& faces) {
+  void add_scene(const RecycledVector<Surface::Face>& faces) {
     const RTCScene scene = scenes_.emplace_back(rtcNewScene(device()));
     if (!faces.empty()) {
       const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER);
@@ -81,7 +81,7 @@ class EmbreeSearch : public ClosestPointPeer {
     rtcCommitScene(scene);
   }
 
-  ClosestPoint find(const LabeledPoint& point, const std::vector<Surface::Face>& faces,
+  ClosestPoint find(const LabeledPoint& point, const RecycledVector<Surface::Face>& faces,
                     const ClosestPoint& start) const {
     Nearest nearest{faces, start};
     const float radius = start.face < 0 ? std::numeric_limits<float>::infinity() : start.distance;
@@ -94,7 +94,7 @@ class EmbreeSearch : public ClosestPointPeer {
 
   const Surface& surface_;
   std::vector<RTCScene> scenes_;  ///< one a label
-  std::vector<ClosestPoint> closest_;
+  RecycledVector<ClosestPoint> closest_;
 };
 
 std::unique_ptr<ClosestPointPeer> make(const Surface& surface) {

@@ -26,7 +26,7 @@ class FaissLookUp : public LookUpPeer {
     }
   }
 
-  std::vector<std::vector<Match>> operator()(std::span<const LabelImage> queries, int keep) override {
+  std::vector<RecycledVector<Match>> operator()(std::span<const LabelImage> queries, int keep) override {
     vectors_.assign(queries.size() * index_.d, 0.0f);
     for (size_t q = 0; q < queries.size(); ++q) {
       const LabelImage& query = queries[q];
@@ -36,7 +36,7 @@ class FaissLookUp : public LookUpPeer {
     products_.resize(queries.size() * keep);
     entries_.resize(queries.size() * keep);
     index_.search(static_cast<int64_t>(queries.size()), vectors_.data(), keep, products_.data(), entries_.data());
-    std::vector<std::vector<Match>> matches(queries.size());
+    std::vector<RecycledVector<Match>> matches(queries.size());
     for (size_t q = 0; q < queries.size(); ++q) {
       const size_t glove_pixels = queries[q].size() - std::ranges::count(queries[q], uint8_t{0});
       for (size_t i = q * keep; i < (q + 1) * keep; ++i) {

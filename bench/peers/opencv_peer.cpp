@@ -13,19 +13,19 @@ class OpenCvLookUp : public LookUpPeer {
  public:
   OpenCvLookUp(const Database& database, int size) : database_(database), size_(size) { cv::setNumThreads(1); }
 
-  std::vector<std::vector<Match>> operator()(std::span<const LabelImage> queries, int keep) override {
-    std::vector<std::vector<Match>> matches;
+  std::vector<RecycledVector<Match>> operator()(std::span<const LabelImage> queries, int keep) override {
+    std::vector<RecycledVector<Match>> matches;
     for (const LabelImage& query : queries) matches.push_back(look_up(query, keep));
     return matches;
   }
 
  private:
-  std::vector<Match> look_up(const LabelImage& query, int keep) {
+  RecycledVector<Match> look_up(const LabelImage& query, int keep) {
     const int pixels = static_cast<int>(query.size());
     cv::Mat vector = cv::Mat::zeros(1, kColorCount * pixels, CV_8U);
     for (int i = 0; i < pixels; ++i)
       if (query[i] != 0) vector.data[(query[i] - 1) * pixels + i] = 1;
-    std::vector<Candidate> candidates(database_.entry_count());
+    RecycledVector<Candidate> candidates(database_.entry_count());
     for (int entry = 0; entry < database_.entry_count(); ++entry) {
       // OpenCV has no Mat of constant bytes; it only reads these.
       const cv::Mat fields(1, vector.cols, CV_8U, const_cast<uint8_t*>(database_.fields(size_, entry)));

@@ -21,7 +21,7 @@ class LookUpPeer {
   virtual ~LookUpPeer() = default;
   /// The `keep` nearest entries of each query (tiny images of that size, none without glove pixels), best first;
   /// of equally near ones any.
-  virtual std::vector<std::vector<Match>> operator()(std::span<const LabelImage> queries, int keep) = 0;
+  virtual std::vector<RecycledVector<Match>> operator()(std::span<const LabelImage> queries, int keep) = 0;
 };
 /// The database outlives the peer.
 using MakeLookUpPeer = std::unique_ptr<LookUpPeer> (*)(const Database& database, int size);
@@ -34,7 +34,7 @@ class ClosestPointPeer {
   /// As `closest_points_plain`, but of equally close faces any. The points are the same ones in each call, moved a
   /// little: a point starts at its last face; at first, at that of the point of its color before it. Valid until
   /// the next call.
-  virtual const std::vector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) = 0;
+  virtual const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) = 0;
 };
 /// The surface outlives the peer.
 using MakeClosestPointPeer = std::unique_ptr<ClosestPointPeer> (*)(const Surface& surface);

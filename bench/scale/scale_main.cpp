@@ -101,7 +101,7 @@ ordered_json look_up_all(const Database& database, const Cascade& cascade, int r
       const PageFaults faults = page_faults();
       const auto start = std::chrono::steady_clock::now();
       const double processor_start = processor_ms();
-      const std::vector<Match> matches = look_up(database, query, cascade);
+      const RecycledVector<Match> matches = look_up(database, query, cascade);
       processor.push_back(processor_ms() - processor_start);
       ms.push_back(1000 * seconds_since(start));
       if (matches.empty()) throw Error("look-up", "matches", "none", "the nearest entries");

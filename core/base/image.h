@@ -3,7 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "core/base/recycled_vector.h"
 
 namespace glovebench {
 
@@ -37,7 +38,7 @@ class Image {
  private:
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> pixels_;
+  RecycledVector<T> pixels_;
 };
 
 /// Red, green, blue, each 0..255.

@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "core/base/check.h"
+#include "core/base/recycled_vector.h"
 
 namespace glovebench {
 namespace {
@@ -27,14 +27,14 @@ struct Span {
 
 /// Where a depth image has values: its columns in each row, and the depths.
 struct Extent {
-  std::vector<Span> rows;
+  RecycledVector<Span> rows;
   int left, right, top, bottom;
   float least, largest;
 };
 
 /// Ranges are empty where there are no values.
 Extent extent_of(const DepthImage& depth) {
-  Extent extent{std::vector<Span>(depth.height()), depth.width(), 0, depth.height(), 0, kInfinity, 0};
+  Extent extent{RecycledVector<Span>(depth.height()), depth.width(), 0, depth.height(), 0, kInfinity, 0};
   // Of positive numbers the order is that of their bits, which compilers know to compare side by side.
   int32_t largest = 0;
   uint32_t least = std::bit_cast<uint32_t>(kInfinity);
@@ -66,7 +66,7 @@ Extent extent_of(const DepthImage& depth) {
 
 /// The pixels of one depth row in the RGB camera; z is 0 or negative where there is nothing to see.
 struct ProjectedRow {
-  std::vector<float> u_px, v_px, z;
+  RecycledVector<float> u_px, v_px, z;
 };
 
 /// Projects depth rows into the RGB camera: the homogeneous pixel is z * M * (u, v, 1) + b with
@@ -78,7 +78,7 @@ class RowProjector {
     M_ = (K_rgb * calibration.T_rgb_ir.linear() * intrinsic_matrix(calibration.ir).inverse()).cast<float>();
     b_ = (K_rgb * calibration.T_rgb_ir.translation()).cast<float>();
     const size_t width = calibration.ir.width;
-    row_ = {std::vector<float>(width), std::vector<float>(width), std::vector<float>(width)};
+    row_ = {RecycledVector<float>(width), RecycledVector<float>(width), RecycledVector<float>(width)};
   }
 
   const ProjectedRow& project(const DepthImage& depth, int v, const Span& span) {
@@ -134,16 +134,34 @@ int splat_radius(const RgbdCalibration& calibration) {
   return std::max(1, static_cast<int>(std::ceil(0.75 * magnification)));
 }
 
+/// Each pixel takes the least of itself, the one to its right and the two below: done n times, of n + 1 by n + 1.
+void take_nearer_neighbors(DepthImage& image) {
+  const int width = image.width(), height = image.height();
+  for (int v = 0; v < height; ++v) {
+    float* const row = &image(0, v);
+    for (int u = 0; u + 1 < width; ++u) row[u] = std::min(row[u], row[u + 1]);
+    if (v == 0) continue;
+    float* const above = row - width;
+    for (int u = 0; u < width; ++u) above[u] = std::min(above[u], row[u]);
+  }
+}
+
+/// Half-open ranges of cells.
+struct Cells {
+  int left, top, right, bottom;
+};
+
 /// The nearest surface that the RGB camera sees at its pixels, from the depth samples within the splat radius;
 /// infinite where there is none.
 class NearestSurface {
  public:
   NearestSurface(const DepthImage& depth, const Extent& extent, const RgbdCalibration& calibration,
                  RowProjector& projector)
-      : radius_(splat_radius(calibration)), cells_of_(cells_of(extent, calibration, projector)) {
+      : radius_(splat_radius(calibration)),
+        cells_of_(cells_of(extent, calibration, projector)),
+        nearest_(cells_of_.right - cells_of_.left, cells_of_.bottom - cells_of_.top, kInfinity) {
     // Cell (i, j) collects the samples with floor(u) = i - radius, floor(v) = j - radius, so that the minimum over
     // the cells i .. i + 2 radius - 1 is the one over u in [i - radius, i + radius).
-    cv::Mat cells(cells_of_.size(), CV_32F, cv::Scalar(kInfinity));
     const float width = static_cast<float>(calibration.rgb.width + 2 * radius_ - 1),
                 height = static_cast<float>(calibration.rgb.height + 2 * radius_ - 1),
                 offset = static_cast<float>(radius_);
@@ -152,33 +170,33 @@ class NearestSurface {
       for (int u = extent.rows[v].left; u < extent.rows[v].right; ++u) {
         const float i = row.u_px[u] + offset, j = row.v_px[u] + offset;
         if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
-        float& cell = cells.at<float>(static_cast<int>(j) - cells_of_.y, static_cast<int>(i) - cells_of_.x);
+        float& cell = nearest_(static_cast<int>(i) - cells_of_.left, static_cast<int>(j) - cells_of_.top);
         cell = std::min(cell, row.z[u]);
       }
     }
-    cv::erode(cells, nearest_, cv::Mat::ones(2 * radius_, 2 * radius_, CV_8U), cv::Point(0, 0));
+    for (int step = 1; step < 2 * radius_; ++step) take_nearer_neighbors(nearest_);
   }
 
   /// Of a pixel on which a sample lies.
-  float operator()(int u, int v) const { return nearest_.at<float>(v - cells_of_.y, u - cells_of_.x); }
+  float operator()(int u, int v) const { return nearest_(u - cells_of_.left, v - cells_of_.top); }
 
  private:
   /// The cells that a sample or a pixel on which one lies can have.
-  cv::Rect cells_of(const Extent& extent, const RgbdCalibration& calibration, const RowProjector& projector) const {
-    const cv::Rect all(0, 0, calibration.rgb.width + 2 * radius_ - 1, calibration.rgb.height + 2 * radius_ - 1);
+  Cells cells_of(const Extent& extent, const RgbdCalibration& calibration, const RowProjector& projector) const {
+    const Eigen::Array2i all(calibration.rgb.width + 2 * radius_ - 1, calibration.rgb.height + 2 * radius_ - 1);
     const auto bounds = projector.bounds(extent);
-    if (!bounds) return all;
+    if (!bounds) return {0, 0, all.x(), all.y()};
     // A pixel more on each side for rounding; clamped while these are numbers of any size.
-    const Eigen::Array2f limit(static_cast<float>(all.width), static_cast<float>(all.height));
+    const Eigen::Array2f limit = all.cast<float>();
     const Eigen::Array2i low = (bounds->min().array() - 2).max(0).min(limit - 1).cast<int>();
     const Eigen::Array2i high =
         (bounds->max().array() + static_cast<float>(2 * radius_ + 2)).max(1).min(limit).cast<int>();
-    return all & cv::Rect(cv::Point(low.x(), low.y()), cv::Point(high.x(), high.y()));
+    return {low.x(), low.y(), high.x(), high.y()};
   }
 
   int radius_;
-  cv::Rect cells_of_;
-  cv::Mat nearest_;
+  Cells cells_of_;
+  DepthImage nearest_;
 };
 
 }  // namespace

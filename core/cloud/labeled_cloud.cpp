@@ -31,15 +31,15 @@ class DisjointSets {
   }
 
  private:
-  std::vector<int> parents_;
+  RecycledVector<int> parents_;
 };
 
 /// For each point the index of the first point (in row-major order) of its component.
-std::vector<int> component_roots(const LabeledCloud& cloud, double depth_step) {
+RecycledVector<int> component_roots(const LabeledCloud& cloud, double depth_step) {
   const int width = cloud.labels.width();
   DisjointSets sets(cloud.points.size());
   // Point indices of the row above and of this one, -1 where there is none, with a margin at both ends.
-  std::vector<int> above(width + 2, -1), current(width + 2, -1);
+  RecycledVector<int> above(width + 2, -1), current(width + 2, -1);
   int next = 0;
   for (int v = 0; v < cloud.labels.height(); ++v) {
     std::swap(above, current);
@@ -53,14 +53,14 @@ std::vector<int> component_roots(const LabeledCloud& cloud, double depth_step) {
     });
   }
   check(next == static_cast<int>(cloud.points.size()), "a cloud has one point for each labeled pixel");
-  std::vector<int> roots(cloud.points.size());
+  RecycledVector<int> roots(cloud.points.size());
   for (int i = 0; i < next; ++i) roots[i] = sets.root(i);
   return roots;
 }
 
 /// Number of points of each component, at the index of its root; 0 elsewhere.
-std::vector<int> sizes_by_root(const std::vector<int>& roots) {
-  std::vector<int> sizes(roots.size(), 0);
+RecycledVector<int> sizes_by_root(const RecycledVector<int>& roots) {
+  RecycledVector<int> sizes(roots.size(), 0);
   for (int root : roots) ++sizes[root];
   return sizes;
 }
@@ -89,16 +89,16 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
   return cloud;
 }
 
-std::vector<int> component_sizes(const LabeledCloud& cloud, double depth_step) {
-  std::vector<int> sizes = sizes_by_root(component_roots(cloud, depth_step));
+RecycledVector<int> component_sizes(const LabeledCloud& cloud, double depth_step) {
+  RecycledVector<int> sizes = sizes_by_root(component_roots(cloud, depth_step));
   std::erase(sizes, 0);
   std::sort(sizes.begin(), sizes.end(), std::greater<>());
   return sizes;
 }
 
 LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step) {
-  const std::vector<int> roots = component_roots(cloud, depth_step);
-  const std::vector<int> sizes = sizes_by_root(roots);
+  const RecycledVector<int> roots = component_roots(cloud, depth_step);
+  const RecycledVector<int> sizes = sizes_by_root(roots);
   const int largest = static_cast<int>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
 
   LabeledCloud kept;

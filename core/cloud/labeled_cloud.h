@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "core/base/image.h"
 #include "core/camera/pinhole_camera.h"
@@ -25,7 +24,7 @@ struct LabeledPoint {
 /// The color-labeled point cloud C of equation (1), in row-major order of its pixels, with what is needed to
 /// say why it is small.
 struct LabeledCloud {
-  std::vector<LabeledPoint> points;
+  RecycledVector<LabeledPoint> points;
   LabelImage labels;        ///< L masked by C: labels of the points in the cloud, 0 elsewhere
   int labeled_outside = 0;  ///< glove pixels with depth outside the working volume
   int labeled_cut_off = 0;  ///< those of them within kCutOffMargin of it
@@ -37,7 +36,7 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
 
 /// Connected components (8-neighborhood; neighbors also lie within `depth_step` metres of each other) of the
 /// glove pixels, largest first, as pixel counts.
-std::vector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
+RecycledVector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
 /// Keeps the largest connected component only (a configuration, not in the paper).
 LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step);
 

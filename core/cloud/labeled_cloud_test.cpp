@@ -85,8 +85,8 @@ TEST(Components, OfAnEmptyCloudAreNone) {
 }
 
 /// Sizes by flood fill, the plain way.
-std::vector<int> flood_fill_sizes(LabelImage labels, const DepthImage& depth, double depth_step) {
-  std::vector<int> sizes;
+RecycledVector<int> flood_fill_sizes(LabelImage labels, const DepthImage& depth, double depth_step) {
+  RecycledVector<int> sizes;
   for (int v = 0; v < labels.height(); ++v)
     for (int u = 0; u < labels.width(); ++u) {
       if (labels(u, v) == 0) continue;

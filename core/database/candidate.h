@@ -20,14 +20,14 @@ inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
 }
 
 /// Appends what a stage kept to the trace, if there is one.
-inline void note_kept(const std::vector<Candidate>& candidates, LookUpTrace* trace) {
+inline void note_kept(const RecycledVector<Candidate>& candidates, LookUpTrace* trace) {
   if (trace == nullptr) return;
   std::vector<int>& kept = trace->kept.emplace_back();
   for (const Candidate& candidate : candidates) kept.push_back(candidate.entry);
 }
 
-inline std::vector<Match> matches_of(const std::vector<Candidate>& candidates, size_t glove_pixels) {
-  std::vector<Match> matches;
+inline RecycledVector<Match> matches_of(const RecycledVector<Candidate>& candidates, size_t glove_pixels) {
+  RecycledVector<Match> matches;
   for (const Candidate& candidate : candidates)
     matches.push_back({candidate.entry, pixels_from_sum(candidate.sum, glove_pixels)});
   return matches;

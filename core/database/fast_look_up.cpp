@@ -16,11 +16,11 @@ constexpr size_t kEntriesAnAddition = 64;
 constexpr uint32_t kNoLimit = std::numeric_limits<uint32_t>::max();
 
 /// What a query reads in the fields of an entry: its chunks, color by color.
-std::vector<FieldChunk> chunks_of(const LabelImage& query, const QueryLabels& labels) {
+RecycledVector<FieldChunk> chunks_of(const LabelImage& query, const QueryLabels& labels) {
   constexpr size_t kChunk = QueryLabels::kChunk;
   std::array<uint32_t, QueryLabels::kLargest / kChunk> colors{};  // in each chunk: a bit each
   for (size_t i = 0; i < query.size(); ++i) colors[i / kChunk] |= 1u << labels.labels[i];
-  std::vector<FieldChunk> chunks;
+  RecycledVector<FieldChunk> chunks;
   chunks.reserve(colors.size() * 4);
   for (uint8_t color = 1; color <= kColorCount; ++color) {
     for (size_t pixel = 0; pixel < query.size(); pixel += kChunk) {
@@ -49,14 +49,14 @@ class Nearest {
     std::ranges::push_heap(heap_);
   }
   /// Best first.
-  std::vector<Candidate> sorted() && {
+  RecycledVector<Candidate> sorted() && {
     std::ranges::sort_heap(heap_);
     return std::move(heap_);
   }
 
  private:
   size_t keep_;
-  std::vector<Candidate> heap_;  ///< the farthest first
+  RecycledVector<Candidate> heap_;  ///< the farthest first
 };
 
 /// Distances of single entries to one query.
@@ -92,34 +92,34 @@ class EntryDistances {
   const uint8_t* fields_ = nullptr;  ///< of all entries, where they are stored
   size_t entry_bytes_;
   QueryLabels labels_;
-  std::vector<FieldChunk> chunks_;
+  RecycledVector<FieldChunk> chunks_;
   std::optional<MadeDistances> made_;  ///< of a low-memory database
 };
 
 /// The sums of a query over the rows of all entries.
 struct RowSums {
-  std::vector<uint16_t> sums;    ///< of whole blocks: also of what lies behind the last entry
-  std::vector<uint16_t> minima;  ///< of each block
+  RecycledVector<uint16_t> sums;    ///< of whole blocks: also of what lies behind the last entry
+  RecycledVector<uint16_t> minima;  ///< of each block
 };
 
 RowSums sum_rows(const FieldRows& rows, const LabelImage& query) {
-  RowSums result{std::vector<uint16_t>(rows.block_count() * FieldRows::kBlock),
-                 std::vector<uint16_t>(rows.block_count())};
+  RowSums result{RecycledVector<uint16_t>(rows.block_count() * FieldRows::kBlock),
+                 RecycledVector<uint16_t>(rows.block_count())};
   add_rows(rows, rows.rows_of(query), result.sums, result.minima);
   return result;
 }
 
 /// The entries with the least sums, best first, by counting how often each sum occurs.
-std::vector<Candidate> least_sums(std::span<const uint16_t> sums, size_t keep) {
+RecycledVector<Candidate> least_sums(std::span<const uint16_t> sums, size_t keep) {
   const uint16_t largest = *std::ranges::max_element(sums);
-  std::vector<uint32_t> place(size_t{largest} + 2);  // first counts, then where the next entry of a sum goes
+  RecycledVector<uint32_t> place(size_t{largest} + 2);  // first counts, then where the next entry of a sum goes
   for (const uint16_t sum : sums) ++place[sum + 1];
   size_t limit = 0;  // sums from here on are not kept
   for (size_t kept = 0; limit <= largest && kept < keep; ++limit) {
     kept += place[limit + 1];
     place[limit + 1] += place[limit];
   }
-  std::vector<Candidate> candidates(place[limit]);
+  RecycledVector<Candidate> candidates(place[limit]);
   for (size_t entry = 0; entry < sums.size(); ++entry)
     if (sums[entry] < limit) candidates[place[sums[entry]]++] = {sums[entry], static_cast<int>(entry)};
   candidates.resize(std::min(keep, candidates.size()));
@@ -127,8 +127,8 @@ std::vector<Candidate> least_sums(std::span<const uint16_t> sums, size_t keep) {
 }
 
 /// For each of the `count` blocks with the least minima, its best entry.
-std::vector<Candidate> best_of_blocks(const RowSums& bounds, size_t count) {
-  std::vector<Candidate> blocks;
+RecycledVector<Candidate> best_of_blocks(const RowSums& bounds, size_t count) {
+  RecycledVector<Candidate> blocks;
   for (size_t b = 0; b < bounds.minima.size(); ++b)
     blocks.push_back({bounds.minima[b], static_cast<int>(b) * FieldRows::kBlock});
   std::ranges::partial_sort(blocks, blocks.begin() + static_cast<ptrdiff_t>(count));
@@ -141,17 +141,17 @@ std::vector<Candidate> best_of_blocks(const RowSums& bounds, size_t count) {
 }
 
 /// The nearest entries by the distances themselves, though only few are computed.
-std::vector<Candidate> nearest_by_bounds(const FieldRows& rows, const EntryDistances& distances,
-                                         const LabelImage& query, size_t keep, int entry_count) {
+RecycledVector<Candidate> nearest_by_bounds(const FieldRows& rows, const EntryDistances& distances,
+                                            const LabelImage& query, size_t keep, int entry_count) {
   const RowSums bounds = sum_rows(rows, query);
   Nearest nearest(keep);
   if (keep > bounds.minima.size() / 4) {  // too many for the blocks' minima to be a start
     distances.add(least_sums(std::span(bounds.sums).first(entry_count), entry_count), nearest);
     return std::move(nearest).sorted();
   }
-  const std::vector<Candidate> start = best_of_blocks(bounds, keep + 1);
+  const RecycledVector<Candidate> start = best_of_blocks(bounds, keep + 1);
   distances.add(start, nearest);
-  std::vector<Candidate> others;
+  RecycledVector<Candidate> others;
   for (size_t b = 0; b < bounds.minima.size(); ++b) {
     if (bounds.minima[b] > nearest.limit()) continue;
     const int first = static_cast<int>(b) * FieldRows::kBlock,
@@ -167,7 +167,7 @@ std::vector<Candidate> nearest_by_bounds(const FieldRows& rows, const EntryDista
   return std::move(nearest).sorted();
 }
 
-std::vector<Candidate> first_stage(const Database& database, const LabelImage& query, size_t keep) {
+RecycledVector<Candidate> first_stage(const Database& database, const LabelImage& query, size_t keep) {
   const FieldRows& rows = database.field_rows(query.width());
   if (!rows.exact()) {
     return nearest_by_bounds(rows, EntryDistances(database, query), query, keep, database.entry_count());
@@ -176,8 +176,8 @@ std::vector<Candidate> first_stage(const Database& database, const LabelImage& q
   return least_sums(std::span(sums.sums).first(database.entry_count()), keep);
 }
 
-std::vector<Candidate> later_stage(const Database& database, const LabelImage& query, size_t keep,
-                                   std::vector<Candidate> candidates) {
+RecycledVector<Candidate> later_stage(const Database& database, const LabelImage& query, size_t keep,
+                                      RecycledVector<Candidate> candidates) {
   const FieldRows& rows = database.field_rows(query.width());
   if (candidates.size() > database.entry_count() / kEntriesAnAddition) {
     const RowSums bounds = sum_rows(rows, query);
@@ -193,9 +193,9 @@ std::vector<Candidate> later_stage(const Database& database, const LabelImage& q
 
 }  // namespace
 
-std::vector<Match> look_up_fast(const Database& database, const TinyImages& query, const Cascade& cascade,
-                                LookUpTrace* trace) {
-  std::vector<Candidate> candidates;
+RecycledVector<Match> look_up_fast(const Database& database, const TinyImages& query, const Cascade& cascade,
+                                   LookUpTrace* trace) {
+  RecycledVector<Candidate> candidates;
   size_t glove_pixels = 0;
   for (size_t s = 0; s < cascade.size(); ++s) {
     const LabelImage& image = query.images[s];

@@ -13,7 +13,7 @@
 namespace glovebench {
 namespace {
 
-bool equal(const std::vector<Match>& a, const std::vector<Match>& b) {
+bool equal(const RecycledVector<Match>& a, const RecycledVector<Match>& b) {
   return std::ranges::equal(
       a, b, [](const Match& x, const Match& y) { return x.entry == y.entry && x.error == y.error; });
 }
@@ -21,10 +21,10 @@ bool equal(const std::vector<Match>& a, const std::vector<Match>& b) {
 /// The fast look-up's matches and trace are the plain one's, on each instruction set.
 void expect_equal_to_plain(const Database& database, const TinyImages& query, const Cascade& cascade) {
   LookUpTrace plain_trace{{{1}}};  // of another look-up
-  const std::vector<Match> plain = look_up(database, query, cascade, Implementation::plain, &plain_trace);
+  const RecycledVector<Match> plain = look_up(database, query, cascade, Implementation::plain, &plain_trace);
   on_each_instruction_set([&] {
     LookUpTrace fast_trace{{{2}}};
-    const std::vector<Match> fast = look_up(database, query, cascade, Implementation::fast, &fast_trace);
+    const RecycledVector<Match> fast = look_up(database, query, cascade, Implementation::fast, &fast_trace);
     EXPECT_TRUE(equal(plain, fast)) << to_string(cascade);
     EXPECT_EQ(plain_trace.kept, fast_trace.kept) << to_string(cascade);
   });
@@ -110,7 +110,7 @@ TEST(FastLookUpLong, finds_the_same_in_a_low_memory_database) {
       SCOPED_TRACE(number);
       const TinyImages query = hostile_queries(normal, cascade, number);
       LookUpTrace expected, found;
-      const std::vector<Match> matches = look_up(normal, query, cascade, Implementation::plain, &expected);
+      const RecycledVector<Match> matches = look_up(normal, query, cascade, Implementation::plain, &expected);
       on_each_instruction_set([&] {
         EXPECT_TRUE(equal(matches, look_up(low, query, cascade, Implementation::fast, &found))) << text;
         EXPECT_EQ(expected.kept, found.kept) << text;

@@ -66,8 +66,8 @@ uint32_t FieldRows::sum(int entry, std::span<const WeightedRow> rows) const {
   return sum;
 }
 
-std::vector<WeightedRow> FieldRows::rows_of(const LabelImage& query) const {
-  std::vector<uint16_t> counts(static_cast<size_t>(kColorCount) * cells_ * cells_);
+RecycledVector<WeightedRow> FieldRows::rows_of(const LabelImage& query) const {
+  RecycledVector<uint16_t> counts(static_cast<size_t>(kColorCount) * cells_ * cells_);
   for (int v = 0; v < query.height(); ++v) {
     const uint8_t* const labels = query.data() + static_cast<ptrdiff_t>(v) * query.width();
     uint16_t* const row_of_cells = counts.data() + static_cast<ptrdiff_t>(v / pool_) * cells_;
@@ -75,7 +75,7 @@ std::vector<WeightedRow> FieldRows::rows_of(const LabelImage& query) const {
       if (labels[u] != 0) ++row_of_cells[(labels[u] - 1) * cells_ * cells_ + cell_of_pixel_[u]];
     }
   }
-  std::vector<WeightedRow> rows;
+  RecycledVector<WeightedRow> rows;
   rows.reserve(counts.size() / 4);
   for (size_t row = 0; row < counts.size(); ++row)
     if (counts[row] != 0) rows.push_back({static_cast<uint32_t>(row), counts[row]});

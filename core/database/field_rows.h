@@ -46,7 +46,7 @@ class FieldRows {
   uint8_t largest_value() const { return largest_value_; }
 
   /// The rows that a query of this size adds up: how many of its pixels of a color lie in a cell.
-  std::vector<WeightedRow> rows_of(const LabelImage& query) const;
+  RecycledVector<WeightedRow> rows_of(const LabelImage& query) const;
   /// The weighted sum of these rows for one entry.
   uint32_t sum(int entry, std::span<const WeightedRow> rows) const;
 

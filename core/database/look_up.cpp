@@ -10,8 +10,8 @@ namespace glovebench {
 namespace {
 
 /// Where a query reads in the fields of an entry: one offset a glove pixel.
-std::vector<int> glove_offsets(const LabelImage& query) {
-  std::vector<int> offsets;
+RecycledVector<int> glove_offsets(const LabelImage& query) {
+  RecycledVector<int> offsets;
   const int pixels = static_cast<int>(query.size());
   for (int i = 0; i < pixels; ++i) {
     if (query[i] != 0) offsets.push_back((query[i] - 1) * pixels + i);
@@ -20,20 +20,20 @@ std::vector<int> glove_offsets(const LabelImage& query) {
 }
 
 /// Sum of the distances, in steps of 1/kFieldScale px; at most 4096 * 255.
-uint32_t sum_of(const uint8_t* fields, const std::vector<int>& offsets) {
+uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets) {
   uint32_t sum = 0;
   for (const int offset : offsets) sum += fields[offset];
   return sum;
 }
 
 /// Entry after entry.
-std::vector<Match> look_up_plain(const Database& database, const TinyImages& query, const Cascade& cascade,
-                                 LookUpTrace* trace) {
-  std::vector<Candidate> candidates(database.entry_count());
+RecycledVector<Match> look_up_plain(const Database& database, const TinyImages& query, const Cascade& cascade,
+                                    LookUpTrace* trace) {
+  RecycledVector<Candidate> candidates(database.entry_count());
   for (int entry = 0; entry < database.entry_count(); ++entry) candidates[entry] = {0, entry};
   size_t glove_pixels = 0;
   for (size_t s = 0; s < cascade.size(); ++s) {
-    const std::vector<int> offsets = glove_offsets(query.images[s]);
+    const RecycledVector<int> offsets = glove_offsets(query.images[s]);
     if (offsets.empty()) return {};
     EntryFields fields(database, query.images[s]);
     for (Candidate& candidate : candidates) candidate.sum = sum_of(fields.of(candidate.entry), offsets);
@@ -57,13 +57,13 @@ TinyImages make_tiny_images(const LabelImage& labels, const Square& square, cons
 }
 
 float distance(const Database& database, int entry, const LabelImage& query) {
-  const std::vector<int> offsets = glove_offsets(query);
+  const RecycledVector<int> offsets = glove_offsets(query);
   if (offsets.empty()) return 0;
   return pixels_from_sum(sum_of(EntryFields(database, query).of(entry), offsets), offsets.size());
 }
 
 std::vector<float> distances(const Database& database, const LabelImage& query) {
-  const std::vector<int> offsets = glove_offsets(query);
+  const RecycledVector<int> offsets = glove_offsets(query);
   std::vector<float> result(database.entry_count(), 0.0f);
   if (offsets.empty()) return result;
   EntryFields fields(database, query);
@@ -72,8 +72,8 @@ std::vector<float> distances(const Database& database, const LabelImage& query) 
   return result;
 }
 
-std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
-                           Implementation implementation, LookUpTrace* trace) {
+RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
+                              Implementation implementation, LookUpTrace* trace) {
   if (trace != nullptr) trace->kept.clear();
   return implementation == Implementation::plain ? look_up_plain(database, query, cascade, trace)
                                                  : look_up_fast(database, query, cascade, trace);

@@ -16,7 +16,7 @@ struct Match {
 
 /// The query as a tiny image of each size that a cascade asks for.
 struct TinyImages {
-  std::vector<LabelImage> images;  ///< one a stage
+  RecycledVector<LabelImage> images;  ///< one a stage
 };
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade);
 
@@ -37,7 +37,7 @@ struct LookUpTrace {
 /// entry number. Empty for a query without glove pixels. `trace`, if given, receives what each stage kept. Both
 /// implementations give the same matches and the same trace: `plain` goes entry after entry as the paper describes
 /// it.
-std::vector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
-                           Implementation implementation = Implementation::fast, LookUpTrace* trace = nullptr);
+RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
+                              Implementation implementation = Implementation::fast, LookUpTrace* trace = nullptr);
 
 }  // namespace glovebench

@@ -90,7 +90,7 @@ TEST(LookUp, finds_each_own_view_with_error_0) {
   const Database& database = test_database();
   const Cascade cascade = {{64, 1}};
   for (int entry = 0; entry < database.entry_count(); entry += 61) {
-    const std::vector<Match> matches = look_up(database, {{entry_image(database, 64, entry)}}, cascade);
+    const RecycledVector<Match> matches = look_up(database, {{entry_image(database, 64, entry)}}, cascade);
     ASSERT_EQ(matches.size(), 1u);
     EXPECT_EQ(matches[0].error, 0);
     EXPECT_EQ(matches[0].entry, entry);
@@ -101,7 +101,7 @@ TEST(LookUp, ranks_by_distance_and_equal_ones_by_entry) {
   const Database& database = test_database();
   LabelImage query(8, 8);
   query(4, 4) = 1;  // one pixel: many entries are equally far
-  const std::vector<Match> matches = look_up(database, {{query}}, {{8, 1512}});
+  const RecycledVector<Match> matches = look_up(database, {{query}}, {{8, 1512}});
   ASSERT_EQ(matches.size(), 1512u);
   int ties = 0;
   for (size_t i = 0; i < matches.size(); ++i) {
@@ -125,7 +125,7 @@ TEST(LookUp, a_stage_ranks_what_the_one_before_kept) {
     kept.emplace_back(distance(database, match.entry, query.images[1]), match.entry);
   }
   std::sort(kept.begin(), kept.end());
-  const std::vector<Match> matches = look_up(database, query, cascade);
+  const RecycledVector<Match> matches = look_up(database, query, cascade);
   ASSERT_EQ(matches.size(), 5u);
   for (size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(matches[i].entry, kept[i].second);
@@ -141,8 +141,8 @@ TEST(LookUp, the_papers_cascade_agrees_with_exhaustive_search) {
   for (int number = 0; number < kQueries; ++number) {
     const LabelImage image = random_query(number);
     const Square square = bounding_square(image);
-    const std::vector<Match> a = look_up(database, make_tiny_images(image, square, fast), fast);
-    const std::vector<Match> b = look_up(database, make_tiny_images(image, square, exhaustive), exhaustive);
+    const RecycledVector<Match> a = look_up(database, make_tiny_images(image, square, fast), fast);
+    const RecycledVector<Match> b = look_up(database, make_tiny_images(image, square, exhaustive), exhaustive);
     equal += std::equal(a.begin(), a.end(), b.begin(), b.end(),
                         [](const Match& x, const Match& y) { return x.entry == y.entry && x.error == y.error; });
     ASSERT_GE(a[0].error, b[0].error) << "nothing is nearer than the nearest";
@@ -157,13 +157,13 @@ TEST(LookUp, the_trace_holds_what_each_stage_kept) {
   const LabelImage image = random_query(1);
   const Cascade cascade = {{8, 40}, {32, 5}};
   const TinyImages query = make_tiny_images(image, bounding_square(image), cascade);
-  const auto entries_of = [](const std::vector<Match>& matches) {
+  const auto entries_of = [](const RecycledVector<Match>& matches) {
     std::vector<int> entries;
     for (const Match& match : matches) entries.push_back(match.entry);
     return entries;
   };
   LookUpTrace trace{{{1, 2, 3}}};  // of another look-up
-  const std::vector<Match> matches = look_up(database, query, cascade, Implementation::plain, &trace);
+  const RecycledVector<Match> matches = look_up(database, query, cascade, Implementation::plain, &trace);
   ASSERT_EQ(trace.kept.size(), 2u);
   EXPECT_EQ(trace.kept[0], entries_of(look_up(database, {{query.images[0]}}, {{8, 40}})));
   EXPECT_EQ(trace.kept[1], entries_of(matches));

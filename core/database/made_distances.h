@@ -23,9 +23,9 @@ class MadeDistances {
   struct Part {
     uint8_t color = 0;
     size_t pixels = 0;
-    RowRange rows_px;                 ///< where they lie
-    std::vector<FieldChunk> chunks;   ///< of a field of this color alone
-    std::vector<WeightedRow> bounds;  ///< rows whose sum is a lower bound
+    RowRange rows_px;                    ///< where they lie
+    RecycledVector<FieldChunk> chunks;   ///< of a field of this color alone
+    RecycledVector<WeightedRow> bounds;  ///< rows whose sum is a lower bound
   };
 
   const Database& database_;
@@ -33,7 +33,7 @@ class MadeDistances {
   int size_;
   uint8_t cap_;
   QueryLabels labels_;
-  std::vector<Part> parts_;  ///< the one with the most pixels first
+  RecycledVector<Part> parts_;  ///< the one with the most pixels first
 };
 
 }  // namespace glovebench

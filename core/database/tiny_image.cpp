@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <vector>
 
 namespace glovebench {
 namespace {
@@ -33,9 +32,9 @@ uint8_t winner(const Counts& votes, int unlabeled) {
 /// What lies in each pixel column of a square, over some of its rows.
 struct Columns {
   explicit Columns(int side) : votes(side), labeled(side), labeled_before(side + 1) {}
-  std::vector<Votes> votes;         ///< of the labels 1..; that of 0 means nothing
-  std::vector<uint16_t> labeled;    ///< pixels with any label
-  std::vector<int> labeled_before;  ///< in all columns before this one
+  RecycledVector<Votes> votes;         ///< of the labels 1..; that of 0 means nothing
+  RecycledVector<uint16_t> labeled;    ///< pixels with any label
+  RecycledVector<int> labeled_before;  ///< in all columns before this one
 };
 
 void count_row(const uint8_t* pixels, int left, int right, Columns& columns) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/recycled_vector.h"
 #include "core/hand/glove.h"
 #include "core/hand/hand_shape.h"
 #include "core/hand/posture.h"
@@ -17,7 +18,7 @@ namespace glovebench {
 /// The hand in one posture, in the hand frame (metres): rooted at the palm, origin midway between the wrist
 /// joint and the middle MCP, -z to the fingertips, +y dorsal.
 struct PosedHand {
-  std::vector<Eigen::Vector3f> vertices;
+  RecycledVector<Eigen::Vector3f> vertices;
   JointPoses T_hand_joint;
 };
 

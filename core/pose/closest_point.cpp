@@ -14,7 +14,7 @@ struct Best {
   int face = -1;
 
   /// Of equally close faces the first wins.
-  void consider(const Eigen::Vector3f& point, const std::vector<Surface::Face>& faces, int f) {
+  void consider(const Eigen::Vector3f& point, const RecycledVector<Surface::Face>& faces, int f) {
     const Eigen::Vector3f candidate = closest_on_triangle(point, faces[f]);
     const float d = (candidate - point).squaredNorm();
     if (d < squared) {
@@ -33,7 +33,7 @@ struct Best {
 
 void Surface::assign(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
                      Coloring coloring) {
-  for (std::vector<Face>& faces : faces_) faces.clear();
+  for (RecycledVector<Face>& faces : faces_) faces.clear();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   double total = 0;
   for (uint32_t t = 0; t < model.triangles().size(); ++t) {
@@ -54,7 +54,7 @@ void Surface::assign(const HandModel& model, const PosedHand& hand, const Eigen:
 }
 
 bool Surface::empty() const {
-  return std::all_of(faces_.begin(), faces_.end(), [](const std::vector<Face>& faces) { return faces.empty(); });
+  return std::all_of(faces_.begin(), faces_.end(), [](const RecycledVector<Face>& faces) { return faces.empty(); });
 }
 
 Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Face& face) {
@@ -79,11 +79,12 @@ Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Fac
   return face.a + ab * (vb * scale) + ac * (vc * scale);
 }
 
-std::vector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand, const Surface& surface) {
-  std::vector<ClosestPoint> result;
+RecycledVector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand,
+                                                  const Surface& surface) {
+  RecycledVector<ClosestPoint> result;
   result.reserve(points_hand.size());
   for (const LabeledPoint& point : points_hand) {
-    const std::vector<Surface::Face>& faces = surface.faces(point.label);
+    const RecycledVector<Surface::Face>& faces = surface.faces(point.label);
     Best best;
     for (int f = 0; f < static_cast<int>(faces.size()); ++f) best.consider(point.p, faces, f);
     result.push_back(best.result());

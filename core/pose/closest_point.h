@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/base/image.h"
 #include "core/cloud/labeled_cloud.h"
@@ -33,13 +32,13 @@ class Surface {
   void assign(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
               Coloring coloring);
 
-  const std::vector<Face>& faces(uint8_t label) const { return faces_[label]; }
+  const RecycledVector<Face>& faces(uint8_t label) const { return faces_[label]; }
   bool empty() const;
   /// Area-weighted center of all faces as seen from the viewpoint (projected area).
   const Eigen::Vector3f& center() const { return center_; }
 
  private:
-  std::array<std::vector<Face>, kColorCount + 1> faces_;
+  std::array<RecycledVector<Face>, kColorCount + 1> faces_;
   Eigen::Vector3f center_ = Eigen::Vector3f::Zero();
 };
 
@@ -56,6 +55,7 @@ Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Fac
 /// For each point (hand frame) the closest point on the faces of its label; of equally close faces the first. As
 /// the paper describes it: every face of the color. A point that is not finite has none (face -1), as has one so
 /// far away that the square of its distance is not finite.
-std::vector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand, const Surface& surface);
+RecycledVector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand,
+                                                  const Surface& surface);
 
 }  // namespace glovebench

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
 #include "core/pose/closest_point.h"
 #include "core/pose/face_packets.h"
@@ -51,13 +50,13 @@ class ClosestPointSearch {
   /// The points forget where they were: another surface, or others of its faces. The surface is copied.
   void start(const Surface& surface);
   /// Valid until the next call.
-  const std::vector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);
+  const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);
 
  private:
   std::array<FacePackets, kColorCount + 1> colors_;
-  std::vector<PointMemory> memory_;
-  std::vector<PacketLook> looks_;  ///< of one point at the packets of its color; reused
-  std::vector<ClosestPoint> closest_;
+  RecycledVector<PointMemory> memory_;
+  RecycledVector<PacketLook> looks_;  ///< of one point at the packets of its color; reused
+  RecycledVector<ClosestPoint> closest_;
 };
 
 }  // namespace glovebench

@@ -12,7 +12,7 @@ namespace glovebench {
 namespace {
 
 using render::test_hand;
-using Points = std::vector<LabeledPoint>;
+using Points = RecycledVector<LabeledPoint>;
 
 Eigen::Vector3f random_point(RandomStream& random, double reach) {
   return {static_cast<float>(random.uniform(-reach, reach)), static_cast<float>(random.uniform(-reach, reach)),
@@ -29,7 +29,7 @@ Points points_around_the_hand(int count) {
   return points;
 }
 
-void expect_bit_equal(const std::vector<ClosestPoint>& found, const std::vector<ClosestPoint>& expected) {
+void expect_bit_equal(const RecycledVector<ClosestPoint>& found, const RecycledVector<ClosestPoint>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (size_t i = 0; i < found.size(); ++i) {
     ASSERT_EQ(found[i].face, expected[i].face) << "point " << i;
@@ -40,7 +40,7 @@ void expect_bit_equal(const std::vector<ClosestPoint>& found, const std::vector<
 
 /// The search at one set of points after the other equals the plain one, on every instruction set.
 void expect_plain_answers(const Surface& surface, const std::vector<Points>& sequence) {
-  std::vector<std::vector<ClosestPoint>> expected;
+  std::vector<RecycledVector<ClosestPoint>> expected;
   for (const Points& points : sequence) expected.push_back(closest_points_plain(points, surface));
   on_each_instruction_set([&] {
     ClosestPointSearch search(surface);
@@ -102,7 +102,7 @@ TEST(ClosestPointSearch, of_equally_close_faces_it_finds_the_first) {
       points.push_back({(face.a + face.b + face.c) / 3, label});
     }
   }
-  const std::vector<ClosestPoint> plain = closest_points_plain(points, surface);
+  const RecycledVector<ClosestPoint> plain = closest_points_plain(points, surface);
   int shared = 0;  // points where a later face is as close
   for (size_t i = 0; i < points.size(); ++i) {
     const auto& faces = surface.faces(points[i].label);

@@ -80,9 +80,9 @@ TEST(Surface, keeps_the_faces_that_look_at_the_viewpoint) {
 }
 
 /// Points of all labels in and around the hand.
-std::vector<LabeledPoint> points_around_the_hand(int count) {
+RecycledVector<LabeledPoint> points_around_the_hand(int count) {
   RandomStream random(1, "closest", 0, "points");
-  std::vector<LabeledPoint> points;
+  RecycledVector<LabeledPoint> points;
   for (int i = 0; i < count; ++i) {
     points.push_back({random_point(random, 0.12), static_cast<uint8_t>(1 + random.index(kColorCount))});
   }
@@ -92,8 +92,8 @@ std::vector<LabeledPoint> points_around_the_hand(int count) {
 TEST(ClosestPoints, plain_search_finds_the_nearest_face_of_the_color) {
   const PosedHand hand = test_hand().pose(render::test_posture());
   const Surface surface(test_hand(), hand, {0, 0.7f, 0});
-  const std::vector<LabeledPoint> points = points_around_the_hand(100);
-  const std::vector<ClosestPoint> closest = closest_points_plain(points, surface);
+  const RecycledVector<LabeledPoint> points = points_around_the_hand(100);
+  const RecycledVector<ClosestPoint> closest = closest_points_plain(points, surface);
   for (size_t i = 0; i < points.size(); ++i) {
     ASSERT_GE(closest[i].face, 0);
     const auto& faces = surface.faces(points[i].label);
@@ -110,7 +110,7 @@ TEST(ClosestPoints, a_color_that_faces_away_gives_face_minus_1) {
   const PosedHand hand = test_hand().pose(Posture::Zero());
   const Surface from_inside(test_hand(), hand, {0.0003f, -0.0091f, 0.0078f});
   const Surface from_outside(test_hand(), hand, {0, 0.7f, 0});
-  const std::vector<LabeledPoint> points = {{{0.01f, 0.02f, 0.03f}, 7}};
+  const RecycledVector<LabeledPoint> points = {{{0.01f, 0.02f, 0.03f}, 7}};
   ASSERT_TRUE(from_inside.faces(7).empty());
   EXPECT_EQ(closest_points_plain(points, from_inside)[0].face, -1);
   EXPECT_GE(closest_points_plain(points, from_outside)[0].face, 0);

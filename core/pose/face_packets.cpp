@@ -14,7 +14,7 @@ constexpr float kFar = 1e18f;
 
 /// Orders faces so that each run of kFaces is compact: halves them across the longest extent of their middles, at a
 /// multiple of kFaces, and each half again.
-void sort_into_packets(std::span<int32_t> order, const std::vector<Eigen::Vector3f>& middles) {
+void sort_into_packets(std::span<int32_t> order, std::span<const Eigen::Vector3f> middles) {
   constexpr size_t kFaces = FacePackets::kFaces;
   if (order.size() <= kFaces) return;
   Eigen::AlignedBox3f box;

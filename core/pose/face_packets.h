@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/pose/closest_point.h"
 
@@ -28,16 +27,16 @@ struct FacePackets {
     float length[kBoxes], blur[kBoxes];  ///< the largest
   };
 
-  std::vector<Packet> packets;
-  std::vector<Boxes> boxes;
+  RecycledVector<Packet> packets;
+  RecycledVector<Boxes> boxes;
   float slack = 0;  ///< m: what rounding may move a corner, seen from anywhere
 
   /// Made anew from these faces; keeps its memory.
   void assign(std::span<const Surface::Face> faces);
 
  private:
-  std::vector<int32_t> order_;  ///< of the faces; reused by `assign`
-  std::vector<Eigen::Vector3f> middles_;
+  RecycledVector<int32_t> order_;  ///< of the faces; reused by `assign`
+  RecycledVector<Eigen::Vector3f> middles_;
 };
 
 /// In single precision the closest point of a thin face may come to lie outside of it: for a point at most D away

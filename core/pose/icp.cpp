@@ -8,8 +8,8 @@ namespace glovebench {
 namespace {
 
 struct Pairs {
-  std::vector<Eigen::Vector3f> model_camera;
-  std::vector<Eigen::Vector3f> cloud_camera;
+  RecycledVector<Eigen::Vector3f> model_camera;
+  RecycledVector<Eigen::Vector3f> cloud_camera;
   double mean_distance = 0;
 };
 
@@ -30,9 +30,9 @@ void make_pairs(const Matcher& matcher, const Eigen::Isometry3d& T_camera_hand, 
 }
 
 /// The points of a cloud that take part, with the labels under which a surface keeps its faces.
-std::vector<LabeledPoint> points_to_align(std::span<const LabeledPoint> cloud, const IcpConfig& config) {
-  std::vector<LabeledPoint> points = config.subsampling_factor > 0 ? every_nth(cloud, config.subsampling_factor)
-                                                                   : subsample(cloud, config.max_points);
+RecycledVector<LabeledPoint> points_to_align(std::span<const LabeledPoint> cloud, const IcpConfig& config) {
+  RecycledVector<LabeledPoint> points = config.subsampling_factor > 0 ? every_nth(cloud, config.subsampling_factor)
+                                                                      : subsample(cloud, config.max_points);
   if (!config.color_sensitive) {
     for (LabeledPoint& point : points) point.label = Surface::kAnyColor;
   }
@@ -79,13 +79,13 @@ Alignment align_horn(Matcher& matcher, const Alignment& start, const IcpConfig& 
 
 }  // namespace
 
-std::vector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n) {
-  std::vector<LabeledPoint> result;
+RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n) {
+  RecycledVector<LabeledPoint> result;
   for (size_t i = 0; i < points.size(); i += n) result.push_back(points[i]);
   return result;
 }
 
-std::vector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points) {
+RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points) {
   return every_nth(points, std::max<size_t>(1, (points.size() + max_points - 1) / max_points));
 }
 
@@ -106,7 +106,7 @@ Alignment align(const HandModel& model, const PosedHand& hand, std::span<const L
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
   Alignment start;
   start.T_camera_hand = T_camera_hand_coarse;
-  std::vector<LabeledPoint> points = points_to_align(cloud, config);
+  RecycledVector<LabeledPoint> points = points_to_align(cloud, config);
   start.points = static_cast<int>(points.size());
   if (points.size() < 3) return start;
   if (config.algorithm == IcpAlgorithm::robust) {

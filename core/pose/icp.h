@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "core/base/implementation.h"
 #include "core/cloud/labeled_cloud.h"
@@ -47,9 +46,9 @@ struct Alignment {
 };
 
 /// The points 0, n, 2n, ... (n >= 1).
-std::vector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
+RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
 /// Every n-th point, with the smallest n that leaves at most `max_points`.
-std::vector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
+RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
 /// The coarse pose of section III-C: rotation from the look-up; the center of gravity of the faces that look at the
 /// camera is placed on the cloud's.

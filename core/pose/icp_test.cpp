@@ -16,7 +16,7 @@ namespace {
 double mean_distance(std::span<const LabeledPoint> cloud, const Eigen::Isometry3d& T,
                      const Eigen::Isometry3d& T_culled) {
   const Surface surface(test_hand(), posed(), T_culled.inverse().translation().cast<float>());
-  std::vector<LabeledPoint> points(cloud.begin(), cloud.end());
+  RecycledVector<LabeledPoint> points(cloud.begin(), cloud.end());
   for (LabeledPoint& point : points) point.p = T.inverse().cast<float>() * point.p;
   double sum = 0;
   for (const ClosestPoint& closest : closest_points_plain(points, surface)) sum += closest.distance;
@@ -45,7 +45,7 @@ Recovery recover(const IcpConfig& config) {
     RandomStream random(1, "icp", number / 25, "pose");
     const Eigen::Vector3d turn = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)};
     const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7}, turn);
-    static std::map<int, std::vector<LabeledPoint>> clouds;
+    static std::map<int, RecycledVector<LabeledPoint>> clouds;
     if (!clouds.contains(number / 25)) clouds[number / 25] = true_cloud(truth);
     const Alignment alignment = align(test_hand(), posed(), clouds[number / 25], perturbed(truth, number), config);
     EXPECT_GE(alignment.residual, 0);
@@ -74,7 +74,7 @@ TEST(IcpLong, recovers_every_pose_if_it_culls_in_each_iteration) {
 
 TEST(Icp, fewer_than_three_points_are_too_few) {
   const Eigen::Isometry3d start = test_pose({0, 0, 0.7});
-  std::vector<LabeledPoint> cloud = true_cloud(start);
+  RecycledVector<LabeledPoint> cloud = true_cloud(start);
   for (const size_t count : {0, 1, 2}) {
     const Alignment alignment = align(test_hand(), posed(), std::span(cloud).first(count), start, {});
     EXPECT_EQ(alignment.status, AlignmentStatus::too_few_points);
@@ -86,7 +86,7 @@ TEST(Icp, fewer_than_three_points_are_too_few) {
 
 TEST(Icp, points_on_one_line_are_degenerate) {
   const Eigen::Isometry3d start = test_pose({0, 0, 0.7});
-  std::vector<LabeledPoint> line, spot;
+  RecycledVector<LabeledPoint> line, spot;
   for (int i = 0; i < 50; ++i) {
     line.push_back({{-0.05f + 0.002f * i, 0.001f * i, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
     spot.push_back({{0.01f, 0.02f, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
@@ -100,7 +100,7 @@ TEST(Icp, a_cloud_of_colors_that_face_away_shares_none) {
   const PosedHand open = test_hand().pose(Posture::Zero());
   Eigen::Isometry3d inside = Eigen::Isometry3d::Identity();
   inside.translation() = -Eigen::Vector3d(0.0003, -0.0091, 0.0078);
-  std::vector<LabeledPoint> cloud;
+  RecycledVector<LabeledPoint> cloud;
   for (int i = 0; i < 50; ++i) cloud.push_back({{0.01f * (i % 7), 0.01f * (i % 5), 0.6f}, 7});
   const Alignment alignment = align(test_hand(), open, cloud, inside, {});
   EXPECT_EQ(alignment.status, AlignmentStatus::no_shared_color);
@@ -111,7 +111,7 @@ TEST(Icp, a_cloud_of_colors_that_face_away_shares_none) {
 
 TEST(Icp, says_when_it_has_not_converged) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  const RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   const Eigen::Isometry3d start = perturbed(truth, 3);
   const Alignment one = align(test_hand(), posed(), cloud, start, {.max_iterations = 1});
   EXPECT_EQ(one.status, AlignmentStatus::not_converged);
@@ -122,7 +122,7 @@ TEST(Icp, says_when_it_has_not_converged) {
 
 TEST(Icp, the_residual_is_the_mean_distance_at_the_end_to_the_faces_that_were_not_culled) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(truth), points = subsample(cloud, 1000);
+  const RecycledVector<LabeledPoint> cloud = true_cloud(truth), points = subsample(cloud, 1000);
   const Eigen::Isometry3d start = perturbed(truth, 1);
   const Alignment once = align(test_hand(), posed(), cloud, start, {});
   EXPECT_NEAR(once.residual, mean_distance(points, once.T_camera_hand, start), 1e-9);
@@ -134,7 +134,7 @@ TEST(Icp, the_residual_is_the_mean_distance_at_the_end_to_the_faces_that_were_no
 TEST(Icp, culling_in_each_iteration_forgives_a_start_that_hides_what_is_seen) {
   // Turned by 50 degrees: half of what the camera sees was culled at the start.
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  const RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   Eigen::Isometry3d start = truth;
   start.linear() =
       Eigen::AngleAxisd(radians_from_degrees(50), Eigen::Vector3d(1, 1, 0).normalized()) * truth.linear();
@@ -147,7 +147,7 @@ TEST(Icp, culling_in_each_iteration_forgives_a_start_that_hides_what_is_seen) {
 
 TEST(Icp, both_implementations_give_the_same_alignment_bit_for_bit) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  std::vector<LabeledPoint> cloud = true_cloud(truth);
+  RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   cloud[30].p.x() = std::numeric_limits<float>::quiet_NaN();  // a point that is nowhere takes no part
   for (const IcpAlgorithm algorithm : {IcpAlgorithm::horn, IcpAlgorithm::robust}) {
     for (const bool cull : {false, true}) {
@@ -171,9 +171,9 @@ TEST(Icp, both_implementations_give_the_same_alignment_bit_for_bit) {
 }
 
 TEST(Subsample, takes_every_nth_point_and_at_most_the_limit) {
-  std::vector<LabeledPoint> points(2500);
+  RecycledVector<LabeledPoint> points(2500);
   for (int i = 0; i < 2500; ++i) points[i].p.x() = static_cast<float>(i);
-  const std::vector<LabeledPoint> some = subsample(points, 1000);
+  const RecycledVector<LabeledPoint> some = subsample(points, 1000);
   ASSERT_EQ(some.size(), 834u);  // every third
   for (size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i].p.x(), static_cast<float>(3 * i));
   EXPECT_EQ(subsample(points, 2500).size(), 2500u);
@@ -183,9 +183,9 @@ TEST(Subsample, takes_every_nth_point_and_at_most_the_limit) {
 }
 
 TEST(Subsample, a_factor_takes_every_nth_point_whatever_the_limit) {
-  std::vector<LabeledPoint> points(10);
+  RecycledVector<LabeledPoint> points(10);
   for (int i = 0; i < 10; ++i) points[i].p.x() = static_cast<float>(i);
-  const std::vector<LabeledPoint> some = every_nth(points, 4);
+  const RecycledVector<LabeledPoint> some = every_nth(points, 4);
   ASSERT_EQ(some.size(), 3u);
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(some[i].p.x(), static_cast<float>(4 * i));
   EXPECT_EQ(every_nth(points, 1).size(), 10u);
@@ -193,7 +193,7 @@ TEST(Subsample, a_factor_takes_every_nth_point_whatever_the_limit) {
   EXPECT_TRUE(every_nth({}, 3).empty());
 
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  const RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   for (const int n : {1, 7, 20}) {
     const Alignment alignment = align(test_hand(), posed(), cloud, truth, {.subsampling_factor = n});
     EXPECT_EQ(alignment.points, static_cast<int>((cloud.size() + n - 1) / n)) << n;
@@ -203,8 +203,8 @@ TEST(Subsample, a_factor_takes_every_nth_point_whatever_the_limit) {
 
 TEST(IcpOfAnyColor, does_not_see_the_labels) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(truth);
-  std::vector<LabeledPoint> mislabeled = cloud;
+  const RecycledVector<LabeledPoint> cloud = true_cloud(truth);
+  RecycledVector<LabeledPoint> mislabeled = cloud;
   for (LabeledPoint& point : mislabeled) point.label = static_cast<uint8_t>(point.label % kColorCount + 1);
   const Eigen::Isometry3d start = perturbed(truth, 1);
   const IcpConfig any{.color_sensitive = false};
@@ -229,11 +229,11 @@ TEST(IcpOfAnyColor, goes_to_the_closest_face_of_all) {
   }
   EXPECT_EQ(any.faces(Surface::kAnyColor).size(), faces);
 
-  const std::vector<LabeledPoint> cloud = subsample(true_cloud(truth), 50);
-  std::vector<LabeledPoint> points = cloud;
+  const RecycledVector<LabeledPoint> cloud = subsample(true_cloud(truth), 50);
+  RecycledVector<LabeledPoint> points = cloud;
   for (LabeledPoint& point : points) point = {start.inverse().cast<float>() * point.p, Surface::kAnyColor};
-  const std::vector<ClosestPoint> closest = closest_points_plain(points, any);
-  const std::vector<ClosestPoint> searched = ClosestPointSearch(any)(points);
+  const RecycledVector<ClosestPoint> closest = closest_points_plain(points, any);
+  const RecycledVector<ClosestPoint> searched = ClosestPointSearch(any)(points);
   for (size_t i = 0; i < points.size(); ++i) {
     float nearest = std::numeric_limits<float>::infinity();
     for (uint8_t label = 1; label <= kColorCount; ++label) {
@@ -248,7 +248,7 @@ TEST(IcpOfAnyColor, goes_to_the_closest_face_of_all) {
 
 TEST(CoarsePose, puts_the_visible_center_on_the_clouds) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  const RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   const Eigen::Isometry3d coarse = coarse_pose(test_hand(), posed(), truth.linear(), cloud);
   EXPECT_EQ(coarse.linear(), truth.linear());
   // Faces hidden behind others count in the model's center, not in the cloud's.

@@ -34,8 +34,8 @@ Eigen::Quaterniond mean_rotation(std::span<const Eigen::Quaterniond> rotations, 
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
                            const Eigen::Vector3d& query_ray, double epsilon) {
   check(!matches.empty(), "there is a match to interpolate");
-  std::vector<double> weights;
-  std::vector<Eigen::Quaterniond> rotations;
+  RecycledVector<double> weights;
+  RecycledVector<Eigen::Quaterniond> rotations;
   Posture posture = Posture::Zero();
   double total = 0;
   for (const Match& match : matches) {

@@ -44,7 +44,7 @@ TEST(MeanRotation, about_one_axis_is_the_weighted_circular_mean) {
 TEST(Interpolate, weighs_by_the_inverse_of_the_error) {
   const Database& database = test_database();
   const int view = 100;
-  const std::vector<Match> matches = {{view, 0.99f}, {kViewCount + view, 2.99f}};  // open, power
+  const RecycledVector<Match> matches = {{view, 0.99f}, {kViewCount + view, 2.99f}};  // open, power
   const CoarseEstimate estimate = interpolate(database, matches, database.box_ray(view), 0.01);
   // Weights 1 / 1 and 1 / 3: the second has a quarter of the sum.
   EXPECT_NEAR((estimate.posture - 0.25 * power_posture()).norm(), 0, 1e-6);  // errors are single precision
@@ -53,7 +53,7 @@ TEST(Interpolate, weighs_by_the_inverse_of_the_error) {
 
 TEST(Interpolate, epsilon_bounds_the_weight_of_a_perfect_match) {
   const Database& database = test_database();
-  const std::vector<Match> matches = {{0, 0.0f}, {kViewCount, 0.5f}};
+  const RecycledVector<Match> matches = {{0, 0.0f}, {kViewCount, 0.5f}};
   const CoarseEstimate estimate = interpolate(database, matches, database.box_ray(0), 0.5);
   // Weights 1 / 0.5 and 1 / 1.
   EXPECT_NEAR((estimate.posture - power_posture() / 3).norm(), 0, 1e-6);
@@ -62,7 +62,7 @@ TEST(Interpolate, epsilon_bounds_the_weight_of_a_perfect_match) {
 TEST(Interpolate, one_match_on_its_own_ray_is_its_view) {
   const Database& database = test_database();
   for (const int entry : {0, 333, 1511}) {
-    const std::vector<Match> match = {{entry, 1.0f}};
+    const RecycledVector<Match> match = {{entry, 1.0f}};
     const CoarseEstimate estimate = interpolate(database, match, database.box_ray(entry), 0.01);
     EXPECT_NEAR((estimate.R_camera_hand - view_rotations()[entry % kViewCount]).norm(), 0, 1e-9);
     EXPECT_EQ(estimate.posture, database.posture(entry));
@@ -73,7 +73,7 @@ TEST(Interpolate, is_ambiguous_when_two_rotations_differ_by_more_than_60_degrees
   const Database& database = test_database();
   // Views of one camera position are 20 degrees apart. Their rays differ a little as well: 40 and 80 are clear.
   const auto ambiguous = [&](int steps) {
-    const std::vector<Match> matches = {{0, 1.0f}, {1, 1.0f}, {steps, 1.0f}};
+    const RecycledVector<Match> matches = {{0, 1.0f}, {1, 1.0f}, {steps, 1.0f}};
     return interpolate(database, matches, Vector3d::UnitZ(), 0.01).ambiguous;
   };
   EXPECT_FALSE(ambiguous(2));
@@ -97,7 +97,7 @@ TEST(Interpolate, turns_the_view_to_the_ray_of_a_hand_beside_the_optical_axis) {
       const LabelImage labels = renderer.render_labels(
           render::test_hand(), render::test_hand().pose(database.posture(entry)), kinect, T_camera_hand);
       const Square square = bounding_square(labels);
-      const std::vector<Match> matches = look_up(database, make_tiny_images(labels, square, cascade), cascade);
+      const RecycledVector<Match> matches = look_up(database, make_tiny_images(labels, square, cascade), cascade);
       EXPECT_EQ(matches[0].entry, entry);
       const CoarseEstimate estimate = interpolate(database, matches, square_ray(square, kinect), 0.01);
       // A pixel of the box is 0.1 degrees, the stretch of a plane image at 17 degrees off the axis moves the box's

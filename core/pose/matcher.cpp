@@ -6,7 +6,7 @@ Eigen::Vector3f viewpoint_hand(const Eigen::Isometry3d& T_camera_hand) {
   return T_camera_hand.inverse().translation().cast<float>();
 }
 
-Matcher::Matcher(const HandModel& model, const PosedHand& hand, std::vector<LabeledPoint> cloud,
+Matcher::Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
                  const IcpConfig& config)
     : model_(model),
       hand_(hand),

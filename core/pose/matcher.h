@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <span>
-#include <vector>
 
 #include "core/pose/closest_point.h"
 #include "core/pose/closest_point_search.h"
@@ -16,29 +15,30 @@ class Matcher {
  public:
   /// `model` and `hand` outlive it. Points: camera frame, m, with the labels under which the surface keeps its
   /// faces.
-  Matcher(const HandModel& model, const PosedHand& hand, std::vector<LabeledPoint> cloud, const IcpConfig& config);
+  Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
+          const IcpConfig& config);
 
   /// Keeps the faces that look at the camera when the hand is here.
   void cull(const Eigen::Isometry3d& T_camera_hand);
   /// The closest points when the hand is here; after `cull`.
   void match(const Eigen::Isometry3d& T_camera_hand);
 
-  const std::vector<LabeledPoint>& cloud() const { return cloud_; }
+  const RecycledVector<LabeledPoint>& cloud() const { return cloud_; }
   const Surface& surface() const { return surface_; }
   /// Of the last `match`, for each point of the cloud.
-  const std::vector<LabeledPoint>& points_hand() const { return points_hand_; }
+  const RecycledVector<LabeledPoint>& points_hand() const { return points_hand_; }
   std::span<const ClosestPoint> closest() const { return closest_; }
 
  private:
   const HandModel& model_;
   const PosedHand& hand_;
-  std::vector<LabeledPoint> cloud_;
+  RecycledVector<LabeledPoint> cloud_;
   Implementation implementation_;
   Surface::Coloring coloring_;
   Surface surface_;
   ClosestPointSearch search_;
-  std::vector<LabeledPoint> points_hand_;
-  std::vector<ClosestPoint> plain_;
+  RecycledVector<LabeledPoint> points_hand_;
+  RecycledVector<ClosestPoint> plain_;
   std::span<const ClosestPoint> closest_;
 };
 

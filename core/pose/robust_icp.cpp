@@ -31,8 +31,8 @@ struct Pair {
   Eigen::Vector3d normal;
 };
 
-std::vector<Pair> pairs_of(const Matcher& matcher) {
-  std::vector<Pair> pairs;
+RecycledVector<Pair> pairs_of(const Matcher& matcher) {
+  RecycledVector<Pair> pairs;
   for (size_t i = 0; i < matcher.closest().size(); ++i) {
     const ClosestPoint& closest = matcher.closest()[i];
     if (closest.face < 0) continue;
@@ -44,7 +44,7 @@ std::vector<Pair> pairs_of(const Matcher& matcher) {
   return pairs;
 }
 
-double mean_distance(const std::vector<Pair>& pairs) {
+double mean_distance(const RecycledVector<Pair>& pairs) {
   double sum = 0;
   for (const Pair& pair : pairs) sum += (pair.q - pair.p).norm();
   return sum / static_cast<double>(pairs.size());
@@ -59,7 +59,7 @@ constexpr double kTukeyWidth = 0.6 * 4.685;
 
 class Tukey {
  public:
-  explicit Tukey(std::vector<double> residuals) {
+  explicit Tukey(RecycledVector<double> residuals) {
     const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
     std::nth_element(residuals.begin(), middle, residuals.end());
     // Never narrower than a tenth of a millimeter: without noise the median is rounding.
@@ -86,9 +86,9 @@ Eigen::Isometry3d motion(const Eigen::Vector3d& turn, const Eigen::Vector3d& shi
 
 /// One Gauss-Newton step on the weighted distances: how to move the points towards the hand. Empty if they leave a
 /// motion open.
-std::optional<Eigen::Isometry3d> step_on_planes(const std::vector<Pair>& pairs, double tangential) {
+std::optional<Eigen::Isometry3d> step_on_planes(const RecycledVector<Pair>& pairs, double tangential) {
   using Vector6d = Eigen::Matrix<double, 6, 1>;
-  std::vector<double> distances;
+  RecycledVector<double> distances;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   for (const Pair& pair : pairs) {
     distances.push_back((pair.q - pair.p).norm());
@@ -125,8 +125,8 @@ std::optional<Eigen::Isometry3d> step_on_planes(const std::vector<Pair>& pairs, 
   return Eigen::Translation3d(center) * about_center * Eigen::Translation3d(-center);
 }
 
-std::optional<Eigen::Isometry3d> step_of_horn(const std::vector<Pair>& pairs) {
-  std::vector<Eigen::Vector3f> from, to;
+std::optional<Eigen::Isometry3d> step_of_horn(const RecycledVector<Pair>& pairs) {
+  RecycledVector<Eigen::Vector3f> from, to;
   for (const Pair& pair : pairs) {
     from.push_back(pair.p.cast<float>());
     to.push_back(pair.q.cast<float>());
@@ -141,7 +141,7 @@ bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& 
     if (result.iterations == config.max_iterations) return true;
     if (config.cull_each_iteration) matcher.cull(result.T_camera_hand);
     matcher.match(result.T_camera_hand);
-    const std::vector<Pair> pairs = pairs_of(matcher);
+    const RecycledVector<Pair> pairs = pairs_of(matcher);
     if (pairs.size() < 3) {
       result.status = AlignmentStatus::no_shared_color;
       return false;
@@ -179,7 +179,7 @@ Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<
   }
   if (!take_steps(all, kOnAll, config, result)) return result;
   all.match(result.T_camera_hand);
-  const std::vector<Pair> pairs = pairs_of(all);
+  const RecycledVector<Pair> pairs = pairs_of(all);
   if (pairs.size() < 3) {
     result.status = AlignmentStatus::no_shared_color;
     return result;

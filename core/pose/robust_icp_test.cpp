@@ -28,7 +28,7 @@ TEST(RobustIcp, recovers_the_pose_from_25_degrees_and_30_millimeters_with_at_mos
     RandomStream random(1, "icp", number / 8, "pose");
     const Eigen::Vector3d turn = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-3, 3)};
     const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7}, turn);
-    const std::vector<LabeledPoint> cloud = true_cloud(truth);
+    const RecycledVector<LabeledPoint> cloud = true_cloud(truth);
     const Eigen::Isometry3d start = perturbed_by(truth, 25, 0.030, number);
     const Eigen::Isometry3d robust = align(test_hand(), posed(), cloud, start, kRobust).T_camera_hand;
     const Eigen::Isometry3d horn = align(test_hand(), posed(), cloud, start, kHorn).T_camera_hand;
@@ -57,7 +57,7 @@ TEST(RobustIcp, says_when_it_was_not_let_finish) {
 
 TEST(RobustIcp, fewer_than_three_points_are_too_few) {
   const Eigen::Isometry3d start = test_pose({0, 0, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(start);
+  const RecycledVector<LabeledPoint> cloud = true_cloud(start);
   for (const size_t count : {0, 1, 2}) {
     const Alignment alignment = align(test_hand(), posed(), std::span(cloud).first(count), start, kRobust);
     EXPECT_EQ(alignment.status, AlignmentStatus::too_few_points);
@@ -67,7 +67,7 @@ TEST(RobustIcp, fewer_than_three_points_are_too_few) {
 
 TEST(RobustIcp, points_on_one_line_or_spot_are_degenerate) {
   const Eigen::Isometry3d start = test_pose({0, 0, 0.7});
-  std::vector<LabeledPoint> line, spot;
+  RecycledVector<LabeledPoint> line, spot;
   for (int i = 0; i < 50; ++i) {
     line.push_back({{-0.05f + 0.002f * i, 0.001f * i, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
     spot.push_back({{0.01f, 0.02f, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
@@ -81,7 +81,7 @@ TEST(RobustIcp, a_cloud_of_colors_that_face_away_shares_none) {
   const PosedHand open = test_hand().pose(Posture::Zero());
   Eigen::Isometry3d inside = Eigen::Isometry3d::Identity();
   inside.translation() = -Eigen::Vector3d(0.0003, -0.0091, 0.0078);
-  std::vector<LabeledPoint> cloud;
+  RecycledVector<LabeledPoint> cloud;
   for (int i = 0; i < 50; ++i) cloud.push_back({{0.01f * (i % 7), 0.01f * (i % 5), 0.6f}, 7});
   const Alignment alignment = align(test_hand(), open, cloud, inside, kRobust);
   EXPECT_EQ(alignment.status, AlignmentStatus::no_shared_color);
@@ -90,7 +90,7 @@ TEST(RobustIcp, a_cloud_of_colors_that_face_away_shares_none) {
 
 TEST(RobustIcp, points_that_are_not_finite_take_no_part) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  std::vector<LabeledPoint> cloud = true_cloud(truth);
+  RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   for (size_t i = 0; i < cloud.size(); i += 7) cloud[i].p.y() = std::numeric_limits<float>::quiet_NaN();
   const Alignment alignment = align(test_hand(), posed(), cloud, perturbed(truth, 5), kRobust);
   EXPECT_LT(distance_mm(alignment.T_camera_hand, truth), 0.2);
@@ -100,9 +100,9 @@ TEST(RobustIcp, points_that_are_not_finite_take_no_part) {
 
 TEST(RobustIcp, a_single_color_has_an_answer) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
-  const std::vector<LabeledPoint> cloud = true_cloud(truth);
+  const RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   for (uint8_t label = 1; label <= kColorCount; ++label) {
-    std::vector<LabeledPoint> some;
+    RecycledVector<LabeledPoint> some;
     for (const LabeledPoint& point : cloud)
       if (point.label == label) some.push_back(point);
     if (some.size() < 100) continue;

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/for_each_nonzero.h"
 #include "core/base/hash.h"
 
 namespace glovebench {
@@ -36,7 +37,7 @@ class PaddedLabels {
 
  private:
   int stride_;
-  std::vector<uint8_t> pixels_;
+  RecycledVector<uint8_t> pixels_;
 };
 
 uint64_t load_eight(const uint8_t* bytes) {
@@ -64,20 +65,28 @@ uint8_t majority(const uint8_t* corner, int stride) {
   return best;
 }
 
-/// The labels of all pixels of which `has_color` is true, for tables over one space: what the space asks for is
-/// decided before the loop.
-template <ColorSpace kSpace, typename HasColor>
-LabelImage labels_of(const ColorImage& color, const std::vector<uint8_t>& cells, HasColor has_color) {
-  LabelImage labels(color.width(), color.height());
-  for (size_t i = 0; i < labels.size(); ++i)
-    if (has_color(i)) labels[i] = cells[ColorTable::cell_of_rgb(color[i], kSpace)];
+template <ColorSpace kSpace>
+LabelImage labels_of(const RegisteredImage& mapped, const std::vector<uint8_t>& cells) {
+  LabelImage labels(mapped.color.width(), mapped.color.height());
+  for (int v = 0; v < labels.height(); ++v) {
+    for_each_nonzero(mapped.has_color, v,
+                     [&](int u) { labels(u, v) = cells[ColorTable::cell_of_rgb(mapped.color(u, v), kSpace)]; });
+  }
   return labels;
 }
 
-template <typename HasColor>
-LabelImage labels_of(const ColorImage& color, const ColorTable& table, HasColor has_color) {
-  return table.space() == ColorSpace::yuv ? labels_of<ColorSpace::yuv>(color, table.labels(), has_color)
-                                          : labels_of<ColorSpace::rgb>(color, table.labels(), has_color);
+template <ColorSpace kSpace>
+LabelImage labels_of(const ColorImage& color, const std::vector<uint8_t>& cells) {
+  LabelImage labels(color.width(), color.height());
+  for (size_t i = 0; i < labels.size(); ++i) labels[i] = cells[ColorTable::cell_of_rgb(color[i], kSpace)];
+  return labels;
+}
+
+/// What the table's space asks for is decided before the loop over the pixels.
+template <typename ImageType>
+LabelImage labels_of(const ImageType& image, const ColorTable& table) {
+  return table.space() == ColorSpace::yuv ? labels_of<ColorSpace::yuv>(image, table.labels())
+                                          : labels_of<ColorSpace::rgb>(image, table.labels());
 }
 
 }  // namespace
@@ -130,11 +139,11 @@ ColorTable ColorTable::load(const std::string& path) {
 }
 
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table) {
-  return labels_of(mapped.color, table, [&](size_t i) { return mapped.has_color[i] != 0; });
+  return labels_of(mapped, table);
 }
 
 LabelImage segment(const ColorImage& color, const ColorTable& table) {
-  return labels_of(color, table, [](size_t) { return true; });
+  return labels_of(color, table);
 }
 
 LabelImage majority_filter(const LabelImage& labels) {

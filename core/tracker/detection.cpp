@@ -28,7 +28,7 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
   // A third of the glove is missing: what is left would be matched as if it were all.
   if (2 * cloud.labeled_cut_off > static_cast<int>(cloud.points.size())) return TrackStatus::outside_volume;
   if (is_cut_by_border(cloud.labels, cloud.points.size(), config)) return TrackStatus::cut_by_border;
-  const std::vector<int> sizes = component_sizes(cloud, config.component_depth_step);
+  const RecycledVector<int> sizes = component_sizes(cloud, config.component_depth_step);
   if (sizes.size() > 1 && sizes[1] > config.second_hand_share * sizes[0]) return TrackStatus::several_hands;
   return TrackStatus::tracked;
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <string_view>
-#include <vector>
 
 #include "core/database/look_up.h"
 #include "core/hand/posture.h"
@@ -38,7 +37,7 @@ struct TrackResult {
   Posture posture_unfiltered = Posture::Zero();  ///< of the look-up, rad
   Eigen::Isometry3d T_camera_hand_unfiltered = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();  ///< before the alignment
-  std::vector<Match> matches;
+  RecycledVector<Match> matches;
 
   bool ambiguous = false;  ///< the matches' rotations spread over more than 60 degrees
   bool converged = false;  ///< of the alignment

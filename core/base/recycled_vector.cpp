@@ -1,0 +1,89 @@
+#include "core/base/recycled_vector.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <new>
+#include <utility>
+
+namespace glovebench {
+namespace {
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr size_t kMostKept = 0;  // it would not see what is used after it was given back
+#else
+constexpr size_t kMostKept = size_t{64} << 20;  // bytes
+#endif
+
+/// Blocks are powers of two.
+constexpr int kSmallest = 6;  // 64 bytes
+constexpr int kClasses = 27 - kSmallest;
+
+/// Which blocks serve so many bytes: 0 for the smallest; kClasses or more for what is not kept.
+int class_of(size_t bytes) {
+  return std::max<int>(0, std::bit_width(std::max<size_t>(bytes, 1) - 1) - kSmallest);
+}
+
+size_t block_bytes(int block_class) {
+  return size_t{1} << (block_class + kSmallest);
+}
+
+/// The destructors of a thread run in an order that nobody knows.
+thread_local bool thread_ends = false;
+
+/// Blocks that wait, in a list for each size; a block that waits holds the address of the next.
+class Waiting {
+ public:
+  ~Waiting() {
+    thread_ends = true;
+    for (Block* block : first_)
+      while (block != nullptr) std::free(std::exchange(block, block->next));
+  }
+
+  /// Null if there is none.
+  void* take(int block_class) {
+    Block* const block = first_[block_class];
+    if (block == nullptr) return nullptr;
+    first_[block_class] = block->next;
+    kept_ -= block_bytes(block_class);
+    return block;
+  }
+  bool keep(void* memory, int block_class) {
+    if (kept_ + block_bytes(block_class) > kMostKept) return false;
+    first_[block_class] = new (memory) Block{first_[block_class]};
+    kept_ += block_bytes(block_class);
+    return true;
+  }
+
+ private:
+  struct Block {
+    Block* next;
+  };
+  std::array<Block*, kClasses> first_{};
+  size_t kept_ = 0;  ///< bytes
+};
+
+thread_local Waiting waiting;
+
+void* from_heap(size_t bytes) {
+  void* const memory = std::aligned_alloc(64, bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* take_memory(size_t bytes) {
+  const int block_class = class_of(bytes);
+  if (block_class >= kClasses) return from_heap((bytes + 63) / 64 * 64);
+  void* const kept = thread_ends ? nullptr : waiting.take(block_class);
+  return kept != nullptr ? kept : from_heap(block_bytes(block_class));
+}
+
+void give_memory(void* memory, size_t bytes) noexcept {
+  const int block_class = class_of(bytes);
+  if (block_class >= kClasses || thread_ends || !waiting.keep(memory, block_class)) std::free(memory);
+}
+
+}  // namespace glovebench

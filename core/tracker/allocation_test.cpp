@@ -1,0 +1,121 @@
+// What a tracker asks of the heap, frame after frame: nothing.
+
+#include <gmock/gmock.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <thread>
+
+#include "core/tracker/test_scene.h"
+
+// The sanitizers put functions of their own in the place of these.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+thread_local bool counting = false;
+thread_local int requests = 0;
+
+void count() {
+  if (counting) ++requests;
+}
+}  // namespace
+
+// The C library's functions, in front of its own: they count, and pass on.
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+
+void* malloc(size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(size_t number, size_t size) {
+  count();
+  return __libc_calloc(number, size);
+}
+void* realloc(void* memory, size_t size) {
+  count();
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** memory, size_t alignment, size_t size) {
+  count();
+  *memory = __libc_memalign(alignment, size);
+  return *memory != nullptr ? 0 : ENOMEM;
+}
+}
+
+namespace glovebench {
+namespace {
+
+int requests_of(const std::function<void()>& work) {
+  requests = 0;
+  counting = true;
+  work();
+  counting = false;
+  return requests;
+}
+
+/// A hand on its way through the view, that opens and closes.
+const std::vector<DeviceFrame>& frames() {
+  static const std::vector<DeviceFrame> shot = [] {
+    std::vector<DeviceFrame> frames;
+    for (int i = 0; i < 6; ++i) {
+      const Eigen::Isometry3d T_camera_hand = render::test_pose({0.02 * i - 0.05, 0.03, 0.8 - 0.05 * i});
+      frames.push_back(shoot(T_camera_hand, i % 2 == 0 ? Posture(Posture::Zero()) : power_posture()).frame);
+    }
+    return frames;
+  }();
+  return shot;
+}
+
+/// Of the third time that a tracker sees them.
+std::vector<int> requests_a_frame(const TrackerConfig& config) {
+  Tracker tracker = make_tracker(config);
+  for (int round = 0; round < 2; ++round)
+    for (const DeviceFrame& frame : frames()) EXPECT_EQ(tracker.track(frame).status, TrackStatus::tracked);
+  std::vector<int> counts;
+  for (const DeviceFrame& frame : frames()) counts.push_back(requests_of([&] { tracker.track(frame); }));
+  return counts;
+}
+
+TEST(Allocation, is_seen) {
+  std::vector<int>* volatile made = nullptr;
+  EXPECT_EQ(requests_of([&] { made = new std::vector<int>(100); }), 2);
+  delete made;
+}
+
+TEST(Allocation, happens_in_the_first_frame) {
+  // On a thread that has no memory yet.
+  int first = 0;
+  std::thread([&] {
+    Tracker tracker = make_tracker();
+    first = requests_of([&] { tracker.track(frames()[0]); });
+  }).join();
+  EXPECT_GT(first, 20);
+}
+
+TEST(Allocation, does_not_happen_once_a_tracker_has_begun) {
+  EXPECT_THAT(requests_a_frame({}), testing::Each(0));
+
+  TrackerConfig robust;
+  robust.icp.algorithm = IcpAlgorithm::robust;
+  robust.lookup.cascade = parse_cascade("exact:3");
+  EXPECT_THAT(requests_a_frame(robust), testing::Each(0));
+
+  TrackerConfig filtered;
+  filtered.segmentation.majority_filter = true;
+  filtered.segmentation.largest_component = true;
+  filtered.icp.cull_each_iteration = true;
+  EXPECT_THAT(requests_a_frame(filtered), testing::Each(0));
+}
+
+}  // namespace
+}  // namespace glovebench
+
+#endif
