@@ -148,8 +148,12 @@ TEST_F(Freenect, RefusesADumpThatWouldEndTheProgram) {
   EXPECT_THAT(refusal(live()), AllOf(HasSubstr(color), HasSubstr("header")));
   fs::remove(color);
   EXPECT_THAT(refusal(live()), HasSubstr(color));
-  write_file(path("dump/INDEX.txt"), "r-0.000000-0.ppm\n");
-  EXPECT_THAT(refusal(live()), HasSubstr("r-0.000000-0.ppm"));
+  const std::string depth = fs::path(some_file(".pgm")).filename();
+  write_file(path("dump/INDEX.txt"), depth + "\na-7.000000-5.dump\n");
+  EXPECT_THAT(refusal(live()), HasSubstr("a-7.000000-5.dump: file: found nothing"));
+  write_file(path("dump/a-7.000000-5.dump"), "twelve bytes");
+  write_file(path("dump/INDEX.txt"), "a-7.000000-5.dump\n");
+  EXPECT_THAT(refusal(live()), HasSubstr("depth images: found none"));
   fs::remove(path("dump/INDEX.txt"));
   EXPECT_THAT(refusal(live()), HasSubstr("INDEX.txt"));
 }

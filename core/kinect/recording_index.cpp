@@ -76,13 +76,17 @@ std::vector<RecordingEntry> parse_recording_index(std::string_view content, cons
 
 void check_fakenect_dump(const std::string& folder) {
   constexpr size_t kPixels = 640 * 480;
+  const std::string index = path_in_recording(folder, "INDEX.txt"), content = read_file(index);
   int depths = 0;
-  for (const RecordingEntry& entry : read_recording_index(folder)) {
-    const bool is_depth = entry.kind == RecordedKind::depth;
-    depths += is_depth;
-    require_image(entry.path, is_depth ? "P5 640 480 65535\n" : "P6 640 480 255\n", (is_depth ? 2 : 3) * kPixels);
+  for (std::string_view line : lines_of(content)) {
+    const RecordedKind kind = parse_recorded_name(line, index).kind;
+    const std::string path = path_in_recording(folder, std::string(line));
+    depths += kind == RecordedKind::depth;
+    if (kind == RecordedKind::depth) require_image(path, "P5 640 480 65535\n", 2 * kPixels);
+    if (kind == RecordedKind::color) require_image(path, "P6 640 480 255\n", 3 * kPixels);
+    if (size_of(path) == 0) throw Error(path, "file", "nothing", "what the index lists");
   }
-  if (depths == 0) throw Error(path_in_recording(folder, "INDEX.txt"), "depth images", "none", "at least one");
+  if (depths == 0) throw Error(index, "depth images", "none", "at least one");
 }
 
 }  // namespace glovebench
