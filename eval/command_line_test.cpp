@@ -279,7 +279,10 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   expect_flags({"record"}, {tracker, machine, random, {"--output", "--trajectory", "--database"}});
   expect_flags({"render"},
                {tracker, machine, random, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
-  expect_flags({"track"}, {tracker, machine, {"--source", "fakenect:", "--database", "--output", "--left"}});
+  expect_flags({"track"}, {tracker,
+                           machine,
+                           {"--source", "fakenect:", "freenect", "--database", "--output", "--left",
+                            "--calibration", "--frames", "--every-frame"}});
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});
   expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});

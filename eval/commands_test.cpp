@@ -76,6 +76,52 @@ TEST_F(CommandsLong, TrackOfADumpEqualsTheRun) {
       << "the robot commands hold the posture and the pose of each frame";
 }
 
+TEST_F(CommandsLong, TrackNamesDamagedFilesAndGoesOn) {
+  render_recording("good.json", "dump");
+  expect_fine(track("dump", "DB_open_power", "whole.jsonl"));
+  std::vector<std::string> depths;
+  for (const auto& entry : fs::directory_iterator(path("dump")))
+    if (entry.path().extension() == ".pgm") depths.push_back(entry.path().string());
+  std::sort(depths.begin(), depths.end());
+  fs::resize_file(depths[1], 5000);
+  fs::remove(depths[2]);
+  const ProgramRun run = track("dump", "DB_open_power", "damaged.jsonl");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, HasSubstr("2 of 4 frames tracked, 2 unusable\n"));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("skipped: " + depths[1] + ": size"), HasSubstr("skipped: " + depths[2])));
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+  const std::string lines = read_file(path("damaged.jsonl"));
+  const std::string whole = read_file(path("whole.jsonl"));
+  EXPECT_EQ(lines.substr(0, lines.find('\n')), whole.substr(0, whole.find('\n')));
+  EXPECT_EQ(json::parse(lines.substr(lines.find('\n'))).at("frame"), 3) << "a skipped frame keeps its number";
+
+  for (const std::string& depth : depths) write_file(depth, "");
+  EXPECT_THAT(track("dump", "DB_open_power", "none.jsonl").err, HasSubstr("usable frames: found none of 4"));
+  EXPECT_FALSE(fs::exists(path("none.jsonl")));
+}
+
+TEST_F(CommandsLong, TrackTakesACalibrationOfItsOwn) {
+  render_recording("good.json", "dump");
+  json calibration = json::parse(read_file(path("dump/calibration.json")));
+  fs::remove(path("dump/calibration.json"));  // as fakenect records
+  EXPECT_THAT(refusal(track("dump", "DB_open_power", "x.jsonl")), HasSubstr("calibration.json"));
+  // The driver's formula once more, 2% farther away.
+  calibration["disparity"] = {{"a_per_m", -1 / 345.489 / 1.02}, {"b_per_m", 1089.41 / 345.489 / 1.02}};
+  write_file(path("own.json"), calibration.dump());
+  expect_fine(track("dump", "DB_open_power", "far.jsonl", {"--calibration", path("own.json")}));
+  calibration.erase("disparity");
+  write_file(path("own.json"), calibration.dump());
+  expect_fine(track("dump", "DB_open_power", "near.jsonl", {"--calibration", path("own.json")}));
+  const auto first_z_mm = [&](const std::string& name) {
+    const std::string lines = read_file(path(name));
+    return json::parse(lines.substr(0, lines.find('\n'))).at("position_mm").at(2).get<double>();
+  };
+  EXPECT_NEAR(first_z_mm("far.jsonl") / first_z_mm("near.jsonl"), 1.02, 0.008) << "700 mm away";
+  write_file(path("own.json"), "{}");
+  EXPECT_THAT(refusal(track("dump", "DB_open_power", "x.jsonl", {"--calibration", path("own.json")})),
+              HasSubstr("own.json"));
+}
+
 TEST_F(CommandsLong, LeftHandRunsFromEndToEnd) {
   const json results = run_trajectory("left.json", "out");
   const json& experiment = results.at("experiments").at(0);

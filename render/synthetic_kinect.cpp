@@ -22,7 +22,8 @@ DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& c
                     .color = add_color_noise(images.color, noise, key),
                     .depth_timestamp_us = timestamp_us,
                     .color_timestamp_us = timestamp_us};
-  for (size_t i = 0; i < depth.size(); ++i) frame.raw_disparity[i] = disparity_from_depth(depth[i]);
+  for (size_t i = 0; i < depth.size(); ++i)
+    frame.raw_disparity[i] = disparity_from_depth(depth[i], calibration.disparity);
   return frame;
 }
 

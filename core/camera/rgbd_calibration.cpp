@@ -31,13 +31,21 @@ struct Place {
   }
 };
 
-void require_keys(const json& object, const Place& place, std::initializer_list<std::string_view> keys) {
+/// A key of a file that may be anything: an error message is one line.
+std::string printable(std::string key) {
+  for (char& c : key)
+    if (c >= 0 && c < ' ') c = '?';
+  return key;
+}
+
+void require_keys(const json& object, const Place& place, std::initializer_list<std::string_view> keys,
+                  std::string_view optional_key = "") {
   if (!object.is_object()) throw place.error(object.type_name(), "an object");
   for (std::string_view key : keys)
     if (!object.contains(std::string(key))) throw(place / key).error("nothing", "a value");
   for (const auto& [key, value] : object.items())
-    if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      throw(place / key).error("an unknown key", "only the documented keys");
+    if (key != optional_key && std::find(keys.begin(), keys.end(), key) == keys.end())
+      throw(place / printable(key)).error("an unknown key", "only the documented keys");
 }
 
 double read_number(const json& value, const Place& place) {
@@ -86,6 +94,13 @@ PinholeCamera read_camera(const json& value, const Place& place) {
           .cy = read_number(value["cy_px"], place / "cy_px")};
 }
 
+DisparityLine read_disparity(const json& value, const Place& place) {
+  require_keys(value, place, {"a_per_m", "b_per_m"});
+  const double a = read_number(value["a_per_m"], place / "a_per_m");
+  if (a >= 0) throw(place / "a_per_m").error(value["a_per_m"].dump(), "a number below 0");
+  return {a, read_positive(value["b_per_m"], place / "b_per_m")};
+}
+
 json camera_to_json(const PinholeCamera& camera) {
   return {{"width_px", camera.width}, {"height_px", camera.height}, {"fx_px", camera.fx},
           {"fy_px", camera.fy},       {"cx_px", camera.cx},         {"cy_px", camera.cy}};
@@ -109,9 +124,17 @@ RgbdCalibration synthetic_calibration() {
   return calibration;
 }
 
+RgbdCalibration nominal_kinect_calibration() {
+  RgbdCalibration calibration;
+  calibration.ir = {.width = 640, .height = 480, .fx = 575.816, .fy = 575.816, .cx = 319.5, .cy = 239.5};
+  calibration.rgb = {.width = 640, .height = 480, .fx = 525.0, .fy = 525.0, .cx = 319.5, .cy = 239.5};
+  calibration.T_rgb_ir.translation() = Eigen::Vector3d(-0.025, 0, 0);
+  return calibration;
+}
+
 RgbdCalibration calibration_from_json(const json& json, const std::string& where) {
   const Place root{where, ""};
-  require_keys(json, root, {"version", "ir", "rgb", "T_rgb_ir"});
+  require_keys(json, root, {"version", "ir", "rgb", "T_rgb_ir"}, "disparity");
   if (json["version"] != kVersion) throw(root / "version").error(json["version"].dump(), std::to_string(kVersion));
   const auto& T = json["T_rgb_ir"];
   const Place T_place = root / "T_rgb_ir";
@@ -122,6 +145,7 @@ RgbdCalibration calibration_from_json(const json& json, const std::string& where
   calibration.rgb = read_camera(json["rgb"], root / "rgb");
   calibration.T_rgb_ir.linear() = read_rotation(T["rotation"], T_place / "rotation");
   calibration.T_rgb_ir.translation() = read_vector(T["translation_m"], T_place / "translation_m");
+  if (json.contains("disparity")) calibration.disparity = read_disparity(json["disparity"], root / "disparity");
   return calibration;
 }
 
@@ -129,22 +153,29 @@ json to_json(const RgbdCalibration& calibration) {
   const Eigen::Matrix3d R = calibration.T_rgb_ir.linear();
   json rotation = json::array();
   for (int row = 0; row < 3; ++row) rotation.push_back(vector_to_json(R.row(row)));
-  return {{"version", kVersion},
-          {"ir", camera_to_json(calibration.ir)},
-          {"rgb", camera_to_json(calibration.rgb)},
-          {"T_rgb_ir",
-           {{"rotation", rotation}, {"translation_m", vector_to_json(calibration.T_rgb_ir.translation())}}}};
+  json written = {
+      {"version", kVersion},
+      {"ir", camera_to_json(calibration.ir)},
+      {"rgb", camera_to_json(calibration.rgb)},
+      {"T_rgb_ir",
+       {{"rotation", rotation}, {"translation_m", vector_to_json(calibration.T_rgb_ir.translation())}}}};
+  if (const auto& line = calibration.disparity)
+    written["disparity"] = {{"a_per_m", line->a_per_m}, {"b_per_m", line->b_per_m}};
+  return written;
 }
 
-RgbdCalibration load_calibration(const std::string& path) {
-  const std::string text = read_file(path);
+RgbdCalibration calibration_from_text(std::string_view text, const std::string& where) {
   json content;
   try {
     content = json::parse(text);
   } catch (const json::exception& e) {
-    throw Error(path, "content", e.what(), "JSON of a calibration");
+    throw Error(where, "content", e.what(), "JSON of a calibration");
   }
-  return calibration_from_json(content, path);
+  return calibration_from_json(content, where);
+}
+
+RgbdCalibration load_calibration(const std::string& path) {
+  return calibration_from_text(read_file(path), path);
 }
 
 void save_calibration(const RgbdCalibration& calibration, const std::string& path) {

@@ -2,11 +2,22 @@
 
 #include <Eigen/Geometry>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/camera/pinhole_camera.h"
 
 namespace glovebench {
+
+/// A Kinect's own depth, as calibrations give it: z = 1 / (a * raw + b), metres, of raw 11-bit disparity. With f
+/// (px), baseline B (m), steps of 1/8 px and the disparity d at infinity, a = -1 / (8 f B) and b = d / (8 f B).
+struct DisparityLine {
+  double a_per_m = 0;  ///< below 0: the larger the disparity, the farther
+  double b_per_m = 0;  ///< above 0
+
+  friend bool operator==(const DisparityLine&, const DisparityLine&) = default;
+};
 
 /// What a stereo calibration of a Kinect gives (section III-A). The frame called "camera" everywhere else
 /// is the IR (depth) camera.
@@ -14,17 +25,26 @@ struct RgbdCalibration {
   PinholeCamera ir;
   PinholeCamera rgb;
   Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< p_rgb = T_rgb_ir * p_ir, metres
+  std::optional<DisparityLine> disparity = std::nullopt;       ///< none: the driver's formula (kinect/disparity.h)
 };
 
 /// The one self-consistent calibration of the synthetic Kinect: IR f 575.816 px, RGB f 525 px, principal points
 /// near the center, baseline 24 mm, a rotation of under one degree.
 RgbdCalibration synthetic_calibration();
 
+/// A Kinect as it is built: IR f 575.816 px (the driver's formula), RGB f 525 px, principal points in the center,
+/// the RGB camera 25 mm to the right of the IR camera, no rotation. Of one device colors are off by some pixels;
+/// what tracks well has a calibration of its own.
+RgbdCalibration nominal_kinect_calibration();
+
 /// Reads {"version": 1, "ir": CAMERA, "rgb": CAMERA, "T_rgb_ir": {"rotation": 3 rows of 3, "translation_m": 3}}
-/// with CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}. Every key is required and no other
-/// is allowed. Throws Error naming `where` and the field; numbers must be finite, focal lengths positive, the
-/// rotation orthonormal (1e-6) and right-handed.
+/// with CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}, and if there is one
+/// "disparity": {"a_per_m", "b_per_m"}. Every other key is required and no more are allowed. Throws Error naming
+/// `where` and the field; numbers must be finite, focal lengths positive, the rotation orthonormal (1e-6) and
+/// right-handed, a below and b above 0.
 RgbdCalibration calibration_from_json(const nlohmann::json& json, const std::string& where);
+/// The same from what a file holds.
+RgbdCalibration calibration_from_text(std::string_view text, const std::string& where);
 nlohmann::json to_json(const RgbdCalibration& calibration);
 
 /// A calibration file; what is saved is loaded again bit for bit. Both throw Error.

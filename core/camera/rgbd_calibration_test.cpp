@@ -54,6 +54,24 @@ TEST(Calibration, ReturnsFromItsFileBitForBit) {
   EXPECT_EQ(loaded.T_rgb_ir.matrix(), saved.T_rgb_ir.matrix());
 }
 
+TEST(Calibration, HoldsADisparityLineOrNone) {
+  const json plain = to_json(synthetic_calibration());
+  EXPECT_FALSE(plain.contains("disparity")) << "recordings and hashes stay as they were";
+  EXPECT_FALSE(calibration_from_json(plain, "here.json").disparity);
+
+  RgbdCalibration own = nominal_kinect_calibration();
+  own.disparity = DisparityLine{-0.0030711016, 3.3309495161};
+  const RgbdCalibration read = calibration_from_json(json::parse(to_json(own).dump()), "here.json");
+  EXPECT_EQ(read.disparity, own.disparity);
+  EXPECT_EQ(read.ir, own.ir);
+}
+
+TEST(Calibration, NominalKinectHasItsRgbCameraToTheRight) {
+  const RgbdCalibration nominal = nominal_kinect_calibration();
+  EXPECT_EQ(nominal.T_rgb_ir * Eigen::Vector3d(0.025, 0, 1), Eigen::Vector3d(0, 0, 1)) << "on its optical axis";
+  EXPECT_EQ(nominal.ir.cx, (nominal.ir.width - 1) / 2.0);
+}
+
 TEST(Calibration, NamesTheWrongField) {
   const json good = to_json(synthetic_calibration());
   ASSERT_EQ(error_of(good), "");
@@ -65,6 +83,7 @@ TEST(Calibration, NamesTheWrongField) {
   EXPECT_TRUE(starts_with(error_with("/version", 2), "here.json: version: found 2"));
   EXPECT_TRUE(starts_with(error_with("/baseline", 1), "here.json: baseline: found an unknown key"));
   EXPECT_TRUE(starts_with(error_with("/ir/k1", 0.1), "here.json: ir.k1: found an unknown key"));
+  EXPECT_TRUE(starts_with(error_with("/ir/k\n1", 0.1), "here.json: ir.k?1: found an unknown key")) << "one line";
   EXPECT_TRUE(starts_with(error_with("/ir/fx_px", "575"), "here.json: ir.fx_px: found string"));
   EXPECT_TRUE(starts_with(error_with("/ir/fx_px", -1), "here.json: ir.fx_px: found -1"));
   EXPECT_TRUE(starts_with(error_with("/rgb/cx_px", std::numeric_limits<double>::quiet_NaN()),
@@ -75,6 +94,14 @@ TEST(Calibration, NamesTheWrongField) {
   EXPECT_TRUE(starts_with(error_with("/T_rgb_ir/rotation/1/1", 0.9), "here.json: T_rgb_ir.rotation"));
   const json mirrored = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_TRUE(starts_with(error_with("/T_rgb_ir/rotation", mirrored), "here.json: T_rgb_ir.rotation"));
+  EXPECT_TRUE(starts_with(error_with("/disparity/a_per_m", 1), "here.json: disparity.b_per_m: found nothing"));
+  const auto error_of_line = [&](const json& a, const json& b) {
+    return error_with("/disparity", {{"a_per_m", a}, {"b_per_m", b}});
+  };
+  EXPECT_EQ(error_of_line(-0.003, 3.33), "");
+  EXPECT_TRUE(starts_with(error_of_line(0, 3.33), "here.json: disparity.a_per_m: found 0"));
+  EXPECT_TRUE(starts_with(error_of_line(-0.003, 0), "here.json: disparity.b_per_m: found 0"));
+  EXPECT_TRUE(starts_with(error_with("/disparity", nullptr), "here.json: disparity: found null"));
   json missing = good;
   missing["rgb"].erase("fy_px");
   EXPECT_TRUE(starts_with(error_of(missing), "here.json: rgb.fy_px: found nothing"));

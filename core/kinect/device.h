@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/base/error.h"
 #include "core/base/image.h"
 #include "core/camera/rgbd_calibration.h"
 
@@ -16,13 +17,20 @@ struct DeviceFrame {
   int64_t color_timestamp_us = 0;
 };
 
+/// One frame is unusable; the stream goes on.
+class FrameError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// A source of frames: the synthetic Kinect, a recording, or a live device. A live implementation pairs
 /// depth and color by time stamp itself and hands out whole frames only.
 class Device {
  public:
   virtual ~Device() = default;
   virtual const RgbdCalibration& calibration() const = 0;
-  /// The next frame in time, or nothing at the end of the stream. Throws Error if the device fails.
+  /// The next frame in time, or nothing at the end of the stream. Throws FrameError if that frame is unusable (the
+  /// next call goes on with the one after it) and any other Error if the device fails.
   virtual std::optional<DeviceFrame> next_frame() = 0;
 };
 

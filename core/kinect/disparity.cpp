@@ -9,6 +9,8 @@ namespace {
 constexpr double kNumerator = 345.489;  // m; f * 75 mm baseline * 8 steps a px
 constexpr double kInfinity = 1089.41;   // disparity at infinite depth
 
+constexpr double kLeastInverse = (kInfinity - kMaxDisparity - 0.5) / kNumerator;  // 1/m
+
 using DepthTable = std::array<float, 2048>;
 
 constexpr DepthTable kDepths = [] {
@@ -35,14 +37,30 @@ uint16_t disparity_from_depth(double z) {
   return raw >= 0 && raw <= kMaxDisparity ? static_cast<uint16_t>(raw) : kNoDisparity;
 }
 
+float depth_from_disparity(uint16_t raw, const OptionalLine& line) {
+  if (!line) return depth_from_disparity(raw);
+  const double inverse = line->a_per_m * raw + line->b_per_m;
+  return raw < kNoDisparity && inverse > kLeastInverse ? static_cast<float>(1 / inverse) : 0.0f;
+}
+
+uint16_t disparity_from_depth(double z, const OptionalLine& line) {
+  if (!line) return disparity_from_depth(z);
+  if (!(z > 0) || !std::isfinite(z)) return kNoDisparity;
+  const double raw = std::round((1 / z - line->b_per_m) / line->a_per_m);
+  const bool fits = raw >= 0 && raw < kNoDisparity && depth_from_disparity(static_cast<uint16_t>(raw), line) > 0;
+  return fits ? static_cast<uint16_t>(raw) : kNoDisparity;
+}
+
 DepthImage depth_from_disparity(const Image<uint16_t>& raw) {
   return look_up_all(raw, kDepths);
 }
 
-DepthImage depth_from_disparity(const Image<uint16_t>& raw, double z_max) {
+DepthImage depth_from_disparity(const Image<uint16_t>& raw, const OptionalLine& line, double z_max) {
   DepthTable depths = kDepths;
-  for (float& z : depths)
-    if (z > z_max) z = 0;
+  for (size_t i = 0; i < depths.size(); ++i) {
+    if (line) depths[i] = depth_from_disparity(static_cast<uint16_t>(i), line);
+    if (depths[i] > z_max) depths[i] = 0;
+  }
   return look_up_all(raw, depths);
 }
 

@@ -57,11 +57,55 @@ TEST(Disparity, LeavesOutWhatIsTooFar) {
   Image<uint16_t> raw(3, 1, kNoDisparity);
   raw(1, 0) = 398;
   raw(2, 0) = 744;
-  const DepthImage depth = depth_from_disparity(raw, 0.9);
+  const DepthImage depth = depth_from_disparity(raw, std::nullopt, 0.9);
   EXPECT_EQ(depth(0, 0), 0.0f);
   EXPECT_EQ(depth(1, 0), depth_from_disparity(398));
   EXPECT_EQ(depth(2, 0), 0.0f) << "at 1 m";
-  EXPECT_EQ(depth_from_disparity(raw, 1.1), depth_from_disparity(raw));
+  EXPECT_EQ(depth_from_disparity(raw, std::nullopt, 1.1), depth_from_disparity(raw));
+}
+
+/// The driver's formula, as a line.
+DisparityLine line_of_the_driver() {
+  return {-1 / 345.489, 1089.41 / 345.489};
+}
+
+TEST(DisparityLine, OfTheDriverIsTheFormula) {
+  for (int raw = 0; raw <= 65535; ++raw) {
+    const auto step = static_cast<uint16_t>(raw);
+    ASSERT_NEAR(depth_from_disparity(step, line_of_the_driver()), depth_from_disparity(step),
+                1e-6 * depth_from_disparity(step))
+        << raw;
+  }
+  for (double z : {0.1, 0.3175, 0.7, 5.0, 50.0, 100.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(disparity_from_depth(z, line_of_the_driver()), disparity_from_depth(z)) << z;
+}
+
+TEST(DisparityLine, MatchesHandComputedDepths) {
+  const DisparityLine line{-0.003, 3.3};
+  EXPECT_NEAR(depth_from_disparity(600, line), 1 / 1.5, 1e-6);
+  EXPECT_EQ(disparity_from_depth(1 / 1.5, line), 600);
+  EXPECT_EQ(depth_from_disparity(1100, line), 0.0f) << "at infinity";
+  EXPECT_EQ(depth_from_disparity(1500, line), 0.0f) << "behind the camera";
+}
+
+TEST(DisparityLine, HasNoDepthWhereTheDeviceHasNoValue) {
+  const DisparityLine wide{-0.0001, 3.3};
+  EXPECT_GT(depth_from_disparity(2046, wide), 0.3f);
+  EXPECT_EQ(depth_from_disparity(kNoDisparity, wide), 0.0f);
+  EXPECT_EQ(depth_from_disparity(uint16_t{2048}, wide), 0.0f);
+  EXPECT_EQ(disparity_from_depth(1 / (3.3 - 0.2047), wide), kNoDisparity);
+  EXPECT_EQ(disparity_from_depth(0.29, wide), kNoDisparity) << "nearer than raw 0";
+}
+
+TEST(DisparityLine, ConvertsImagesPixelByPixel) {
+  Image<uint16_t> raw(2048 + 1, 1);
+  for (size_t i = 0; i < raw.size(); ++i) raw[i] = static_cast<uint16_t>(i);
+  const DisparityLine line{-0.003, 3.3};
+  const DepthImage depth = depth_from_disparity(raw, line), near = depth_from_disparity(raw, line, 1.0);
+  for (size_t i = 0; i < raw.size(); ++i) {
+    ASSERT_EQ(depth[i], depth_from_disparity(raw[i], line));
+    ASSERT_EQ(near[i], depth[i] > 1 ? 0.0f : depth[i]);
+  }
 }
 
 }  // namespace

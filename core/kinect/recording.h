@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/kinect/device.h"
+#include "core/kinect/frame_pairer.h"
 
 namespace glovebench {
 
@@ -15,36 +16,30 @@ namespace glovebench {
 ///     a-SECONDS.MICROS-TICKS.dump       accelerometer, ignored
 ///     calibration.json                  see rgbd_calibration.h
 ///
-/// The time stamp of an image is SECONDS * 1,000,000 + MICROS, with six digits of microseconds, so it returns
-/// exactly. TICKS is the device's own clock (60 MHz, 32 bits); written as the low 32 bits of 60 times the time
-/// stamp, and not read.
+/// SECONDS.MICROS is when an image arrived, by the computer's clock, with six digits of microseconds. TICKS is when
+/// it was taken, by the device's own clock (60 MHz, 32 bits). The time stamp of an image is that of its ticks,
+/// counted on from about the arrival of the first image. Written are both from one time stamp, so it returns
+/// exactly.
 
-/// Plays a recording. Each depth image is paired with the color image nearest in time (the earlier of two).
-/// Depth images with no color image within kMaxPairGap_us are left out and counted.
+/// Plays a recording, paired as FramePairer does. Depth images with no color image near them are left out and
+/// counted.
 class RecordingDevice : public Device {
  public:
-  static constexpr int64_t kMaxPairGap_us = 50'000;
-
   /// Throws Error if the index or the calibration is missing or malformed, an image is listed twice or nothing
-  /// can be paired. Images are read and checked in next_frame.
+  /// can be paired. Images are read and checked in next_frame. With `calibration` that of the folder is not read: a
+  /// recording of fakenect's own has none.
   explicit RecordingDevice(const std::string& folder);
+  RecordingDevice(const std::string& folder, const RgbdCalibration& calibration);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
-  /// Throws Error naming the image file and what is wrong with it. The next call goes on with the next frame.
+  /// Throws FrameError naming the image file and what is wrong with it.
   std::optional<DeviceFrame> next_frame() override;
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
 
  private:
-  struct Entry {
-    std::string path;
-    int64_t timestamp_us = 0;
-  };
-  struct Pair {
-    Entry depth, color;
-  };
-  void pair_by_time(const std::vector<Entry>& depths, const std::vector<Entry>& colors);
+  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file paths
 
   RgbdCalibration calibration_;
   std::vector<Pair> pairs_;

@@ -3,17 +3,18 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
 
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
+#include "core/kinect/tick_clock.h"
 
 namespace glovebench {
 namespace {
 
 constexpr int64_t kMicros = 1'000'000;
-constexpr int64_t kTicksPerMicro = 60;  // the Kinect's clock runs at 60 MHz
-constexpr size_t kMaxSecondDigits = 12;
+constexpr size_t kMaxSecondDigits = 11;  // as ticks they still fit 64 bits
 
 std::string_view extension(RecordedKind kind) {
   if (kind == RecordedKind::depth) return "pgm";
@@ -87,7 +88,7 @@ std::string_view payload(std::string_view content, const std::string& header, si
 
 std::string recorded_name(const RecordedName& name) {
   check(name.timestamp_us >= 0, "a recorded time stamp is not negative");
-  const uint32_t ticks = static_cast<uint32_t>(static_cast<uint64_t>(name.timestamp_us) * kTicksPerMicro);
+  const uint32_t ticks = static_cast<uint32_t>(static_cast<uint64_t>(name.timestamp_us) * kTicksPerMicrosecond);
   return fmt::format("{}-{}.{:06}-{}.{}", static_cast<char>(name.kind), name.timestamp_us / kMicros,
                      name.timestamp_us % kMicros, ticks, extension(name.kind));
 }
@@ -101,7 +102,9 @@ RecordedName parse_recorded_name(std::string_view name, const std::string& where
   reader.expect(".");
   parsed.timestamp_us = seconds * kMicros + reader.digits(6, 6);
   reader.expect("-");
-  reader.digits(1, 10);
+  const int64_t ticks = reader.digits(1, 10);
+  if (ticks > std::numeric_limits<uint32_t>::max()) reader.fail();
+  parsed.ticks = static_cast<uint32_t>(ticks);
   reader.expect(".");
   reader.expect(extension(parsed.kind));
   reader.end();

@@ -70,9 +70,9 @@ TEST(RecordedName, HoldsMicrosecondsExactly) {
 
 TEST(RecordedName, IsParsedStrictly) {
   EXPECT_NO_THROW(parse_recorded_name("a-1299626063.123456-3941023.dump", "INDEX.txt"));
-  for (const char* name :
-       {"", "d", "x-1.000000-1.pgm", "d-1.000000-1.ppm", "d-1.000-1.pgm", "d-1.000000-1.pgm ", "d--1.000000-1.pgm",
-        "d-1.000000-.pgm", "../d-1.000000-1.pgm", "d-1.000000-1.pgm\r", "d-9999999999999.000000-1.pgm"})
+  for (const char* name : {"", "d", "x-1.000000-1.pgm", "d-1.000000-1.ppm", "d-1.000-1.pgm", "d-1.000000-1.pgm ",
+                           "d--1.000000-1.pgm", "d-1.000000-.pgm", "../d-1.000000-1.pgm", "d-1.000000-1.pgm\r",
+                           "d-999999999999.000000-1.pgm", "d-1.000000-4294967296.pgm"})
     EXPECT_THROW(parse_recorded_name(name, "INDEX.txt"), Error) << name;
 }
 
@@ -117,13 +117,13 @@ TEST_F(Recording, PairsTheNearestInTime) {
   record({frame(1'000'000, 1'001'000), frame(1'100'000, 1'101'000)});
   // As fakenect dumps are: depth alone at first, unsorted, with accelerometer lines; and one depth between.
   const std::string depth = read_file(path("d-1.000000-60000000.pgm"));
-  write_file(path("d-0.500000-1.pgm"), depth);
-  write_file(path("d-1.051000-1.pgm"), depth);  // as near to 1.001 as to 1.101: the earlier
-  write_file(path("INDEX.txt"), "d-0.500000-1.pgm\na-0.6000000-5.dump\n");
+  write_file(path("d-0.500000-30000000.pgm"), depth);
+  write_file(path("d-1.051000-63060000.pgm"), depth);  // as near to 1.001 as to 1.101: the earlier
+  write_file(path("INDEX.txt"), "d-0.500000-30000000.pgm\na-0.6000000-5.dump\n");
   EXPECT_TRUE(mentions(play_error(), "INDEX.txt, line 2: file name"));  // seven digits
   write_file(path("INDEX.txt"),
-             "d-1.100000-66000000.pgm\nd-0.500000-1.pgm\na-0.600000-5.dump\nr-1.101000-66060000.ppm\n"
-             "d-1.051000-1.pgm\nd-1.000000-60000000.pgm\nr-1.001000-60060000.ppm\n");
+             "d-1.100000-66000000.pgm\nd-0.500000-30000000.pgm\na-0.600000-5.dump\nr-1.101000-66060000.ppm\n"
+             "d-1.051000-63060000.pgm\nd-1.000000-60000000.pgm\nr-1.001000-60060000.ppm\n");
   RecordingDevice device(folder_);
   EXPECT_EQ(device.unpaired_depth_count(), 1);
   for (const auto& [depth_us, color_us] :
@@ -133,6 +133,51 @@ TEST_F(Recording, PairsTheNearestInTime) {
     EXPECT_EQ(found->depth_timestamp_us, depth_us);
     EXPECT_EQ(found->color_timestamp_us, color_us);
   }
+}
+
+TEST_F(Recording, GoesByTheClockOfTheDevice) {
+  record({frame(1'000'000, 1'001'000), frame(1'033'000, 1'034'000)});
+  // The first color image was taken beside the first depth image and arrived beside the second.
+  fs::rename(path("r-1.001000-60060000.ppm"), path("r-1.033000-60060000.ppm"));
+  fs::rename(path("r-1.034000-62040000.ppm"), path("r-1.066000-62040000.ppm"));
+  write_file(
+      path("INDEX.txt"),
+      "d-1.000000-60000000.pgm\nr-1.033000-60060000.ppm\nd-1.033000-61980000.pgm\nr-1.066000-62040000.ppm\n");
+  RecordingDevice device(folder_);
+  for (const auto& [depth_us, color_us] : {std::pair{1'000'000, 1'001'000}, {1'033'000, 1'034'000}}) {
+    const std::optional<DeviceFrame> found = device.next_frame();
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->depth_timestamp_us, depth_us);
+    EXPECT_EQ(found->color_timestamp_us, color_us);
+  }
+}
+
+TEST_F(Recording, KeepsItsTimeWhereTheClockOfTheDeviceComesAround) {
+  const int64_t start_us = 1'700'000'000'123'457;  // many rounds of 71.6 s
+  const std::vector<int64_t> times = {start_us, start_us + 30'000'000, start_us + 60'000'000,
+                                      start_us + 90'000'000};
+  std::vector<DeviceFrame> frames;
+  for (int64_t time_us : times) frames.push_back(frame(time_us, time_us + 1));
+  record(frames);
+  RecordingDevice device(folder_);
+  for (int64_t time_us : times) EXPECT_EQ(device.next_frame()->depth_timestamp_us, time_us);
+}
+
+TEST_F(Recording, GoesOnAfterAFrameThatIsDamaged) {
+  record({frame(1'000'000, 1'001'000), frame(1'033'000, 1'034'000), frame(1'066'000, 1'067'000)});
+  write_file(path("d-1.033000-61980000.pgm"), "P5");
+  RecordingDevice device(folder_);
+  EXPECT_TRUE(device.next_frame());
+  EXPECT_THROW(device.next_frame(), FrameError);
+  EXPECT_EQ(device.next_frame()->depth_timestamp_us, 1'066'000);
+}
+
+TEST_F(Recording, TakesACalibrationFromElsewhere) {
+  record({frame(1'000'000, 1'001'000)});
+  fs::remove(path("calibration.json"));
+  EXPECT_TRUE(mentions(play_error(), "calibration.json: file"));
+  RecordingDevice device(folder_, calibration_);
+  EXPECT_EQ(device.next_frame()->raw_disparity, frame(1'000'000, 1'001'000).raw_disparity);
 }
 
 TEST_F(Recording, NamesTheFileThatIsMissingOrDamaged) {

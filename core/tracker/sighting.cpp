@@ -33,13 +33,15 @@ Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const
   observe("register");
   // A filter over neighbors looks across the border of what is left out.
   if (extent == Extent::reach && !config.segmentation.majority_filter) {
-    Sighting seen = see_in(depth_from_disparity(frame.raw_disparity, config.volume.z_max + kCutOffMargin),
-                           frame.color, calibration, table, config, observe);
+    Sighting seen = see_in(
+        depth_from_disparity(frame.raw_disparity, calibration.disparity, config.volume.z_max + kCutOffMargin),
+        frame.color, calibration, table, config, observe);
     // With too few points the status depends on what lies outside.
     if (static_cast<int>(seen.cloud.points.size()) >= config.detection.min_pixels) return seen;
     observe("register");
   }
-  return see_in(depth_from_disparity(frame.raw_disparity), frame.color, calibration, table, config, observe);
+  return see_in(depth_from_disparity(frame.raw_disparity, calibration.disparity), frame.color, calibration, table,
+                config, observe);
 }
 
 }  // namespace glovebench

@@ -1,66 +1,147 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <optional>
 
 #include "core/base/error.h"
 #include "core/base/file.h"
-#include "core/kinect/recording.h"
 #include "core/methods/method.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/tracker/estimate_line.h"
 #include "eval/commands/command.h"
+#include "eval/commands/track_source.h"
+#include "eval/interruption.h"
+#include "eval/live_status.h"
 #include "eval/progress.h"
 
 namespace glovebench::eval {
 namespace {
 
-constexpr std::string_view kRecordingPrefix = "fakenect:";
+constexpr double kStatusInterval = 0.5;  // s
+
+/// What was said of a live device so far, on one line of a terminal.
+class StatusLine {
+ public:
+  explicit StatusLine(bool quiet) : enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
+  ~StatusLine() {
+    if (last_ > 0) fmt::print(stderr, "\n");
+  }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  void show(const TrackResult& result, int dropped) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    status_.add(elapsed.count(), result);
+    if (!enabled_ || elapsed.count() < last_ + kStatusInterval) return;
+    last_ = elapsed.count();
+    fmt::print(stderr, "\r\x1b[K{}", status_.line(dropped));
+    std::fflush(stderr);
+  }
+
+ private:
+  bool enabled_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double last_ = 0;
+  LiveStatus status_;
+};
 
 struct Track {
   CommonFlags common;
-  std::string source;
+  SourceFlags from;
   std::string database;
+  int limit = 0;  ///< frames; 0: to the end
   RobotFlags robot;
 
+  // Of the run.
+  int frames = 0, unusable = 0, tracked = 0;
+  std::optional<Error> failure;  ///< of the device
+
   void run() {
-    if (!source.starts_with(kRecordingPrefix)) {
-      throw Error("--source", "kind", source, "fakenect:FOLDER");
-    }
-    RecordingDevice device(source.substr(kRecordingPrefix.size()));
+    TrackSource source = open_source(from);
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
     const TrackerConfig config = common.tracker_config();
     const std::unique_ptr<Method> method =
         find_method(config.method)
-            .make({config, device.calibration(), workbench.model(), workbench.database(name),
+            .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
                    workbench.color_table(config.segmentation.color_space)});
+    WholeFile output(common.output);
     std::optional<JsonLinesSink> sink;
     if (!robot.output.empty()) sink.emplace(robot.output);
-    RobotCommander commander(robot.T_base_camera());
-
-    Progress progress("tracking", common.quiet);
-    std::string lines;
-    int frames = 0, tracked = 0;
-    while (const std::optional<DeviceFrame> frame = device.next_frame()) {
-      const TrackResult result = method->track(*frame);
-      lines += estimate_line(frames++, result) + "\n";
-      tracked += result.status == TrackStatus::tracked;
-      if (sink) sink->send(commander.command(result));
-      progress.show(static_cast<double>(frames) / device.frame_count());
-    }
-    write_file(common.output, lines);
+    const Interruption interruption;
+    track_all(source, *method, output, sink ? &*sink : nullptr);
+    if (frames == unusable) refuse();
+    output.commit();
     if (sink) sink->finish();
-    fmt::print("{}: {} of {} frames tracked\n", common.output, tracked, frames);
+    fmt::print("{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames, counted(unusable, "unusable"),
+               counted(source.dropped(), "dropped"));
+    if (failure) throw *failure;
+    if (!common.quiet && !source.ended_by().empty()) fmt::print(stderr, "glovebench: {}\n", source.ended_by());
+  }
+
+  void track_all(TrackSource& source, Method& method, WholeFile& output, JsonLinesSink* sink) {
+    RobotCommander commander(robot.T_base_camera());
+    Progress progress("tracking", common.quiet);
+    StatusLine status(common.quiet || source.frame_count > 0);
+    while (!Interruption::wished() && (limit == 0 || frames < limit)) {
+      const int number = frames;
+      const std::optional<DeviceFrame> frame = next_frame(*source.device);
+      if (!frame && frames == number) return;
+      if (frame) {
+        const TrackResult result = method.track(*frame);
+        output.append(estimate_line(number, result) + "\n");
+        tracked += result.status == TrackStatus::tracked;
+        if (sink) sink->send(commander.command(result));
+        status.show(result, source.dropped());
+      }
+      if (source.frame_count > 0) progress.show(static_cast<double>(frames) / source.frame_count);
+    }
+  }
+
+  /// Counts the frame, if there is one, also if it is unusable: then there is nothing to return.
+  std::optional<DeviceFrame> next_frame(Device& device) {
+    try {
+      std::optional<DeviceFrame> frame = device.next_frame();
+      frames += frame.has_value();
+      return frame;
+    } catch (const FrameError& e) {
+      ++frames;
+      ++unusable;
+      if (!common.quiet) fmt::print(stderr, "glovebench: skipped: {}\n", e.what());
+    } catch (const Error& e) {
+      failure = e;
+    }
+    return std::nullopt;
+  }
+
+  [[noreturn]] void refuse() const {
+    if (failure) throw *failure;
+    throw Error(from.source, "usable frames", fmt::format("none of {}", frames), "at least one");
+  }
+
+  static std::string counted(int count, const char* what) {
+    return count > 0 ? fmt::format(", {} {}", count, what) : "";
   }
 };
 
 }  // namespace
 
 void add_track(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("track", "Track the hand in a recording and write the estimates.");
+  CLI::App* command =
+      program.add_subcommand("track", "Track the hand in a recording or before a Kinect and write the estimates.");
   const auto state = std::make_shared<Track>();
-  command->add_option("--source", state->source, "fakenect:FOLDER, a recording with calibration.json beside it")
+  command
+      ->add_option("--source", state->from.source,
+                   "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect, until Ctrl-C")
       ->required();
+  command->add_option("--calibration", state->from.calibration,
+                      "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  command->add_option("--frames", state->limit, "stop after that many; 0: none is the last")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_flag("--every-frame", state->from.every_frame,
+                    "freenect: drop none that comes too fast, for what the fakenect library plays");
   command
       ->add_option("--database", state->database,
                    "name (`glovebench list databases`) or file (*.glovedb, *.csv, *.json)")

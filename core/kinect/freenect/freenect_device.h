@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/kinect/device.h"
+
+namespace glovebench {
+
+struct FreenectOptions {
+  int index = 0;  ///< of the devices that libfreenect finds
+  /// Lets the device wait when frames are not fetched in time, instead of dropping the oldest: for what fakenect
+  /// plays. A Kinect does not wait; it loses packets.
+  bool every_frame = false;
+  double silence_limit = 10;          ///< s without a frame after which the device has failed
+  std::function<bool()> interrupted;  ///< asked ten times a second while nothing arrives; true ends the stream
+};
+
+/// What became of the images that are in no frame.
+struct FreenectLosses {
+  int late = 0;       ///< whole frames that were not fetched in time, since the first was asked for
+  int unpaired = 0;   ///< depth images with no color image near them
+  int went_back = 0;  ///< images whose time stamp was not later than that of the one before
+
+  int total() const { return late + unpaired + went_back; }
+};
+
+/// A Kinect v1 through libfreenect's asynchronous interface: 11-bit disparity and RGB, 640x480, paired as
+/// FramePairer does, so a frame comes up to one color image (33 ms) after its depth image. Which library is behind
+/// the interface is decided when the program is loaded: the real one, or fakenect, which plays a recording.
+///
+/// A thread of its own takes what the device gives; a frame that is not fetched until the next two have come is
+/// dropped and counted. Time stamps are the device's, in microseconds, and do not come around.
+class FreenectDevice : public Device {
+ public:
+  /// Opens the device and starts both streams. Throws Error if there is none or it refuses; where the environment
+  /// names a dump for fakenect (FAKENECT_PATH), also if that dump is damaged, as fakenect would end the program.
+  explicit FreenectDevice(const RgbdCalibration& calibration, FreenectOptions options = {});
+  ~FreenectDevice() override;
+
+  const RgbdCalibration& calibration() const override;
+  /// Waits for the next frame. Nothing when the device has gone (unplugged, or the end of what fakenect plays) or
+  /// on `interrupted`. Throws Error after `silence_limit`.
+  std::optional<DeviceFrame> next_frame() override;
+
+  FreenectLosses losses() const;
+  /// Why the stream has ended; empty while it has not.
+  std::string end() const;
+
+ private:
+  class Stream;
+  RgbdCalibration calibration_;
+  std::unique_ptr<Stream> stream_;
+};
+
+}  // namespace glovebench

@@ -1,0 +1,92 @@
+#include "core/kinect/recording_index.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/kinect/disparity.h"
+#include "core/kinect/tick_clock.h"
+
+namespace glovebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+/// The size of a file, 0 if there is none.
+uintmax_t size_of(const std::string& path) {
+  std::error_code error;
+  const uintmax_t size = fs::file_size(path, error);
+  return error ? 0 : size;
+}
+
+/// Throws Error unless a file begins and ends where fakenect looks for pixels.
+void require_image(const std::string& path, const std::string& header, size_t bytes) {
+  if (size_of(path) != header.size() + bytes)
+    throw Error(path, "size", std::to_string(size_of(path)) + " bytes",
+                std::to_string(header.size() + bytes) + " of an image of 640x480");
+  std::string start(header.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (start != header)
+    throw Error(path, "header", "something else", "\"" + header.substr(0, header.size() - 1) + "\"");
+}
+
+}  // namespace
+
+std::string path_in_recording(const std::string& folder, const std::string& name) {
+  return (fs::path(folder) / name).string();
+}
+
+std::vector<RecordingEntry> read_recording_index(const std::string& folder) {
+  return parse_recording_index(read_file(path_in_recording(folder, "INDEX.txt")), folder);
+}
+
+std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder) {
+  const std::string index = path_in_recording(folder, "INDEX.txt");
+  std::vector<RecordingEntry> entries;
+  std::optional<TickClock> clock;
+  int number = 0;
+  for (std::string_view line : lines_of(content)) {
+    const RecordedName name = parse_recorded_name(line, index + ", line " + std::to_string(++number));
+    if (name.kind == RecordedKind::accelerometer) continue;
+    if (!clock) clock.emplace(name.timestamp_us);
+    entries.push_back({name.kind, clock->microseconds(name.ticks), path_in_recording(folder, std::string(line))});
+  }
+  const auto key = [](const RecordingEntry& entry) { return std::pair(entry.timestamp_us, entry.kind); };
+  std::sort(entries.begin(), entries.end(),
+            [&](const RecordingEntry& a, const RecordingEntry& b) { return key(a) < key(b); });
+  for (size_t i = 1; i < entries.size(); ++i) {
+    if (key(entries[i]) == key(entries[i - 1]))
+      throw Error(index, "time stamp", std::to_string(entries[i].timestamp_us) + " us twice", "each once");
+  }
+  return entries;
+}
+
+void check_fakenect_dump(const std::string& folder) {
+  constexpr size_t kPixels = 640 * 480;
+  const std::string index = path_in_recording(folder, "INDEX.txt"), content = read_file(index);
+  int depths = 0;
+  for (std::string_view line : lines_of(content)) {
+    const RecordedKind kind = parse_recorded_name(line, index).kind;
+    const std::string path = path_in_recording(folder, std::string(line));
+    depths += kind == RecordedKind::depth;
+    if (kind == RecordedKind::depth) require_image(path, "P5 640 480 65535\n", 2 * kPixels);
+    if (kind == RecordedKind::color) require_image(path, "P6 640 480 255\n", 3 * kPixels);
+    if (size_of(path) == 0) throw Error(path, "file", "nothing", "what the index lists");
+  }
+  if (depths == 0) throw Error(index, "depth images", "none", "at least one");
+}
+
+}  // namespace glovebench

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/kinect/recording_files.h"
+
+namespace glovebench {
+
+/// One file of a recording (see recording.h).
+struct RecordingEntry {
+  RecordedKind kind = RecordedKind::depth;
+  int64_t timestamp_us = 0;  ///< by the device's clock
+  std::string path;
+};
+
+std::string path_in_recording(const std::string& folder, const std::string& name);
+
+/// The images that INDEX.txt lists, in order of time. Throws Error if it is missing or malformed or lists an image
+/// twice.
+std::vector<RecordingEntry> read_recording_index(const std::string& folder);
+/// The same of the content of an INDEX.txt.
+std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
+
+/// Throws Error naming the first file that the fakenect library could not play: it ends the program, or reads past
+/// the end, where a file is missing or short. Looks at sizes and headers only.
+void check_fakenect_dump(const std::string& folder);
+
+}  // namespace glovebench

@@ -1,0 +1,69 @@
+#include "eval/commands/track_source.h"
+
+#include <charconv>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/kinect/recording.h"
+#include "eval/interruption.h"
+#ifdef GLOVEBENCH_FREENECT
+#include "core/kinect/freenect/freenect_device.h"
+#endif
+
+namespace glovebench::eval {
+namespace {
+
+constexpr std::string_view kRecording = "fakenect:", kLive = "freenect";
+
+TrackSource open_recording(const SourceFlags& flags) {
+  const std::string folder = flags.source.substr(kRecording.size());
+  auto device = flags.calibration.empty()
+                    ? std::make_unique<RecordingDevice>(folder)
+                    : std::make_unique<RecordingDevice>(folder, load_calibration(flags.calibration));
+  const RecordingDevice* recording = device.get();
+  return {std::move(device), recording->frame_count(), [recording] { return recording->unpaired_depth_count(); },
+          [] { return std::string(); }};
+}
+
+[[noreturn]] void refuse(const std::string& source) {
+  throw Error("--source", "kind", source, "fakenect:FOLDER, freenect or freenect:INDEX");
+}
+
+/// 0 for "freenect", N for "freenect:N".
+int device_index(const std::string& source) {
+  const std::string_view rest = std::string_view(source).substr(kLive.size());
+  if (rest.empty()) return 0;
+  int index = -1;
+  const char* end = rest.data() + rest.size();
+  const auto [stop, error] = std::from_chars(rest.data() + 1, end, index);
+  if (rest[0] != ':' || error != std::errc() || stop != end || index < 0) refuse(source);
+  return index;
+}
+
+TrackSource open_live(const SourceFlags& flags) {
+  const int index = device_index(flags.source);
+#ifdef GLOVEBENCH_FREENECT
+  const RgbdCalibration calibration =
+      flags.calibration.empty() ? nominal_kinect_calibration() : load_calibration(flags.calibration);
+  FreenectOptions options{.index = index, .every_frame = flags.every_frame, .interrupted = Interruption::wished};
+  // What is played may pause as long as its recording did.
+  if (flags.every_frame) options.silence_limit = std::numeric_limits<double>::infinity();
+  auto device = std::make_unique<FreenectDevice>(calibration, options);
+  const FreenectDevice* live = device.get();
+  return {std::move(device), 0, [live] { return live->losses().total(); }, [live] { return live->end(); }};
+#else
+  throw Error("--source", flags.source,
+              "a glovebench that was built without libfreenect (device " + std::to_string(index) + ")",
+              "one that was configured with it (Debian: libfreenect-dev)");
+#endif
+}
+
+}  // namespace
+
+TrackSource open_source(const SourceFlags& flags) {
+  if (flags.source.starts_with(kRecording)) return open_recording(flags);
+  if (flags.source.starts_with(kLive)) return open_live(flags);
+  refuse(flags.source);
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/kinect/device.h"
+
+namespace glovebench::eval {
+
+/// Where `track` takes its frames from.
+struct TrackSource {
+  std::unique_ptr<Device> device;
+  int frame_count = 0;                    ///< 0: a live device, which ends when it ends
+  std::function<int()> dropped;           ///< images or frames so far that no frame holds
+  std::function<std::string()> ended_by;  ///< why a live device gives no more frames
+};
+
+struct SourceFlags {
+  std::string source;       ///< "fakenect:FOLDER" or "freenect[:INDEX]"
+  std::string calibration;  ///< file; empty: the recording's, or that of a nominal Kinect
+  bool every_frame = false;
+};
+
+/// Throws Error: an unknown kind, no such device, no such recording, a build without libfreenect.
+TrackSource open_source(const SourceFlags& flags);
+
+}  // namespace glovebench::eval

@@ -1,0 +1,55 @@
+#include "eval/live_status.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "eval/interruption.h"
+
+namespace glovebench::eval {
+namespace {
+
+TrackResult result(TrackStatus status, double residual) {
+  TrackResult made;
+  made.status = status;
+  made.icp_residual = residual;
+  return made;
+}
+
+TEST(LiveStatus, KnowsNothingBeforeTheFirstFrames) {
+  LiveStatus status;
+  EXPECT_EQ(status.line(0), "- frames/s, -% tracked, residual - mm, 0 dropped");
+  status.add(1.0, result(TrackStatus::no_hand, 0));
+  EXPECT_EQ(status.line(1), "- frames/s, 0% tracked, residual - mm, 1 dropped");
+}
+
+TEST(LiveStatus, CountsRateShareAndResidualOfTrackedFrames) {
+  LiveStatus status;
+  status.add(10.00, result(TrackStatus::tracked, 0.001));
+  status.add(10.05, result(TrackStatus::poor_match, 0.9));
+  status.add(10.10, result(TrackStatus::tracked, 0.002));
+  status.add(10.15, result(TrackStatus::tracked, 0.003));
+  EXPECT_EQ(status.line(4), "20.0 frames/s, 75% tracked, residual 2.0 mm, 4 dropped");
+}
+
+TEST(LiveStatus, SpeaksOfTheLastFramesOnly) {
+  LiveStatus status;
+  status.add(0, result(TrackStatus::no_hand, 0));
+  for (size_t f = 0; f < LiveStatus::kFrames; ++f)
+    status.add(100 + 0.1 * static_cast<double>(f), result(TrackStatus::tracked, 0.004));
+  EXPECT_EQ(status.line(0), "10.0 frames/s, 100% tracked, residual 4.0 mm, 0 dropped");
+}
+
+TEST(Interruption, IsAWishOnceAndNoneAfterwards) {
+  {
+    const Interruption first;
+    EXPECT_FALSE(Interruption::wished());
+    raise(SIGINT);
+    EXPECT_TRUE(Interruption::wished());
+  }
+  const Interruption second;
+  EXPECT_FALSE(Interruption::wished());
+}
+
+}  // namespace
+}  // namespace glovebench::eval

@@ -1,0 +1,11 @@
+#include "core/kinect/recording_files.h"
+#include "fuzz/fuzz_target.h"
+
+using namespace glovebench;
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  return fuzz::expect_value_or_error([&] {
+    const ColorImage image = decode_ppm(fuzz::as_text(data, size), 4, 3, "image");
+    check(decode_ppm(encode_ppm(image), 4, 3, "again") == image, "an image returns");
+  });
+}
