@@ -10,10 +10,9 @@ namespace {
 
 constexpr int kMaxIterations = 40;
 constexpr double kFirstDamping = 1e-3, kMostDamping = 1e6;
-constexpr double kSmallestGain = 1e-6;         ///< of the cost, relative: the end
 constexpr double kConstraintDeviation = 1e-5;  ///< m: as good as none
-/// What no point of a frame shows stays where it started; so weak that a hundred frames do not outvote the hand.
-constexpr double kPostureDeviation = radians_from_degrees(600);
+/// What the points show badly stays about where the model's own hand put it; weak beside what they show well.
+constexpr double kPostureDeviation = radians_from_degrees(80);
 
 using StateMatrix = Eigen::Matrix<double, kStateSize, kStateSize>;
 using Points = std::vector<std::vector<Eigen::Vector3d>>;
@@ -126,7 +125,7 @@ Guess stepped(const Guess& guess, const System& system, double damping) {
 }  // namespace
 
 Calibration calibrate_hand(const CaptureHand& start, const Points& points, const std::vector<HandState>& states,
-                           double robust_scale) {
+                           double robust_scale, double smallest_gain) {
   const HandParameters parameters(start);
   const Problem problem(parameters, points, states, robust_scale);
   Guess guess{Eigen::VectorXd::Zero(parameters.size()), states};
@@ -144,7 +143,7 @@ Calibration calibrate_hand(const CaptureHand& start, const Points& points, const
       guess = std::move(next);
       cost = next_cost;
     }
-    if (gain <= kSmallestGain * cost) break;
+    if (gain <= smallest_gain * cost) break;
   }
   return {parameters.hand(guess.parameters), guess.states};
 }

@@ -40,9 +40,9 @@ struct Calibration {
 /// The hand that fits all frames at once, and what it does in each: damped Gauss-Newton over the parameters and all
 /// states together (bundle adjustment; the states are eliminated frame by frame). One after the other would creep:
 /// a marker that sits farther round its finger looks like a bent joint until the joint moves. `points` of each
-/// frame: one a marker, or a gap.
+/// frame: one a marker, or a gap. Ends when a step gains less than `smallest_gain` of the cost.
 Calibration calibrate_hand(const CaptureHand& start, const std::vector<std::vector<Eigen::Vector3d>>& points,
-                           const std::vector<HandState>& states, double robust_scale);
+                           const std::vector<HandState>& states, double robust_scale, double smallest_gain);
 
 /// All places of a hand times a factor.
 CaptureHand scaled(const CaptureHand& hand, double factor);

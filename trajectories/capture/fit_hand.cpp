@@ -18,7 +18,9 @@ namespace {
 /// Before the hand is known its markers may be as far off as people put them.
 constexpr double kFirstScale = 0.015;
 constexpr double kLeastScale = 0.003;
-constexpr size_t kCalibrationFrames = 80;
+constexpr size_t kCalibrationFrames = 40;
+/// Where a hand's calibration ends: while labels are wrong, and in the end.
+constexpr double kRoughGain = 1e-4, kFinalGain = 1e-6;
 /// A fit of which more points are farther off than this many robust scales is none.
 constexpr double kLostScales = 3;
 
@@ -60,7 +62,7 @@ double robust_scale(const CaptureHand& hand, const std::vector<Points>& points,
 
 /// The hand over the frames whose postures differ most.
 Calibration calibrate(const CaptureHand& nominal, const std::vector<Points>& points,
-                      const std::vector<HandState>& states, double scale) {
+                      const std::vector<HandState>& states, double scale, double smallest_gain) {
   std::vector<Posture> pool;
   for (const HandState& state : states) pool.push_back(state.posture);
   std::vector<size_t> chosen =
@@ -72,7 +74,7 @@ Calibration calibrate(const CaptureHand& nominal, const std::vector<Points>& poi
     chosen_points.push_back(points[f]);
     chosen_states.push_back(states[f]);
   }
-  return calibrate_hand(nominal, chosen_points, chosen_states, scale);
+  return calibrate_hand(nominal, chosen_points, chosen_states, scale, smallest_gain);
 }
 
 /// Every frame again, from where it was and from where its neighbors were: an outlier may have pulled one of them
@@ -147,10 +149,10 @@ HandFit fit_hand(const MarkerSequence& sequence, const std::vector<PlacedMarker>
   for (const MarkerFrame& frame : sequence.frames) fit.frames.emplace_back().timestamp_us = frame.timestamp_us;
 
   std::vector<HandState> states = start_states(nominal, cloud.labeled, kFirstScale, where);
-  fit.hand = calibrate(nominal, cloud.labeled, states, kFirstScale).hand;
+  fit.hand = calibrate(nominal, cloud.labeled, states, kFirstScale, kRoughGain).hand;
   double scale = robust_scale(fit.hand, cloud.labeled, states);
   states = refit(fit.hand, cloud.labeled, states, scale);
-  fit.hand = calibrate(nominal, cloud.labeled, states, scale).hand;
+  fit.hand = calibrate(nominal, cloud.labeled, states, scale, kRoughGain).hand;
   states = refit(fit.hand, cloud.labeled, states, scale);
 
   std::vector<Points> points;
@@ -160,7 +162,7 @@ HandFit fit_hand(const MarkerSequence& sequence, const std::vector<PlacedMarker>
     points.push_back(std::move(sorted.points));
   }
   scale = robust_scale(fit.hand, points, states);
-  fit.hand = calibrate(nominal, points, states, scale).hand;
+  fit.hand = calibrate(nominal, points, states, scale, kFinalGain).hand;
   states = refit(fit.hand, points, states, scale);
   report_frames(cloud, points, states, scale, fit);
   if (std::ranges::all_of(fit.frames, &FittedFrame::left_out)) {

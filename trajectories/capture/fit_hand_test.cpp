@@ -88,5 +88,83 @@ TEST(FitHand, finds_the_angles_of_another_hand_from_flawed_skin_markers) {
   EXPECT_EQ(std::ranges::count(result.never_shown, true), 0) << "two markers are on the forearm";
 }
 
+TEST(FitHand, says_what_no_point_shows) {
+  const Trajectory truth = movement("Tr4", 10);
+  std::vector<std::string> names = webxr_names();
+  std::erase_if(names, [](const std::string& name) {
+    return name == "ring-finger-tip" || name == "thumb-tip" || name == "thumb-phalanx-distal";
+  });
+  const HandFit result = fit(captured(truth, model(), names, {}));
+  std::vector<std::string_view> never;
+  for (int a = 0; a < kAngleCount; ++a) {
+    if (result.never_shown[a]) never.push_back(angle_infos()[a].name);
+  }
+  EXPECT_THAT(never, testing::ElementsAre("wrist_flexion", "wrist_abduction", "thumb_mcp_flexion",
+                                          "thumb_ip_flexion", "ring_dip_flexion"));
+  const Posture& posture = result.frames[5].state.posture;
+  EXPECT_EQ(posture[kThumbIpFlexion], 0);
+  EXPECT_NEAR(posture[kRingDipFlexion], posture[kRingPipFlexion] * 2 / 3, 1e-12) << "an end joint follows";
+}
+
+TEST(FitHand, bridges_a_short_gap_and_leaves_a_long_one_out) {
+  const Trajectory truth = movement("Tr4", 40);  // at 15 Hz
+  MarkerSequence sequence = captured(truth, model(), webxr_names(), {});
+  for (const size_t f : {5, 6, 20, 21, 22, 23, 24, 25, 26, 27, 28, 39}) {
+    sequence.frames[f].points.assign(sequence.names.size(), gap());
+  }
+  const HandFit result = fit(sequence);
+  for (size_t f = 0; f < truth.frames.size(); ++f) {
+    const bool is_long = (f >= 20 && f <= 28) || f == 39;
+    EXPECT_EQ(result.frames[f].bridged_pose, is_long || f == 5 || f == 6) << f;
+    EXPECT_EQ(result.frames[f].left_out, is_long) << f;
+  }
+  const Eigen::Vector3d between = (result.frames[4].state.T_capture_hand.translation() * 2 +
+                                   result.frames[7].state.T_capture_hand.translation()) /
+                                  3;
+  EXPECT_LT((result.frames[5].state.T_capture_hand.translation() - between).norm(), 1e-4) << "a third of the way";
+}
+
+std::string refusal(const MarkerSequence& sequence) {
+  try {
+    fit(sequence);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(FitHand, refuses_what_is_no_hand) {
+  const MarkerSequence good = captured(movement("Tr4", 3), model(), webxr_names(), {});
+  EXPECT_EQ(refusal(good), "accepted");
+
+  MarkerSequence large = good;
+  for (MarkerFrame& frame : large.frames) {
+    for (Eigen::Vector3d& p : frame.points) p *= 10;
+  }
+  EXPECT_THAT(refusal(large), AllOf(HasSubstr("capture: points: found a hand of 10 times"), HasSubstr("unit")));
+
+  MarkerSequence fingertip = good;
+  for (MarkerFrame& frame : fingertip.frames) {
+    for (size_t p = 0; p < frame.points.size(); ++p) {
+      if (fingertip.names[p] != "index-finger-tip") frame.points[p] = gap();
+    }
+  }
+  EXPECT_THAT(refusal(fingertip), HasSubstr("found no frame with three on the palm"));
+
+  MarkerSequence nonsense = good;
+  for (size_t f = 0; f < 3; ++f) {
+    RandomStream random(1, "nonsense", static_cast<int64_t>(f), "points");
+    for (Eigen::Vector3d& p : nonsense.frames[f].points) {
+      p = 0.1 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    }
+  }
+  EXPECT_THAT(refusal(nonsense), HasSubstr("capture: points: found "));
+
+  MarkerSequence unnamed = good;
+  unnamed.names[3] = "elbow";
+  EXPECT_THAT(refusal(unnamed),
+              AllOf(HasSubstr("capture: point: found \"elbow\""), HasSubstr("a place on the hand")));
+}
+
 }  // namespace
 }  // namespace glovebench::trajectories

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "trajectories/capture/calibrate_hand.h"
 
 namespace glovebench::trajectories {
@@ -5,7 +7,14 @@ namespace {
 
 // Fixed before any error was looked at.
 const Eigen::Vector3d kPalmDeviation(0.004, 0.003, 0.005);  ///< of a joint in the palm, m
-constexpr double kSegmentDeviation = 0.06;
+/// Of a segment, relative; more if its end is a point of the capture, which then says how long it is (rigs differ,
+/// and most in where a tip is).
+constexpr double kSegmentDeviation = 0.06, kSeenSegmentDeviation = 0.5;
+
+bool has_joint_center(const CaptureHand& hand, int joint) {
+  return std::ranges::any_of(hand.markers,
+                             [&](const PlacedMarker& m) { return m.joint == joint && m.is_joint_center(); });
+}
 
 bool is_segment_end(int joint) {
   return joint_parents()[static_cast<size_t>(joint)] >= 0;
@@ -25,7 +34,7 @@ HandParameters::HandParameters(const CaptureHand& nominal) : nominal_(nominal) {
   for (int j = 0; j < kForearmJoint; ++j) {
     first_of_joint_[static_cast<size_t>(j)] = static_cast<int>(deviations.size());
     if (is_segment_end(j)) {
-      deviations.push_back(kSegmentDeviation);
+      deviations.push_back(has_joint_center(nominal, j) ? kSeenSegmentDeviation : kSegmentDeviation);
     } else {
       add(kPalmDeviation);
     }

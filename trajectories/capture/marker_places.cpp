@@ -29,14 +29,17 @@ struct Place {
 // miss by more than across, and the skin has one height.
 const Eigen::Vector3d kOnFinger(0.002, 0.0015, 0.004), kOnPalm(0.005, 0.002, 0.005), kOnSide(0.003, 0.005, 0.005);
 
+/// The mesh's tip joints lie in the middle of the last segment, 11 to 15 mm from its joint: shares of that.
+constexpr double kMiddleOfLast = 0.9, kNail = 1.6;
+
 const std::map<std::string, Place>& places() {
   static const std::map<std::string, Place> table = [] {
     const Eigen::Vector3d dorsal = Eigen::Vector3d::UnitY(), ulnar = Eigen::Vector3d::UnitX();
     std::map<std::string, Place> result = {
         {"thumb_metacarpal", {1, 1, 2, 0.5, dorsal, kOnFinger}},
         {"thumb_proximal", {2, 2, 3, 0.5, dorsal, kOnFinger}},
-        {"thumb_distal", {3, 3, 4, 0.5, dorsal, kOnFinger}},
-        {"thumb_tip", {3, 3, 4, 0.85, dorsal, kOnFinger}},
+        {"thumb_distal", {3, 3, 4, kMiddleOfLast, dorsal, kOnFinger}},
+        {"thumb_tip", {3, 3, 4, kNail, dorsal, kOnFinger}},
         {"hand_back", {kPalm, kWristJoint, 11, 0.5, dorsal, kOnPalm}},
         {"wrist", {kPalm, kWristJoint, 11, 0, dorsal, kOnPalm}},
         {"wrist_radial", {kPalm, kWristJoint, 11, 0, -ulnar, kOnSide}},
@@ -49,8 +52,8 @@ const std::map<std::string, Place>& places() {
       result[finger + "_knuckle"] = {kPalm, mcp, mcp + 1, 0, dorsal, kOnPalm};
       result[finger + "_proximal"] = {mcp, mcp, mcp + 1, 0.5, dorsal, kOnFinger};
       result[finger + "_intermediate"] = {mcp + 1, mcp + 1, mcp + 2, 0.5, dorsal, kOnFinger};
-      result[finger + "_distal"] = {mcp + 2, mcp + 2, mcp + 3, 0.5, dorsal, kOnFinger};
-      result[finger + "_tip"] = {mcp + 2, mcp + 2, mcp + 3, 0.85, dorsal, kOnFinger};
+      result[finger + "_distal"] = {mcp + 2, mcp + 2, mcp + 3, kMiddleOfLast, dorsal, kOnFinger};
+      result[finger + "_tip"] = {mcp + 2, mcp + 2, mcp + 3, kNail, dorsal, kOnFinger};
     }
     // A third of the model's hand, up the forearm.
     result["forearm"] = {kForearmJoint, kWristJoint, 11, -0.45, dorsal, kOnPalm};
