@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
   glovebench::eval::add_track(program);
   glovebench::eval::add_explain(program);
   glovebench::eval::add_db(program);
+  glovebench::eval::add_import(program);
   glovebench::eval::add_list(program);
   glovebench::eval::add_compare(program);
   glovebench::eval::add_gate(program, exit_code);

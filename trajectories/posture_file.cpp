@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <set>
 
@@ -13,33 +12,13 @@
 #include "core/base/file.h"
 #include "trajectories/angle_json.h"
 #include "trajectories/json_field.h"
+#include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
 namespace {
 
 constexpr const char* kFormat = "glovebench-postures";
 constexpr int kVersion = 1;
-
-std::string_view trimmed(std::string_view text) {
-  const size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// The parts of `text` between the separators, trimmed.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const size_t end = text.find(separator);
-    parts.push_back(trimmed(text.substr(0, end)));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
-std::string quoted_excerpt(std::string_view text) {
-  return excerpt(in_quotes(text));
-}
 
 void expect_headings(const std::vector<std::string_view>& headings, const std::string& where) {
   constexpr size_t column_count = kAngleCount + 1;
@@ -57,14 +36,8 @@ void expect_headings(const std::vector<std::string_view>& headings, const std::s
 
 /// The angle in a cell, radians.
 double angle_from(std::string_view cell, const AngleInfo& info, const std::string& where, size_t line) {
-  double degrees = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), degrees);
-  const bool is_number = error == std::errc{} && end == cell.data() + cell.size();
-  if (!is_number || !(degrees >= info.min_deg && degrees <= info.max_deg)) {
-    throw Error(where, fmt::format("line {}, {}", line, info.name), quoted_excerpt(cell),
-                fmt::format("a number from {} to {}", info.min_deg, info.max_deg));
-  }
-  return radians_from_degrees(degrees);
+  return radians_from_degrees(
+      number_from(cell, info.min_deg, info.max_deg, where, fmt::format("line {}, {}", line, info.name)));
 }
 
 void expect_new_name(const std::string& name, std::set<std::string>& names, const std::string& where,
@@ -108,17 +81,14 @@ PostureSet parse_postures_json(std::string_view text, const std::string& where) 
 }
 
 PostureSet parse_postures_csv(std::string_view text, const std::string& set_name, const std::string& where) {
-  // Spreadsheets begin a UTF-8 file with a byte order mark.
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   if (!is_name(set_name)) throw Error(where, "file name", quoted_excerpt(set_name), kNameExpected);
 
-  const std::vector<std::string_view> lines = split(text, '\n');
+  const std::vector<std::string_view> lines = lines_of(text);
   expect_headings(split(lines.front(), ','), where);
   PostureSet set{.name = set_name, .posture_names = {}, .postures = {}};
   std::set<std::string> names;
   for (size_t l = 1; l < lines.size(); ++l) {
-    if (lines[l].empty()) continue;
+    if (trimmed(lines[l]).empty()) continue;
     const std::vector<std::string_view> cells = split(lines[l], ',');
     const std::string line = fmt::format("line {}", l + 1);
     if (cells.size() != kAngleCount + 1) {

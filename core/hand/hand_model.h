@@ -33,6 +33,8 @@ class HandModel {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   size_t vertex_count() const { return bind_vertices_.size(); }
   Side side() const { return side_; }
+  /// Of the right hand; the left hand is its mirror image.
+  const Skeleton& skeleton() const { return skeleton_; }
   const HandShape& shape() const { return shape_; }
   /// Hash of the mesh after cutting, with its weights and skeleton: changes whenever the model does.
   const std::string& hash() const { return hash_; }
@@ -40,7 +42,7 @@ class HandModel {
  private:
   Side side_ = Side::right;
   HandShape shape_;
-  Skeleton skeleton_;  ///< of the right hand; the left hand is its mirror image
+  Skeleton skeleton_;
   std::vector<Eigen::Vector3d> bind_vertices_;
   std::vector<Influence> influences_;
   JointPoses T_joint_bind_;  ///< bind-pose hand coordinates to joint coordinates

@@ -131,6 +131,24 @@ TEST(HandModel, follows_hand_computed_kinematics) {
   EXPECT_NEAR(combined.y(), bent.y(), 1e-12);
 }
 
+TEST(HandModel, each_axis_is_the_derivative_by_its_angle) {
+  const Skeleton& skeleton = right_hand().skeleton();
+  Posture posture;
+  for (int a = 0; a < kAngleCount; ++a) posture[a] = 0.1 + 0.05 * (a % 7);
+  const std::array<Eigen::Vector3d, kAngleCount> axes = skeleton.axes(skeleton.pose(posture));
+  constexpr double step = 1e-5;
+  for (int a = 0; a < kAngleCount; ++a) {
+    Posture less = posture, more = posture;
+    less[a] -= step;
+    more[a] += step;
+    const int joint = joint_of_angle(a);
+    const Eigen::AngleAxisd turn(skeleton.pose(more)[joint].linear() *
+                                 skeleton.pose(less)[joint].linear().transpose());
+    // Central differences: the error is of the order of step^2, and of rounding / step.
+    EXPECT_LT((turn.axis() * turn.angle() / (2 * step) - axes[a]).norm(), 1e-8) << angle_infos()[a].name;
+  }
+}
+
 TEST(HandModel, wrist_angles_move_only_forearm_and_cuff) {
   Posture posture = Posture::Zero();
   const PosedHand straight = right_hand().pose(posture);

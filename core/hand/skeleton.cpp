@@ -90,6 +90,13 @@ const std::array<int, kJointCount>& joint_parents() {
   return parents;
 }
 
+int joint_of_angle(int angle) {
+  for (int j = 0; j < kJointCount; ++j) {
+    if (entries()[j].abduction == angle || entries()[j].flexion == angle) return j;
+  }
+  throw std::out_of_range("joint_of_angle: no such angle");
+}
+
 const std::array<int, 5>& fingertip_joints() {
   static constexpr std::array<int, 5> tips = {4, 9, 14, 19, 24};
   return tips;
@@ -136,6 +143,30 @@ JointPoses Skeleton::pose(const Posture& posture) const {
     T_hand_joint[j] = parent == kNone ? T_parent_joint : T_hand_joint[parent] * T_parent_joint;
   }
   return T_hand_joint;
+}
+
+std::array<Eigen::Vector3d, kAngleCount> Skeleton::axes(const JointPoses& T_hand_joint) const {
+  std::array<Eigen::Vector3d, kAngleCount> axes;
+  for (int j = 0; j < kJointCount; ++j) {
+    const Joint& joint = joints_[j];
+    const int parent = entries()[j].parent;
+    // The first of the two turns keeps its axis in the parent, the second one in the joint; the forearm's are
+    // inverse.
+    const Eigen::Matrix3d R_parent =
+        parent == kNone ? Eigen::Matrix3d::Identity() : Eigen::Matrix3d(T_hand_joint[parent].linear());
+    const Eigen::Matrix3d first = R_parent * joint.before;
+    const Eigen::Matrix3d second = T_hand_joint[j].linear() * joint.after.transpose();
+    const bool is_forearm = j == kForearmJoint;
+    if (joint.abduction != kNone) {
+      axes[joint.abduction] = first.col(1);
+      if (is_forearm) axes[joint.abduction] = -second.col(1);
+    }
+    if (joint.flexion != kNone) {
+      axes[joint.flexion] = -second.col(0);
+      if (is_forearm) axes[joint.flexion] = first.col(0);
+    }
+  }
+  return axes;
 }
 
 }  // namespace glovebench

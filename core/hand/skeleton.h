@@ -20,6 +20,8 @@ const std::string& joint_name(int joint);
 int joint_index(const std::string& webxr_name);
 /// Parent of each joint; -1 for what is fixed to the palm (wrist, finger metacarpals) or hangs on it.
 const std::array<int, kJointCount>& joint_parents();
+/// The joint that an angle turns.
+int joint_of_angle(int angle);
 /// The fingertip joints, thumb to little.
 const std::array<int, 5>& fingertip_joints();
 
@@ -36,8 +38,15 @@ class Skeleton {
 
   /// Pose of every joint in the hand frame (right hand).
   JointPoses pose(const Posture& posture) const;
+  /// The axis (hand frame, unit length) about which each angle turns its joint and what hangs on it, right-handed,
+  /// in the pose of that posture.
+  std::array<Eigen::Vector3d, kAngleCount> axes(const JointPoses& T_hand_joint) const;
   /// The angles at which the bind pose is reached.
   const Posture& bind_posture() const { return bind_posture_; }
+
+  /// Where a joint lies in its parent's frame, in the hand frame if it has none, m. Another hand has other places.
+  const Eigen::Vector3d& offset(int joint) const { return joints_.at(joint).offset; }
+  void set_offset(int joint, const Eigen::Vector3d& offset) { joints_.at(joint).offset = offset; }
 
  private:
   struct Joint {

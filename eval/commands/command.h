@@ -56,6 +56,7 @@ void add_render(CLI::App& program);
 void add_track(CLI::App& program);
 void add_explain(CLI::App& program);
 void add_db(CLI::App& program);
+void add_import(CLI::App& program);
 void add_list(CLI::App& program);
 void add_compare(CLI::App& program);
 /// Sets the exit code when it has run.

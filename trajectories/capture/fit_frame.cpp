@@ -1,0 +1,127 @@
+#include "trajectories/capture/fit_frame.h"
+
+#include <Eigen/Cholesky>
+
+#include "core/base/check.h"
+#include "trajectories/capture/marker_sequence.h"
+#include "trajectories/capture/posture_prior.h"
+
+namespace glovebench::trajectories {
+namespace {
+
+using StateMatrix = Eigen::Matrix<double, kStateSize, kStateSize>;
+
+constexpr double kLeastDamping = 1e-9, kFirstDamping = 1e-3, kMostDamping = 1e9;
+constexpr double kSmallestGain = 1e-9;  ///< of the cost, relative: the end
+
+struct Equations {
+  StateMatrix H;
+  StateStep b;
+};
+
+Equations equations(const CaptureHand& hand, const HandState& state, const WeightedResiduals& weighted,
+                    const PosturePrior& prior) {
+  const Eigen::MatrixXd J = weighted.row_scale.asDiagonal() * state_jacobian(hand, state);
+  Equations e{J.transpose() * J, J.transpose() * weighted.residuals};
+  add_prior(state.posture, prior, e.H, e.b);
+  hold_at_limits(state, e.H, e.b);
+  return e;
+}
+
+/// A little on the diagonal: a frame of one point has a pose, too.
+StateStep solve(const Equations& e, double damping) {
+  StateMatrix H = e.H;
+  H.diagonal().array() *= 1 + damping;
+  H.diagonal().array() += 1e-6;
+  return H.ldlt().solve(e.b);
+}
+
+}  // namespace
+
+WeightedResiduals weighted_residuals(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
+                                     const HandState& state, double robust_scale) {
+  check(points.size() == hand.markers.size(), "a frame has a point or a gap for each marker");
+  const std::vector<Eigen::Vector3d> predicted = predict_points(hand, state);
+  const auto rows = static_cast<Eigen::Index>(3 * points.size());
+  WeightedResiduals result{Eigen::VectorXd::Zero(rows), Eigen::VectorXd::Zero(rows)};
+  const double scale = robust_scale / kPointDeviation;
+  for (size_t m = 0; m < points.size(); ++m) {
+    if (!is_seen(points[m])) continue;
+    const Eigen::Vector3d r = (points[m] - predicted[m]) / kPointDeviation;
+    const double relative = r.squaredNorm() / (scale * scale);
+    const double root_weight = 1 / std::sqrt(1 + relative);
+    result.residuals.segment<3>(static_cast<Eigen::Index>(3 * m)) = root_weight * r;
+    result.row_scale.segment<3>(static_cast<Eigen::Index>(3 * m)).setConstant(root_weight / kPointDeviation);
+    result.cost += scale * scale * std::log1p(relative);
+  }
+  return result;
+}
+
+void hold_at_limits(const HandState& state, Eigen::Ref<Eigen::MatrixXd> H, Eigen::Ref<Eigen::VectorXd> b) {
+  for (int a = 0; a < kAngleCount; ++a) {
+    const AngleInfo& info = angle_infos()[static_cast<size_t>(a)];
+    const bool at_min = state.posture[a] <= radians_from_degrees(info.min_deg) && b[6 + a] < 0;
+    const bool at_max = state.posture[a] >= radians_from_degrees(info.max_deg) && b[6 + a] > 0;
+    if (!at_min && !at_max) continue;
+    H.row(6 + a).setZero();
+    H.col(6 + a).setZero();
+    H(6 + a, 6 + a) = 1;
+    b[6 + a] = 0;
+  }
+}
+
+FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
+                   const FrameFitOptions& options) {
+  HandState state = start;
+  state.posture = clamp_to_limits(start.posture);
+  WeightedResiduals weighted = weighted_residuals(hand, points, state, options.robust_scale);
+  const PosturePrior prior{.center = start.posture};
+  double cost = weighted.cost + prior_cost(state.posture, prior);
+  double damping = kFirstDamping;
+  for (int i = 0; i < options.max_iterations && damping < kMostDamping; ++i) {
+    const Equations e = equations(hand, state, weighted, prior);
+    bool better = false;
+    double gain = 0;
+    while (!better && damping < kMostDamping) {
+      const HandState next = moved(state, solve(e, damping));
+      WeightedResiduals next_weighted = weighted_residuals(hand, points, next, options.robust_scale);
+      const double next_cost = next_weighted.cost + prior_cost(next.posture, prior);
+      better = next_cost < cost;
+      damping = better ? std::max(kLeastDamping, damping / 10) : damping * 10;
+      if (!better) continue;
+      gain = cost - next_cost;
+      state = next;
+      weighted = std::move(next_weighted);
+      cost = next_cost;
+    }
+    if (gain <= kSmallestGain * cost) break;
+  }
+  return {state, cost};
+}
+
+std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
+                                    const HandState& state) {
+  const std::vector<Eigen::Vector3d> predicted = predict_points(hand, state);
+  std::vector<double> distances;
+  for (size_t m = 0; m < points.size(); ++m) distances.push_back((points[m] - predicted[m]).norm());
+  return distances;
+}
+
+Observability observability(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
+                            const HandState& state, double robust_scale) {
+  const WeightedResiduals weighted = weighted_residuals(hand, points, state, robust_scale);
+  const Eigen::MatrixXd J = weighted.row_scale.asDiagonal() * state_jacobian(hand, state);
+  StateMatrix H = J.transpose() * J;
+  // As weak as it may be and still make what no point shows invertible.
+  constexpr double weak_turn = radians_from_degrees(1000), weak_shift = 10;
+  H.diagonal().array() += 1 / (weak_turn * weak_turn);
+  H.diagonal().segment<3>(3).array() += 1 / (weak_shift * weak_shift);
+  const StateStep deviation = H.ldlt().solve(StateMatrix::Identity()).diagonal().cwiseSqrt();
+  Observability shown;
+  constexpr double shown_shift = 0.01;
+  shown.pose = deviation.head<3>().maxCoeff() < kShownDeviation && deviation.segment<3>(3).maxCoeff() < shown_shift;
+  for (int a = 0; a < kAngleCount; ++a) shown.angles[static_cast<size_t>(a)] = deviation[6 + a] < kShownDeviation;
+  return shown;
+}
+
+}  // namespace glovebench::trajectories

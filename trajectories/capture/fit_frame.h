@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/angles.h"
+#include "trajectories/capture/capture_hand.h"
+
+namespace glovebench::trajectories {
+
+/// The deviation of a point that counts as one, m: what costs are measured in.
+inline constexpr double kPointDeviation = 0.001;
+
+struct FrameFitOptions {
+  /// Points farther off than this count less and less (Cauchy's weights), m.
+  double robust_scale = 0.003;
+  int max_iterations = 40;
+};
+
+/// What a state leaves of the points of one frame.
+struct WeightedResiduals {
+  Eigen::VectorXd residuals;  ///< three for each marker, of kPointDeviation, times the root of its weight; 0 unseen
+  Eigen::VectorXd row_scale;  ///< takes a Jacobian's rows (m) to those of `residuals`; 0 unseen
+  double cost = 0;
+};
+/// `points`: one for each marker, or a gap.
+WeightedResiduals weighted_residuals(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
+                                     const HandState& state, double robust_scale);
+
+/// Solves (H + damping * diag(H)) step = b for a state: angles at a limit that the step would leave stay.
+void hold_at_limits(const HandState& state, Eigen::Ref<Eigen::MatrixXd> H, Eigen::Ref<Eigen::VectorXd> b);
+
+struct FrameFit {
+  HandState state;
+  double cost = 0;
+};
+
+/// The state whose markers lie nearest to the points: damped Gauss-Newton from `start` over pose and angles, robust
+/// weights, within the joint limits, with the PosturePrior about the start.
+FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
+                   const FrameFitOptions& options = {});
+
+/// The distance of each point from its marker, m; NaN of a gap.
+std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
+                                    const HandState& state);
+
+/// How well the points of a frame show a state.
+struct Observability {
+  bool pose = false;
+  std::array<bool, kAngleCount> angles = {};
+};
+/// An angle is shown if points that are kPointDeviation off leave it within kShownDeviation.
+inline constexpr double kShownDeviation = radians_from_degrees(15);
+Observability observability(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
+                            const HandState& state, double robust_scale);
+
+}  // namespace glovebench::trajectories

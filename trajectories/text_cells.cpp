@@ -1,0 +1,63 @@
+#include "trajectories/text_cells.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "core/base/error.h"
+#include "trajectories/json_field.h"
+
+namespace glovebench::trajectories {
+
+std::string_view trimmed(std::string_view text) {
+  const size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const size_t end = text.find(separator);
+    parts.push_back(trimmed(text.substr(0, end)));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  std::vector<std::string_view> lines;
+  while (true) {
+    const size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    // Tabs stay: empty cells at the end of a line lie between them.
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+    lines.push_back(line);
+    if (end == std::string_view::npos) return lines;
+    text.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> number_in(std::string_view cell) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  if (error != std::errc{} || end != cell.data() + cell.size()) return {};
+  return number;
+}
+
+double number_from(std::string_view cell, double min, double max, const std::string& where,
+                   const std::string& field) {
+  const std::optional<double> number = number_in(cell);
+  if (!number || !(*number >= min && *number <= max)) {
+    throw Error(where, field, quoted_excerpt(cell), fmt::format("a number from {} to {}", min, max));
+  }
+  return *number;
+}
+
+std::string quoted_excerpt(std::string_view text) {
+  return excerpt(in_quotes(text));
+}
+
+}  // namespace glovebench::trajectories
