@@ -98,6 +98,12 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(
       refusal({"track", "--source", "fakenect:" + path("none"), "--database", "DB_open_power", "-o", path("x")}),
       HasSubstr("none"));
+  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x"),
+                       "--calibration", path("none.json")}),
+              HasSubstr("none.json"));
+  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x"),
+                       "--frames", "-1"}),
+              HasSubstr("--frames"));
   EXPECT_THAT(refusal({"record", "--trajectory", good_trajectory(), "-o", path("x")}), HasSubstr("--database"));
 }
 

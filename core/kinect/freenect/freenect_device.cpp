@@ -10,13 +10,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <thread>
 
 #include "core/kinect/disparity.h"
 #include "core/kinect/frame_pairer.h"
+#include "core/kinect/latest_queue.h"
 #include "core/kinect/recording_index.h"
 #include "core/kinect/tick_clock.h"
 
@@ -143,7 +143,7 @@ class FreenectDevice::Stream {
 
   std::optional<DeviceFrame> next_frame() {
     std::unique_lock lock(mutex_);
-    asked_ = true;
+    if (std::optional<DeviceFrame> frame = take_waiting()) return frame;
     const auto start = std::chrono::steady_clock::now();
     const auto ready = [&] { return !frames_.empty() || !end_.empty(); };
     while (!changed_.wait_for(lock, kSlice, ready)) {
@@ -156,16 +156,12 @@ class FreenectDevice::Stream {
                     "30 a second");
       }
     }
-    if (frames_.empty()) return std::nullopt;
-    DeviceFrame frame = std::move(frames_.front());
-    frames_.pop_front();
-    changed_.notify_all();
-    return frame;
+    return take_waiting();
   }
 
   FreenectLosses losses() const {
     const std::lock_guard lock(mutex_);
-    return {late_, pairer_.unpaired(), pairer_.went_back()};
+    return {frames_.late(), pairer_.unpaired(), pairer_.went_back()};
   }
   std::string end() const {
     const std::lock_guard lock(mutex_);
@@ -219,15 +215,21 @@ class FreenectDevice::Stream {
     std::unique_lock lock(mutex_);
     push(clock_.microseconds(ticks));
     fetch_pairs();
-    if (options_.every_frame)
-      changed_.wait(lock, [&] { return frames_.size() <= kMaxFrames || stopping_ || !end_.empty(); });
-    for (; !options_.every_frame && frames_.size() > kMaxFrames; late_ += asked_) frames_.pop_front();
     changed_.notify_all();
+    const auto may_go_on = [&] { return !frames_.is_overfull() || stopping_ || !end_.empty(); };
+    if (options_.every_frame) changed_.wait(lock, may_go_on);
+    if (!options_.every_frame) frames_.drop_oldest();
+  }
+
+  std::optional<DeviceFrame> take_waiting() {
+    std::optional<DeviceFrame> frame = frames_.pop();
+    if (frame) changed_.notify_all();
+    return frame;
   }
 
   void fetch_pairs() {
     while (auto pair = pairer_.pop())
-      frames_.push_back({std::move(*pair->depth), *pair->color, pair->depth_us, pair->color_us});
+      frames_.push({std::move(*pair->depth), *pair->color, pair->depth_us, pair->color_us});
   }
 
   FreenectOptions options_;
@@ -236,9 +238,7 @@ class FreenectDevice::Stream {
   std::condition_variable changed_;
   TickClock clock_;
   FramePairer<std::shared_ptr<Image<uint16_t>>, std::shared_ptr<ColorImage>> pairer_;
-  std::deque<DeviceFrame> frames_;
-  int late_ = 0;
-  bool asked_ = false;
+  LatestQueue<DeviceFrame> frames_{kMaxFrames};
   bool stopping_ = false;
   std::string end_;
   std::thread thread_;
