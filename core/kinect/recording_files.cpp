@@ -68,7 +68,8 @@ std::string netpbm_header(std::string_view magic, int width, int height, int max
   return fmt::format("{} {} {} {}\n", magic, width, height, max_value);
 }
 
-/// The pixels behind a header that is exactly the expected one but for the kind of white space.
+/// The pixels behind a header that is exactly the expected one but for the kind of white space. So only what is
+/// there is ever given room, however large the images are said to be.
 std::string_view payload(std::string_view content, const std::string& header, size_t bytes,
                          const std::string& path) {
   const auto is_space = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
@@ -131,9 +132,9 @@ std::string encode_ppm(const ColorImage& color) {
 }
 
 Image<uint16_t> decode_pgm(std::string_view content, int width, int height, const std::string& path) {
+  const size_t bytes = 2 * static_cast<size_t>(width) * static_cast<size_t>(height);
+  const std::string_view pixels = payload(content, netpbm_header("P5", width, height, 65535), bytes, path);
   Image<uint16_t> image(width, height);
-  const std::string_view pixels =
-      payload(content, netpbm_header("P5", width, height, 65535), 2 * image.size(), path);
   for (size_t i = 0; i < image.size(); ++i) {
     const int low = static_cast<uint8_t>(pixels[2 * i]), high = static_cast<uint8_t>(pixels[2 * i + 1]);
     image[i] = static_cast<uint16_t>(low | high << 8);
@@ -145,8 +146,9 @@ Image<uint16_t> decode_pgm(std::string_view content, int width, int height, cons
 }
 
 ColorImage decode_ppm(std::string_view content, int width, int height, const std::string& path) {
+  const size_t bytes = 3 * static_cast<size_t>(width) * static_cast<size_t>(height);
+  const std::string_view pixels = payload(content, netpbm_header("P6", width, height, 255), bytes, path);
   ColorImage image(width, height);
-  const std::string_view pixels = payload(content, netpbm_header("P6", width, height, 255), 3 * image.size(), path);
   for (size_t i = 0; i < image.size(); ++i)
     for (size_t channel = 0; channel < 3; ++channel)
       image[i][channel] = static_cast<uint8_t>(pixels[3 * i + channel]);
