@@ -39,6 +39,7 @@ RecordingDevice::RecordingDevice(const std::string& folder, const RgbdCalibratio
   pairer.finish();
   while (std::optional<Pair> pair = pairer.pop()) pairs_.push_back(std::move(*pair));
   unpaired_depth_count_ = pairer.unpaired();
+  repeated_count_ = pairer.went_back();
   if (pairs_.empty())
     throw Error(index, "frames", std::to_string(depths) + " depth and " + std::to_string(colors) + " color images",
                 "at least one pair within 50 ms");

@@ -17,16 +17,16 @@ namespace glovebench {
 ///     calibration.json                  see rgbd_calibration.h
 ///
 /// SECONDS.MICROS is when an image arrived, by the computer's clock, with six digits of microseconds. TICKS is when
-/// it was taken, by the device's own clock (60 MHz, 32 bits). The time stamp of an image is that of its ticks,
-/// counted on from about the arrival of the first image. Written are both from one time stamp, so it returns
-/// exactly.
+/// it was taken, by the device's own clock (60 MHz, 32 bits), which comes around every 71.6 s. The time stamp of an
+/// image is that of its ticks, in the round that fits its arrival best, so recordings may pause for as long as they
+/// like. Written are both from one time stamp, so it returns exactly.
 
 /// Plays a recording, paired as FramePairer does. Depth images with no color image near them are left out and
-/// counted.
+/// counted, and so are images with the time stamp of the one before.
 class RecordingDevice : public Device {
  public:
-  /// Throws Error if the index or the calibration is missing or malformed, an image is listed twice or nothing
-  /// can be paired. Images are read and checked in next_frame. With `calibration` that of the folder is not read: a
+  /// Throws Error if the index or the calibration is missing or malformed, a file is listed twice or nothing can
+  /// be paired. Images are read and checked in next_frame. With `calibration` that of the folder is not read: a
   /// recording of fakenect's own has none.
   explicit RecordingDevice(const std::string& folder);
   RecordingDevice(const std::string& folder, const RgbdCalibration& calibration);
@@ -37,6 +37,8 @@ class RecordingDevice : public Device {
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
+  /// Images with the time stamp of the one before of their kind.
+  int repeated_count() const { return repeated_count_; }
 
  private:
   using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file paths
@@ -45,6 +47,7 @@ class RecordingDevice : public Device {
   std::vector<Pair> pairs_;
   size_t next_ = 0;
   int unpaired_depth_count_ = 0;
+  int repeated_count_ = 0;
 };
 
 /// Writes device frames as a recording. What is written is played back equal if each color image is the one

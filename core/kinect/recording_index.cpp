@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "core/base/file.h"
@@ -24,6 +26,20 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   }
   return lines;
 }
+
+/// When images were taken: of all times that the ticks of one may mean, the one nearest to its arrival, for which
+/// the first image says by how much the two clocks differ. So a pause may be longer than a round of the ticks.
+class TakenTimes {
+ public:
+  int64_t microseconds(const RecordedName& name) {
+    const int64_t time_us = TickClock(name.timestamp_us + ahead_us_.value_or(0)).microseconds(name.ticks);
+    if (!ahead_us_) ahead_us_ = time_us - name.timestamp_us;
+    return time_us;
+  }
+
+ private:
+  std::optional<int64_t> ahead_us_;  ///< the device's clock before the computer's
+};
 
 /// The size of a file, 0 if there is none.
 uintmax_t size_of(const std::string& path) {
@@ -56,21 +72,18 @@ std::vector<RecordingEntry> read_recording_index(const std::string& folder) {
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder) {
   const std::string index = path_in_recording(folder, "INDEX.txt");
   std::vector<RecordingEntry> entries;
-  std::optional<TickClock> clock;
+  std::set<std::string_view> listed;
+  TakenTimes times;
   int number = 0;
   for (std::string_view line : lines_of(content)) {
     const RecordedName name = parse_recorded_name(line, index + ", line " + std::to_string(++number));
     if (name.kind == RecordedKind::accelerometer) continue;
-    if (!clock) clock.emplace(name.timestamp_us);
-    entries.push_back({name.kind, clock->microseconds(name.ticks), path_in_recording(folder, std::string(line))});
+    if (!listed.insert(line).second) throw Error(index, "file name", std::string(line) + " twice", "each once");
+    entries.push_back({name.kind, times.microseconds(name), path_in_recording(folder, std::string(line))});
   }
   const auto key = [](const RecordingEntry& entry) { return std::pair(entry.timestamp_us, entry.kind); };
-  std::sort(entries.begin(), entries.end(),
-            [&](const RecordingEntry& a, const RecordingEntry& b) { return key(a) < key(b); });
-  for (size_t i = 1; i < entries.size(); ++i) {
-    if (key(entries[i]) == key(entries[i - 1]))
-      throw Error(index, "time stamp", std::to_string(entries[i].timestamp_us) + " us twice", "each once");
-  }
+  std::stable_sort(entries.begin(), entries.end(),
+                   [&](const RecordingEntry& a, const RecordingEntry& b) { return key(a) < key(b); });
   return entries;
 }
 

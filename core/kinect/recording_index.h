@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/kinect/recording_files.h"
@@ -16,8 +18,8 @@ struct RecordingEntry {
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
 
-/// The images that INDEX.txt lists, in order of time. Throws Error if it is missing or malformed or lists an image
-/// twice.
+/// The images that INDEX.txt lists, in order of time; of equal times (a device may repeat one) in that of the list.
+/// Throws Error if it is missing or malformed or lists a file twice.
 std::vector<RecordingEntry> read_recording_index(const std::string& folder);
 /// The same of the content of an INDEX.txt.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);

@@ -14,7 +14,7 @@ inline constexpr int64_t kTicksPerMicrosecond = 60;
 class TickClock {
  public:
   TickClock() = default;
-  /// `first_us`: about when the first stamp is; not negative, below 1e17.
+  /// `first_us`: about when the first stamp is; of a size below 1.5e17.
   explicit TickClock(int64_t first_us) : first_us_(first_us) {}
 
   int64_t microseconds(uint32_t ticks) {
