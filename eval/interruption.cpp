@@ -7,6 +7,8 @@ volatile std::sig_atomic_t wish = 0;
 
 void note_wish(int) {
   wish = 1;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace
@@ -15,7 +17,7 @@ Interruption::Interruption() {
   wish = 0;
   struct sigaction once = {};
   once.sa_handler = note_wish;
-  once.sa_flags = SA_RESETHAND | SA_RESTART;
+  once.sa_flags = SA_RESTART;
   sigaction(SIGINT, &once, &before_int_);
   sigaction(SIGTERM, &once, &before_term_);
 }

@@ -4,8 +4,8 @@
 
 namespace glovebench::eval {
 
-/// While it lives, the first SIGINT (Ctrl-C) or SIGTERM is a wish that can be asked for; the second one ends the
-/// program as ever.
+/// While it lives, the first SIGINT (Ctrl-C) or SIGTERM is a wish that can be asked for; the second of
+/// either ends the program.
 class Interruption {
  public:
   Interruption();

@@ -1,0 +1,28 @@
+#include "eval/interruption.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+
+namespace glovebench::eval {
+namespace {
+
+/// Ends this process by the second signal, if the first one was taken as a wish.
+void raise_both(int first, int second) {
+  const Interruption interruption;
+  if (Interruption::wished()) std::exit(1);
+  std::raise(first);
+  if (!Interruption::wished()) std::exit(1);
+  std::raise(second);
+  std::exit(0);
+}
+
+TEST(InterruptionDeathTest, SecondSignalEndsTheProgram) {
+  for (int first : {SIGINT, SIGTERM})
+    for (int second : {SIGINT, SIGTERM})
+      EXPECT_EXIT(raise_both(first, second), testing::KilledBySignal(second), "") << first;
+}
+
+}  // namespace
+}  // namespace glovebench::eval
