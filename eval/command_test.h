@@ -1,0 +1,67 @@
+#pragma once
+
+// Runs commands on short trajectories, for the tests of this module.
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/base/file.h"
+#include "eval/test_program.h"
+
+namespace glovebench::eval {
+
+/// A folder with the trajectories good.json and left.json, of a right and a left hand.
+class CommandTest : public testing::Test {
+ protected:
+  static constexpr int kFrames = 4;  ///< of each trajectory
+
+  void SetUp() override {
+    folder_ = make_test_folder();
+    write_file(path("good.json"), make_trajectory_json("good", kFrames).dump());
+    nlohmann::json left = make_trajectory_json("left", kFrames);
+    left["side"] = "left";
+    write_file(path("left.json"), left.dump());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  static void expect_fine(const ProgramRun& run) {
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_EQ(run.err, "") << "not even a message: stderr is no terminal";
+  }
+  static std::string refusal(const ProgramRun& run) {
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, testing::StartsWith("glovebench: "));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    return run.err;
+  }
+  /// Runs a trajectory with open and power and gives back its results.
+  nlohmann::json run_trajectory(const std::string& trajectory, const std::string& output,
+                                const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"run",           "--trajectory", path(trajectory), "--database",
+                                          "DB_open_power", "-o",           path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_fine(run_glovebench(arguments));
+    return nlohmann::json::parse(read_file(path(output) + "/results.json"));
+  }
+  ProgramRun track(const std::string& recording, const std::string& database, const std::string& output,
+                   const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {
+        "track", "--source", "fakenect:" + path(recording), "--database", database, "-o", path(output)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  }
+  void render_recording(const std::string& trajectory, const std::string& output) const {
+    expect_fine(
+        run_glovebench({"render", "--trajectory", path(trajectory), "--format", "fakenect", "-o", path(output)}));
+  }
+
+  std::string folder_;
+};
+
+}  // namespace glovebench::eval
