@@ -1,11 +1,20 @@
 // The live device through libfreenect's interface, with fakenect behind it, as a user would run it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
+#include "core/base/file.h"
 #include "core/kinect/recording_files.h"
 #include "eval/test_program.h"
 
@@ -104,7 +113,7 @@ TEST_F(Freenect, GivesTheEstimatesOfTheRecording) {
   const ProgramRun played = run_glovebench(live(), fakenect());
   EXPECT_EQ(played.exit_code, 0) << played.err;
   EXPECT_THAT(played.out, HasSubstr("24 of 24 frames tracked\n"));
-  EXPECT_THAT(played.err, HasSubstr("the device has gone"));
+  EXPECT_THAT(played.err, HasSubstr("the end of what fakenect plays"));
   EXPECT_EQ(read_file(path("live.jsonl")), read_file(path("recorded.jsonl")));
 }
 
@@ -112,7 +121,7 @@ TEST_F(Freenect, StopsAfterTheFramesThatWereAskedFor) {
   render_dump(6, 0, 20'000);
   const ProgramRun run = run_glovebench(live({"--frames", "4"}), fakenect());
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.err, "") << "the device has not gone";
+  EXPECT_EQ(run.err, "") << "not the end of the recording";
   EXPECT_THAT(run.out, HasSubstr("4 of 4 frames tracked"));
 }
 
@@ -156,6 +165,32 @@ TEST_F(Freenect, RefusesADumpThatWouldEndTheProgram) {
   EXPECT_THAT(refusal(live()), HasSubstr("depth images: found none"));
   fs::remove(path("dump/INDEX.txt"));
   EXPECT_THAT(refusal(live()), HasSubstr("INDEX.txt"));
+}
+
+TEST(FreenectUnplugged, IsAFailureThatKeepsWhatWasTracked) {
+  const std::string folder = make_test_folder(), output = folder + "/live.jsonl";
+  const ProgramRun run = run_glovebench(
+      {"track", "--source", "freenect", "--database", "DB_open_power", "-o", output, "--every-frame"},
+      {.environment = {{"LD_LIBRARY_PATH", GLOVEBENCH_UNPLUGGED_DIR}}});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.out, HasSubstr("0 of 4 frames tracked\n"));
+  EXPECT_EQ(run.err,
+            "glovebench: freenect: device: found none any more, code -4 (libfreenect: the camera is gone), "
+            "expected one that stays plugged in\n");
+  const std::string lines = read_file(output);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 4);
+  fs::remove_all(folder);
+}
+
+TEST_F(Freenect, RefusesACalibrationOfOtherImages) {
+  render_dump(1, 0, 20'000);
+  json calibration = json::parse(read_file(path("dump/calibration.json")));
+  calibration["rgb"]["width_px"] = 1280;
+  calibration["rgb"]["height_px"] = 1024;
+  write_file(path("dump/calibration.json"), calibration.dump());
+  EXPECT_THAT(
+      refusal(live()),
+      HasSubstr("dump/calibration.json: rgb: found 1280x1024 pixels, expected 640x480, the images of a Kinect"));
 }
 
 TEST_F(Freenect, RefusesADeviceThatIsNotThere) {

@@ -21,7 +21,8 @@ TrackSource open_recording(const SourceFlags& flags) {
                     ? std::make_unique<RecordingDevice>(folder)
                     : std::make_unique<RecordingDevice>(folder, load_calibration(flags.calibration));
   const RecordingDevice* recording = device.get();
-  return {std::move(device), recording->frame_count(), [recording] { return recording->unpaired_depth_count(); },
+  return {std::move(device), recording->frame_count(),
+          [recording] { return recording->unpaired_depth_count() + recording->repeated_count(); },
           [] { return std::string(); }};
 }
 
@@ -46,6 +47,7 @@ TrackSource open_live(const SourceFlags& flags) {
   const RgbdCalibration calibration =
       flags.calibration.empty() ? nominal_kinect_calibration() : load_calibration(flags.calibration);
   FreenectOptions options{.index = index, .every_frame = flags.every_frame, .interrupted = Interruption::wished};
+  if (!flags.calibration.empty()) options.calibration_name = flags.calibration;
   // What is played may pause as long as its recording did.
   if (flags.every_frame) options.silence_limit = std::numeric_limits<double>::infinity();
   auto device = std::make_unique<FreenectDevice>(calibration, options);

@@ -10,12 +10,18 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 
+#include "core/base/error.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/frame_pairer.h"
+#include "core/kinect/freenect/freenect_handle.h"
 #include "core/kinect/latest_queue.h"
 #include "core/kinect/recording_index.h"
 #include "core/kinect/tick_clock.h"
@@ -27,66 +33,6 @@ constexpr int kWidth = 640, kHeight = 480;
 constexpr size_t kMaxImages = 16;  // of each kind that wait for a partner: half a second
 constexpr size_t kMaxFrames = 2;   // whole ones that wait to be fetched
 constexpr auto kSlice = std::chrono::milliseconds(100);
-
-/// What libfreenect said last of what is wrong. It tells the context alone, to which nothing of ours can be tied.
-std::mutex complaint_mutex;
-std::string complaint;
-
-void keep_complaint(freenect_context*, freenect_loglevel level, const char* message) {
-  if (level > FREENECT_LOG_ERROR) return;
-  const std::lock_guard lock(complaint_mutex);
-  complaint = message;
-  while (!complaint.empty() && complaint.back() == '\n') complaint.pop_back();
-  for (char& c : complaint)
-    if (c == '\n') c = ' ';
-}
-
-std::string last_complaint() {
-  const std::lock_guard lock(complaint_mutex);
-  return complaint.empty() ? "" : " (libfreenect: " + complaint + ")";
-}
-
-void require(bool success, const char* field, const std::string& expected) {
-  if (!success) throw Error("libfreenect", field, "a refusal" + last_complaint(), expected);
-}
-
-/// Initialized libfreenect with one open device; closes what it has opened.
-class Handle {
- public:
-  explicit Handle(int index) {
-    require(freenect_init(&context_, nullptr) >= 0, "context", "access to USB devices");
-    try {
-      open(index);
-    } catch (...) {
-      freenect_shutdown(context_);
-      throw;
-    }
-  }
-  ~Handle() {
-    freenect_close_device(device_);
-    freenect_shutdown(context_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-
-  freenect_context* context() const { return context_; }
-  freenect_device* device() const { return device_; }
-
- private:
-  void open(int index) {
-    freenect_set_log_callback(context_, keep_complaint);
-    freenect_select_subdevices(context_, FREENECT_DEVICE_CAMERA);
-    const int count = freenect_num_devices(context_);
-    if (index >= count)
-      throw Error("libfreenect", "Kinects that are plugged in", std::to_string(count),
-                  "at least " + std::to_string(index + 1));
-    require(freenect_open_device(context_, &device_, index) >= 0, "device",
-            "a Kinect that is free and that this user may open (the udev rules of libfreenect)");
-  }
-
-  freenect_context* context_ = nullptr;
-  freenect_device* device_ = nullptr;
-};
 
 /// No signal interrupts a thread that is started while this lives: libusb would report it as a failure.
 class SignalsBlocked {
@@ -104,9 +50,22 @@ class SignalsBlocked {
   sigset_t before_;
 };
 
-const FreenectOptions& checked(const FreenectOptions& options) {
+/// What fakenect plays, if it is the library behind the interface.
+const char* played_dump() {
+  return std::getenv("FAKENECT_PATH");
+}
+
+void require_size(const PinholeCamera& camera, const std::string& where, const std::string& field) {
+  if (camera.width != kWidth || camera.height != kHeight)
+    throw Error(where, field, std::to_string(camera.width) + "x" + std::to_string(camera.height) + " pixels",
+                "640x480, the images of a Kinect");
+}
+
+const FreenectOptions& checked(const FreenectOptions& options, const RgbdCalibration& calibration) {
+  require_size(calibration.ir, options.calibration_name, "ir");
+  require_size(calibration.rgb, options.calibration_name, "rgb");
   if (options.index < 0) throw Error("freenect", "device", std::to_string(options.index), "0 or more");
-  if (const char* dump = std::getenv("FAKENECT_PATH")) check_fakenect_dump(dump);
+  if (const char* dump = played_dump()) check_fakenect_dump(dump);
   return options;
 }
 
@@ -120,14 +79,16 @@ class FreenectDevice::Stream {
     freenect_device* device = handle_.device();
     freenect_set_user(device, this);
     freenect_set_depth_callback(device, [](freenect_device* from, void* data, uint32_t ticks) {
-      static_cast<Stream*>(freenect_get_user(from))->take_depth(data, ticks);
+      Stream* stream = static_cast<Stream*>(freenect_get_user(from));
+      stream->or_fail([&] { stream->take_depth(data, ticks); });
     });
     freenect_set_video_callback(device, [](freenect_device* from, void* data, uint32_t ticks) {
-      static_cast<Stream*>(freenect_get_user(from))->take_color(data, ticks);
+      Stream* stream = static_cast<Stream*>(freenect_get_user(from));
+      stream->or_fail([&] { stream->take_color(data, ticks); });
     });
     start(device);
     const SignalsBlocked blocked;
-    thread_ = std::thread([this] { serve(); });
+    thread_ = std::thread([this] { or_fail([this] { serve(); }); });
   }
 
   ~Stream() {
@@ -145,18 +106,20 @@ class FreenectDevice::Stream {
     std::unique_lock lock(mutex_);
     if (std::optional<DeviceFrame> frame = take_waiting()) return frame;
     const auto start = std::chrono::steady_clock::now();
-    const auto ready = [&] { return !frames_.empty() || !end_.empty(); };
+    const auto ready = [&] { return !frames_.empty() || has_ended(); };
     while (!changed_.wait_for(lock, kSlice, ready)) {
       if (options_.interrupted && options_.interrupted()) end_ = "interrupted";
       const std::chrono::duration<double> silence = std::chrono::steady_clock::now() - start;
-      if (end_.empty() && silence.count() > options_.silence_limit) {
+      if (!has_ended() && silence.count() > options_.silence_limit) {
         end_ = "silent";
         throw Error("freenect", "frames",
                     "none in " + std::to_string(std::lround(silence.count())) + " s" + last_complaint(),
                     "30 a second");
       }
     }
-    return take_waiting();
+    std::optional<DeviceFrame> frame = take_waiting();
+    if (!frame) throw_failure();
+    return frame;
   }
 
   FreenectLosses losses() const {
@@ -172,31 +135,62 @@ class FreenectDevice::Stream {
   static void start(freenect_device* device) {
     const freenect_frame_mode depth = freenect_find_depth_mode(FREENECT_RESOLUTION_MEDIUM, FREENECT_DEPTH_11BIT);
     const freenect_frame_mode video = freenect_find_video_mode(FREENECT_RESOLUTION_MEDIUM, FREENECT_VIDEO_RGB);
-    require(depth.bytes == 2 * kWidth * kHeight && freenect_set_depth_mode(device, depth) >= 0, "depth mode",
-            "11 bits, 640x480");
-    require(video.bytes == 3 * kWidth * kHeight && freenect_set_video_mode(device, video) >= 0, "video mode",
-            "RGB, 640x480");
-    require(freenect_start_depth(device) >= 0, "depth stream", "a start");
-    require(freenect_start_video(device) >= 0, "video stream", "a start");
+    require_freenect(depth.bytes == 2 * kWidth * kHeight && freenect_set_depth_mode(device, depth) >= 0,
+                     "depth mode", "11 bits, 640x480");
+    require_freenect(video.bytes == 3 * kWidth * kHeight && freenect_set_video_mode(device, video) >= 0,
+                     "video mode", "RGB, 640x480");
+    require_freenect(freenect_start_depth(device) >= 0, "depth stream", "a start");
+    require_freenect(freenect_start_video(device) >= 0, "video stream", "a start");
   }
 
   /// The thread: from here the library calls take_depth and take_color.
   void serve() {
-    const char* reason = "the device has gone: unplugged, or the end of what fakenect plays";
-    while (!is_stopping()) {
+    int result = 0;
+    while (result >= 0 && !is_stopping()) {
       timeval timeout{0, 100'000};
-      if (freenect_process_events_timeout(handle_.context(), &timeout) < 0) break;
+      result = freenect_process_events_timeout(handle_.context(), &timeout);
     }
     const std::lock_guard lock(mutex_);
     pairer_.finish();
     fetch_pairs();
-    if (end_.empty()) end_ = reason;
+    if (stopping_ || has_ended()) return;
+    if (!played_dump())
+      throw Error("freenect", "device", "none any more, code " + std::to_string(result) + last_complaint(),
+                  "one that stays plugged in");
+    end_ = "the end of what fakenect plays";
     changed_.notify_all();
   }
 
+  /// Does something where nothing may be thrown: in the thread, called by C. What is thrown ends the stream.
+  template <typename Action>
+  void or_fail(const Action& action) noexcept {
+    try {
+      action();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      changed_.notify_all();
+    }
+  }
+
+  /// As the Error that a device throws, whatever it was.
+  void throw_failure() const {
+    if (!failure_) return;
+    try {
+      std::rethrow_exception(failure_);
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& e) {
+      throw Error("freenect", "frames", e.what(), "room for them");
+    }
+  }
+
+  /// Nothing more will come. Wants the mutex.
+  bool has_ended() const { return !end_.empty() || failure_; }
+
   bool is_stopping() const {
     const std::lock_guard lock(mutex_);
-    return stopping_ || !end_.empty();
+    return stopping_ || has_ended();
   }
 
   void take_depth(const void* data, uint32_t ticks) {
@@ -216,7 +210,7 @@ class FreenectDevice::Stream {
     push(clock_.microseconds(ticks));
     fetch_pairs();
     changed_.notify_all();
-    const auto may_go_on = [&] { return !frames_.is_overfull() || stopping_ || !end_.empty(); };
+    const auto may_go_on = [&] { return !frames_.is_overfull() || stopping_ || has_ended(); };
     if (options_.every_frame) changed_.wait(lock, may_go_on);
     if (!options_.every_frame) frames_.drop_oldest();
   }
@@ -233,19 +227,20 @@ class FreenectDevice::Stream {
   }
 
   FreenectOptions options_;
-  Handle handle_;
+  FreenectHandle handle_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   TickClock clock_;
   FramePairer<std::shared_ptr<Image<uint16_t>>, std::shared_ptr<ColorImage>> pairer_;
   LatestQueue<DeviceFrame> frames_{kMaxFrames};
   bool stopping_ = false;
-  std::string end_;
+  std::string end_;             ///< why, once the stream has ended well
+  std::exception_ptr failure_;  ///< what has ended it otherwise
   std::thread thread_;
 };
 
 FreenectDevice::FreenectDevice(const RgbdCalibration& calibration, FreenectOptions options)
-    : calibration_(calibration), stream_(std::make_unique<Stream>(checked(options))) {}
+    : calibration_(calibration), stream_(std::make_unique<Stream>(checked(options, calibration))) {}
 
 FreenectDevice::~FreenectDevice() = default;
 

@@ -13,7 +13,8 @@ struct FreenectOptions {
   /// Lets the device wait when frames are not fetched in time, instead of dropping the oldest: for what fakenect
   /// plays. A Kinect does not wait; it loses packets.
   bool every_frame = false;
-  double silence_limit = 10;          ///< s without a frame after which the device has failed
+  double silence_limit = 10;                     ///< s without a frame after which the device has failed
+  std::string calibration_name = "calibration";  ///< in messages: its file
   std::function<bool()> interrupted;  ///< asked ten times a second while nothing arrives; true ends the stream
 };
 
@@ -34,18 +35,21 @@ struct FreenectLosses {
 /// dropped and counted. Time stamps are the device's, in microseconds, and do not come around.
 class FreenectDevice : public Device {
  public:
-  /// Opens the device and starts both streams. Throws Error if there is none or it refuses; where the environment
-  /// names a dump for fakenect (FAKENECT_PATH), also if that dump is damaged, as fakenect would end the program.
+  /// Opens the device and starts both streams. Throws Error if there is none or it refuses, or the calibration is
+  /// of other images than 640x480; where the environment names a dump for fakenect (FAKENECT_PATH), also if that
+  /// dump is damaged, as fakenect would end the program.
   explicit FreenectDevice(const RgbdCalibration& calibration, FreenectOptions options = {});
+  /// Waits until the library gives control back: fakenect, only after a pause in its recording.
   ~FreenectDevice() override;
 
   const RgbdCalibration& calibration() const override;
-  /// Waits for the next frame. Nothing when the device has gone (unplugged, or the end of what fakenect plays) or
-  /// on `interrupted`. Throws Error after `silence_limit`.
+  /// Waits for the next frame. Nothing at the end of what fakenect plays (with FAKENECT_PATH set) or on
+  /// `interrupted`. Throws Error when the device has failed, once the frames that came before are fetched: it was
+  /// unplugged, gave nothing for `silence_limit`, or there was no memory.
   std::optional<DeviceFrame> next_frame() override;
 
   FreenectLosses losses() const;
-  /// Why the stream has ended; empty while it has not.
+  /// Why the stream has ended; empty while it has not, and if the device has failed.
   std::string end() const;
 
  private:
