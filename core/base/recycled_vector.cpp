@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <utility>
 
+#include "core/base/sanitizers.h"
+
 namespace glovebench {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr size_t kMostKept = 0;  // it would not see what is used after it was given back
-#else
 constexpr size_t kMostKept = size_t{64} << 20;  // bytes
-#endif
 
 /// Blocks are powers of two.
 constexpr int kSmallest = 6;  // 64 bytes
@@ -67,23 +66,34 @@ class Waiting {
 thread_local Waiting waiting;
 
 void* from_heap(size_t bytes) {
-  void* const memory = std::aligned_alloc(64, bytes);
-  if (memory == nullptr) throw std::bad_alloc();
+  void* memory = nullptr;
+  if (bytes > PTRDIFF_MAX || posix_memalign(&memory, 64, bytes) != 0) throw std::bad_alloc();
   return memory;
+}
+
+/// The sanitizer does not see what is used after it was given back, or beyond the size that was asked for.
+#ifdef GLOVEBENCH_ADDRESS_SANITIZER
+constexpr bool kRecycles = false;
+#else
+constexpr bool kRecycles = true;
+#endif
+
+bool is_recycled(int block_class) {
+  return kRecycles && block_class < kClasses && !thread_ends;
 }
 
 }  // namespace
 
 void* take_memory(size_t bytes) {
   const int block_class = class_of(bytes);
-  if (block_class >= kClasses) return from_heap((bytes + 63) / 64 * 64);
-  void* const kept = thread_ends ? nullptr : waiting.take(block_class);
+  if (!is_recycled(block_class)) return from_heap(bytes);
+  void* const kept = waiting.take(block_class);
   return kept != nullptr ? kept : from_heap(block_bytes(block_class));
 }
 
 void give_memory(void* memory, size_t bytes) noexcept {
   const int block_class = class_of(bytes);
-  if (block_class >= kClasses || thread_ends || !waiting.keep(memory, block_class)) std::free(memory);
+  if (!is_recycled(block_class) || !waiting.keep(memory, block_class)) std::free(memory);
 }
 
 }  // namespace glovebench

@@ -10,6 +10,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/random.h"
+#include "core/base/sanitizers.h"
 #include "core/database/test_block_database.h"
 #include "core/test_folder.h"
 
@@ -157,7 +158,7 @@ int64_t resident_bytes() {
   std::istringstream numbers(read_file("/proc/self/statm"));
   int64_t whole = 0, resident = 0, of_files = 0;
   numbers >> whole >> resident >> of_files;
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GLOVEBENCH_ADDRESS_SANITIZER
   resident = of_files;
 #endif
   return resident * sysconf(_SC_PAGESIZE);

@@ -1,15 +1,18 @@
-// What a tracker asks of the heap, frame after frame: nothing.
+// What a tracker asks of the heap once it has seen such frames: nothing.
 
 #include <gmock/gmock.h>
 
 #include <cerrno>
 #include <cstdlib>
+#include <functional>
 #include <thread>
+#include <vector>
 
+#include "core/base/sanitizers.h"
 #include "core/tracker/test_scene.h"
 
 // The sanitizers put functions of their own in the place of these.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(GLOVEBENCH_ADDRESS_SANITIZER) && !defined(GLOVEBENCH_THREAD_SANITIZER)
 
 namespace {
 thread_local bool counting = false;
@@ -98,6 +101,27 @@ TEST(Allocation, happens_in_the_first_frame) {
     first = requests_of([&] { tracker.track(frames()[0]); });
   }).join();
   EXPECT_GT(first, 20);
+}
+
+/// Asks twice for memory of one size when its thread ends.
+struct Late {
+  int* requests = nullptr;
+  ~Late() {
+    *requests = requests_of([] {
+      for (int i = 0; i < 2; ++i) give_memory(take_memory(1000), 1000);
+    });
+  }
+};
+
+TEST(Allocation, happens_each_time_where_a_thread_has_thrown_away_what_it_kept) {
+  int at_the_end = 0;
+  std::thread([&] {
+    thread_local Late late;  // made before what the thread keeps, it goes after that
+    late.requests = &at_the_end;
+    give_memory(take_memory(1000), 1000);
+    EXPECT_EQ(requests_of([] { give_memory(take_memory(1000), 1000); }), 0);
+  }).join();
+  EXPECT_EQ(at_the_end, 2);
 }
 
 TEST(Allocation, does_not_happen_once_a_tracker_has_begun) {

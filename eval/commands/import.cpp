@@ -7,6 +7,7 @@
 #include "eval/commands/command.h"
 #include "eval/share.h"
 #include "trajectories/capture/import_capture.h"
+#include "trajectories/json_field.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::eval {
@@ -30,13 +31,14 @@ struct ImportMarkers {
                   "one, or several of --format handpose");
     }
     if (!output.ends_with(".json")) throw Error("--output", "file name", output, "the ending .json");
+    const std::string name = std::filesystem::path(output).stem().string();
+    if (!trajectories::is_name(name)) throw Error("--output", "file name", name, trajectories::kNameExpected);
     const trajectories::CapturePlacement placement{side, T_capture_camera()};
     const trajectories::MarkerLayout markers = layout.empty()
                                                    ? trajectories::MarkerLayout{}
                                                    : trajectories::parse_marker_layout(read_file(layout), layout);
     const HandModel model = HandModel::load(hand_mesh_path());
     const trajectories::HandFit fit = trajectories::import_capture(files, format, side, markers, model);
-    const std::string name = std::filesystem::path(output).stem().string();
     if (is_poses || postures > 0) {
       const size_t count = postures > 0 ? static_cast<size_t>(postures) : fit.frames.size();
       trajectories::write_posture_set(

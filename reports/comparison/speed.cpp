@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/base/file.h"
@@ -82,19 +84,20 @@ SpeedRatio ratio_of(const std::string& name, const Repetitions& plain, const Rep
                 fmt::format("at least {} (--benchmark_repetitions, and not aggregates only)", kMinRepetitions));
   }
   const double ratio = median(plain) / median(fast);
-  SpeedRatio result{name, ratio, ratio, ratio};
+  std::vector<double> of_pairs;
   for (const auto& [index, seconds] : plain) {
     const auto partner = fast.find(index);
     if (partner == fast.end() || plain.size() != fast.size())
       throw Error(where, name, fmt::format("{} and {} repetitions", plain.size(), fast.size()),
                   "the same repetitions of plain and fast");
-    result.low = std::min(result.low, seconds / partner->second);
-    result.high = std::max(result.high, seconds / partner->second);
+    of_pairs.push_back(seconds / partner->second);
   }
-  if (!is_ratio(result.low) || !is_ratio(result.high))
-    throw Error(where, name, fmt::format("ratios of {:g} to {:g}", result.low, result.high),
+  std::ranges::sort(of_pairs);
+  if (!is_ratio(of_pairs.front()) || !is_ratio(of_pairs.back()))
+    throw Error(where, name, fmt::format("ratios of {:g} to {:g}", of_pairs.front(), of_pairs.back()),
                 fmt::format("ones of {} to {}", kLeastRatio, kLargestRatio));
-  return result;
+  // One pair at each end may have been disturbed.
+  return {name, ratio, std::min(ratio, of_pairs[1]), std::max(ratio, of_pairs[of_pairs.size() - 2])};
 }
 
 std::vector<SpeedRatio> read_benchmarks(const JsonReader& json, const std::string& where) {
@@ -159,6 +162,10 @@ std::string speed_json(const std::vector<SpeedRatio>& ratios) {
   return format_json(json);
 }
 
+double speed_limit(double baseline) {
+  return std::max(baseline / 2, std::sqrt(baseline));
+}
+
 std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,
                                     const std::vector<SpeedRatio>& candidate, const std::string& candidate_name) {
   std::vector<SpeedRow> rows;
@@ -166,7 +173,7 @@ std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,
     const auto after = std::ranges::find(candidate, before.name, &SpeedRatio::name);
     if (after == candidate.end())
       throw Incomparable(candidate_name, before.name, "nothing", "this ratio, which the baseline has");
-    const double limit = kSpeedShare * before.ratio;
+    const double limit = speed_limit(before.ratio);
     rows.push_back({before.name, before.ratio, after->ratio, after->high, limit, after->high < limit});
   }
   return rows;

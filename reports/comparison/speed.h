@@ -10,7 +10,7 @@ namespace glovebench::reports {
 struct SpeedRatio {
   std::string name;  ///< of the benchmark, without /plain and /fast
   double ratio = 0;  ///< plain / fast, of the medians of CPU times
-  double low = 0;    ///< smallest and largest ratio of a pair of repetitions
+  double low = 0;    ///< smallest and largest ratio of a pair of repetitions but for one at each end
   double high = 0;
 
   friend bool operator==(const SpeedRatio&, const SpeedRatio&) = default;
@@ -29,13 +29,14 @@ struct SpeedRow {
   std::string name;
   double baseline = 0;
   double candidate = 0;
-  double best = 0;   ///< the candidate's, of its best pair of repetitions
-  double limit = 0;  ///< kSpeedShare of the baseline's: the fast implementation is slower if all pairs are below it
+  double best = 0;   ///< the candidate's `high`
+  double limit = 0;  ///< what is no faster than this at best has become slower
   bool slower = false;
 };
-/// Another processor moves a ratio by a third, and other work on this one some repetitions by more; a fast path
-/// that stopped being one is far below a half in each.
-inline constexpr double kSpeedShare = 0.5;
+/// Half of the baseline's ratio: other processors, and other work on this one, move a ratio by less. Where that is
+/// little more than 1, the geometric middle between both.
+double speed_limit(double baseline);
+
 /// In the baseline's order; ratios that only the candidate has are new and not compared. Throws Incomparable if the
 /// candidate lacks a ratio of the baseline's.
 std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,

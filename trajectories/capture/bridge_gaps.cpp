@@ -78,12 +78,11 @@ Bridged bridge_gaps(const std::vector<HandState>& states, const std::vector<Obse
   Bridged result;
   result.states = states;
   result.angles.assign(states.size(), {});
-  result.poses.assign(states.size(), false);
+  for (const Observability& frame : shown) result.poses.push_back(!frame.pose);
   const auto has_pose = [&](size_t f) { return shown[f].pose; };
   for (const auto& [f, gap] : gaps_of(states.size(), times_s, has_pose)) {
     result.states[f].T_capture_hand =
         between(states[gap.before].T_capture_hand, states[gap.after].T_capture_hand, gap.share);
-    result.poses[f] = true;
   }
   for (int a = 0; a < kAngleCount; ++a) bridge_angle(a, shown, times_s, result);
   for (HandState& state : result.states) state.posture = clamp_to_limits(state.posture);

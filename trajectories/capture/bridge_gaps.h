@@ -12,7 +12,7 @@ namespace glovebench::trajectories {
 struct Bridged {
   std::vector<HandState> states;
   std::vector<std::array<bool, kAngleCount>> angles;  ///< those of each frame that were filled
-  std::vector<bool> poses;                            ///< of each frame, whether its pose was
+  std::vector<bool> poses;                            ///< of each frame, whether its pose was not shown
   std::array<bool, kAngleCount> never_shown = {};
   int angle_gaps = 0;  ///< runs of frames without an angle that is shown elsewhere
 };

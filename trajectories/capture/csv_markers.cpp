@@ -83,7 +83,7 @@ std::string csv_markers(const MarkerSequence& sequence) {
   for (const MarkerFrame& frame : sequence.frames) {
     text += fixed(static_cast<double>(frame.timestamp_us) / 1e6, 6);
     for (const Eigen::Vector3d& p : frame.points) {
-      for (int i = 0; i < 3; ++i) text += is_seen(p) ? "," + fixed(1000 * p[i], 3) : ",";
+      for (int i = 0; i < 3; ++i) text.append(",") += is_seen(p) ? fixed(1000 * p[i], 3) : "";
     }
     text += "\n";
   }

@@ -21,8 +21,8 @@ constexpr double kLeastScale = 0.003;
 constexpr size_t kCalibrationFrames = 40;
 /// Where a hand's calibration ends: while labels are wrong, and in the end.
 constexpr double kRoughGain = 1e-4, kFinalGain = 1e-6;
-/// A fit of which more points are farther off than this many robust scales is none.
-constexpr double kLostScales = 3;
+/// A fit of which half of the points are farther off is none.
+constexpr double kLostDistance = 0.01;
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -57,7 +57,8 @@ std::vector<double> seen_distances(const CaptureHand& hand, const std::vector<Po
 /// How far off an ordinary point is, and so what is not ordinary.
 double robust_scale(const CaptureHand& hand, const std::vector<Points>& points,
                     const std::vector<HandState>& states) {
-  return std::max(kLeastScale, 2 * quantile_of(seen_distances(hand, points, states), 0.5).value_or(0));
+  const double median = quantile_of(seen_distances(hand, points, states), 0.5).value_or(0);
+  return std::clamp(2 * median, kLeastScale, kFirstScale);
 }
 
 /// The hand over the frames whose postures differ most.
@@ -93,10 +94,10 @@ std::vector<HandState> refit(const CaptureHand& hand, const std::vector<Points>&
   return result;
 }
 
-bool is_lost(const std::vector<double>& distances, double scale) {
-  const auto near = std::ranges::count_if(distances, [&](double d) { return d < kLostScales * scale; });
-  const auto seen = std::ranges::count_if(distances, [](double d) { return std::isfinite(d); });
-  return 2 * near <= seen;
+/// `labeled`: as the capture names them, those that were given to no marker too.
+bool is_lost(const std::vector<double>& distances, const Points& labeled) {
+  const auto near = std::ranges::count_if(distances, [](double d) { return d < kLostDistance; });
+  return 2 * near <= std::ranges::count_if(labeled, is_seen);
 }
 
 /// A pose may be bridged between two frames that are near in time.
@@ -124,7 +125,7 @@ void report_frames(const Cloud& cloud, const std::vector<Points>& points, const 
     frame.points = static_cast<int>(frame.residuals.size());
     fit.missing_points += static_cast<int>(std::ranges::count_if(cloud.labeled[f], std::not_fn(is_seen)));
     shown.push_back(observability(fit.hand, points[f], states[f], scale));
-    shown.back().pose = shown.back().pose && !is_lost(distances, scale);
+    shown.back().pose = shown.back().pose && !is_lost(distances, cloud.labeled[f]);
     times_s.push_back(static_cast<double>(frame.timestamp_us) / 1e6);
   }
   const Bridged bridged = bridge_gaps(states, shown, times_s);

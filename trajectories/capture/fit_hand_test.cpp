@@ -68,23 +68,19 @@ TEST(FitHand, finds_the_angles_of_another_hand_from_joints_with_noise) {
   const HandFit result = fit(captured(truth, subject(), webxr_names(), {.noise = 0.0005}));
   const AngleErrors errors = angle_errors(result, truth);
   EXPECT_LT(errors.median, 1) << errors.table;
-  RecordProperty("median_deg", fmt::format("{:.2f}", errors.median));
-  RecordProperty("p95_deg", fmt::format("{:.2f}", errors.p95));
   EXPECT_TRUE(result.never_shown[kWristFlexion] && result.never_shown[kWristAbduction])
       << "no joint is on the forearm";
   EXPECT_EQ(std::ranges::count(result.never_shown, true), 2);
 }
 
 TEST(FitHand, finds_the_angles_of_another_hand_from_flawed_skin_markers) {
-  const Trajectory truth = movement("Tr4");
+  const Trajectory truth = movement("Tr4", 60);
   const CaptureFlaws flaws{
       .noise = 0.001, .placement = 1, .gap_share = 0.05, .swap_share = 0.03, .unlabeled_share = 0.01};
   const HandFit result = fit(flawed(captured(truth, subject(), skin_names(), flaws), flaws));
   const AngleErrors errors = angle_errors(result, truth);
   EXPECT_LT(errors.median, 3) << errors.table;
-  RecordProperty("median_deg", fmt::format("{:.2f}", errors.median));
-  RecordProperty("p95_deg", fmt::format("{:.2f}", errors.p95));
-  EXPECT_GT(result.missing_points, 100);
+  EXPECT_GT(result.missing_points, 50);
   EXPECT_EQ(std::ranges::count(result.never_shown, true), 0) << "two markers are on the forearm";
 }
 
@@ -151,19 +147,63 @@ TEST(FitHand, refuses_what_is_no_hand) {
   }
   EXPECT_THAT(refusal(fingertip), HasSubstr("found no frame with three on the palm"));
 
-  MarkerSequence nonsense = good;
-  for (size_t f = 0; f < 3; ++f) {
+  // Few frames of few points could be some hand's: the parts of a hand are fitted, too.
+  MarkerSequence nonsense = captured(movement("Tr4", 15), model(), webxr_names(), {});
+  for (size_t f = 0; f < nonsense.frames.size(); ++f) {
     RandomStream random(1, "nonsense", static_cast<int64_t>(f), "points");
     for (Eigen::Vector3d& p : nonsense.frames[f].points) {
-      p = 0.1 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      p = 0.04 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
     }
   }
-  EXPECT_THAT(refusal(nonsense), HasSubstr("capture: points: found "));
+  EXPECT_THAT(refusal(nonsense), HasSubstr("found no frame that fits a hand"));
 
   MarkerSequence unnamed = good;
   unnamed.names[3] = "elbow";
   EXPECT_THAT(refusal(unnamed),
               AllOf(HasSubstr("capture: point: found \"elbow\""), HasSubstr("a place on the hand")));
+}
+
+/// End joints that bend on their own, by up to 15 degrees more or less than the prior says.
+Trajectory with_free_end_joints(Trajectory movement) {
+  for (size_t f = 0; f < movement.frames.size(); ++f) {
+    Posture& posture = movement.frames[f].posture;
+    for (int dip = kIndexDipFlexion; dip < kAngleCount; dip += 4) {
+      posture[dip] += radians_from_degrees(15) * std::sin(0.1 * static_cast<double>(f) + dip);
+    }
+    posture = clamp_to_limits(posture);
+  }
+  return movement;
+}
+
+/// The figures of README.md, as its table: median and 95% over frames and angles, the second subject's hand.
+class FitHandLong : public testing::Test {
+ protected:
+  static constexpr CaptureFlaws kFlaws{
+      .noise = 0.001, .placement = 1, .gap_share = 0.05, .swap_share = 0.03, .unlabeled_share = 0.01};
+
+  /// Prints a row and gives back the larger of the medians.
+  static double row(const std::string& what, const std::vector<std::string>& names, const CaptureFlaws& flaws,
+                    bool free_end_joints = false) {
+    double worst = 0;
+    std::string line = "| " + what + " |";
+    for (const std::string name : {"Tr1", "Tr4"}) {
+      const Trajectory truth = free_end_joints ? with_free_end_joints(movement(name)) : movement(name);
+      const AngleErrors errors = angle_errors(fit(flawed(captured(truth, subject(), names, flaws), flaws)), truth);
+      line += fmt::format(" {:.2f} / {:.1f} |", errors.median, errors.p95);
+      worst = std::max(worst, errors.median);
+    }
+    fmt::print("{}\n", line);
+    return worst;
+  }
+};
+
+TEST_F(FitHandLong, joints_within_a_degree_markers_within_three) {
+  EXPECT_LT(row("joints, 0.5 mm of noise", webxr_names(), {.noise = 0.0005}), 1);
+  EXPECT_LT(row("skin markers, flawed", skin_names(), kFlaws), 3);
+  CaptureFlaws far = kFlaws;
+  far.placement = 2;
+  EXPECT_LT(row("the same, markers twice as far from their places", skin_names(), far), 3);
+  EXPECT_LT(row("the same, end joints on their own", skin_names(), kFlaws, true), 3);
 }
 
 }  // namespace

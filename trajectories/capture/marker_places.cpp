@@ -55,7 +55,7 @@ const std::map<std::string, Place>& places() {
       result[finger + "_distal"] = {mcp + 2, mcp + 2, mcp + 3, kMiddleOfLast, dorsal, kOnFinger};
       result[finger + "_tip"] = {mcp + 2, mcp + 2, mcp + 3, kNail, dorsal, kOnFinger};
     }
-    // A third of the model's hand, up the forearm.
+    // 4 cm up the forearm.
     result["forearm"] = {kForearmJoint, kWristJoint, 11, -0.45, dorsal, kOnPalm};
     result["forearm_radial"] = {kForearmJoint, kWristJoint, 11, -0.45, -ulnar, kOnSide};
     result["forearm_ulnar"] = {kForearmJoint, kWristJoint, 11, -0.45, ulnar, kOnSide};

@@ -41,7 +41,7 @@ inline std::vector<std::string> webxr_names() {
   return names;
 }
 
-/// 27 markers: one on each segment and fingertip, six on the palm, two on the forearm.
+/// 28 markers: one on each segment and fingertip, six on the palm, two on the forearm.
 inline std::vector<std::string> skin_names() {
   std::vector<std::string> names = {"thumb_metacarpal", "thumb_proximal", "thumb_distal",   "thumb_tip",
                                     "wrist_radial",     "wrist_ulnar",    "forearm_radial", "forearm_ulnar"};

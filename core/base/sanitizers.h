@@ -1,0 +1,13 @@
+#pragma once
+
+// Whether the compiler's sanitizers are on, which watch the heap in its place. GCC has macros, Clang a question.
+#ifndef __has_feature
+#define __has_feature(feature) 0
+#endif
+
+#if defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
+#define GLOVEBENCH_ADDRESS_SANITIZER
+#endif
+#if defined(__SANITIZE_THREAD__) || __has_feature(thread_sanitizer)
+#define GLOVEBENCH_THREAD_SANITIZER
+#endif
