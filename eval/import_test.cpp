@@ -81,6 +81,7 @@ TEST_F(ImportMarkers, RefusesInOneLine) {
   EXPECT_THAT(refusal(with({"--layout", path("none.json")})), HasSubstr("none.json"));
   EXPECT_THAT(refusal(with({"--postures", "0"})), HasSubstr("--postures"));
   EXPECT_THAT(refusal(with({"--every", "0"})), HasSubstr("--every"));
+  EXPECT_THAT(refusal(with({"--every", "2", "--postures", "3"})), HasSubstr("with a posture set"));
   EXPECT_THAT(refusal({"--format", "csv", "-o", path("un named!.json")}), HasSubstr("name"));
   write_file(path("elbow.csv"), "time_s,elbow_x_mm,elbow_y_mm,elbow_z_mm\n0,1,2,3\n");
   EXPECT_THAT(refusal(good, "elbow.csv"), AllOf(HasSubstr("elbow.csv"), HasSubstr("a place on the hand")));

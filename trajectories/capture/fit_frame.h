@@ -26,7 +26,7 @@ struct WeightedResiduals {
 WeightedResiduals weighted_residuals(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                      const HandState& state, double robust_scale);
 
-/// Solves (H + damping * diag(H)) step = b for a state: angles at a limit that the step would leave stay.
+/// Takes out of the system H step = b the angles at a limit beyond which the step would lead: they stay.
 void hold_at_limits(const HandState& state, Eigen::Ref<Eigen::MatrixXd> H, Eigen::Ref<Eigen::VectorXd> b);
 
 struct FrameFit {

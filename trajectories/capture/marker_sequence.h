@@ -21,7 +21,7 @@ struct MarkerSequence {
 };
 
 /// A file may hold as many, and coordinates this large (m).
-inline constexpr size_t kMaxMarkers = 1000;
+inline constexpr size_t kMaxMarkers = 200;
 inline constexpr double kMaxCoordinate = 100;
 
 /// The place of a point that was not seen.

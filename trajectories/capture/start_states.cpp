@@ -103,18 +103,23 @@ size_t best_start(const CaptureHand& hand, const std::vector<Points>& points, co
   return best;
 }
 
+/// The hand's size is the same in all frames: so many tell it.
+constexpr size_t kScaleFrames = 100;
+
 }  // namespace
 
 double hand_scale(const CaptureHand& hand, const std::vector<Points>& points, const std::string& where) {
   constexpr double too_near = 0.015, smallest = 0.5, largest = 2;
   const Points in_hand = predict_points(hand, {});
+  const size_t step = std::max<size_t>(1, points.size() / kScaleFrames);
   std::vector<double> ratios;
   for (size_t a = 0; a < in_hand.size(); ++a) {
     for (size_t b = a + 1; b < in_hand.size(); ++b) {
       const double length = (in_hand[a] - in_hand[b]).norm();
       if (length < too_near || !is_rigid_pair(hand.markers[a], hand.markers[b])) continue;
-      for (const Points& frame : points) {
-        if (is_seen(frame[a]) && is_seen(frame[b])) ratios.push_back((frame[a] - frame[b]).norm() / length);
+      for (size_t f = 0; f < points.size(); f += step) {
+        const Eigen::Vector3d &p = points[f][a], &q = points[f][b];
+        if (is_seen(p) && is_seen(q)) ratios.push_back((p - q).norm() / length);
       }
     }
   }
