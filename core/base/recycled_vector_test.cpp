@@ -32,8 +32,11 @@ TEST(RecycledVector, has_memory_for_wide_registers) {
 
 TEST(RecycledVector, refuses_what_no_memory_has) {
   EXPECT_THROW(RecyclingAllocator<double>().allocate(static_cast<size_t>(-1) / 4), std::bad_alloc);
-  for (const size_t bytes : {size_t{1} << 62, SIZE_MAX - 1, SIZE_MAX})
-    EXPECT_THROW(take_memory(bytes), std::bad_alloc);
+  for (const size_t bytes : {SIZE_MAX / 2 + 1, SIZE_MAX - 1, SIZE_MAX})
+    EXPECT_THROW(take_memory(bytes), std::bad_alloc) << bytes;
+#ifndef GLOVEBENCH_ADDRESS_SANITIZER  // which ends the program
+  EXPECT_THROW(take_memory(size_t{1} << 62), std::bad_alloc);
+#endif
 }
 
 TEST(RecycledVector, may_be_made_on_one_thread_and_thrown_away_on_another) {
