@@ -118,12 +118,6 @@ void set_bytes_touched(benchmark::State& state, const BytesTouched& touched) {
   if (touched.far > 0) state.counters[kFarBytes] = touched.far;
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto nth = values.begin() + static_cast<ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 double peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

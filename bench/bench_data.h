@@ -65,9 +65,6 @@ struct BytesTouched {
 inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";
 void set_bytes_touched(benchmark::State& state, const BytesTouched& touched);
 
-/// What a share of the values lies below. Reorders them.
-double quantile(std::vector<double>& values, double share);
-
 /// The peak of the process's resident memory so far, bytes.
 double peak_memory();
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "bench/bench_data.h"
+#include "core/base/quantile.h"
 
 namespace glovebench::bench {
 namespace {
@@ -53,8 +54,8 @@ void track(benchmark::State& state, IcpAlgorithm algorithm) {
     frames += static_cast<int64_t>(d.frames.size());
   }
   set_time_each(state, "frame", d.frames.size());
-  state.counters["p50_us"] = 1e6 * quantile(seconds, 0.5);
-  state.counters["p99_us"] = 1e6 * quantile(seconds, 0.99);
+  state.counters["p50_us"] = 1e6 * *quantile_of(seconds, 0.5);
+  state.counters["p99_us"] = 1e6 * *quantile_of(seconds, 0.99);
   for (const auto& [stage, stage_seconds] : times.seconds()) {
     state.counters[stage] = stage_seconds / static_cast<double>(frames);
   }

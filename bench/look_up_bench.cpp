@@ -1,5 +1,6 @@
 // The matching cascade, plain and fast, and its peers' brute force; each query is a frame's.
 
+#include "core/base/quantile.h"
 #include "core/database/look_up.h"
 
 #include <chrono>
@@ -71,8 +72,8 @@ void run_look_up(benchmark::State& state, const char* text, Implementation imple
     }
   }
   set_time_each(state, "frame", queries.size());
-  state.counters["p50_us"] = 1e6 * quantile(seconds, 0.5);
-  state.counters["p99_us"] = 1e6 * quantile(seconds, 0.99);
+  state.counters["p50_us"] = 1e6 * *quantile_of(seconds, 0.5);
+  state.counters["p99_us"] = 1e6 * *quantile_of(seconds, 0.99);
   state.counters["entries"] = database.entry_count();
   if (implementation == Implementation::fast && cascade.size() == 1)
     set_bytes_touched(state, {.far = row_bytes(queries, cascade)});

@@ -34,7 +34,8 @@ constexpr int kFrames = 24;
 class Freenect : public testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(std::string(GLOVEBENCH_FAKENECT_DIR) + "/libfreenect.so.0.5")) GTEST_SKIP() << "no fakenect";
+    ASSERT_TRUE(fs::exists(std::string(GLOVEBENCH_FAKENECT_DIR) + "/libfreenect.so.0.5"))
+        << "libfreenect comes with fakenect (Debian: libfreenect0.5)";
     folder_ = make_test_folder();
   }
   void TearDown() override {

@@ -102,6 +102,11 @@ std::string JsonField::text() const {
   return value_->get<std::string>();
 }
 
+void JsonField::expect_format(std::string_view format, int64_t version) const {
+  member("format").expect_text(format);
+  member("version").integer(version, version);
+}
+
 void JsonField::expect_text(std::string_view expected) const {
   if (text() != expected) fail(in_quotes(expected));
 }

@@ -35,6 +35,8 @@ class JsonField {
   std::string text() const;
   /// A text that must equal `expected`.
   void expect_text(std::string_view expected) const;
+  /// Of an object: its "format" and "version".
+  void expect_format(std::string_view format, int64_t version) const;
   /// A name fit for a file or a table cell (see is_name).
   std::string name() const;
 

@@ -63,8 +63,7 @@ PostureSet parse_postures_json(std::string_view text, const std::string& where) 
   const nlohmann::json document = JsonField::parse(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "name", "joint_order", "postures"}, {"description"});
-  root.member("format").expect_text(kFormat);
-  root.member("version").integer(kVersion, kVersion);
+  root.expect_format(kFormat, kVersion);
   expect_joint_order(root.member("joint_order"));
 
   PostureSet set{.name = root.member("name").name(), .posture_names = {}, .postures = {}};

@@ -146,8 +146,7 @@ Trajectory parse_trajectory(std::string_view text, const std::string& where) {
   const JsonField root(document, where);
   root.expect_members({"format", "version", "name", "side", "joint_order", "frames"},
                       {"description", "kind", "provenance"});
-  root.member("format").expect_text(kFormat);
-  root.member("version").integer(kVersion, kVersion);
+  root.expect_format(kFormat, kVersion);
   expect_joint_order(root.member("joint_order"));
 
   Trajectory trajectory;

@@ -18,6 +18,7 @@
 #include "bench/scale/repeated_database.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/quantile.h"
 #include "render/label_renderer.h"
 
 namespace glovebench::bench {
@@ -110,10 +111,10 @@ ordered_json look_up_all(const Database& database, const Cascade& cascade, int r
     }
   }
   const auto count = static_cast<double>(ms.size());
-  return {{"p50_ms", quantile(ms, 0.5)},
-          {"p99_ms", quantile(ms, 0.99)},
-          {"p50_processor_ms", quantile(processor, 0.5)},
-          {"p99_processor_ms", quantile(processor, 0.99)},
+  return {{"p50_ms", *quantile_of(ms, 0.5)},
+          {"p99_ms", *quantile_of(ms, 0.99)},
+          {"p50_processor_ms", *quantile_of(processor, 0.5)},
+          {"p99_processor_ms", *quantile_of(processor, 0.99)},
           {"major_faults", major / count},
           {"minor_faults", minor / count}};
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 #include "core/base/error.h"
@@ -16,16 +17,6 @@ namespace glovebench {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
 
 /// When images were taken: of all times that the ticks of one may mean, the one nearest to its arrival, for which
 /// the first image says by how much the two clocks differ. So a pause may be longer than a round of the ticks.
@@ -72,14 +63,15 @@ std::vector<RecordingEntry> read_recording_index(const std::string& folder) {
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder) {
   const std::string index = path_in_recording(folder, "INDEX.txt");
   std::vector<RecordingEntry> entries;
-  std::set<std::string_view> listed;
+  std::set<std::string> listed;
   TakenTimes times;
   int number = 0;
-  for (std::string_view line : lines_of(content)) {
+  std::istringstream lines{std::string(content)};
+  for (std::string line; std::getline(lines, line);) {
     const RecordedName name = parse_recorded_name(line, index + ", line " + std::to_string(++number));
     if (name.kind == RecordedKind::accelerometer) continue;
-    if (!listed.insert(line).second) throw Error(index, "file name", std::string(line) + " twice", "each once");
-    entries.push_back({name.kind, times.microseconds(name), path_in_recording(folder, std::string(line))});
+    if (!listed.insert(line).second) throw Error(index, "file name", line + " twice", "each once");
+    entries.push_back({name.kind, times.microseconds(name), path_in_recording(folder, line)});
   }
   const auto key = [](const RecordingEntry& entry) { return std::pair(entry.timestamp_us, entry.kind); };
   std::stable_sort(entries.begin(), entries.end(),
@@ -89,11 +81,12 @@ std::vector<RecordingEntry> parse_recording_index(std::string_view content, cons
 
 void check_fakenect_dump(const std::string& folder) {
   constexpr size_t kPixels = 640 * 480;
-  const std::string index = path_in_recording(folder, "INDEX.txt"), content = read_file(index);
+  const std::string index = path_in_recording(folder, "INDEX.txt");
+  std::istringstream lines(read_file(index));
   int depths = 0;
-  for (std::string_view line : lines_of(content)) {
+  for (std::string line; std::getline(lines, line);) {
     const RecordedKind kind = parse_recorded_name(line, index).kind;
-    const std::string path = path_in_recording(folder, std::string(line));
+    const std::string path = path_in_recording(folder, line);
     depths += kind == RecordedKind::depth;
     if (kind == RecordedKind::depth) require_image(path, "P5 640 480 65535\n", 2 * kPixels);
     if (kind == RecordedKind::color) require_image(path, "P6 640 480 255\n", 3 * kPixels);

@@ -6,9 +6,9 @@
 
 #include "core/base/check.h"
 #include "core/base/error.h"
+#include "core/base/quantile.h"
 #include "trajectories/capture/calibrate_hand.h"
 #include "trajectories/capture/marker_labels.h"
-#include "trajectories/capture/quantile.h"
 #include "trajectories/capture/start_states.h"
 #include "trajectories/generation/low_dispersion.h"
 

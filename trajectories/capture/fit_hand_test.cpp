@@ -5,7 +5,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "trajectories/capture/quantile.h"
+#include "core/base/quantile.h"
 #include "trajectories/capture/test_capture.h"
 
 namespace glovebench::trajectories {

@@ -8,8 +8,8 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/quantile.h"
 #include "trajectories/capture/csv_markers.h"
-#include "trajectories/capture/quantile.h"
 #include "trajectories/capture/trc_markers.h"
 #include "trajectories/capture/webxr_joints.h"
 #include "trajectories/generation/low_dispersion.h"

@@ -116,8 +116,7 @@ MarkerLayout parse_marker_layout(std::string_view text, const std::string& where
   const nlohmann::json document = JsonField::parse(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "markers"});
-  root.member("format").expect_text(kFormat);
-  root.member("version").integer(kVersion, kVersion);
+  root.expect_format(kFormat, kVersion);
   const JsonField markers = root.member("markers");
   markers.expect_object();
   MarkerLayout layout;

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/base/quantile.h"
 #include "core/pose/horn.h"
 #include "trajectories/capture/fit_frame.h"
 #include "trajectories/capture/marker_sequence.h"
-#include "trajectories/capture/quantile.h"
 
 namespace glovebench::trajectories {
 namespace {

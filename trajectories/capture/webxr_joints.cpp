@@ -72,8 +72,7 @@ MarkerSequence parse_webxr_joints(std::string_view text, const std::string& wher
   const nlohmann::json document = JsonField::parse(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "frames"});
-  root.member("format").expect_text(kFormat);
-  root.member("version").integer(kVersion, kVersion);
+  root.expect_format(kFormat, kVersion);
   MarkerSequence sequence = sequence_of_joints();
   const JsonField frames = root.member("frames");
   int64_t first_us = 0;

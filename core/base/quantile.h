@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-namespace glovebench::trajectories {
+namespace glovebench {
 
 /// The value that a share of the others lies below (0.5: the median); nothing of none.
 inline std::optional<double> quantile_of(std::vector<double> values, double share) {
@@ -15,4 +15,4 @@ inline std::optional<double> quantile_of(std::vector<double> values, double shar
   return *at;
 }
 
-}  // namespace glovebench::trajectories
+}  // namespace glovebench
