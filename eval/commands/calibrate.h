@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace glovebench::eval {
+
+// Each adds one subcommand of `calibrate`.
+void add_calibrate_noise(CLI::App& calibrate);
+
+}  // namespace glovebench::eval
