@@ -161,6 +161,8 @@ reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& exper
   result.commit = program_info().commit;
   result.configuration = {{"tracker", to_json(plan.tracker)}};
   if (plan.quick) result.configuration["quick"] = true;
+  if (const auto cameras = to_json(workbench.calibration()); cameras != to_json(synthetic_calibration()))
+    result.configuration["calibration"] = cameras;
   for (const Gathered& experiment : experiments) result.experiments.push_back(evaluate(experiment));
   return result;
 }

@@ -150,6 +150,7 @@ std::string replay_key(Workbench& workbench, const Replay& replay) {
       {"subject", {replay.subject, workbench.subject(replay.subject)->hash()}},
       {"hand_model", workbench.model()->hash()},
       {"databases", databases},
+      {"calibration", to_json(workbench.calibration())},
       {"color_table", hash_bytes(std::as_bytes(std::span(color_table->labels())))},
   };
   return hash_text(content.dump());

@@ -14,7 +14,7 @@
 
 namespace glovebench::eval {
 
-Workbench::Workbench(WorkbenchConfig config) : config_(std::move(config)), calibration_(synthetic_calibration()) {}
+Workbench::Workbench(WorkbenchConfig config) : config_(std::move(config)) {}
 
 std::shared_ptr<const HandModel> Workbench::model() {
   return subject(1);
@@ -37,7 +37,7 @@ std::shared_ptr<const ColorTable> Workbench::color_table(ColorSpace space) {
   if (!table) {
     const PostureSet postures = trajectories::posture_set(trajectory_folder(), "DB_open_pinch_power");
     table = std::make_shared<ColorTable>(
-        cached_color_table(config_.cache_folder, model(), calibration_, postures.postures, space));
+        cached_color_table(config_.cache_folder, model(), synthetic_calibration(), postures.postures, space));
   }
   return table;
 }
@@ -112,7 +112,8 @@ PostureSet Workbench::postures_of(const std::string& name) const {
 
 std::unique_ptr<Method> Workbench::make_method(const TrackerConfig& config, const std::string& database_name) {
   return find_method(config.method)
-      .make({config, calibration_, model(), database(database_name), color_table(config.segmentation.color_space)});
+      .make({config, config_.calibration, model(), database(database_name),
+             color_table(config.segmentation.color_space)});
 }
 
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {
@@ -120,7 +121,7 @@ Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& 
     throw Error("configuration", "method", config.method,
                 fmt::format("{}: of no other method the stages are known", kPaperMethod));
   }
-  return Tracker(config, calibration_, model(), database(database_name),
+  return Tracker(config, config_.calibration, model(), database(database_name),
                  color_table(config.segmentation.color_space));
 }
 

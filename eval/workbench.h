@@ -19,6 +19,7 @@ struct WorkbenchConfig {
   DatabaseMemory memory = DatabaseMemory::normal;  ///< of databases that are built
   bool quiet = false;
   ViewConfig views;
+  RgbdCalibration calibration = synthetic_calibration();  ///< of the synthetic Kinect; no lens distorts
 };
 
 /// What all experiments share and none changes: the hands, the calibration, the color table, the databases.
@@ -32,7 +33,8 @@ class Workbench {
   std::shared_ptr<const HandModel> model();
   /// The hand in front of the camera: subject 1 or 2.
   std::shared_ptr<const HandModel> subject(int number);
-  const RgbdCalibration& calibration() const { return calibration_; }
+  const RgbdCalibration& calibration() const { return config_.calibration; }
+  /// Calibrated on pictures of the synthetic Kinect's own cameras, whatever the calibration: colors have no place.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   /// A database by the name of its posture set, with the tiny-image sizes of the cascade.
   std::shared_ptr<const Database> database(const std::string& name);
@@ -53,7 +55,6 @@ class Workbench {
 
  private:
   WorkbenchConfig config_;
-  RgbdCalibration calibration_;
   DatabaseCache database_cache() const;
   /// The postures of a name: of the program's data or of a file that was added.
   PostureSet postures_of(const std::string& name) const;

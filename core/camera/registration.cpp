@@ -207,6 +207,7 @@ RegisteredImage register_color(const DepthImage& depth, const ColorImage& color,
         "the depth image has the size of the calibrated IR camera");
   check(color.width() == calibration.rgb.width && color.height() == calibration.rgb.height,
         "the color image has the size of the calibrated RGB camera");
+  check(!calibration.has_lens(), "images are rectified before they are registered");
 
   RowProjector projector(calibration);
   const Extent extent = extent_of(depth);

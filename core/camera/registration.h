@@ -18,7 +18,7 @@ struct RegisteredImage {
 };
 
 /// Maps color to the pixel coordinates of the depth image. Depth pixels without a value, outside the RGB
-/// image, or hidden from the RGB camera behind a nearer surface get no color.
+/// image, or hidden from the RGB camera behind a nearer surface get no color. Images and calibration are rectified.
 RegisteredImage register_color(const DepthImage& depth, const ColorImage& color, const RgbdCalibration& calibration,
                                const RegistrationConfig& config);
 

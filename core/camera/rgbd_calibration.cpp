@@ -85,13 +85,23 @@ Eigen::Matrix3d read_rotation(const json& value, const Place& place) {
 }
 
 PinholeCamera read_camera(const json& value, const Place& place) {
-  require_keys(value, place, {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"});
+  require_keys(value, place, {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}, "distortion");
   return {.width = read_side(value["width_px"], place / "width_px"),
           .height = read_side(value["height_px"], place / "height_px"),
           .fx = read_positive(value["fx_px"], place / "fx_px"),
           .fy = read_positive(value["fy_px"], place / "fy_px"),
           .cx = read_number(value["cx_px"], place / "cx_px"),
           .cy = read_number(value["cy_px"], place / "cy_px")};
+}
+
+/// That of a camera which was read.
+LensDistortion read_lens(const json& camera, const Place& place) {
+  if (!camera.contains("distortion")) return {};
+  const json& value = camera["distortion"];
+  const Place lens = place / "distortion";
+  require_keys(value, lens, {"k1", "k2", "p1", "p2", "k3"});
+  const auto read = [&](const char* key) { return read_number(value[key], lens / key); };
+  return {.k1 = read("k1"), .k2 = read("k2"), .p1 = read("p1"), .p2 = read("p2"), .k3 = read("k3")};
 }
 
 DisparityLine read_disparity(const json& value, const Place& place) {
@@ -101,9 +111,12 @@ DisparityLine read_disparity(const json& value, const Place& place) {
   return {a, read_positive(value["b_per_m"], place / "b_per_m")};
 }
 
-json camera_to_json(const PinholeCamera& camera) {
-  return {{"width_px", camera.width}, {"height_px", camera.height}, {"fx_px", camera.fx},
-          {"fy_px", camera.fy},       {"cx_px", camera.cx},         {"cy_px", camera.cy}};
+json camera_to_json(const PinholeCamera& camera, const LensDistortion& lens) {
+  json written = {{"width_px", camera.width}, {"height_px", camera.height}, {"fx_px", camera.fx},
+                  {"fy_px", camera.fy},       {"cx_px", camera.cx},         {"cy_px", camera.cy}};
+  if (!lens.is_none())
+    written["distortion"] = {{"k1", lens.k1}, {"k2", lens.k2}, {"p1", lens.p1}, {"p2", lens.p2}, {"k3", lens.k3}};
+  return written;
 }
 
 json vector_to_json(const Eigen::Vector3d& v) {
@@ -143,6 +156,8 @@ RgbdCalibration calibration_from_json(const json& json, const std::string& where
   RgbdCalibration calibration;
   calibration.ir = read_camera(json["ir"], root / "ir");
   calibration.rgb = read_camera(json["rgb"], root / "rgb");
+  calibration.ir_lens = read_lens(json["ir"], root / "ir");
+  calibration.rgb_lens = read_lens(json["rgb"], root / "rgb");
   calibration.T_rgb_ir.linear() = read_rotation(T["rotation"], T_place / "rotation");
   calibration.T_rgb_ir.translation() = read_vector(T["translation_m"], T_place / "translation_m");
   if (json.contains("disparity")) calibration.disparity = read_disparity(json["disparity"], root / "disparity");
@@ -155,8 +170,8 @@ json to_json(const RgbdCalibration& calibration) {
   for (int row = 0; row < 3; ++row) rotation.push_back(vector_to_json(R.row(row)));
   json written = {
       {"version", kVersion},
-      {"ir", camera_to_json(calibration.ir)},
-      {"rgb", camera_to_json(calibration.rgb)},
+      {"ir", camera_to_json(calibration.ir, calibration.ir_lens)},
+      {"rgb", camera_to_json(calibration.rgb, calibration.rgb_lens)},
       {"T_rgb_ir",
        {{"rotation", rotation}, {"translation_m", vector_to_json(calibration.T_rgb_ir.translation())}}}};
   if (const auto& line = calibration.disparity)

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/camera/lens_distortion.h"
 #include "core/camera/pinhole_camera.h"
 
 namespace glovebench {
@@ -26,6 +27,15 @@ struct RgbdCalibration {
   PinholeCamera rgb;
   Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< p_rgb = T_rgb_ir * p_ir, metres
   std::optional<DisparityLine> disparity = std::nullopt;       ///< none: the driver's formula (kinect/disparity.h)
+  LensDistortion ir_lens = {}, rgb_lens = {};                  ///< of the images as the device gives them
+
+  bool has_lens() const { return !(ir_lens.is_none() && rgb_lens.is_none()); }
+  /// Of rectified images (kinect/rectified_device.h), which are what a tracker takes.
+  RgbdCalibration rectified() const {
+    RgbdCalibration calibration = *this;
+    calibration.ir_lens = calibration.rgb_lens = {};
+    return calibration;
+  }
 };
 
 /// The one self-consistent calibration of the synthetic Kinect: IR f 575.816 px, RGB f 525 px, principal points
@@ -38,10 +48,10 @@ RgbdCalibration synthetic_calibration();
 RgbdCalibration nominal_kinect_calibration();
 
 /// Reads {"version": 1, "ir": CAMERA, "rgb": CAMERA, "T_rgb_ir": {"rotation": 3 rows of 3, "translation_m": 3}}
-/// with CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}, and if there is one
-/// "disparity": {"a_per_m", "b_per_m"}. Every other key is required and no more are allowed. Throws Error naming
-/// `where` and the field; numbers must be finite, focal lengths positive, the rotation orthonormal (1e-6) and
-/// right-handed, a below and b above 0.
+/// with CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}, and where there is one
+/// "disparity": {"a_per_m", "b_per_m"} and in a CAMERA "distortion": {"k1", "k2", "p1", "p2", "k3"}. Every other
+/// key is required and no more are allowed. Throws Error naming `where` and the field; numbers must be finite,
+/// focal lengths positive, the rotation orthonormal (1e-6) and right-handed, a below and b above 0.
 RgbdCalibration calibration_from_json(const nlohmann::json& json, const std::string& where);
 /// The same from what a file holds.
 RgbdCalibration calibration_from_text(std::string_view text, const std::string& where);

@@ -66,6 +66,29 @@ TEST(Calibration, HoldsADisparityLineOrNone) {
   EXPECT_EQ(read.ir, own.ir);
 }
 
+TEST(Calibration, HoldsLensesOrNone) {
+  const json plain = to_json(synthetic_calibration());
+  EXPECT_FALSE(plain["ir"].contains("distortion")) << "recordings and hashes stay as they were";
+  EXPECT_FALSE(calibration_from_json(plain, "here.json").has_lens());
+
+  RgbdCalibration own = nominal_kinect_calibration();
+  own.rgb_lens = {.k1 = 0.265, .k2 = -0.84, .p1 = -0.0019, .p2 = 0.0014, .k3 = 0.912};
+  const RgbdCalibration read = calibration_from_json(json::parse(to_json(own).dump()), "here.json");
+  EXPECT_EQ(read.rgb_lens, own.rgb_lens);
+  EXPECT_TRUE(read.ir_lens.is_none());
+  EXPECT_TRUE(read.has_lens());
+  EXPECT_FALSE(read.rectified().has_lens());
+  EXPECT_EQ(read.rectified().rgb, own.rgb);
+
+  json bad = to_json(own);
+  bad["rgb"]["distortion"].erase("k3");
+  EXPECT_TRUE(starts_with(error_of(bad), "here.json: rgb.distortion.k3: found nothing")) << error_of(bad);
+  bad["rgb"]["distortion"]["k3"] = "0";
+  EXPECT_TRUE(starts_with(error_of(bad), "here.json: rgb.distortion.k3: found string")) << error_of(bad);
+  bad["rgb"]["distortion"] = json::array({0, 0, 0, 0, 0});
+  EXPECT_TRUE(starts_with(error_of(bad), "here.json: rgb.distortion: found array")) << error_of(bad);
+}
+
 TEST(Calibration, NominalKinectHasItsRgbCameraToTheRight) {
   const RgbdCalibration nominal = nominal_kinect_calibration();
   EXPECT_EQ(nominal.T_rgb_ir * Eigen::Vector3d(0.025, 0, 1), Eigen::Vector3d(0, 0, 1)) << "on its optical axis";

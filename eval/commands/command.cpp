@@ -31,6 +31,12 @@ void CommonFlags::add_seed(CLI::App& command) {
   command.add_option("--seed", seed, "of all random numbers")->check(CLI::NonNegativeNumber)->capture_default_str();
 }
 
+void CommonFlags::add_cameras(CLI::App& command) {
+  command.add_option(
+      "--calibration", calibration,
+      "cameras of the synthetic Kinect (*.json), as they are once their lenses are corrected [its own]");
+}
+
 void CommonFlags::add_machine(CLI::App& command) {
   command.add_option("--threads", threads, "0: all cores; results do not depend on it")
       ->check(CLI::Range(0, 1024))
@@ -61,6 +67,9 @@ Workbench CommonFlags::workbench() const {
   config.memory = low_memory ? DatabaseMemory::low : DatabaseMemory::normal;
   config.quiet = quiet;
   config.views = tracker_config().views;
+  if (!calibration_json.is_null())
+    config.calibration = calibration_from_json(calibration_json, "calibration of the run");
+  if (!calibration.empty()) config.calibration = load_calibration(calibration).rectified();
   return Workbench(config);
 }
 

@@ -18,6 +18,8 @@ struct CommonFlags {
   std::string profile = "paper";
   std::string method;  ///< empty: the configuration's
   std::string cascade;
+  std::string calibration;          ///< file; empty: the synthetic Kinect's own
+  nlohmann::json calibration_json;  ///< instead of a file: that of an earlier run
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -28,6 +30,8 @@ struct CommonFlags {
   void add_output(CLI::App& command, const std::string& what, bool required = false);
   void add_tracker(CLI::App& command);
   void add_seed(CLI::App& command);
+  /// The cameras of the synthetic Kinect.
+  void add_cameras(CLI::App& command);
   void add_machine(CLI::App& command);
 
   /// Defaults < profile < file < command line. Throws Error.

@@ -27,8 +27,8 @@ struct Compare {
     report.times = reports::compare_stage_times(load_stage_times_beside(baseline_path),
                                                 load_stage_times_beside(candidate_path));
     if (!output.empty()) {
-      report.pictures = picture_changes(report.comparison, candidate.result.inputs, folder_of(baseline_path),
-                                        folder_of(candidate_path));
+      report.pictures =
+          picture_changes(report.comparison, candidate.result, folder_of(baseline_path), folder_of(candidate_path));
       reports::write_comparison(output, report);
     }
     fmt::print("{}", reports::comparison_table(report, all_rows));

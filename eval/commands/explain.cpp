@@ -32,6 +32,7 @@ struct Explain {
     check_truth(results, experiment.key, *truth, results_path);
     common.left = truth->side == Side::left;
     common.config_json = results.configuration.at("tracker");
+    common.calibration_json = results.configuration.value("calibration", nlohmann::json());
     Workbench workbench = common.workbench();
     if (!database_file.empty()) workbench.add_database(database_file);
     const Replay replay{truth,

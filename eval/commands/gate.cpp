@@ -40,7 +40,7 @@ struct Gate {
   int replace(const std::string& folder, const reports::NamedResult& candidate) const {
     try {
       const Baseline old = load_baseline(folder);
-      report(old, folder, candidate.result.inputs, compare(old, candidate));
+      report(old, folder, candidate.result, compare(old, candidate));
     } catch (const reports::Incomparable& e) {
       fmt::print("Not compared with an older baseline: {}\n", e.what());
     }
@@ -58,7 +58,7 @@ struct Gate {
     const Baseline baseline = load_baseline(folder);
     reports::ComparisonReport made = compare(baseline, candidate);
     require_baseline_for_all(made.comparison, folder);
-    const bool is_fine = report(baseline, folder, candidate.result.inputs, made);
+    const bool is_fine = report(baseline, folder, candidate.result, made);
     fmt::print("Gate {} against {}{}\n", is_fine ? "passed" : "failed", folder,
                output.empty() ? "" : fmt::format(". Report: {}/index.html", output));
     return is_fine ? 0 : kGateFailed;
@@ -74,10 +74,10 @@ struct Gate {
 
   /// Writes and prints; returns whether nothing stops the change. The accuracy is written before a missing speed
   /// can be an error.
-  bool report(const Baseline& baseline, const std::string& folder, const reports::InputHashes& inputs,
+  bool report(const Baseline& baseline, const std::string& folder, const reports::RunResult& candidate,
               reports::ComparisonReport made) const {
     if (!output.empty()) {
-      made.pictures = picture_changes(made.comparison, inputs, folder, folder_of(candidate_path));
+      made.pictures = picture_changes(made.comparison, candidate, folder, folder_of(candidate_path));
       reports::write_comparison(output, made);
     }
     if (!speed_path.empty()) {

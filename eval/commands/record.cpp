@@ -44,6 +44,7 @@ void add_record(CLI::App& program) {
   command->add_option("--database", state->database, "recorded with [of Tr1..Tr5: the one with just its grasp]");
   state->common.add_tracker(*command);
   state->common.add_seed(*command);
+  state->common.add_cameras(*command);
   state->common.add_machine(*command);
   command->callback([state] { state->run(); });
 }

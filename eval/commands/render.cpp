@@ -109,6 +109,7 @@ void add_render(CLI::App& program) {
   command->add_option("--database", state->database, "exr: track with this database and add the tracker's view");
   state->common.add_tracker(*command);
   state->common.add_seed(*command);
+  state->common.add_cameras(*command);
   state->common.add_machine(*command);
   command->callback([state] { state->run(); });
 }

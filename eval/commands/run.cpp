@@ -162,6 +162,7 @@ void add_run(CLI::App& program) {
   state->robot.add(*command, "folder for the robot commands of each experiment");
   state->common.add_tracker(*command);
   state->common.add_seed(*command);
+  state->common.add_cameras(*command);
   state->common.add_machine(*command);
   command->callback([state] { state->run(); });
 }

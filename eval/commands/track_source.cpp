@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/kinect/recording.h"
+#include "core/kinect/rectified_device.h"
 #include "eval/interruption.h"
 #ifdef GLOVEBENCH_FREENECT
 #include "core/kinect/freenect/freenect_device.h"
@@ -63,9 +64,11 @@ TrackSource open_live(const SourceFlags& flags) {
 }  // namespace
 
 TrackSource open_source(const SourceFlags& flags) {
-  if (flags.source.starts_with(kRecording)) return open_recording(flags);
-  if (flags.source.starts_with(kLive)) return open_live(flags);
-  refuse(flags.source);
+  const bool is_recording = flags.source.starts_with(kRecording);
+  if (!is_recording && !flags.source.starts_with(kLive)) refuse(flags.source);
+  TrackSource source = is_recording ? open_recording(flags) : open_live(flags);
+  source.device = without_lens_distortion(std::move(source.device));
+  return source;
 }
 
 }  // namespace glovebench::eval

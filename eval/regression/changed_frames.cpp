@@ -120,21 +120,23 @@ std::unique_ptr<Workbench> make_workbench(Side side) {
 }  // namespace
 
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
-                                              const reports::InputHashes& inputs,
+                                              const reports::RunResult& candidate,
                                               const std::string& baseline_folder,
                                               const std::string& candidate_folder) {
-  EstimateFolder baseline(baseline_folder), candidate(candidate_folder);
+  if (candidate.configuration.contains("calibration")) return {};
+  const auto& truths = candidate.inputs.truths;
+  EstimateFolder before(baseline_folder), after(candidate_folder);
   std::map<Side, std::unique_ptr<Workbench>> workbenches;
   std::vector<reports::Picture> pictures;
   for (const ChangedFrame& change : comparison.worst) {
     const std::shared_ptr<const trajectories::Trajectory> truth = find_truth(change.key);
-    const auto hash = inputs.truths.find(truth_name(change.key));
-    if (!truth || hash == inputs.truths.end() || hash->second != trajectories::hash(*truth)) continue;
+    const auto hash = truths.find(truth_name(change.key));
+    if (!truth || hash == truths.end() || hash->second != trajectories::hash(*truth)) continue;
     std::unique_ptr<Workbench>& workbench = workbenches[truth->side];
     if (!workbench) workbench = make_workbench(truth->side);
     Scene scene(*workbench, change, truth);
-    pictures.push_back(draw(scene, change, baseline.find(change.key, change.baseline_seed, change.frame),
-                            candidate.find(change.key, change.candidate_seed, change.frame)));
+    pictures.push_back(draw(scene, change, before.find(change.key, change.baseline_seed, change.frame),
+                            after.find(change.key, change.candidate_seed, change.frame)));
   }
   return pictures;
 }

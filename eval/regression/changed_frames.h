@@ -12,9 +12,9 @@ namespace glovebench::eval {
 /// of the baseline's (blue) and of the candidate's (orange). The estimates are read from the folders of the two
 /// runs; where one has none (a baseline keeps the results only), its panel is left out. Frames of trajectories that
 /// are not the program's own, or have changed since, have no picture.
-/// `inputs` are the candidate's.
+/// Nor have those of a candidate whose cameras are not the synthetic Kinect's own.
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
-                                              const reports::InputHashes& inputs,
+                                              const reports::RunResult& candidate,
                                               const std::string& baseline_folder,
                                               const std::string& candidate_folder);
 

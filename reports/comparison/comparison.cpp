@@ -41,17 +41,25 @@ FrameDifferences frame_differences(const ExperimentResult& baseline, const Exper
   return result;
 }
 
-/// "icp.max_iterations": the way to each value of the tracker's configuration.
-std::map<std::string, std::string> flat_configuration(const RunResult& result) {
-  std::map<std::string, std::string> fields;
-  const auto tracker = result.configuration.find("tracker");
-  if (tracker == result.configuration.end() || !tracker->is_object()) return fields;
-  const json flat = tracker->flatten();
+/// "icp.max_iterations": the way to each value of a configuration.
+void add_flat(const json& configuration, const std::string& prefix, std::map<std::string, std::string>& fields) {
+  const json flat = configuration.flatten();
   for (const auto& [pointer, value] : flat.items()) {
     std::string field = pointer.substr(std::min<size_t>(1, pointer.size()));
     std::ranges::replace(field, '/', '.');
-    fields[field] = value.dump(-1, ' ', true, json::error_handler_t::replace);
+    fields[prefix + field] = value.dump(-1, ' ', true, json::error_handler_t::replace);
   }
+}
+
+/// The tracker's, and that of the cameras if they are none of the program's own.
+std::map<std::string, std::string> flat_configuration(const RunResult& result) {
+  std::map<std::string, std::string> fields;
+  const auto add = [&](const char* part, const std::string& prefix) {
+    const auto found = result.configuration.find(part);
+    if (found != result.configuration.end() && found->is_object()) add_flat(*found, prefix, fields);
+  };
+  add("tracker", "");
+  add("calibration", "calibration.");
   return fields;
 }
 

@@ -1,0 +1,24 @@
+#include "core/kinect/rectified_device.h"
+
+namespace glovebench {
+
+RectifiedDevice::RectifiedDevice(std::unique_ptr<Device> device)
+    : device_(std::move(device)),
+      calibration_(device_->calibration().rectified()),
+      ir_(calibration_.ir, device_->calibration().ir_lens),
+      rgb_(calibration_.rgb, device_->calibration().rgb_lens) {}
+
+std::optional<DeviceFrame> RectifiedDevice::next_frame() {
+  std::optional<DeviceFrame> frame = device_->next_frame();
+  if (!frame) return frame;
+  frame->raw_disparity = ir_(frame->raw_disparity);
+  frame->color = rgb_(frame->color);
+  return frame;
+}
+
+std::unique_ptr<Device> without_lens_distortion(std::unique_ptr<Device> device) {
+  if (!device->calibration().has_lens()) return device;
+  return std::make_unique<RectifiedDevice>(std::move(device));
+}
+
+}  // namespace glovebench
