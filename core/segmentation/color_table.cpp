@@ -126,14 +126,15 @@ void ColorTable::save(const std::string& path) const {
 }
 
 ColorTable ColorTable::load(const std::string& path) {
-  return color_table_from_bytes(read_file(path, kHeaderLength + kCells + 1), path);
+  return color_table_from_bytes(read_file(path, 2 * (kHeaderLength + kCells)), path);
 }
 
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where) {
   if (!bytes.starts_with(kMagic)) throw Error(where, "header", "something else", "a color table");
   const std::string_view version = bytes.substr(kMagic.size());
   if (!version.starts_with(kVersion))
-    throw Error(where, "version", "\"" + printable(version.substr(0, version.find('\n')).substr(0, 20)) + "\"", "2");
+    throw Error(where, "version", "\"" + printable(version.substr(0, version.find('\n')).substr(0, 20)) + "\"",
+                "2");
   if (bytes.size() != kHeaderLength + ColorTable::kCells)
     throw Error(where, "size", std::to_string(bytes.size()) + " bytes",
                 std::to_string(kHeaderLength + ColorTable::kCells) + " bytes");
