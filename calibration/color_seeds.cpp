@@ -26,22 +26,24 @@ Eigen::Array3d rgb_of_cell(size_t cell, ColorSpace space) {
   return axes[0] * rgb_of_chroma(Chroma(axes[1] - 128, axes[2] - 128) / axes[0]);
 }
 
-/// What a value is, on one line and not long.
+/// What a value is, on one line and not long; what lies in it is not looked at, however deep.
 std::string shown(const nlohmann::json& json) {
+  if (json.is_array()) return fmt::format("an array of {}", json.size());
+  if (json.is_object()) return "an object";
   std::string text = json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   return text.size() > 60 ? text.substr(0, 60) + "..." : text;
 }
 
 Chroma seed_from(const nlohmann::json& json, const std::string& where, const std::string& field) {
-  const std::string expected = "three numbers of 0..255, not all 0";
-  if (!json.is_array() || json.size() != 3) throw Error(where, field, shown(json), expected);
+  if (!json.is_array() || json.size() != 3) throw Error(where, field, shown(json), "an array of 3");
   Eigen::Array3d rgb;
-  for (int i = 0; i < 3; ++i) {
-    const nlohmann::json& channel = json[static_cast<size_t>(i)];
-    rgb[i] = channel.is_number() ? channel.get<double>() : -1;
-    if (!(rgb[i] >= 0 && rgb[i] <= 255)) throw Error(where, field, shown(json), expected);
+  for (size_t i = 0; i < 3; ++i) {
+    const double value = json[i].is_number() ? json[i].get<double>() : -1;
+    if (!(value >= 0 && value <= 255))
+      throw Error(where, fmt::format("{}[{}]", field, i), shown(json[i]), "a number of 0..255");
+    rgb[static_cast<Eigen::Index>(i)] = value;
   }
-  if (!(luma_of(rgb) >= 1)) throw Error(where, field, shown(json), expected);
+  if (!(luma_of(rgb) >= 1)) throw Error(where, field, "black", "a color");
   return chroma_of(rgb);
 }
 

@@ -66,7 +66,7 @@ Eigen::Matrix2d within_deviations(const Eigen::Matrix2d& covariance, double leas
 }
 
 constexpr double kLeastDeviation = 0.008, kMostDeviation = 0.05, kFirstDeviation = 0.025;
-constexpr double kNear = 0.05, kNearShare = 0.06;  ///< from the seed, chroma: what is more saturated moves farther
+constexpr double kNear = 0.05, kNearShare = 0.09;  ///< from the seed, chroma: what is more saturated moves farther
 constexpr double kFarthest = 0.07;                 ///< of the others from where they were found
 constexpr double kOtherDensity = 0.5;  ///< of what is no glove, per unit of chroma area: spread over two units
 constexpr double kGate = 4.0;          ///< deviations beyond which a sample says nothing about a color
