@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/kinect/disparity.h"
+#include "core/segmentation/surface_majority.h"
 #include "eval/share.h"
 #include "render/synthetic_kinect.h"
 #include "trajectories/catalog.h"
@@ -18,6 +19,13 @@ std::vector<trajectories::TrajectoryFrame> sample_frames() {
     for (const int f : {10, 70}) frames.push_back(trajectory.frames[f]);
   }
   return frames;
+}
+
+bool is_interior(const LabelImage& labels, int u, int v) {
+  for (int dv = -1; dv <= 1; ++dv)
+    for (int du = -1; du <= 1; ++du)
+      if (!labels.contains(u + du, v + dv) || labels(u + du, v + dv) != labels(u, v)) return false;
+  return true;
 }
 
 }  // namespace
@@ -49,6 +57,16 @@ double LabelErrors::mislabeled_share() const {
   return static_cast<double>(mislabeled) / glove;
 }
 
+double LabelErrors::interior_mislabeled_share() const {
+  check(interior > 0, "a share of the interior is asked where it is seen");
+  return static_cast<double>(interior_mislabeled) / interior;
+}
+
+double LabelErrors::border_mislabeled_share() const {
+  check(glove > interior, "a share of the border is asked where it is seen");
+  return static_cast<double>(mislabeled - interior_mislabeled) / (glove - interior);
+}
+
 double LabelErrors::missed_share_of(int color) const {
   return static_cast<double>(missed_of[color]) / std::max(1, glove_of[color]);
 }
@@ -67,6 +85,9 @@ LabelErrors& LabelErrors::operator+=(const LabelErrors& other) {
   labeled += other.labeled;
   wrong += other.wrong;
   mislabeled += other.mislabeled;
+  interior += other.interior;
+  interior_missed += other.interior_missed;
+  interior_mislabeled += other.interior_mislabeled;
   for (size_t color = 0; color < glove_of.size(); ++color) {
     glove_of[color] += other.glove_of[color];
     missed_of[color] += other.missed_of[color];
@@ -75,19 +96,27 @@ LabelErrors& LabelErrors::operator+=(const LabelErrors& other) {
 }
 
 LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& frame,
-                         const RgbdCalibration& calibration, const ColorTable& table) {
+                         const RgbdCalibration& calibration, const ColorTable& table, LabelFilter filter) {
   const TrackerConfig config = profile("paper");
   const DepthImage depth = depth_from_disparity(frame.raw_disparity);
   const RegisteredImage mapped = register_color(depth, frame.color, calibration, config.registration);
-  const LabelImage labels = build_cloud(depth, segment(mapped, table), calibration.ir, config.volume).labels;
+  LabelImage of_image = segment(mapped, table);
+  if (filter == LabelFilter::majority) of_image = majority_filter(of_image);
+  if (filter == LabelFilter::surface) of_image = surface_majority(of_image, depth);
+  const LabelImage labels = build_cloud(depth, of_image, calibration.ir, config.volume).labels;
   LabelErrors errors;
   for (size_t i = 0; i < labels.size(); ++i) {
     if (truth.label[i] != 0 && mapped.has_color[i] != 0) {
-      const bool missed = labels[i] == 0;
+      const bool missed = labels[i] == 0, mislabeled = labels[i] != truth.label[i];
+      const bool interior =
+          is_interior(truth.label, static_cast<int>(i) % labels.width(), static_cast<int>(i) / labels.width());
       ++errors.glove;
       ++errors.glove_of[truth.label[i]];
       errors.missed += missed;
-      errors.mislabeled += labels[i] != truth.label[i];
+      errors.mislabeled += mislabeled;
+      errors.interior += interior;
+      errors.interior_missed += interior && missed;
+      errors.interior_mislabeled += interior && mislabeled;
       errors.missed_of[truth.label[i]] += missed;
     }
     errors.labeled += labels[i] != 0;

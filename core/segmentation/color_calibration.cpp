@@ -119,7 +119,12 @@ void ColorCalibration::add_view(const ColorImage& color, const LabelImage& label
   };
   for (int v = 0; v < labels.height(); ++v)
     for (int u = 0; u < labels.width(); ++u)
-      if (is_inside(u, v)) ++counts_[ColorTable::cell_of_rgb(color(u, v), space_)][labels(u, v)];
+      if (is_inside(u, v)) add_pixel(color(u, v), labels(u, v));
+}
+
+void ColorCalibration::add_pixel(const Rgb& color, uint8_t label) {
+  check(label <= kColorCount, "a pixel has a label of the glove, or none");
+  ++counts_[ColorTable::cell_of_rgb(color, space_)][label];
 }
 
 ColorTable ColorCalibration::build(const ColorModel& model) const {

@@ -24,6 +24,8 @@ class ColorCalibration {
   /// Adds every pixel of a view. `labels` has the size of `color`; 0 = not glove. Pixels next to a border
   /// between labels mix two colors and are left out.
   void add_view(const ColorImage& color, const LabelImage& labels);
+  /// Adds one pixel, which must show one color alone. `label`: 0..kColorCount.
+  void add_pixel(const Rgb& color, uint8_t label);
   /// The table. Each seen color is also relit within the limits of `model` (gains on gamma-coded RGB, which clip
   /// at white), and a cell gets the label that is the most probable there (Bayes) if it is sure enough. Throws
   /// Error if a glove color was never seen bright enough to be told.

@@ -8,6 +8,7 @@
 #include "core/base/file.h"
 #include "core/base/for_each_nonzero.h"
 #include "core/base/hash.h"
+#include "core/segmentation/color_table_file.h"
 
 namespace glovebench {
 namespace {
@@ -19,6 +20,14 @@ constexpr std::string_view kVersion = "2, ";
 constexpr size_t kSpaceLength = 3;
 constexpr size_t kHashLength = 32;
 constexpr size_t kHeaderLength = kMagic.size() + kVersion.size() + kSpaceLength + 1 + kHashLength + 1;
+
+/// What a damaged header holds, on one line.
+std::string printable(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return line;
+}
 
 constexpr uint8_t kOutside = kColorCount + 1;  // pads the label image; has no vote
 
@@ -117,24 +126,26 @@ void ColorTable::save(const std::string& path) const {
 }
 
 ColorTable ColorTable::load(const std::string& path) {
-  const std::string content = read_file(path);
-  const std::string_view view = content;
-  if (!view.starts_with(kMagic)) throw Error(path, "header", "something else", "a color table");
-  const std::string_view version = view.substr(kMagic.size());
+  return color_table_from_bytes(read_file(path, 2 * (kHeaderLength + kCells)), path);
+}
+
+ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where) {
+  if (!bytes.starts_with(kMagic)) throw Error(where, "header", "something else", "a color table");
+  const std::string_view version = bytes.substr(kMagic.size());
   if (!version.starts_with(kVersion))
-    throw Error(path, "version", "\"" + std::string(version.substr(0, version.find('\n')).substr(0, 20)) + "\"",
+    throw Error(where, "version", "\"" + printable(version.substr(0, version.find('\n')).substr(0, 20)) + "\"",
                 "2");
-  if (content.size() != kHeaderLength + kCells)
-    throw Error(path, "size", std::to_string(content.size()) + " bytes",
-                std::to_string(kHeaderLength + kCells) + " bytes");
+  if (bytes.size() != kHeaderLength + ColorTable::kCells)
+    throw Error(where, "size", std::to_string(bytes.size()) + " bytes",
+                std::to_string(kHeaderLength + ColorTable::kCells) + " bytes");
   const std::string_view space_text = version.substr(kVersion.size(), kSpaceLength);
   const std::optional<ColorSpace> space = color_space_from_string(space_text);
   if (!space || version[kVersion.size() + kSpaceLength] != '\n')
-    throw Error(path, "color space", "\"" + std::string(space_text) + "\"", "yuv or rgb");
-  const std::string_view cells = view.substr(kHeaderLength);
+    throw Error(where, "color space", "\"" + printable(space_text) + "\"", "yuv or rgb");
+  const std::string_view cells = bytes.substr(kHeaderLength);
   const std::string expected = hash_text(cells) + "\n";
-  const std::string_view found = view.substr(kHeaderLength - kHashLength - 1, kHashLength + 1);
-  if (found != expected) throw Error(path, "checksum", "another one", "that of the cells");
+  const std::string_view found = bytes.substr(kHeaderLength - kHashLength - 1, kHashLength + 1);
+  if (found != expected) throw Error(where, "checksum", "another one", "that of the cells");
   return ColorTable(std::vector<uint8_t>(cells.begin(), cells.end()), *space);
 }
 

@@ -6,6 +6,7 @@ namespace glovebench::eval {
 
 // Each adds one subcommand of `calibrate`.
 void add_calibrate_cameras(CLI::App& calibrate);
+void add_calibrate_colors(CLI::App& calibrate);
 void add_calibrate_noise(CLI::App& calibrate);
 
 }  // namespace glovebench::eval

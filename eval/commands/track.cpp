@@ -50,7 +50,8 @@ struct Track {
   CommonFlags common;
   SourceFlags from;
   std::string database;
-  int limit = 0;  ///< frames; 0: to the end
+  std::string colors;  ///< color table; empty: the tracker's own
+  int limit = 0;       ///< frames; 0: to the end
   RobotFlags robot;
 
   // Of the run.
@@ -58,6 +59,8 @@ struct Track {
   std::optional<Error> failure;  ///< of the device
 
   void run() {
+    const std::shared_ptr<const ColorTable> own_colors =
+        colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     TrackSource source = open_source(from);
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
@@ -65,7 +68,7 @@ struct Track {
     const std::unique_ptr<Method> method =
         find_method(config.method)
             .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
-                   workbench.color_table(config.segmentation.color_space)});
+                   own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
     WholeFile output(common.output);
     std::optional<JsonLinesSink> sink;
     if (!robot.output.empty()) sink.emplace(robot.output);
@@ -146,6 +149,8 @@ void add_track(CLI::App& program) {
       ->add_option("--database", state->database,
                    "name (`glovebench list databases`) or file (*.glovedb, *.csv, *.json)")
       ->required();
+  command->add_option("--colors", state->colors,
+                      "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
   state->common.add_output(*command, "estimates to write, one line of JSON a frame (*.jsonl)", true);
   state->robot.add(*command, "robot commands to write (*.jsonl)");
   command->add_flag("--left", state->common.left, "a left hand");

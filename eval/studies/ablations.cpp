@@ -1,5 +1,6 @@
 #include "eval/studies/ablation_measures.h"
 #include "eval/studies/light.h"
+#include "eval/studies/light_curves.h"
 #include "eval/studies/posture_choices.h"
 
 namespace glovebench::eval {
@@ -24,9 +25,10 @@ reports::StudyResult run_ablations(const StudyContext& context) {
   std::ranges::move(color_measures(runs), std::back_inserter(result.measures));
   result.measures.push_back(interpolation_measure(runs));
 
-  reports::StudyResult light = run_light(context);
-  std::ranges::move(light.tables, std::back_inserter(result.tables));
-  std::ranges::move(light.measures, std::back_inserter(result.measures));
+  for (reports::StudyResult& light : std::array{run_light(context), run_light_curves(context)}) {
+    std::ranges::move(light.tables, std::back_inserter(result.tables));
+    std::ranges::move(light.measures, std::back_inserter(result.measures));
+  }
   return result;
 }
 

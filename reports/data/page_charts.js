@@ -124,17 +124,18 @@ function curve(figure, metric, title, paperColumn, isLast) {
 }
 
 // Lines with the intervals of their points, one color and shape a group (`only`: the first group alone). `floor` is
-// the column of dashed lines.
+// the column of dashed lines, `groups` those that are drawn.
 function lines(table, options) {
   return tables => {
-    const {x, y, group, low, high, xTitle, yTitle, xBase, yLog, floor, floorTitle, only} = options;
-    const rows = tables[table].filter(row => isNumber(row[y]) && (!only || row[group] === tables[table][0][group]));
+    const {x, y, group, low, high, xTitle, yTitle, xBase, yLog, floor, floorTitle, only, xFormat = 'd'} = options;
+    const rows = tables[table].filter(row => isNumber(row[y]) && (!only || row[group] === tables[table][0][group]) &&
+                                             (!options.groups || options.groups.includes(row[group])));
     if (rows.length === 0) return null;
     const groups = distinct(rows, group);
     const xs = distinct(rows, x).sort((a, b) => a - b);
     const xEncoding = {
       field: x, type: 'quantitative', title: xTitle, scale: {type: 'log', base: xBase, nice: false},
-      axis: {values: xs, format: 'd'}
+      axis: {values: xs, format: xFormat}
     };
     const yScale = yLog ? {type: 'log'} : {zero: true};
     const yEncoding = {
@@ -295,4 +296,14 @@ charts['figure9-time'] = lines('figure9_times', {
 [['position', 'position_change_mm', 'position error (mm)'], ['posture', 'posture_change_deg', 'posture error (deg)'],
  ['rotation', 'rotation_change_deg', 'rotation error (deg)']].forEach(([name, change, title], i) => {
   charts[`ablations-${name}`] = ablations(change, `change of the ${title}`, i === 0);
+});
+[['light-strength', 'light_strength', 'strength', 'strength of the light (1: the default)'],
+ ['light-temperature', 'light_temperature', 'temperature_k', 'color temperature (K)'],
+ ['light-white-balance', 'light_white_balance', 'green_gain', 'gain of green against red and blue']]
+    .forEach(([name, table, x, xTitle]) => {
+  charts[name] = lines(table, {
+    x, group: 'labels', xTitle, xBase: 2, xFormat: '~g', y: 'not_right_percent', yTitle: 'glove pixels not right (%)',
+    yLog: true, width: 560,
+    groups: ['own table', 'own table, surface majority', 'recalibrated', 'recalibrated, surface majority']
+  });
 });

@@ -15,7 +15,7 @@ struct StudyChart {
   std::string_view chart;
   std::string_view label;
 };
-constexpr std::array<StudyChart, 9> kCharts = {{
+constexpr std::array<StudyChart, 12> kCharts = {{
     {"figure7", "figure7-time", "Time of a distance against the size of the tiny image"},
     {"figure7", "figure7-rank", "Mean rank of the true neighbor against the size of the tiny image"},
     {"figure8", "figure8", "Posture error against time for each cascade"},
@@ -25,6 +25,9 @@ constexpr std::array<StudyChart, 9> kCharts = {{
     {"ablations", "ablations-position", "Change of the position error with each setting"},
     {"ablations", "ablations-posture", "Change of the posture error with each setting"},
     {"ablations", "ablations-rotation", "Change of the rotation error with each setting"},
+    {"light_strength", "light-strength", "Glove pixels without their label against the strength of the light"},
+    {"light_temperature", "light-temperature", "Glove pixels without their label against the color temperature"},
+    {"light_white_balance", "light-white-balance", "Glove pixels without their label against the white balance"},
 }};
 
 /// `is_only`: the section's heading says what it is.

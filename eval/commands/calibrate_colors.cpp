@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "calibration/color_picture.h"
+#include "calibration/color_report.h"
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "eval/commands/calibrate.h"
+#include "eval/commands/command.h"
+#include "eval/commands/track_source.h"
+#include "eval/progress.h"
+#include "render/pictures.h"
+#include "reports/json_text.h"
+
+namespace glovebench::eval {
+namespace {
+
+struct CalibrateColors {
+  CommonFlags common;
+  SourceFlags from;
+  std::string seeds;    ///< file; empty: the tracker's own table
+  std::string report;   ///< *.json; empty: none
+  std::string picture;  ///< *.png; empty: none
+  std::string space = "yuv";
+  int frame_count = 120;  ///< taken at most
+
+  void run() {
+    check_endings();
+    const calibration::ColorSeeds begin = seeds_to_begin_with();
+    TrackSource source = open_source(from);
+    calibration::ColorSamples samples(calibration::SampleConfig{
+        .volume = common.tracker_config().volume, .registration = common.tracker_config().registration});
+    const std::vector<calibration::VolumeView> views = take_frames(source, samples);
+    const calibration::GloveColorFit fit = fit_glove_colors(samples, begin, from.source);
+    const ColorTable table = build_color_table(samples, fit, *color_space_from_string(space));
+    const calibration::ColorSeparation separation = separate_colors(samples, fit, table);
+    table.save(common.output);
+    if (!report.empty())
+      write_file(report, reports::format_json(color_report_json(samples, fit, separation, from.source)));
+    if (!picture.empty()) render::write_png(picture, color_picture(views, samples, fit, table));
+    fmt::print("{}: a color table of {} frames\n\n{}", common.output, samples.frames(),
+               color_report_markdown(samples, fit, separation));
+  }
+
+  void check_endings() const {
+    if (!report.empty() && !report.ends_with(".json"))
+      throw Error("--report", "file name", report, "the ending .json");
+    if (!picture.empty() && !picture.ends_with(".png"))
+      throw Error("--picture", "file name", picture, "the ending .png");
+    for (const std::string& path : {common.output, report, picture})
+      if (!path.empty()) const WholeFile probe(path);  // never committed: nothing stays
+  }
+
+  calibration::ColorSeeds seeds_to_begin_with() const {
+    if (!seeds.empty()) return calibration::load_seeds(seeds);
+    return calibration::seeds_of_table(*common.workbench().color_table(), "the tracker's own color table");
+  }
+
+  /// Frames spread over the recording; of a live device the first ones. Some are kept for the picture.
+  std::vector<calibration::VolumeView> take_frames(TrackSource& source, calibration::ColorSamples& samples) const {
+    constexpr int kViews = 4;
+    const int taken = source.frame_count > 0 ? std::min(frame_count, source.frame_count) : frame_count;
+    const int64_t all = source.frame_count > 0 ? source.frame_count : taken;
+    std::vector<calibration::VolumeView> views;
+    Progress progress("looking at colors", common.quiet);
+    for (int64_t number = 0; samples.frames() < frame_count; ++number) {
+      std::optional<DeviceFrame> frame;
+      try {
+        frame = source.device->next_frame();
+        if (!frame) break;
+      } catch (const FrameError& e) {
+        if (!common.quiet) fmt::print(stderr, "glovebench: skipped: {}\n", e.what());
+        continue;
+      }
+      if (number > 0 && number * taken / all == (number - 1) * taken / all) continue;
+      if (static_cast<int>(views.size()) * std::max(1, taken / kViews) <= samples.frames() &&
+          static_cast<int>(views.size()) < kViews)
+        views.push_back(view_volume(*frame, source.device->calibration(), samples.config()));
+      samples.add_frame(*frame, source.device->calibration());
+      progress.show(static_cast<double>(samples.frames()) / taken);
+    }
+    return views;
+  }
+};
+
+}  // namespace
+
+void add_calibrate_colors(CLI::App& calibrate) {
+  CLI::App* command = calibrate.add_subcommand(
+      "colors",
+      "Make a color table of a recording of the glove, without labels: the light and the glove's colors are found\n"
+      "from where the tracker's own table has them (calibration/README.md).");
+  const auto state = std::make_shared<CalibrateColors>();
+  command
+      ->add_option(
+          "--source", state->from.source,
+          "fakenect:FOLDER, a recording in which every patch of the glove is seen; freenect[:INDEX], a Kinect")
+      ->required();
+  command->add_option("--calibration", state->from.calibration,
+                      "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  state->common.add_output(*command, "color table to write, for `track --colors`", true);
+  command->add_option("--report", state->report, "separability and warnings to write (*.json)");
+  command->add_option("--picture", state->picture,
+                      "to check by eye (*.png): frames, labels, the colors in the UV plane");
+  command->add_option(
+      "--seeds", state->seeds,
+      "where to begin, for a glove with other colors: a color table, or a JSON list of the ten colors "
+      "[the tracker's own table]");
+  command->add_option("--space", state->space, "axes of the table")
+      ->check(CLI::IsMember({"yuv", "rgb"}))
+      ->capture_default_str();
+  command->add_option("--frames", state->frame_count, "frames to take, spread over the recording")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command->add_option("--config", state->common.config_file,
+                      "JSON file with the fields to change; the working volume is what matters here");
+  state->common.add_machine(*command);
+  command->callback([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval
