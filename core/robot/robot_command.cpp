@@ -29,9 +29,10 @@ RobotCommand RobotCommander::command(const TrackResult& result) {
   if (!command.hold) {
     if (!result.T_camera_hand.matrix().allFinite())
       throw Error("robot command", "T_camera_hand", "a value that is not finite", "a finite pose");
-    last_ = RobotTargets{map_to_shadow_hand(result.posture), T_base_camera_ * result.T_camera_hand};
+    last_ = RobotTargets{map_to_shadow_hand(result.posture), T_base_camera_ * result.T_camera_hand, std::nullopt};
   }
   command.targets = last_;
+  command.state = !command.hold ? CommandState::following : last_ ? CommandState::holding : CommandState::stopped;
   return command;
 }
 

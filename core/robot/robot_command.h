@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/robot/arm.h"
+#include "core/robot/command_state.h"
 #include "core/robot/shadow_hand.h"
 #include "core/tracker/track_result.h"
 
@@ -13,6 +15,7 @@ namespace glovebench {
 struct RobotTargets {
   ShadowHandTargets hand;
   Eigen::Isometry3d T_base_hand = Eigen::Isometry3d::Identity();  ///< in the arm's base frame, m
+  std::optional<ArmJoints> arm;                                   ///< rad; empty where there is no ArmSolver
 };
 
 /// What is sent to hand and arm for one frame (section V).
@@ -20,8 +23,10 @@ struct RobotCommand {
   int64_t frame_timestamp_us = 0;  ///< of the frame that was tracked
   int64_t timestamp_us = 0;        ///< of the command: that of its frame, as nothing here reads a clock
   TrackStatus status = TrackStatus::no_hand;
-  bool hold = true;                     ///< the frame is lost: the targets are those of the last tracked frame
+  bool hold = true;  ///< the frame is lost: the targets are those of the last tracked frame
+  CommandState state = CommandState::stopped;
   std::optional<RobotTargets> targets;  ///< empty until a first frame was tracked
+  Interventions interventions;          ///< since the last command
 };
 
 /// The camera of the synthetic setup in the arm's base frame (x ahead, y left, z up): 1.2 m above the base plane,
