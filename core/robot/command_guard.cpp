@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <utility>
+
 #include "core/base/error.h"
 #include "core/robot/guarded_motion.h"
 

@@ -1,5 +1,6 @@
 #include "core/robot/command_state.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace glovebench {

@@ -16,6 +16,8 @@ using nlohmann::json;
 
 constexpr double kUnitTolerance = 1e-5;  // the four numbers are rounded to 1e-6
 
+constexpr double kLargestNumber = 1e9;  // of any unit: no angle or place, but far from what overflows
+
 /// Of text that may be anything: short, and on one line.
 std::string printable(std::string text) {
   constexpr size_t kLongest = 40;
@@ -67,7 +69,9 @@ class Field {
   }
   double number() const {
     if (!value_.is_number()) fail("a number");
-    return value_.get<double>();
+    const double number = value_.get<double>();
+    if (!(std::abs(number) <= kLargestNumber)) fail(fmt::format("a number from -{0} to {0}", kLargestNumber));
+    return number;
   }
   int64_t integer(int64_t min) const {
     const bool signed_64 =

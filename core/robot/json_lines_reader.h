@@ -12,7 +12,7 @@ namespace glovebench {
 inline constexpr size_t kLongestCommandLine = 16'384;  // bytes
 
 /// One command from its line of JSON (core/robot/README.md), with or without the line end. Strict: every key once
-/// and no others, numbers finite, names known, a unit quaternion, what contradicts itself refused. Throws Error
+/// and no others, no number over 1e9, names known, a unit quaternion, what contradicts itself refused. Throws Error
 /// naming `where` and the field. Whether the values are within the limits is a matter for CommandGuard.
 RobotCommand parse_command_line(std::string_view line, const std::string& where);
 
