@@ -121,8 +121,10 @@ void write_robot_commands(const RobotOutput& robot, const Gathered& experiment) 
   for (size_t i = 0; i < experiment.passes.size(); ++i) {
     JsonLinesSink sink(
         fmt::format("{}/{}_seed{}.jsonl", robot.folder, to_string(experiment.key), experiment.replays[i]->seed));
-    RobotCommander commander(robot.T_base_camera);
-    for (const TrackResult& result : experiment.passes[i]->results) sink.send(commander.command(result));
+    RobotCommander commander(robot.setup);
+    CommandGuard guard(robot.limits);
+    for (const TrackResult& result : experiment.passes[i]->results)
+      if (const std::optional<RobotCommand> safe = guard.guard(commander.command(result))) sink.send(*safe);
     sink.finish();
   }
 }

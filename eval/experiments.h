@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/robot/robot_command.h"
+#include "core/robot/command_guard.h"
 #include "eval/replay.h"
 #include "eval/run_folder.h"
 #include "reports/estimates.h"
@@ -39,7 +39,8 @@ struct Outcome {
 /// Where the robot commands of each experiment are written; an empty folder: nowhere.
 struct RobotOutput {
   std::string folder;
-  Eigen::Isometry3d T_base_camera = default_T_base_camera();
+  RobotSetup setup = {};
+  CommandLimits limits = {};
 };
 
 /// Checks all that a plan names, and makes or loads the databases and the color table: what a mistake in the plan

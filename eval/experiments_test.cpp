@@ -33,7 +33,7 @@ struct PlanRun {
 PlanRun run_plan(const std::string& folder, int threads) {
   Workbench workbench(test_workbench(threads));
   const Plan plan = make_plan();
-  const Outcome outcome = run_experiments(workbench, plan, {folder + "/robot", default_T_base_camera()});
+  const Outcome outcome = run_experiments(workbench, plan, {folder + "/robot"});
   reports::write_report(folder, outcome.result, outcome.timings, page_material(workbench, plan, outcome),
                         outcome.estimates);
   PlanRun run{outcome.result, read_folder(folder)};

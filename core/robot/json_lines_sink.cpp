@@ -20,15 +20,31 @@ double rounded(double value, std::string_view field) {
   return std::round(value * 1e6) / 1e6 + 0.0;  // + 0.0 turns -0 into 0
 }
 
-template <typename Infos, typename Values, typename Flags>
-Json targets_json(const Infos& infos, const Values& values, const Flags& clamped) {
-  Json angles = Json::object(), names = Json::array();
+template <typename Infos, typename Values>
+Json angles_json(const Infos& infos, const Values& values) {
+  Json angles = Json::object();
   for (size_t i = 0; i < infos.size(); ++i) {
     const std::string name(infos[i].name);
     angles[name] = rounded(degrees_from_radians(values[i]), name);
-    if (clamped[i]) names.push_back(name);
   }
-  return {{"target_deg", std::move(angles)}, {"clamped", std::move(names)}};
+  return angles;
+}
+
+template <typename Infos, typename Values, typename Flags>
+Json targets_json(const Infos& infos, const Values& values, const Flags& clamped) {
+  Json names = Json::array();
+  for (size_t i = 0; i < infos.size(); ++i)
+    if (clamped[i]) names.push_back(std::string(infos[i].name));
+  return {{"target_deg", angles_json(infos, values)}, {"clamped", std::move(names)}};
+}
+
+Json interventions_json(const Interventions& interventions) {
+  Json counts = Json::object();
+  for (int i = 0; i < kInterventionCount; ++i) {
+    const auto kind = static_cast<Intervention>(i);
+    if (interventions[kind] > 0) counts[std::string(to_string(kind))] = interventions[kind];
+  }
+  return counts;
 }
 
 Json pose_json(const Eigen::Isometry3d& T_base_hand) {
@@ -48,14 +64,18 @@ std::string to_json_line(const RobotCommand& command) {
                {"timestamp_us", command.timestamp_us},
                {"status", std::string(to_string(command.status))},
                {"hold", command.hold},
+               {"state", std::string(to_string(command.state))},
+               {"interventions", interventions_json(command.interventions)},
                {"actuators", nullptr},
                {"joints", nullptr},
-               {"base_hand", nullptr}};
+               {"base_hand", nullptr},
+               {"arm", nullptr}};
   if (command.targets) {
     const ShadowHandTargets& hand = command.targets->hand;
     line["actuators"] = targets_json(shadow_actuator_infos(), hand.actuators, hand.actuator_clamped);
     line["joints"] = targets_json(shadow_joint_infos(), hand.joints, hand.joint_clamped);
     line["base_hand"] = pose_json(command.targets->T_base_hand);
+    if (command.targets->arm) line["arm"] = {{"target_deg", angles_json(arm_joint_infos(), *command.targets->arm)}};
   }
   return line.dump();
 }

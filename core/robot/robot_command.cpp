@@ -3,6 +3,17 @@
 #include "core/base/error.h"
 
 namespace glovebench {
+namespace {
+
+void require_rigid(const Eigen::Isometry3d& T, const char* name) {
+  const Eigen::Matrix3d R = T.linear();
+  // 1e-6 admits a matrix that was written with seven digits.
+  const bool rotation = R.allFinite() && R.isUnitary(1e-6) && R.determinant() > 0;
+  if (!rotation || !T.translation().allFinite())
+    throw Error("robot", name, "no rigid transform", "a finite translation and a rotation matrix");
+}
+
+}  // namespace
 
 Eigen::Isometry3d default_T_base_camera() {
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
@@ -13,12 +24,25 @@ Eigen::Isometry3d default_T_base_camera() {
   return T_base_camera;
 }
 
-RobotCommander::RobotCommander(const Eigen::Isometry3d& T_base_camera) : T_base_camera_(T_base_camera) {
-  const Eigen::Matrix3d R = T_base_camera.linear();
-  // 1e-6 admits a matrix that was written with seven digits.
-  const bool rotation = R.allFinite() && R.isUnitary(1e-6) && R.determinant() > 0;
-  if (!rotation || !T_base_camera.translation().allFinite())
-    throw Error("robot", "T_base_camera", "no rigid transform", "a finite translation and a rotation matrix");
+Eigen::Isometry3d default_T_flange_wrist() {
+  // From the base of the forearm to WRJ2 (sr_description, hand with motors).
+  return Eigen::Isometry3d(Eigen::Translation3d(0, -0.010, 0.213));
+}
+
+RobotCommander::RobotCommander(const RobotSetup& setup)
+    : T_base_camera_(setup.T_base_camera), T_wrist_flange_(setup.T_flange_wrist.inverse()) {
+  require_rigid(setup.T_base_camera, "T_base_camera");
+  require_rigid(setup.T_flange_wrist, "T_flange_wrist");
+  if (setup.skeleton) fingertips_.emplace(*setup.skeleton);
+  if (setup.arm) arm_.emplace(setup.arm, setup.arm_start);
+}
+
+std::optional<ArmJoints> RobotCommander::arm_joints(const RobotTargets& targets, Interventions& interventions) {
+  if (!arm_) return std::nullopt;
+  const Eigen::Isometry3d T_base_wrist = targets.T_base_hand * shadow_T_wrist_hand(targets.hand.joints).inverse();
+  if (arm_->follow(T_base_wrist * T_wrist_flange_)) return arm_->joints();
+  interventions.add(Intervention::arm_unreachable);
+  return last_ ? last_->arm : std::nullopt;
 }
 
 RobotCommand RobotCommander::command(const TrackResult& result) {
@@ -29,9 +53,13 @@ RobotCommand RobotCommander::command(const TrackResult& result) {
   if (!command.hold) {
     if (!result.T_camera_hand.matrix().allFinite())
       throw Error("robot command", "T_camera_hand", "a value that is not finite", "a finite pose");
-    last_ = RobotTargets{map_to_shadow_hand(result.posture), T_base_camera_ * result.T_camera_hand};
+    RobotTargets targets{fingertips_ ? fingertips_->map(result.posture) : map_to_shadow_hand(result.posture),
+                         T_base_camera_ * result.T_camera_hand, std::nullopt};
+    targets.arm = arm_joints(targets, command.interventions);
+    last_ = targets;
   }
   command.targets = last_;
+  command.state = !command.hold ? CommandState::following : last_ ? CommandState::holding : CommandState::stopped;
   return command;
 }
 

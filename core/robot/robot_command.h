@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/robot/shadow_hand.h"
+#include "core/robot/arm_follower.h"
+#include "core/robot/command_state.h"
+#include "core/robot/fingertip_mapping.h"
 #include "core/tracker/track_result.h"
 
 namespace glovebench {
@@ -13,6 +15,7 @@ namespace glovebench {
 struct RobotTargets {
   ShadowHandTargets hand;
   Eigen::Isometry3d T_base_hand = Eigen::Isometry3d::Identity();  ///< in the arm's base frame, m
+  std::optional<ArmJoints> arm;                                   ///< rad; empty where there is no ArmSolver
 };
 
 /// What is sent to hand and arm for one frame (section V).
@@ -20,25 +23,47 @@ struct RobotCommand {
   int64_t frame_timestamp_us = 0;  ///< of the frame that was tracked
   int64_t timestamp_us = 0;        ///< of the command: that of its frame, as nothing here reads a clock
   TrackStatus status = TrackStatus::no_hand;
-  bool hold = true;                     ///< the frame is lost: the targets are those of the last tracked frame
+  bool hold = true;  ///< the frame is lost: the targets are those of the last tracked frame
+  CommandState state = CommandState::stopped;
   std::optional<RobotTargets> targets;  ///< empty until a first frame was tracked
+  Interventions interventions;          ///< since the last command
 };
 
 /// The camera of the synthetic setup in the arm's base frame (x ahead, y left, z up): 1.2 m above the base plane,
 /// 0.9 m ahead of the shoulder, looking straight down, the top of its image away from the arm.
 Eigen::Isometry3d default_T_base_camera();
 
+/// Where the wrist's first joint is on the flange: a forearm as Shadow's model has it, its base on the flange, its
+/// z along the flange's.
+Eigen::Isometry3d default_T_flange_wrist();
+
+/// How a tracked hand becomes targets.
+struct RobotSetup {
+  Eigen::Isometry3d T_base_camera = default_T_base_camera();  ///< the tracker's frame in the arm's base frame
+  std::optional<Skeleton> skeleton = {};      ///< of the tracked hand: fingertips are mapped; without it, angles
+  std::shared_ptr<const ArmSolver> arm = {};  ///< without it there are no joint angles of the arm
+  ArmJoints arm_start = kArmAtRest;           ///< where it stands before the first frame, rad
+  Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
+};
+
 /// Turns the tracker's answers into commands, in time order. A lost frame repeats the last targets and says so.
+/// Where the arm cannot reach a pose its last joint angles are kept, and the command says so (`arm_unreachable`).
 class RobotCommander {
  public:
-  /// `T_base_camera` is the tracker's frame in the arm's base frame. Throws Error unless it is a finite rigid
-  /// transform.
-  explicit RobotCommander(const Eigen::Isometry3d& T_base_camera = default_T_base_camera());
+  /// Throws Error unless the transforms are finite and rigid.
+  explicit RobotCommander(const RobotSetup& setup = {});
+  explicit RobotCommander(const Eigen::Isometry3d& T_base_camera)
+      : RobotCommander(RobotSetup{.T_base_camera = T_base_camera}) {}
   /// Throws Error if a tracked posture or pose is not finite.
   RobotCommand command(const TrackResult& result);
 
  private:
-  Eigen::Isometry3d T_base_camera_;
+  /// Empty while the arm has reached nothing.
+  std::optional<ArmJoints> arm_joints(const RobotTargets& targets, Interventions& interventions);
+
+  Eigen::Isometry3d T_base_camera_, T_wrist_flange_;
+  std::optional<FingertipMapping> fingertips_;
+  std::optional<ArmFollower> arm_;
   std::optional<RobotTargets> last_;
 };
 

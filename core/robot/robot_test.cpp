@@ -207,8 +207,8 @@ TEST(JsonLinesSink, WritesOneLineAFrame) {
   std::istringstream lines(read_file(path));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, R"({"frame_timestamp_us":0,"timestamp_us":0,"status":"no_hand","hold":true,)"
-                  R"("actuators":null,"joints":null,"base_hand":null})");
+  EXPECT_EQ(line, R"({"frame_timestamp_us":0,"timestamp_us":0,"status":"no_hand","hold":true,"state":"stopped",)"
+                  R"("interventions":{},"actuators":null,"joints":null,"base_hand":null,"arm":null})");
   std::getline(lines, line);
   const nlohmann::json json = nlohmann::json::parse(line);
   EXPECT_EQ(json["frame_timestamp_us"], 66667);

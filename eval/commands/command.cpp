@@ -7,7 +7,9 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/methods/method.h"
-#include "core/robot/robot_command.h"
+#ifdef GLOVEBENCH_ARM
+#include "core/robot/arm/kdl_arm_solver.h"
+#endif
 #include "eval/share.h"
 #include "reports/json_reader.h"
 
@@ -76,18 +78,61 @@ Workbench CommonFlags::workbench() const {
 void RobotFlags::add(CLI::App& command, const std::string& what) {
   command.add_option("--robot-out", output, what);
   command
+      .add_option("--robot-mapping", mapping,
+                  "to the robot's hand: direct, equal angles; fingertip, what is pinched stays pinched")
+      ->check(CLI::IsMember({"direct", "fingertip"}))
+      ->capture_default_str();
+  command
+      .add_option("--robot-arm", arm,
+                  "joint angles of the arm: none; pa10, a PA-10-7C; auto, pa10 if it is built in")
+      ->check(CLI::IsMember({"auto", "pa10", "none"}))
+      ->capture_default_str();
+  command
       .add_option("--base-camera", base_camera,
                   "the camera in the arm's base frame: X Y Z (m) QW QX QY QZ [above the work, looking down]")
       ->expected(7);
+  command
+      .add_option(
+          "--flange-wrist", flange_wrist,
+          "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]")
+      ->expected(7);
 }
 
-Eigen::Isometry3d RobotFlags::T_base_camera() const {
-  if (base_camera.empty()) return default_T_base_camera();
-  const Eigen::Quaterniond q(base_camera[3], base_camera[4], base_camera[5], base_camera[6]);
+namespace {
+
+Eigen::Isometry3d rigid_transform(const char* flag, const std::vector<double>& values) {
+  const Eigen::Quaterniond q(values[3], values[4], values[5], values[6]);
   if (!(std::abs(q.norm() - 1) < 1e-3)) {
-    throw Error("--base-camera", "length of the quaternion", fmt::format("{}", q.norm()), "1");
+    throw Error(flag, "length of the quaternion", fmt::format("{}", q.norm()), "1");
   }
-  return Eigen::Translation3d(base_camera[0], base_camera[1], base_camera[2]) * q.normalized();
+  return Eigen::Translation3d(values[0], values[1], values[2]) * q.normalized();
+}
+
+/// The arm that was built in, if one was. Throws Error if it is required and was not.
+std::shared_ptr<const ArmSolver> arm_solver([[maybe_unused]] bool required) {
+#ifdef GLOVEBENCH_ARM
+  return make_kdl_arm_solver();
+#else
+  if (required)
+    throw Error("--robot-arm", "pa10", "a program built without Orocos KDL",
+                "one configured with it (Debian: liborocos-kdl-dev)");
+  return nullptr;
+#endif
+}
+
+}  // namespace
+
+RobotSetup RobotFlags::setup(Workbench& workbench) const {
+  RobotSetup setup;
+  if (!base_camera.empty()) setup.T_base_camera = rigid_transform("--base-camera", base_camera);
+  if (!flange_wrist.empty()) setup.T_flange_wrist = rigid_transform("--flange-wrist", flange_wrist);
+  if (arm != "none") setup.arm = arm_solver(arm == "pa10");
+  if (mapping == "fingertip") setup.skeleton = workbench.model()->skeleton();
+  return setup;
+}
+
+RobotOutput RobotFlags::output_of(Workbench& workbench) const {
+  return output.empty() ? RobotOutput{} : RobotOutput{output, setup(workbench)};
 }
 
 void CommonFlags::check_output_folder() const {

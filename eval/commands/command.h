@@ -41,14 +41,19 @@ struct CommonFlags {
   void check_output_folder() const;
 };
 
-/// Where robot commands go.
+/// Where robot commands go, and how a hand becomes one.
 struct RobotFlags {
   std::string output;
-  std::vector<double> base_camera;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
+  std::string mapping = "direct";
+  std::string arm = "auto";
+  std::vector<double> base_camera;   ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
+  std::vector<double> flange_wrist;  ///< the same; empty: default_T_flange_wrist()
 
   void add(CLI::App& command, const std::string& what);
-  /// Throws Error unless the quaternion has unit length.
-  Eigen::Isometry3d T_base_camera() const;
+  /// Of the workbench's hand. Throws Error unless quaternions have unit length, or if the arm is asked for and this
+  /// program was built without it.
+  RobotSetup setup(Workbench& workbench) const;
+  RobotOutput output_of(Workbench& workbench) const;
 };
 
 /// Each adds one subcommand to the program.

@@ -2,8 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/hand/hand_model.h"
 #include "core/methods/method.h"
 #include "eval/commands/command.h"
+#include "eval/robot_kinematics.h"
 #include "eval/share.h"
 #include "eval/studies/study.h"
 #include "eval/suite.h"
@@ -44,6 +46,10 @@ void list_angles() {
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
 }
 
+void list_mapping() {
+  fmt::print("{}", mapping_table(HandModel::load(hand_mesh_path()).skeleton(), trajectory_folder()));
+}
+
 }  // namespace
 
 void add_list(CLI::App& program) {
@@ -58,6 +64,8 @@ void add_list(CLI::App& program) {
       ->callback(list_studies);
   list->add_subcommand("methods", "Ways to track, for --method.")->callback(list_methods);
   list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
+  list->add_subcommand("mapping", "How far the robot hand's fingertips are from the human's, by way of mapping.")
+      ->callback(list_mapping);
   const auto common = std::make_shared<CommonFlags>();
   CLI::App* config = list->add_subcommand("config", "The tracker's configuration as JSON, as --config takes it.");
   common->add_tracker(*config);

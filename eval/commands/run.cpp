@@ -42,7 +42,7 @@ struct Run {
     if (dry_run) return print_dry_run(workbench, plan);
     require_output();
     common.check_output_folder();
-    const Outcome outcome = run_into_folder(workbench, plan, {robot.output, robot.T_base_camera()}, common.output);
+    const Outcome outcome = run_into_folder(workbench, plan, robot.output_of(workbench), common.output);
     fmt::print("{}", reports::to_markdown(reports::detail_summary(outcome.result)));
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
@@ -60,8 +60,8 @@ struct Run {
     Workbench workbench = common.workbench();
     if (common.output.empty()) return print_study(chosen.run({workbench, options}));
     common.check_output_folder();
-    const Outcome outcome = reproduce(workbench, {options, {}, {{}}, {study_name}},
-                                      {robot.output, robot.T_base_camera()}, common.output);
+    const Outcome outcome =
+        reproduce(workbench, {options, {}, {{}}, {study_name}}, robot.output_of(workbench), common.output);
     print_study(outcome.result.studies.front());
     fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/methods/method.h"
+#include "core/robot/command_guard.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/tracker/estimate_line.h"
 #include "eval/commands/command.h"
@@ -73,7 +74,8 @@ struct Track {
     std::optional<JsonLinesSink> sink;
     if (!robot.output.empty()) sink.emplace(robot.output);
     const Interruption interruption;
-    track_all(source, *method, output, sink ? &*sink : nullptr);
+    const RobotSetup setup = sink ? robot.setup(workbench) : RobotSetup{};
+    track_all(source, *method, output, setup, sink ? &*sink : nullptr);
     if (frames == unusable) refuse();
     output.commit();
     if (sink) sink->finish();
@@ -83,8 +85,10 @@ struct Track {
     if (!common.quiet && !source.ended_by().empty()) fmt::print(stderr, "glovebench: {}\n", source.ended_by());
   }
 
-  void track_all(TrackSource& source, Method& method, WholeFile& output, JsonLinesSink* sink) {
-    RobotCommander commander(robot.T_base_camera());
+  void track_all(TrackSource& source, Method& method, WholeFile& output, const RobotSetup& setup,
+                 JsonLinesSink* sink) {
+    RobotCommander commander(setup);
+    CommandGuard guard;
     Progress progress("tracking", common.quiet);
     StatusLine status(common.quiet || source.frame_count > 0);
     while (!Interruption::wished() && (limit == 0 || frames < limit)) {
@@ -95,7 +99,8 @@ struct Track {
         const TrackResult result = method.track(*frame);
         output.append(estimate_line(number, result) + "\n");
         tracked += result.status == TrackStatus::tracked;
-        if (sink) sink->send(commander.command(result));
+        if (sink)
+          if (const auto safe = guard.guard(commander.command(result))) sink->send(*safe);
         status.show(result, source.dropped());
       }
       if (source.frame_count > 0) progress.show(static_cast<double>(frames) / source.frame_count);

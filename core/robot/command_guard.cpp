@@ -1,0 +1,141 @@
+#include "core/robot/command_guard.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/robot/guarded_motion.h"
+
+namespace glovebench {
+namespace {
+
+/// Of times that may lie anywhere; 0 if `now` is not after `then`.
+double seconds_between(int64_t then_us, int64_t now_us) {
+  if (now_us <= then_us) return 0;
+  return static_cast<double>(static_cast<uint64_t>(now_us) - static_cast<uint64_t>(then_us)) * 1e-6;
+}
+
+bool is_lost(const RobotCommand& command) {
+  return command.hold || !command.targets || command.status != TrackStatus::tracked ||
+         command.state != CommandState::following;
+}
+
+}  // namespace
+
+std::vector<std::string> CommandLimits::problems() const {
+  std::vector<std::string> problems;
+  const auto require = [&](bool fine, const char* what) {
+    if (!fine) problems.emplace_back(what);
+  };
+  const auto is_positive = [](double value) { return std::isfinite(value) && value > 0; };
+  require(is_positive(hand_joint_speed), "hand_joint_speed is not above 0");
+  require(is_positive(hand_speed), "hand_speed is not above 0");
+  require(is_positive(hand_turn_speed), "hand_turn_speed is not above 0");
+  require(arm_speed_share > 0 && arm_speed_share <= 1, "arm_speed_share is not above 0 and at most 1");
+  require(workspace_min.allFinite() && workspace_max.allFinite() &&
+              (workspace_min.array() <= workspace_max.array()).all(),
+          "the workspace is empty");
+  require(is_positive(longest_step_s), "longest_step_s is not above 0");
+  require(is_positive(silence_s), "silence_s is not above 0");
+  require(std::isfinite(stop_after_s) && stop_after_s >= silence_s, "stop_after_s is less than silence_s");
+  return problems;
+}
+
+CommandGuard::CommandGuard(const CommandLimits& limits) : limits_(limits) {
+  const std::vector<std::string> problems = limits.problems();
+  if (!problems.empty()) throw Error(fmt::format("command limits: {}", fmt::join(problems, "; ")));
+}
+
+void CommandGuard::start_from(const RobotTargets& measured) {
+  Interventions needed;
+  if (const std::optional<Intervention> reason = refusal(measured))
+    throw Error("robot", "measured state", std::string(to_string(*reason)), "finite values and a rotation");
+  within_limits(measured, limits_, needed);
+  if (!needed.none())
+    throw Error("robot", "measured state", "values outside the limits or the workspace", "values within them");
+  sent_ = measured;
+}
+
+void CommandGuard::note(Intervention kind) {
+  pending_.add(kind);
+  total_.add(kind);
+}
+
+bool CommandGuard::is_stale(const RobotCommand& command) const {
+  return stamp_us_ && (command.timestamp_us <= *stamp_us_ || command.frame_timestamp_us < frame_us_);
+}
+
+CommandState CommandGuard::state_at(int64_t now_us) const {
+  if (!good_us_) return CommandState::stopped;
+  const double silence = seconds_between(*good_us_, now_us);
+  if (silence > limits_.stop_after_s) return CommandState::stopped;
+  return lost_ || silence > limits_.silence_s ? CommandState::holding : CommandState::following;
+}
+
+void CommandGuard::become(CommandState state) {
+  if (state == CommandState::stopped && state_ != state) note(Intervention::stop);
+  state_ = state;
+}
+
+void CommandGuard::take(const RobotCommand& command, int64_t now_us) {
+  stamp_us_ = command.timestamp_us;
+  frame_us_ = command.frame_timestamp_us;
+  status_ = command.status;
+  pending_.add(command.interventions);
+  total_.add(command.interventions);
+  lost_ = true;
+  if (is_lost(command)) return;
+  if (const std::optional<Intervention> reason = refusal(*command.targets)) return note(*reason);
+  Interventions done;
+  goal_ = within_limits(*command.targets, limits_, done);
+  pending_.add(done);
+  total_.add(done);
+  good_us_ = now_us;
+  lost_ = false;
+}
+
+std::optional<RobotCommand> CommandGuard::guard(const RobotCommand& command, int64_t now_us) {
+  if (now_us_ && now_us <= *now_us_) {
+    note(Intervention::stale);
+    return std::nullopt;
+  }
+  become(state_at(now_us));
+  if (is_stale(command) && state_ != CommandState::stopped) {
+    note(Intervention::stale);
+  } else {
+    take(command, now_us);
+  }
+  return send(now_us);
+}
+
+std::optional<RobotCommand> CommandGuard::tick(int64_t now_us) {
+  if (now_us_ && now_us <= *now_us_) return std::nullopt;
+  return send(now_us);
+}
+
+RobotCommand CommandGuard::send(int64_t now_us) {
+  become(state_at(now_us));
+  if (state_ != CommandState::following && sent_) note(Intervention::hold);
+  if (state_ == CommandState::following) {
+    const double seconds =
+        now_us_ ? std::min(seconds_between(*now_us_, now_us), limits_.longest_step_s) : limits_.longest_step_s;
+    Interventions done;
+    sent_ = sent_ ? moved_towards(*sent_, *goal_, seconds, limits_, done) : *goal_;
+    pending_.add(done);
+    total_.add(done);
+  }
+  RobotCommand command;
+  command.frame_timestamp_us = frame_us_;
+  command.timestamp_us = now_us;
+  command.status = status_;
+  command.hold = state_ != CommandState::following;
+  command.state = state_;
+  command.targets = sent_;
+  command.interventions = std::exchange(pending_, {});
+  now_us_ = now_us;
+  return command;
+}
+
+}  // namespace glovebench
