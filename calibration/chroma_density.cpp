@@ -51,7 +51,8 @@ std::vector<Chroma> ChromaDensity::peaks(std::vector<KnownChroma> known, double 
       double highest = 0;
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) highest = std::max(highest, cells_[index({u + i, v + j})]);
-      if (density == highest) candidates.emplace_back(density, Chroma(u + 0.5, v + 0.5) * kCell + Chroma(kLeast, kLeast));
+      if (density == highest)
+        candidates.emplace_back(density, Chroma(u + 0.5, v + 0.5) * kCell + Chroma(kLeast, kLeast));
     }
   }
   std::ranges::stable_sort(candidates, std::greater<>(), [](const auto& candidate) { return candidate.first; });

@@ -22,9 +22,9 @@ class ChromaDensity {
 
   /// 0 outside.
   double at(const Chroma& chroma) const;
-  /// The places about which more than `share` lies, and more than about their neighbors, the highest first: out of reach
-  /// of those that are known, and with a valley between unless they are the higher ones; those that are found are known
-  /// to those after them, with that reach. At most that many.
+  /// The places about which more than `share` lies, and more than about their neighbors, the highest first: out of
+  /// reach of those that are known, and with a valley between unless they are the higher ones; those that are found
+  /// are known to those after them, with that reach. At most that many.
   std::vector<Chroma> peaks(std::vector<KnownChroma> known, double reach, double share, size_t most) const;
 
  private:

@@ -44,11 +44,13 @@ cv::Rect box_of(const VolumeView& view, const ColorTable& table) {
   const cv::Rect whole(0, 0, view.inside.width(), view.inside.height());
   constexpr int margin = 12;
   if (right < left) return whole;
-  return cv::Rect(left - margin, top - margin, right - left + 1 + 2 * margin, bottom - top + 1 + 2 * margin) & whole;
+  return cv::Rect(left - margin, top - margin, right - left + 1 + 2 * margin, bottom - top + 1 + 2 * margin) &
+         whole;
 }
 
 void put(cv::Mat& picture, const cv::Mat& part, int left, int top) {
-  const double scale = std::min(static_cast<double>(kViewWidth) / part.cols, static_cast<double>(kViewHeight) / part.rows);
+  const double scale =
+      std::min(static_cast<double>(kViewWidth) / part.cols, static_cast<double>(kViewHeight) / part.rows);
   cv::Mat scaled;
   cv::resize(part, scaled, {}, scale, scale, cv::INTER_NEAREST);
   const int x = left + (kViewWidth - scaled.cols) / 2, y = top;
@@ -93,7 +95,9 @@ cv::Mat plane_of(const ColorTable& table, const std::array<Rgb, kColorCount + 1>
                             luma;
       const Eigen::Array3d rgb = (luma * rgb_of_chroma(chroma)).round();
       const bool is_color = rgb.minCoeff() >= 0 && rgb.maxCoeff() <= 255;
-      const Rgb color = is_color ? Rgb{static_cast<uint8_t>(rgb[0]), static_cast<uint8_t>(rgb[1]), static_cast<uint8_t>(rgb[2])} : Rgb{};
+      const Rgb color =
+          is_color ? Rgb{static_cast<uint8_t>(rgb[0]), static_cast<uint8_t>(rgb[1]), static_cast<uint8_t>(rgb[2])}
+                   : Rgb{};
       const uint8_t label = is_color ? table.label(color) : uint8_t{0};
       const Rgb& shown = palette[label];
       const double shade = label == 0 ? (is_color ? 0.6 : 0.35) : 0.45;
@@ -125,17 +129,20 @@ void draw_bells(cv::Mat& plane, const GloveColorFit& fit, double luma) {
     const GloveColor& color = fit.colors[k];
     if (luma < 0.6 * color.lumas.front() || luma > 1.6 * color.lumas.back()) continue;
     const double noise = fit.noise_gray / luma;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(color.covariance + noise * noise * Eigen::Matrix2d::Identity());
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(color.covariance +
+                                                              noise * noise * Eigen::Matrix2d::Identity());
     std::vector<cv::Point> ring;
     for (int step = 0; step < 48; ++step) {
       const double angle = 2 * std::numbers::pi * step / 48;
       const Eigen::Vector2d unit(std::cos(angle), std::sin(angle));
-      ring.push_back(point_of(color.center + 2 * axes.eigenvectors() * axes.eigenvalues().cwiseSqrt().cwiseProduct(unit), luma));
+      ring.push_back(point_of(
+          color.center + 2 * axes.eigenvectors() * axes.eigenvalues().cwiseSqrt().cwiseProduct(unit), luma));
     }
     cv::polylines(plane, ring, true, kInk, 1, cv::LINE_AA);
     const cv::Point center = point_of(color.center, luma);
     const cv::Point label(center.x + 10, center.y - 10);
-    cv::putText(plane, std::to_string(k), label, cv::FONT_HERSHEY_SIMPLEX, 0.55, cv::Scalar(0, 0, 0), 4, cv::LINE_AA);
+    cv::putText(plane, std::to_string(k), label, cv::FONT_HERSHEY_SIMPLEX, 0.55, cv::Scalar(0, 0, 0), 4,
+                cv::LINE_AA);
     cv::putText(plane, std::to_string(k), label, cv::FONT_HERSHEY_SIMPLEX, 0.55, kInk, 1, cv::LINE_AA);
   }
 }

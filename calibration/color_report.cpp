@@ -173,11 +173,11 @@ ColorSeparation separate_colors(const ColorSamples& samples, const GloveColorFit
 
 std::vector<std::string> color_warnings(const ColorSamples& samples, const GloveColorFit& fit,
                                         const ColorSeparation& separation) {
-  constexpr double kClose = 3.0;       // deviations of each bell: a pixel in 700 lies beyond
-  constexpr double kAtReach = 0.95;    // of how far a color may lie from its seed
-  constexpr double kClutter = 0.005;   // of the pixels beyond the volume
-  constexpr double kExposure = 0.05;   // of the pixels in the volume
-  constexpr double kConfused = 0.90;   // of a color's pixels
+  constexpr double kClose = 3.0;      // deviations of each bell: a pixel in 700 lies beyond
+  constexpr double kAtReach = 0.95;   // of how far a color may lie from its seed
+  constexpr double kClutter = 0.005;  // of the pixels beyond the volume
+  constexpr double kExposure = 0.05;  // of the pixels in the volume
+  constexpr double kConfused = 0.90;  // of a color's pixels
   std::vector<std::string> warnings;
   for (int k = 1; k <= kColorCount; ++k) {
     const GloveColor& color = fit.colors[k];
@@ -188,15 +188,19 @@ std::vector<std::string> color_warnings(const ColorSamples& samples, const Glove
       warnings.push_back(fmt::format("colors {} and {} lie close together: {:.1f} deviations of each", k,
                                      separation.nearest[k], separation.nearest_deviations[k]));
     if ((color.center - color.seed).norm() > kAtReach * color.reach)
-      warnings.push_back(fmt::format("color {} lies as far from where the seeds have it as it may: is it this glove's?", k));
+      warnings.push_back(
+          fmt::format("color {} lies as far from where the seeds have it as it may: is it this glove's?", k));
     if (separation.confusion[k] && (*separation.confusion[k])[k] < kConfused)
-      warnings.push_back(fmt::format("of color {} the table labels {:.0f}% right", k, 100 * (*separation.confusion[k])[k]));
-    const double like = static_cast<double>(fit.beyond_like[k]) / static_cast<double>(std::max<int64_t>(1, fit.beyond));
+      warnings.push_back(
+          fmt::format("of color {} the table labels {:.0f}% right", k, 100 * (*separation.confusion[k])[k]));
+    const double like =
+        static_cast<double>(fit.beyond_like[k]) / static_cast<double>(std::max<int64_t>(1, fit.beyond));
     if (like > kClutter)
       warnings.push_back(fmt::format("{:.1f}% of what lies beyond the volume looks like color {}", 100 * like, k));
   }
   const double white = overexposed_share(samples), dark = dark_share(samples, fit);
-  if (white > kExposure) warnings.push_back(fmt::format("{:.0f}% of what is in the volume is overexposed", 100 * white));
+  if (white > kExposure)
+    warnings.push_back(fmt::format("{:.0f}% of what is in the volume is overexposed", 100 * white));
   if (dark > kExposure)
     warnings.push_back(fmt::format("{:.0f}% of what is in the volume is too dark to tell a color", 100 * dark));
   return warnings;
@@ -236,11 +240,12 @@ nlohmann::ordered_json color_report_json(const ColorSamples& samples, const Glov
 
 std::string color_report_markdown(const ColorSamples& samples, const GloveColorFit& fit,
                                   const ColorSeparation& separation) {
-  std::string text =
-      fmt::format("{} frames, camera noise {:.1f} gray levels, light {:.2f} : 1 : {:.2f} (R, G, B) and saturation {:.2f} against the seeds\n"
-                  "{} glove pixels of one color, {} of two; without a label {:.2f}%, of those of two {:.1f}%\n\n",
-                  samples.frames(), fit.noise_gray, fit.light.gain[0], fit.light.gain[2], fit.light.saturation, fit.glove, samples.mixed().size(),
-                  100 * separation.unlabeled_share, 100 * separation.mixed_unlabeled_share);
+  std::string text = fmt::format(
+      "{} frames, camera noise {:.1f} gray levels, light {:.2f} : 1 : {:.2f} (R, G, B) and saturation {:.2f} "
+      "against the seeds\n"
+      "{} glove pixels of one color, {} of two; without a label {:.2f}%, of those of two {:.1f}%\n\n",
+      samples.frames(), fit.noise_gray, fit.light.gain[0], fit.light.gain[2], fit.light.saturation, fit.glove,
+      samples.mixed().size(), 100 * separation.unlabeled_share, 100 * separation.mixed_unlabeled_share);
   text += color_rows(fit, separation);
   text += "\nWhat the table says (columns) of each color (rows), %:\n\n" + confusion_rows(separation);
   const std::vector<std::string> warnings = color_warnings(samples, fit, separation);

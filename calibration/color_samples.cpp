@@ -45,7 +45,8 @@ std::optional<double> noise_of(const PlacedColors& placed) {
     for (int u = 1; u + 1 < placed.color.width(); ++u) {
       if (placed.place(u - 1, v) != kInside || placed.place(u, v) != kInside || placed.place(u + 1, v) != kInside)
         continue;
-      bends.push_back(std::abs(placed.color(u - 1, v)[1] - 2.0 * placed.color(u, v)[1] + placed.color(u + 1, v)[1]));
+      bends.push_back(
+          std::abs(placed.color(u - 1, v)[1] - 2.0 * placed.color(u, v)[1] + placed.color(u + 1, v)[1]));
     }
   }
   if (bends.size() < kFewest) return {};

@@ -37,8 +37,8 @@ struct VolumeView {
 };
 VolumeView view_volume(const DeviceFrame& frame, const RgbdCalibration& calibration, const SampleConfig& config);
 
-/// Pixels of a recording without labels: even ones, which look like their four neighbors on the same surface, and what
-/// lies between two of them.
+/// Pixels of a recording without labels: even ones, which look like their four neighbors on the same surface, and
+/// what lies between two of them.
 class ColorSamples {
  public:
   explicit ColorSamples(SampleConfig config = {}) : config_(config) {}

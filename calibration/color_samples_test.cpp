@@ -14,7 +14,8 @@ TEST(ColorSamples, keep_even_pixels_and_what_lies_between_them) {
   EXPECT_EQ(samples.inside_pixels(), stripes);
   // Of each stripe's rows the mixed one and its neighbors are not even, nor are its ends, where the table begins.
   const int64_t even = (kTestWidth - 2 * kTestMargin - 2) * (kStripe - 3) * (kColorCount + 1);
-  EXPECT_NEAR(static_cast<double>(samples.inside().size()), static_cast<double>(even), 0.03 * static_cast<double>(even));
+  EXPECT_NEAR(static_cast<double>(samples.inside().size()), static_cast<double>(even),
+              0.03 * static_cast<double>(even));
   EXPECT_GT(samples.mixed().size(), 10U * 100U) << "a row for each border between stripes at least";
   for (const MixedSample& mixed : samples.mixed()) EXPECT_NE(mixed.near, mixed.other);
   EXPECT_GT(samples.beyond().size(), 100U);

@@ -68,9 +68,12 @@ TEST(ColorSeeds, refuse_a_damaged_list_in_one_line) {
   EXPECT_THAT(refusal_of("/version", 2), HasSubstr("version: found 2, expected 1"));
   EXPECT_THAT(refusal_of("/names", "x"), HasSubstr("key: found \"names\""));
   EXPECT_THAT(refusal_of("/colors_rgb", "x\ny"), HasSubstr("colors_rgb: found \"x\\ny\""));
-  EXPECT_THAT(refusal_of("/colors_rgb", nlohmann::json::array()), HasSubstr("colors_rgb: found 0 colors, expected 10"));
-  EXPECT_THAT(refusal_of("/colors_rgb/3", {1, 2}), HasSubstr("colors_rgb[3]: found an array of 2, expected an array of 3"));
-  EXPECT_THAT(refusal_of("/colors_rgb/3/1", 256), HasSubstr("colors_rgb[3][1]: found 256, expected a number of 0..255"));
+  EXPECT_THAT(refusal_of("/colors_rgb", nlohmann::json::array()),
+              HasSubstr("colors_rgb: found 0 colors, expected 10"));
+  EXPECT_THAT(refusal_of("/colors_rgb/3", {1, 2}),
+              HasSubstr("colors_rgb[3]: found an array of 2, expected an array of 3"));
+  EXPECT_THAT(refusal_of("/colors_rgb/3/1", 256),
+              HasSubstr("colors_rgb[3][1]: found 256, expected a number of 0..255"));
   EXPECT_THAT(refusal_of("/colors_rgb/9", {0, 0, 0}), HasSubstr("colors_rgb[9]: found black"));
 }
 

@@ -140,7 +140,8 @@ Colors improved(const Colors& colors, const std::vector<ChromaSample>& samples, 
       sums[k].weight += share;
       sums[k].precision += share * precision;
       sums[k].chroma += share * precision * sample.chroma;
-      sums[k].squares += share * precision * (offset * offset.transpose() - sample.noise * Eigen::Matrix2d::Identity());
+      sums[k].squares +=
+          share * precision * (offset * offset.transpose() - sample.noise * Eigen::Matrix2d::Identity());
     }
   }
   Colors next = colors;
@@ -151,8 +152,7 @@ Colors improved(const Colors& colors, const std::vector<ChromaSample>& samples, 
     const Chroma moved = next[k].center - colors[k].seed;
     if (moved.norm() > colors[k].reach) next[k].center = colors[k].seed + moved * (colors[k].reach / moved.norm());
     if (!is_first)
-      next[k].covariance =
-          within_deviations(sums[k].squares / sums[k].precision, kLeastDeviation, kMostDeviation);
+      next[k].covariance = within_deviations(sums[k].squares / sums[k].precision, kLeastDeviation, kMostDeviation);
   }
   return next;
 }

@@ -22,20 +22,20 @@ struct GloveColorConfig {
   int64_t min_pixels = 200;     ///< even pixels of a color in the whole recording; fewer: it was not seen
   int64_t few_pixels = 2000;    ///< fewer: a warning
   int few_frames = 3;           ///< fewer: a warning
-  bool mixed_pixels = true;  ///< pixels between two colors get the label of the one that they hold more of
+  bool mixed_pixels = true;     ///< pixels between two colors get the label of the one that they hold more of
   ColorModel model = recorded_color_model();  ///< but for `not_glove_prior`, which is measured
 };
 
 /// A color of the glove as a recording shows it.
 struct GloveColor {
-  Chroma seed = Chroma::Zero();    ///< where the seed lies under the recording's light
-  Chroma center = Chroma::Zero();  ///< where the recording's pixels lie
+  Chroma seed = Chroma::Zero();                          ///< where the seed lies under the recording's light
+  Chroma center = Chroma::Zero();                        ///< where the recording's pixels lie
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of their chroma, without camera noise
-  double reach = 0;      ///< how far the center might have gone from the seed
-  std::array<double, 5> lumas{};  ///< Y that 10, 30, 50, 70 and 90% of its pixels lie below
-  double weight = 0;     ///< share of the even pixels in the volume
-  int64_t pixels = 0;    ///< even ones that are this color
-  int frames = 0;        ///< that show it
+  double reach = 0;                                      ///< how far the center might have gone from the seed
+  std::array<double, 5> lumas{};                         ///< Y that 10, 30, 50, 70 and 90% of its pixels lie below
+  double weight = 0;                                     ///< share of the even pixels in the volume
+  int64_t pixels = 0;                                    ///< even ones that are this color
+  int frames = 0;                                        ///< that show it
 };
 
 /// What a pixel's color says by the fitted models: a label, or one of these.
@@ -43,12 +43,12 @@ inline constexpr uint8_t kNotGlove = 0, kUnsure = 255;
 
 /// The ten colors of a recording. Index 0 of `colors` is unused.
 struct GloveColorFit {
-  RecordedLight light;  ///< what brought the seeds to the recording
-  double noise_gray = 0;                ///< camera noise
+  RecordedLight light;    ///< what brought the seeds to the recording
+  double noise_gray = 0;  ///< camera noise
   GloveColorConfig config;
   std::array<GloveColor, kColorCount + 1> colors;
-  std::vector<GloveColor> others;  ///< what else the volume shows much of, such as skin
-  int64_t glove = 0, other = 0, unsure = 0;  ///< even pixels in the volume, by what they are
+  std::vector<GloveColor> others;             ///< what else the volume shows much of, such as skin
+  int64_t glove = 0, other = 0, unsure = 0;   ///< even pixels in the volume, by what they are
   int64_t beyond = 0, beyond_like_glove = 0;  ///< pixels beyond the volume; of those, clutter in the glove's colors
   std::array<int64_t, kColorCount + 1> beyond_like{};  ///< the same by color
 
@@ -59,8 +59,8 @@ struct GloveColorFit {
 
 /// Finds the glove's colors in a recording: the light by all seeds together, then a bell in the chroma plane for
 /// each color, and for what else there is much of, by expectation maximization with an even density for the rest; a
-/// bell stays nearer to its own seed than to another's. Throws Error naming `where`: a recording without frames, with nothing in the volume,
-/// with no glove in view, or the colors that were not seen.
+/// bell stays nearer to its own seed than to another's. Throws Error naming `where`: a recording without frames,
+/// with nothing in the volume, with no glove in view, or the colors that were not seen.
 GloveColorFit fit_glove_colors(const ColorSamples& samples, const ColorSeeds& seeds, const std::string& where,
                                const GloveColorConfig& config = {});
 

@@ -15,8 +15,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Of another frame under the same light: the share of the glove's pixels that are not in a mixed row and get their label,
-/// and that of all others in the volume that get one.
+/// Of another frame under the same light: the share of the glove's pixels that are not in a mixed row and get their
+/// label, and that of all others in the volume that get one.
 struct Shares {
   double right = 0, invented = 0;
 };
@@ -99,7 +99,9 @@ TEST(GloveColors, lie_where_they_lie_although_skin_is_next_to_them) {
 TEST(GloveColors, label_pixels_that_mix_two_colors_by_what_they_hold_more_of) {
   const ColorSamples samples = test_samples({});
   GloveColorFit fit = fit_glove_colors(samples, test_seeds(), "dump");
-  const auto unlabeled = [&] { return separate_colors(samples, fit, build_color_table(samples, fit)).mixed_unlabeled_share; };
+  const auto unlabeled = [&] {
+    return separate_colors(samples, fit, build_color_table(samples, fit)).mixed_unlabeled_share;
+  };
   const double with = unlabeled();
   fit.config.mixed_pixels = false;
   EXPECT_LT(with, 0.8 * unlabeled());

@@ -45,7 +45,8 @@ inline Eigen::Array3d light_at(int u, int v, const TestScene& scene) {
   Eigen::Array3d albedo(0.42, 0.38, 0.33);
   if (stripe == kSkinStripe) albedo = {0.40, 0.23, 0.15};
   if (stripe > 0 && stripe <= kColorCount)
-    albedo = render::glove_albedos(render::Shader::first_subject)[static_cast<size_t>(stripe)].cast<double>().array();
+    albedo =
+        render::glove_albedos(render::Shader::first_subject)[static_cast<size_t>(stripe)].cast<double>().array();
   return albedo * scene.gain * (scene.strength * (0.35 + 0.65 * u / kTestWidth));
 }
 

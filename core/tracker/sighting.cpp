@@ -1,6 +1,7 @@
 #include "core/tracker/sighting.h"
 
 #include "core/kinect/disparity.h"
+#include "core/segmentation/surface_majority.h"
 #include "core/tracker/detection.h"
 
 namespace glovebench {
@@ -16,6 +17,7 @@ Sighting see_in(DepthImage depth, const ColorImage& color, const RgbdCalibration
   observe("segment");
   seen.labels = segment(seen.mapped, table);
   if (config.segmentation.majority_filter) seen.labels = majority_filter(seen.labels);
+  if (config.segmentation.surface_majority) seen.labels = surface_majority(seen.labels, seen.depth);
 
   observe("cloud");
   seen.cloud = build_cloud(seen.depth, seen.labels, calibration.ir, config.volume);
@@ -32,7 +34,7 @@ Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const
              const TrackerConfig& config, const StageObserver& observe, Extent extent) {
   observe("register");
   // A filter over neighbors looks across the border of what is left out.
-  if (extent == Extent::reach && !config.segmentation.majority_filter) {
+  if (extent == Extent::reach && !config.segmentation.majority_filter && !config.segmentation.surface_majority) {
     Sighting seen = see_in(
         depth_from_disparity(frame.raw_disparity, calibration.disparity, config.volume.z_max + kCutOffMargin),
         frame.color, calibration, table, config, observe);

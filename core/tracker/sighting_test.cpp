@@ -67,8 +67,22 @@ TEST(Sighting, within_reach_heeds_the_filters) {
   for (const double z : {0.9, 0.94, 0.95, 0.96, 0.97, 0.98})
     expect_alike(shoot(test_pose({0.02, 0.03, z}, {0.7, 0.2, 0.3})).frame, config);
   config.segmentation.majority_filter = false;
+  config.segmentation.surface_majority = true;
+  for (const double z : {0.9, 0.95, 0.98})
+    expect_alike(shoot(test_pose({0.02, 0.03, z}, {0.7, 0.2, 0.3})).frame, config);
+  config.segmentation.surface_majority = false;
   config.segmentation.largest_component = true;
   expect_alike(shoot(test_pose({0.02, 0.03, 0.9})).frame, config);
+}
+
+TEST(Sighting, with_the_surface_majority_keeps_every_label_and_closes_gaps) {
+  const DeviceFrame frame = shoot(test_pose({0.02, 0.03, 0.7})).frame;
+  TrackerConfig config;
+  const Sighting plain = seen(frame, Extent::everything, config);
+  config.segmentation.surface_majority = true;
+  const Sighting filtered = seen(frame, Extent::everything, config);
+  EXPECT_GE(filtered.cloud.points.size(), plain.cloud.points.size());
+  EXPECT_NE(filtered.labels, plain.labels);
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("registration", "occlusion_tolerance_m", c.registration.occlusion_tolerance, kPositive);
   visit("segmentation", "color_space", c.segmentation.color_space, Range{});
   visit("segmentation", "majority_filter", c.segmentation.majority_filter, Range{});
+  visit("segmentation", "surface_majority", c.segmentation.surface_majority, Range{});
   visit("segmentation", "largest_component", c.segmentation.largest_component, Range{});
   visit("volume", "z_min_m", c.volume.z_min, kPositive);
   visit("volume", "z_max_m", c.volume.z_max, kPositive);

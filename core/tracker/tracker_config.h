@@ -18,6 +18,7 @@ namespace glovebench {
 struct SegmentationConfig {
   ColorSpace color_space = ColorSpace::yuv;  ///< of the color table; the paper's is YUV
   bool majority_filter = false;              ///< 3x3 majority of the labels; not in the paper
+  bool surface_majority = false;             ///< of the neighbors on the same surface (2 cm); not in the paper
   bool largest_component = false;            ///< keep the largest connected component; not in the paper
 };
 

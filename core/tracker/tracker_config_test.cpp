@@ -77,13 +77,13 @@ TEST(TrackerConfig, each_key_changes_its_field_alone) {
       ++fields;
     }
   }
-  EXPECT_EQ(fields, 31);
+  EXPECT_EQ(fields, 32);
 }
 
 TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
   const TrackerConfig config = read(json::parse(R"({
     "registration": {"occlusion_tolerance_m": 0.02},
-    "segmentation": {"color_space": "rgb", "majority_filter": true, "largest_component": true},
+    "segmentation": {"color_space": "rgb", "majority_filter": true, "surface_majority": true, "largest_component": true},
     "volume": {"z_min_m": 0.5, "z_max_m": 0.8},
     "database": {"view_distance_m": 0.6, "field_of_view_deg": 30, "image_size_px": 128, "field_cap_share": 0.4},
     "detection": {"min_pixels": 99, "second_hand_share": 0.2, "component_depth_step_m": 0.03, "max_border_pixels": 3,
@@ -97,6 +97,7 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
   EXPECT_EQ(config.icp.implementation, Implementation::plain);
   EXPECT_EQ(config.segmentation.color_space, ColorSpace::rgb);
   EXPECT_TRUE(config.segmentation.majority_filter);
+  EXPECT_TRUE(config.segmentation.surface_majority);
   EXPECT_TRUE(config.segmentation.largest_component);
   EXPECT_EQ(config.volume.z_min, 0.5);
   EXPECT_EQ(config.volume.z_max, 0.8);
