@@ -1,6 +1,7 @@
-// glovebench_bench [--cache FOLDER] [--database NAME] [--table FILE] [Google Benchmark's options]
+// glovebench_bench [--cache FOLDER] [--database NAME] [--simd NAME] [--table FILE] [Google Benchmark's options]
 
 #include <fmt/format.h>
+#include <hwy/targets.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -21,6 +22,7 @@ std::string default_cache_folder() {
 
 struct Options {
   Settings settings{.cache_folder = default_cache_folder()};
+  std::string simd;   ///< the best instruction set to take, as Highway calls it; empty: the processor's
   std::string table;  ///< Markdown file with the ratios; empty: none
 };
 
@@ -29,12 +31,14 @@ Options parse(int argc, char** argv) {
   Options options;
   const std::map<std::string, std::string*> values = {{"--cache", &options.settings.cache_folder},
                                                       {"--database", &options.settings.database},
+                                                      {"--simd", &options.simd},
                                                       {"--table", &options.table}};
   for (int i = 1; i < argc; i += 2) {
     const auto option = values.find(argv[i]);
     if (option == values.end()) {
-      throw Error("command line", argv[i], "an unknown option",
-                  "--cache FOLDER, --database NAME, --table FILE or an option of Google Benchmark (--help)");
+      throw Error(
+          "command line", argv[i], "an unknown option",
+          "--cache FOLDER, --database NAME, --simd NAME, --table FILE or an option of Google Benchmark (--help)");
     }
     if (i + 1 == argc) throw Error("command line", argv[i], "nothing after it", "a value");
     *option->second = argv[i + 1];
@@ -42,9 +46,23 @@ Options parse(int argc, char** argv) {
   return options;
 }
 
+/// Takes no instruction set that is better than this one.
+void limit_simd(const std::string& name) {
+  std::string known;
+  int64_t allowed = 0;  // the better one has the lower bit
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    known += std::string(known.empty() ? "" : ", ") + hwy::TargetName(target);
+    if (name == hwy::TargetName(target)) allowed = hwy::SupportedTargets() & ~(target - 1);
+  }
+  if (allowed == 0) throw Error("command line", "--simd", name, "one of " + known);
+  hwy::SetSupportedTargetsForTest(allowed);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 int run(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   const Options options = parse(argc, argv);
+  if (!options.simd.empty()) limit_simd(options.simd);
   prepare(options.settings);
   RatioReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);

@@ -1,4 +1,4 @@
-// The closest points of several faces to one point, side by side.
+// The closest points of one face to several points, side by side.
 // Included once for each instruction set (Highway); the guard turns with it.
 #if defined(GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H
@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <cmath>
 #include <limits>
 
 #include "core/pose/closest_point_search.h"
@@ -19,27 +18,20 @@ namespace glovebench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr hn::CappedTag<float, FacePackets::kFaces> kFloats;
+constexpr hn::CappedTag<float, PointGroup::kPoints> kFloats;
 constexpr hn::RebindToSigned<decltype(kFloats)> kInts;
-constexpr hn::CappedTag<float, FacePackets::kBoxes> kBoxFloats;
-constexpr hn::CappedTag<float, PointMemory::kFaces> kListFloats;
-constexpr hn::RebindToSigned<decltype(kListFloats)> kListInts;
 using Floats = hn::VFromD<decltype(kFloats)>;
 using Ints = hn::VFromD<decltype(kInts)>;
 using Mask = decltype(hn::MaskFromVec(Floats()));
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// What the roundings of a distance and of a bound may be, as a share of them: several times 2^-24.
-constexpr float kShare = 1e-6f;
 
 struct Vectors {
   Floats x, y, z;
 };
 
-template <size_t kCount>
-HWY_INLINE Vectors load(const float (&values)[3][kCount], size_t first) {
-  return {hn::Load(kFloats, values[0] + first), hn::Load(kFloats, values[1] + first),
-          hn::Load(kFloats, values[2] + first)};
+HWY_INLINE Vectors set(const float (&v)[3]) {
+  return {hn::Set(kFloats, v[0]), hn::Set(kFloats, v[1]), hn::Set(kFloats, v[2])};
 }
 HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
@@ -60,20 +52,14 @@ HWY_INLINE Floats cross(Floats a, Floats b, Floats c, Floats d) {
 HWY_INLINE Vectors choose(Mask mask, const Vectors& yes, const Vectors& no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
-template <size_t kCount>
-HWY_INLINE void store(const Vectors& v, float (&values)[3][kCount], size_t first) {
-  hn::Store(v.x, kFloats, values[0] + first);
-  hn::Store(v.y, kFloats, values[1] + first);
-  hn::Store(v.z, kFloats, values[2] + first);
-}
 HWY_INLINE Mask all(Mask a, Mask b, Mask c) {
   return hn::And(a, hn::And(b, c));
 }
 
 /// `closest_on_triangle` with exactly its operations in each lane: a difference rounded otherwise would be another
 /// face's victory.
-HWY_INLINE Vectors closest_on_faces(const Vectors& p, const Vectors& a, const Vectors& b, const Vectors& c) {
-  const Vectors ab = b - a, ac = c - a;
+HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& face) {
+  const Vectors a = set(face.a), b = set(face.b), c = set(face.c), ab = set(face.ab), ac = set(face.ac);
   const Vectors ap = p - a, bp = p - b, cp = p - c;
   const Floats d1 = dot(ab, ap), d2 = dot(ac, ap);
   const Floats d3 = dot(ab, bp), d4 = dot(ac, bp);
@@ -107,78 +93,28 @@ HWY_INLINE Vectors closest_on_faces(const Vectors& p, const Vectors& a, const Ve
   return choose(at_a, a, result);
 }
 
-/// What rounding leaves in doubt of a face's distance, seen from so far away.
-template <typename V>
-HWY_INLINE V doubt(V distance, V length, V blur, V slack, V share) {
-  const V reach = hn::Add(distance, length);
-  return hn::Add(hn::Add(slack, hn::Mul(share, distance)), hn::Mul(blur, hn::Mul(reach, reach)));
-}
-HWY_INLINE float doubt(float distance, float length, float blur, float slack) {
-  const float reach = distance + length;
-  return slack + kShare * distance + blur * (reach * reach);
-}
-HWY_INLINE Floats doubt(Floats distance, const FacePackets::Packet& packet, size_t first, float slack) {
-  return doubt(distance, hn::Load(kFloats, packet.length + first), hn::Load(kFloats, packet.blur + first),
-               hn::Set(kFloats, slack), hn::Set(kFloats, kShare));
-}
-
-/// The planes through the closest points, across the way to them: a face, being convex, lies behind its plane. If
-/// rounding has put a closest point beside its place, the plane is tilted; what a face may then stick out is taken
-/// off.
-HWY_INLINE void set_planes(const Vectors& closest, const Vectors& apart, Floats squared,
-                           const FacePackets::Packet& packet, size_t first, float slack, FacePlanes& planes) {
-  const Floats distance = hn::Sqrt(squared), inverse = hn::Div(hn::Set(kFloats, -1.0f), distance);
-  const Vectors normal = inverse * apart;
-  const Floats tilt = hn::NegMulAdd(inverse, hn::Load(kFloats, packet.length + first), hn::Set(kFloats, 2.0f));
-  const Floats sticks_out = hn::Mul(doubt(distance, packet, first, slack), tilt);
-  store(normal, planes.normal, first);
-  hn::Store(hn::Add(dot(normal, closest), sticks_out), kFloats, planes.offset + first);
-  hn::Store(hn::Sub(distance, sticks_out), kFloats, planes.distance + first);
-}
-
-/// The nearest faces so far, a lane each.
+/// The nearest face to each of the points so far.
 struct Nearest {
-  Floats squared = hn::Set(kFloats, kInfinity);
-  Ints face = hn::Set(kInts, -1);
-  Vectors p = {hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)};
-};
+  Floats squared;
+  Ints face;
+  Vectors p;
 
-/// Takes the faces of a packet where they are nearer, or as near and come first, and notes their planes if asked
-/// to. Returns the square of the least distance in the packet.
-template <bool kWithPlanes>
-HWY_INLINE float consider(const Vectors& p, const FacePackets::Packet& packet, float slack, Nearest& nearest,
-                          FacePlanes& planes) {
-  Floats least = hn::Set(kFloats, kInfinity);
-  for (size_t first = 0; first < FacePackets::kFaces; first += hn::Lanes(kFloats)) {
-    const Vectors closest =
-        closest_on_faces(p, load(packet.a, first), load(packet.b, first), load(packet.c, first));
-    const Vectors apart = closest - p;
-    const Floats squared = dot(apart, apart);
-    const Ints face = hn::Load(kInts, packet.face + first);
-    const Mask comes_first =
-        hn::And(hn::Eq(squared, nearest.squared), hn::RebindMask(kFloats, hn::Lt(face, nearest.face)));
-    const Mask better = hn::Or(hn::Lt(squared, nearest.squared), comes_first);
-    nearest.squared = hn::IfThenElse(better, squared, nearest.squared);
-    nearest.face = hn::IfThenElse(hn::RebindMask(kInts, better), face, nearest.face);
-    nearest.p = choose(better, closest, nearest.p);
-    least = hn::IfThenElse(hn::Lt(squared, least), squared, least);  // never one that is not a number
-    if constexpr (kWithPlanes) set_planes(closest, apart, squared, packet, first, slack, planes);
+  HWY_INLINE Nearest()
+      : squared(hn::Set(kFloats, kInfinity)),
+        face(hn::Set(kInts, -1)),
+        p{hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)} {}
+  /// Takes a face where it is nearer, or as near and comes first; never one whose distance is not a number.
+  HWY_INLINE void consider(const Vectors& points, const FacePackets::Face& candidate) {
+    const Vectors closest = closest_on_face(points, candidate), apart = closest - points;
+    const Floats distance2 = dot(apart, apart);
+    const Ints index = hn::Set(kInts, candidate.face);
+    const Mask comes_first = hn::And(hn::Eq(distance2, squared), hn::RebindMask(kFloats, hn::Lt(index, face)));
+    const Mask better = hn::Or(hn::Lt(distance2, squared), comes_first);
+    squared = hn::IfThenElse(better, distance2, squared);
+    face = hn::IfThenElse(hn::RebindMask(kInts, better), index, face);
+    p = choose(better, closest, p);
   }
-  return hn::GetLane(hn::MinOfLanes(kFloats, least));
-}
-
-/// The nearest of all lanes; of equally near ones the first face.
-HWY_INLINE ClosestPoint best_of_lanes(const Nearest& nearest, float squared) {
-  if (!(squared < kInfinity)) return {};
-  const auto is_near = hn::RebindMask(kInts, hn::Eq(nearest.squared, hn::Set(kFloats, squared)));
-  const Ints none = hn::Set(kInts, std::numeric_limits<int32_t>::max());
-  const Ints faces = hn::IfThenElse(is_near, nearest.face, none);
-  const Ints first = hn::MinOfLanes(kInts, faces);
-  const auto lane = static_cast<size_t>(hn::FindFirstTrue(kInts, hn::Eq(faces, first)));
-  alignas(64) float p[3][hn::MaxLanes(kFloats)];
-  store(nearest.p, p, 0);
-  return {Eigen::Vector3f(p[0][lane], p[1][lane], p[2][lane]), std::sqrt(squared), hn::GetLane(first)};
-}
+};
 
 }  // namespace glovebench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

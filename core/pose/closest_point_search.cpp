@@ -13,253 +13,210 @@
 #include <hwy/highway.h>
 
 #include "core/pose/closest_on_faces-inl.h"
-#include "core/pose/packet_looks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace glovebench::HWY_NAMESPACE {
 
-/// The search of one point over the packets of its color. One that is to be remembered takes longer.
-template <bool kRemembered>
-struct Search {
-  const FacePackets& color;
-  const Vectors& p;
-  PacketLook* looks;
-  Nearest nearest = {};
-  float squared = kInfinity;  ///< of the nearest face
-  int packet = 0;             ///< of the nearest face
+constexpr hn::CappedTag<float, FacePackets::kFaces> kFaceFloats;
+constexpr hn::CappedTag<float, FacePackets::kPackets> kPacketFloats;
+constexpr size_t kLanes = hn::MaxLanes(kFloats);
 
-  /// Looks at all faces of a packet, which are then known better than by its box. No branch: which packet is
-  /// nearest cannot be foretold.
-  HWY_INLINE void visit(int i) {
-    PacketLook& look = looks[i / FacePackets::kBoxes];
-    const int place = i % FacePackets::kBoxes;
-    const float found = consider<kRemembered>(p, color.packets[i], color.slack, nearest, look.planes[place]);
-    packet = found < squared ? i : packet;
-    squared = found < squared ? found : squared;
-    look.bounds[place] = kInfinity;
-    look.visited |= 1u << place;
+/// What the roundings of a distance and of a bound may be, as a share of them: several times 2^-24.
+constexpr float kShare = 1e-6f;
+
+/// Around the points of a group.
+struct GroupBox {
+  float low[3], high[3];
+  float diagonal;
+};
+
+HWY_INLINE GroupBox box_of(const Vectors& p) {
+  GroupBox box;
+  float squared = 0;
+  const Floats axes[3] = {p.x, p.y, p.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = hn::GetLane(hn::MinOfLanes(kFloats, axes[axis]));
+    box.high[axis] = hn::GetLane(hn::MaxOfLanes(kFloats, axes[axis]));
+    squared += (box.high[axis] - box.low[axis]) * (box.high[axis] - box.low[axis]);
   }
-  /// No face of a packet whose bound is above this is as near.
-  HWY_INLINE float limit() const { return std::sqrt(squared) * (1 + kShare) + color.slack; }
+  box.diagonal = std::sqrt(squared);
+  return box;
+}
 
-  /// Looks at the packets whose boxes are that near, and have not been looked at.
-  HWY_INLINE void visit_near(float limit) {
-    const int count = static_cast<int>(color.packets.size());
-    for (int first = 0; first < count; first += kMany) {
-      for (uint64_t bits = near_packets(first, limit); bits != 0; bits &= bits - 1)
-        visit(first + std::countr_zero(bits));
-    }
-  }
+/// Some of the boxes as a group sees them.
+template <typename D>
+struct BoxesSeen {
+  hn::VFromD<D> bound;  ///< how near to any point of the group they are
+  hn::VFromD<D>
+      doubt;  ///< what rounding leaves in doubt of the distance of any face in them from any of the points
 
-  /// Lists the faces that may be nearest when the point comes again, having moved a little.
-  HWY_INLINE void remember(float near, PointMemory& memory) const {
-    FaceList list(near);
-    list.add(color, packet, looks);
-    auto others = hn::Set(kBoxFloats, kInfinity);
-    const int count = static_cast<int>(color.packets.size());
-    for (int group = 0; group * FacePackets::kBoxes < count; ++group) {
-      const PacketLook& look = looks[group];
-      for (size_t i = 0; i < FacePackets::kBoxes; i += hn::Lanes(kBoxFloats))
-        others = hn::Min(others, hn::Load(kBoxFloats, look.bounds + i));
-    }
-    for (int first = 0; first < count; first += kMany) {
-      for (uint64_t bits = visited(first); bits != 0; bits &= bits - 1) {
-        const int i = first + std::countr_zero(bits);
-        if (i != packet) list.add(color, i, looks);
-      }
-    }
-    memory.reach = near;
-    memory.others_beyond = std::min(list.copy_to(memory), hn::GetLane(hn::MinOfLanes(kBoxFloats, others)));
-  }
-
- private:
-  /// Packets that a number has a bit for: in one loop over them less is foretold wrongly than in several.
-  static constexpr int kMany = 64;
-
-  HWY_INLINE uint64_t near_packets(int first, float limit) const {
-    const int count = std::min(kMany, static_cast<int>(color.packets.size()) - first);
-    uint64_t bits = 0;
-    for (int i = 0; i < count; i += hn::MaxLanes(kBoxFloats)) {
-      const PacketLook& look = looks[(first + i) / FacePackets::kBoxes];
-      bits |= uint64_t{not_above(look.bounds + i % FacePackets::kBoxes, limit)} << i;
-    }
-    return bits & ~visited(first) & (~uint64_t{0} >> (kMany - count));
-  }
-  HWY_INLINE uint64_t visited(int first) const {
-    const int count = std::min(kMany, static_cast<int>(color.packets.size()) - first);
-    uint64_t bits = 0;
-    for (int i = 0; i < count; i += FacePackets::kBoxes)
-      bits |= uint64_t{looks[(first + i) / FacePackets::kBoxes].visited} << i;
-    return bits;
+  template <int kCount>
+  HWY_INLINE BoxesSeen(D d, const Boxes<kCount>& boxes, size_t first, const GroupBox& group, float slack) {
+    const auto apart = [&](int axis) HWY_ATTR {
+      const auto below = hn::Sub(hn::Load(d, boxes.low[axis] + first), hn::Set(d, group.high[axis]));
+      const auto above = hn::Sub(hn::Set(d, group.low[axis]), hn::Load(d, boxes.high[axis] + first));
+      return hn::Max(hn::Zero(d), hn::Max(below, above));
+    };
+    const auto x = apart(0), y = apart(1), z = apart(2);
+    const auto distance = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+    const auto farthest = hn::Add(distance, hn::Set(d, group.diagonal));
+    const auto reach = hn::Add(farthest, hn::Load(d, boxes.length + first));
+    doubt = hn::MulAdd(hn::Load(d, boxes.blur + first), hn::Mul(reach, reach),
+                       hn::MulAdd(hn::Set(d, kShare), farthest, hn::Set(d, slack)));
+    bound = hn::Sub(distance, doubt);
   }
 };
 
-/// Where in the packets a face is: as a rule in this one. Of equally near faces the first may be in another.
-HWY_INLINE int place_of(int face, const FacePackets& color, int packet) {
-  const auto place_in = [&](int i) {
-    const int32_t* const faces = color.packets[i].face;
-    const auto lane = static_cast<int>(std::find(faces, faces + FacePackets::kFaces, face) - faces);
-    return lane < FacePackets::kFaces ? i * FacePackets::kFaces + lane : -1;
-  };
-  int place = place_in(packet);
-  for (int i = 0; place < 0 && i < static_cast<int>(color.packets.size()); ++i) place = place_in(i);
-  return place;  // -1: no face was found
+template <typename D>
+HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
+  uint8_t bits[8] = {};  // StoreMaskBits may write eight bytes
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0] | uint32_t{bits[1]} << 8;
 }
 
-template <bool kRemembered>
-HWY_INLINE ClosestPoint search_all(const Eigen::Vector3f& p_hand, const FacePackets& color, int start,
-                                   PacketLook* looks, PointMemory& memory) {
-  const Vectors p = {hn::Set(kFloats, p_hand.x()), hn::Set(kFloats, p_hand.y()), hn::Set(kFloats, p_hand.z())};
-  Search<kRemembered> search{color, p, looks};
-  bound_packets(p_hand, color, looks);
-  search.visit(start);
-  // A point that stays is near the packet where it was: what is near it, too, will be wanted.
-  search.visit_near(search.limit() + (kRemembered ? PointMemory::kNear : 0));
-  memory.p_hand = p_hand;
-  memory.others_beyond = -kInfinity;
-  if constexpr (kRemembered) search.remember(search.limit() + PointMemory::kNear, memory);
-  const ClosestPoint closest = best_of_lanes(search.nearest, search.squared);
-  memory.nearest = place_of(closest.face, color, search.packet);
-  return closest;
-}
-
-/// Nothing is listed for a point that comes for the first time, or from so far away that it will not stay.
-HWY_INLINE ClosestPoint search(const Eigen::Vector3f& p_hand, const FacePackets& color, int start,
-                               PacketLook* looks, PointMemory& memory) {
-  const bool stays = memory.nearest >= 0 && (p_hand - memory.p_hand).norm() < PointMemory::kStays;
-  return stays ? search_all<true>(p_hand, color, start, looks, memory)
-               : search_all<false>(p_hand, color, start, looks, memory);
-}
-
-/// Pairs of a point and a face that may be its nearest, those of a point together: to be measured side by side.
-class Contenders {
+/// The search of one group.
+class GroupSearch {
  public:
-  Contenders(std::span<PointMemory> memories, ClosestPoint* results) : memories_(memories), results_(results) {}
+  HWY_INLINE GroupSearch(const FacePackets& color, const Vectors& p, GroupScratch& scratch)
+      : color_(color),
+        p_(p),
+        is_measured_(scratch.is_measured.data()),
+        candidates_(scratch.candidates.data()),
+        doubts_(scratch.doubt.data()) {}
 
-  /// Room for all that one point may bring.
-  HWY_INLINE void make_room() {
-    if (count_ + PointMemory::kFaces > kCapacity) measure();
+  HWY_INLINE void measure(int32_t face) {
+    nearest_.consider(p_, color_.faces[face]);
+    is_measured_[face] = 1;
+    ++measured_count_;
   }
-  HWY_INLINE void add(int point, const Eigen::Vector3f& p, const FacePackets& color, int place) {
-    const FacePackets::Packet& packet = color.packets[place / FacePackets::kFaces];
-    const int face = place % FacePackets::kFaces;
-    for (int axis = 0; axis < 3; ++axis) {
-      p_[axis][count_] = p[axis];
-      a_[axis][count_] = packet.a[axis][face];
-      b_[axis][count_] = packet.b[axis][face];
-      c_[axis][count_] = packet.c[axis][face];
+  /// Measures all faces that may be nearer to a point than the nearest so far. Adds to what was done.
+  HWY_INLINE void measure_near(SearchWork& work) {
+    const Floats so_far =
+        hn::MulAdd(hn::Sqrt(nearest_.squared), hn::Set(kFloats, 1 + kShare), hn::Set(kFloats, color_.slack));
+    const int listed = list_near(hn::GetLane(hn::MaxOfLanes(kFloats, so_far)));
+    int count = 0;
+    for (int i = 0; i < listed; ++i) {  // no branch: which are near cannot be foretold
+      const int32_t face = candidates_[i];
+      candidates_[count] = face;
+      count += is_near(face, hn::Add(so_far, hn::Set(kFloats, doubts_[i])));
     }
-    point_[count_] = point;
-    face_[count_] = packet.face[face];
-    place_[count_++] = place;
+    for (int i = 0; i < count; ++i) nearest_.consider(p_, color_.faces[candidates_[i]]);
+    work.measured += measured_count_ + count;
+    work.boxes += listed;
   }
-  /// Gives each point that is here its nearest face.
-  HWY_INLINE void measure() {
-    for (int i = 0; i < count_; i += hn::MaxLanes(kFloats)) {
-      const Vectors p = load(p_, i);
-      const Vectors closest = closest_on_faces(p, load(a_, i), load(b_, i), load(c_, i)), apart = closest - p;
-      store(closest, p_, i);
-      hn::Store(dot(apart, apart), kFloats, squared_ + i);
-    }
-    for (int i = 0; i < count_;) {
-      const int point = point_[i];
-      // The order of distances, and of faces where they are equal, is that of these numbers. What is not a number
-      // comes after all that are. No branch: which is nearest cannot be foretold.
-      uint64_t least = kNone;
-      int best = i;
-      for (; i < count_ && point_[i] == point; ++i) {
-        const uint64_t key = uint64_t{std::bit_cast<uint32_t>(squared_[i])} << 32 | static_cast<uint32_t>(face_[i]);
-        best = key < least ? i : best;
-        least = key < least ? key : least;
-      }
-      if (least >= kNone) {
-        results_[point] = {};
-        continue;
-      }
-      results_[point] = {Eigen::Vector3f(p_[0][best], p_[1][best], p_[2][best]), std::sqrt(squared_[best]),
-                         face_[best]};
-      memories_[point].nearest = place_[best];
-    }
-    count_ = 0;
-  }
+  const Nearest& nearest() const { return nearest_; }
 
  private:
-  static constexpr int kCapacity = 128;
-  static constexpr uint64_t kNone = uint64_t{std::bit_cast<uint32_t>(kInfinity)} << 32;
-
-  std::span<PointMemory> memories_;
-  ClosestPoint* results_;
-  int count_ = 0;
-  alignas(64) float p_[3][kCapacity] = {}, a_[3][kCapacity] = {}, b_[3][kCapacity] = {}, c_[3][kCapacity] = {};
-  alignas(64) float squared_[kCapacity] = {};
-  int point_[kCapacity], face_[kCapacity], place_[kCapacity];
-};
-
-/// The listed faces, a bit each, whose planes are not farther than the limit.
-HWY_INLINE uint32_t not_behind(const PointMemory& memory, const Eigen::Vector3f& p, float limit) {
-  const auto x = hn::Set(kListFloats, p.x()), y = hn::Set(kListFloats, p.y()), z = hn::Set(kListFloats, p.z());
-  uint32_t faces = 0;
-  for (size_t first = 0; first < PointMemory::kFaces; first += hn::Lanes(kListFloats)) {
-    const auto along = hn::MulAdd(hn::Load(kListFloats, memory.normal[0] + first), x,
-                                  hn::MulAdd(hn::Load(kListFloats, memory.normal[1] + first), y,
-                                             hn::MulSub(hn::Load(kListFloats, memory.normal[2] + first), z,
-                                                        hn::Load(kListFloats, memory.offset + first))));
-    uint8_t bits[8] = {};  // StoreMaskBits may write eight bytes
-    hn::StoreMaskBits(kListFloats, hn::Not(hn::Gt(along, hn::Set(kListFloats, limit))), bits);
-    faces |= (bits[0] | uint32_t{bits[1]} << 8) << first;
-  }
-  return faces;
-}
-
-/// The listed faces of a point, a bit each, that may be its nearest; 0 if a face that is not listed may be it. No
-/// branch: what follows from one point would wait for its square roots.
-HWY_INLINE uint32_t nearest_among_listed(const Eigen::Vector3f& p_hand, const FacePackets& color,
-                                         const PointMemory& memory, const ClosestPoint& last) {
-  // Where the closest point was there still is the face: that was in doubt then, and may be now.
-  const int place = std::max(0, memory.nearest), face = place % FacePackets::kFaces;
-  const FacePackets::Packet& packet = color.packets[place / FacePackets::kFaces];
-  const float apart = (p_hand - last.p_hand).norm(), farther = std::max(apart, last.distance);
-  const float limit =
-      apart * (1 + kShare) + 2 * doubt(farther, packet.length[face], packet.blur[face], color.slack);
-  const float moved = (p_hand - memory.p_hand).norm() * (1 + kShare);
-  const int all = (memory.nearest >= 0) & (limit < memory.others_beyond - moved) & (limit <= memory.reach);
-  return all * not_behind(memory, p_hand, limit);
-}
-
-void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points, std::span<PointMemory> memories,
-                 PacketLook* looks, ClosestPoint* results) {
-  int last_packets[kColorCount + 1] = {};  // the point before is a neighbor
-  Contenders contenders(memories, results);
-  constexpr size_t kBlock = 64;
-  uint32_t listed[kBlock];
-  for (size_t begin = 0; begin < points.size(); begin += kBlock) {
-    const size_t count = std::min(kBlock, points.size() - begin);
-    for (size_t i = 0; i < count; ++i) {
-      const LabeledPoint& point = points[begin + i];
-      const FacePackets& color = colors[point.label];
-      if (color.packets.empty()) continue;
-      PointMemory& memory = memories[begin + i];
-      if (memory.label != point.label) memory = {.label = point.label};
-      listed[i] = nearest_among_listed(point.p, color, memory, results[begin + i]);
+  /// Lists the faces whose box is not farther than that from the box of the group; returns how many.
+  HWY_INLINE int list_near(float limit) {
+    const GroupBox box = box_of(p_);
+    int listed = 0;
+    for (int first = 0; first < color_.packet_count(); first += FacePackets::kPackets) {
+      uint32_t near = 0;
+      for (size_t i = 0; i < FacePackets::kPackets; i += hn::Lanes(kPacketFloats)) {
+        const BoxesSeen seen(kPacketFloats, color_.packet_boxes[first / FacePackets::kPackets], i, box,
+                             color_.slack);
+        near |= bits_of(kPacketFloats, hn::Not(hn::Gt(seen.bound, hn::Set(kPacketFloats, limit)))) << i;
+      }
+      for (near &= (2u << std::min(15, color_.packet_count() - 1 - first)) - 1; near != 0; near &= near - 1)
+        listed = list_packet(first + std::countr_zero(near), box, limit, listed);
     }
-    for (size_t i = 0; i < count; ++i) {
-      const LabeledPoint& point = points[begin + i];
-      const FacePackets& color = colors[point.label];
-      PointMemory& memory = memories[begin + i];
-      if (color.packets.empty()) {
-        results[begin + i] = {};
-      } else if (listed[i] != 0) {
-        contenders.make_room();
-        for (uint32_t bits = listed[i]; bits != 0; bits &= bits - 1)
-          contenders.add(static_cast<int>(begin + i), point.p, color, memory.place[std::countr_zero(bits)]);
-      } else {
-        const int start = memory.nearest >= 0 ? memory.nearest / FacePackets::kFaces : last_packets[point.label];
-        results[begin + i] = search(point.p, color, start, looks, memory);
-        last_packets[point.label] = std::max(0, memory.nearest) / FacePackets::kFaces;
+    return listed;
+  }
+  HWY_INLINE int list_packet(int packet, const GroupBox& box, float limit, int listed) {
+    for (size_t first = 0; first < FacePackets::kFaces; first += hn::Lanes(kFaceFloats)) {
+      const BoxesSeen seen(kFaceFloats, color_.face_boxes[packet], first, box, color_.slack);
+      alignas(64) float doubt[hn::MaxLanes(kFaceFloats)];
+      hn::Store(seen.doubt, kFaceFloats, doubt);
+      const uint32_t near = bits_of(kFaceFloats, hn::Not(hn::Gt(seen.bound, hn::Set(kFaceFloats, limit))));
+      for (size_t i = 0; i < hn::Lanes(kFaceFloats); ++i) {  // no branch, and no CompressStore: it copies a table
+        candidates_[listed] = packet * FacePackets::kFaces + static_cast<int32_t>(first + i);
+        doubts_[listed] = doubt[i];
+        listed += static_cast<int>(near >> i & 1);
       }
     }
+    return listed;
   }
-  contenders.measure();
+  /// A face that was not measured, whose box is not farther than that from each point.
+  HWY_INLINE int is_near(int32_t face, Floats limit) const {
+    const Boxes<FacePackets::kFaces>& boxes = color_.face_boxes[face / FacePackets::kFaces];
+    const int i = face % FacePackets::kFaces;
+    const auto apart = [&](int axis, Floats at) HWY_ATTR {
+      const Floats below = hn::Sub(hn::Set(kFloats, boxes.low[axis][i]), at);
+      const Floats above = hn::Sub(at, hn::Set(kFloats, boxes.high[axis][i]));
+      return hn::Max(hn::Zero(kFloats), hn::Max(below, above));
+    };
+    const Floats x = apart(0, p_.x), y = apart(1, p_.y), z = apart(2, p_.z);
+    const Floats squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    return !hn::AllTrue(kFloats, hn::Gt(squared, hn::Mul(limit, limit))) & !is_measured_[face];
+  }
+
+  const FacePackets& color_;
+  const Vectors& p_;
+  uint8_t* is_measured_;
+  int32_t* candidates_;
+  float* doubts_;
+  Nearest nearest_;
+  int measured_count_ = 0;  ///< by `measure`
+};
+
+HWY_INLINE Vectors gather(std::span<const LabeledPoint> points, const PointGroup& group) {
+  alignas(64) float p[3][kLanes];
+  for (size_t i = 0; i < kLanes; ++i)
+    for (int axis = 0; axis < 3; ++axis) p[axis][i] = points[group.points[i]].p[axis];
+  return {hn::Load(kFloats, p[0]), hn::Load(kFloats, p[1]), hn::Load(kFloats, p[2])};
+}
+
+/// To their places; and notes which faces they are.
+HWY_INLINE void scatter(const Nearest& nearest, const FacePackets& color, uint8_t* noted, PointGroup& group,
+                        ClosestPoint* results) {
+  alignas(64) float p[3][kLanes], distance[kLanes];
+  alignas(64) int32_t face[kLanes];
+  hn::Store(nearest.p.x, kFloats, p[0]);
+  hn::Store(nearest.p.y, kFloats, p[1]);
+  hn::Store(nearest.p.z, kFloats, p[2]);
+  const Mask none = hn::Eq(nearest.squared, hn::Set(kFloats, kInfinity));
+  hn::Store(hn::IfThenZeroElse(none, hn::Sqrt(nearest.squared)), kFloats, distance);
+  hn::Store(nearest.face, kInts, face);
+  group.nearest_count = 0;
+  for (int i = 0; i < group.count; ++i) {
+    results[group.points[i]] = {Eigen::Vector3f(p[0][i], p[1][i], p[2][i]), distance[i], face[i]};
+    const int32_t place = color.place[std::max(0, face[i])];
+    group.nearest[group.nearest_count] = place;
+    group.nearest_count += !noted[place];
+    noted[place] = 1;
+  }
+  for (int i = 0; i < group.nearest_count; ++i) noted[group.nearest[i]] = 0;
+}
+
+void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points, std::span<PointGroup> groups,
+                 GroupScratch& scratch, ClosestPoint* results, SearchWork& work) {
+  const PointGroup* before = nullptr;
+  for (PointGroup& group : groups) {
+    const FacePackets& color = colors[group.label];
+    if (color.faces.empty()) {
+      for (int i = 0; i < group.count; ++i) results[group.points[i]] = {};
+      continue;
+    }
+    const Vectors p = gather(points, group);
+    GroupSearch search(color, p, scratch);
+    // At first the group before is a neighbor; if there is none, a face of each packet will do.
+    const bool has_neighbor = before != nullptr && before->label == group.label;
+    const PointGroup& start = group.nearest_count > 0 || !has_neighbor ? group : *before;
+    for (int i = 0; i < start.nearest_count; ++i) search.measure(start.nearest[i]);
+    if (start.nearest_count == 0)
+      for (size_t face = 0; face < color.faces.size(); face += FacePackets::kFaces) search.measure(face);
+    search.measure_near(work);
+    std::fill_n(scratch.is_measured.begin(), color.faces.size(), 0);
+    scatter(search.nearest(), color, scratch.is_measured.data(), group, results);
+    ++work.groups;
+    work.nearest += group.nearest_count;
+    before = &group;
+  }
+}
+
+size_t LaneCount() {
+  return kLanes;
 }
 
 }  // namespace glovebench::HWY_NAMESPACE
@@ -269,23 +226,54 @@ HWY_AFTER_NAMESPACE();
 namespace glovebench {
 namespace {
 HWY_EXPORT(FindClosest);
+HWY_EXPORT(LaneCount);
 }  // namespace
 
 void ClosestPointSearch::start(const Surface& surface) {
-  size_t boxes = 0;
+  middles_.clear();
+  for (uint8_t label = 0; label < colors_.size(); ++label)
+    for (const Surface::Face& face : surface.faces(label))
+      middles_.push_back({(face.a + face.b + face.c) / 3, label});
+  size_t most = 0;
+  std::span<const uint32_t> order = order_(middles_);
+  uint32_t first = 0;
   for (uint8_t label = 0; label < colors_.size(); ++label) {
-    colors_[label].assign(surface.faces(label));
-    boxes = std::max(boxes, colors_[label].boxes.size());
+    const std::span<const Surface::Face> faces = surface.faces(label);
+    colors_[label].assign(faces, order.first(faces.size()), first);
+    order = order.subspan(faces.size());
+    first += static_cast<uint32_t>(faces.size());
+    most = std::max(most, colors_[label].faces.size());
   }
-  looks_.resize(boxes);
-  memory_.clear();
+  scratch_.is_measured.assign(most, 0);
+  constexpr size_t kBehind = FacePackets::kFaces;  // where a compressing store may write
+  scratch_.candidates.resize(most + kBehind);
+  scratch_.doubt.resize(most + kBehind);
+  for (PointGroup& group : groups_) group.nearest_count = 0;
+}
+
+void ClosestPointSearch::group(std::span<const LabeledPoint> points_hand) {
+  if (std::ranges::equal(points_hand, labels_, {}, &LabeledPoint::label)) return;
+  labels_.clear();
+  for (const LabeledPoint& point : points_hand) labels_.push_back(point.label);
+  const size_t lanes = HWY_DYNAMIC_DISPATCH(LaneCount)();
+  groups_.clear();
+  std::span<const uint32_t> order = order_(points_hand);
+  while (!order.empty()) {
+    PointGroup& group = groups_.emplace_back();
+    group.label = points_hand[order.front()].label;
+    while (group.count < static_cast<int>(lanes) && !order.empty() &&
+           points_hand[order.front()].label == group.label) {
+      group.points[group.count++] = static_cast<int32_t>(order.front());
+      order = order.subspan(1);
+    }
+    std::fill(group.points + group.count, group.points + lanes, group.points[group.count - 1]);
+  }
 }
 
 const RecycledVector<ClosestPoint>& ClosestPointSearch::operator()(std::span<const LabeledPoint> points_hand) {
-  memory_.resize(points_hand.size());
+  group(points_hand);
   closest_.resize(points_hand.size());
-  HWY_DYNAMIC_DISPATCH(FindClosest)
-  (colors_.data(), points_hand, memory_, looks_.data(), closest_.data());
+  HWY_DYNAMIC_DISPATCH(FindClosest)(colors_.data(), points_hand, groups_, scratch_, closest_.data(), work_);
   return closest_;
 }
 

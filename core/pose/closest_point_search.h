@@ -5,58 +5,65 @@
 
 #include "core/pose/closest_point.h"
 #include "core/pose/face_packets.h"
+#include "core/pose/place_order.h"
 
 namespace glovebench {
 
-/// What a point remembers of its last search over all packets: faces that are near, each with a plane behind which
-/// it lies, `normal` being of unit length towards the point. As far as rounding can be trusted, the face is at
-/// least normal * p - offset away from any p that is up to `reach` from its nearest face, m.
-struct alignas(64) PointMemory {
-  static constexpr int kFaces = 16;
-  static constexpr float kNear = 0.002f;   ///< m: farther than the nearest face, others are not worth a place
-  static constexpr float kStays = 0.004f;  ///< m: what moves farther than this will go on moving
+/// Neighbors of one color, which are searched for together: a lane each.
+struct PointGroup {
+  static constexpr int kPoints = 16;  ///< at most; fewer where an instruction set has fewer lanes
 
-  float normal[3][kFaces] = {}, offset[kFaces] = {};
-  int32_t place[kFaces] = {};                        ///< in the packets
-  Eigen::Vector3f p_hand = Eigen::Vector3f::Zero();  ///< where it was then
-  float others_beyond = 0;                           ///< all other faces are at least this far from p_hand, m
-  float reach = 0;
-  int nearest = -1;   ///< the place of the closest face, also of later looks; -1 if there is none
-  uint8_t label = 0;  ///< whose packets these are
+  int32_t points[kPoints];   ///< their indices; the last one is repeated
+  int32_t nearest[kPoints];  ///< the faces nearest to them at the last call, each once: in FacePackets::faces
+  int count = 0;             ///< of the points
+  int nearest_count = 0;     ///< 0 before the first call on a surface
+  uint8_t label = 0;
 };
 
-/// Of the faces of a packet that was visited.
-struct alignas(64) FacePlanes {
-  float normal[3][FacePackets::kFaces], offset[FacePackets::kFaces];  ///< as in PointMemory
-  float distance[FacePackets::kFaces];                                ///< at least, m
+/// What the search of one group makes on its way, with room for all faces of a color; reused.
+struct GroupScratch {
+  RecycledVector<uint8_t> is_measured;  ///< of each face; all 0 between two groups
+  RecycledVector<int32_t> candidates;   ///< in FacePackets::faces
+  RecycledVector<float> doubt;          ///< what rounding leaves in doubt of a candidate's distance, m
 };
-/// What a search of one point knows of some packets.
-struct alignas(64) PacketLook {
-  float bounds[FacePackets::kBoxes];  ///< how near the faces of a packet that was not visited can be, m
-  FacePlanes planes[FacePackets::kBoxes];
-  uint32_t visited;  ///< a bit each
+
+/// What a search did, over all its calls: says what it costs.
+struct SearchWork {
+  int64_t groups = 0;    ///< searched for
+  int64_t nearest = 0;   ///< faces that are nearest to a point of a group: what no search can leave out
+  int64_t measured = 0;  ///< faces, each against all points of a group
+  int64_t boxes = 0;     ///< of faces, each against all points of a group
 };
 
 /// The answer of `closest_points_plain`, bit for bit and on every instruction set (on very thin faces as far as
-/// `rounding_blur` bounds their rounding), faster, for points that move little from call to call. Packets of
-/// neighboring faces are measured together (Highway); a packet whose box is farther than the nearest face so far is
-/// passed over; and while a point has moved less than would bring another packet nearer, it measures the faces of
-/// those near it alone that their planes do not rule out: few more than one. One object follows one set of points
-/// on one surface; it keeps its buffers, and after the first call nothing is allocated.
+/// `rounding_blur` bounds their rounding), faster. Points of a color that lie together are measured together
+/// (Highway: a lane each): first against the faces that were nearest to any of them at the call before, then
+/// against each face whose box is not farther from every one of them than the nearest so far. Nothing else is
+/// remembered: what would say which faces to leave out takes as long to keep as to find again. One object follows
+/// one set of points, which should move little from call to call and as a whole; it keeps its buffers, and after
+/// the first call nothing is allocated.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;
   explicit ClosestPointSearch(const Surface& surface) { start(surface); }
-  /// The points forget where they were: another surface, or others of its faces. The surface is copied.
+  /// Another surface, or others of its faces; the points may stay the same. The surface is copied.
   void start(const Surface& surface);
   /// Valid until the next call.
   const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);
+  const SearchWork& work() const { return work_; }
 
  private:
+  /// Unless they have the labels that they had.
+  void group(std::span<const LabeledPoint> points_hand);
+
   std::array<FacePackets, kColorCount + 1> colors_;
-  RecycledVector<PointMemory> memory_;
-  RecycledVector<PacketLook> looks_;  ///< of one point at the packets of its color; reused
+  PlaceOrder order_;
+  RecycledVector<LabeledPoint> middles_;  ///< of the faces; reused by `start`
+  RecycledVector<uint8_t> labels_;        ///< of the points that are grouped
+  RecycledVector<PointGroup> groups_;
+  GroupScratch scratch_;
   RecycledVector<ClosestPoint> closest_;
+  SearchWork work_;
 };
 
 }  // namespace glovebench

@@ -9,71 +9,57 @@ namespace glovebench {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// Where the boxes of no packet are, m: farther than anything whose distance can be squared.
+/// Where the boxes of nothing are, m: farther than anything whose distance can be squared.
 constexpr float kFar = 1e18f;
-
-/// Orders faces so that each run of kFaces is compact: halves them across the longest extent of their middles, at a
-/// multiple of kFaces, and each half again.
-void sort_into_packets(std::span<int32_t> order, std::span<const Eigen::Vector3f> middles) {
-  constexpr size_t kFaces = FacePackets::kFaces;
-  if (order.size() <= kFaces) return;
-  Eigen::AlignedBox3f box;
-  for (const int32_t face : order) box.extend(middles[face]);
-  int axis = 0;
-  box.sizes().maxCoeff(&axis);
-  const size_t packets = (order.size() + kFaces - 1) / kFaces;
-  const size_t left = packets / 2 * kFaces;
-  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(left), order.end(),
-                   [&](int32_t x, int32_t y) { return middles[x][axis] < middles[y][axis]; });
-  sort_into_packets(order.first(left), middles);
-  sort_into_packets(order.subspan(left), middles);
-}
 
 float longest_edge2(const Surface::Face& face) {
   return std::max(
       {(face.b - face.a).squaredNorm(), (face.c - face.a).squaredNorm(), (face.c - face.b).squaredNorm()});
 }
 
-FacePackets::Packet make_packet(std::span<const int32_t> order, std::span<const Surface::Face> faces) {
-  FacePackets::Packet packet;
-  for (int i = 0; i < FacePackets::kFaces; ++i) {
-    packet.face[i] = order[std::min<size_t>(i, order.size() - 1)];
-    const Surface::Face& face = faces[packet.face[i]];
-    for (int axis = 0; axis < 3; ++axis) {
-      packet.a[axis][i] = face.a[axis];
-      packet.b[axis][i] = face.b[axis];
-      packet.c[axis][i] = face.c[axis];
-    }
-    packet.length[i] = std::sqrt(longest_edge2(face));
-    packet.blur[i] = rounding_blur(face);
-  }
-  return packet;
-}
-
-void set_box(FacePackets::Boxes& boxes, int i, const FacePackets::Packet& packet) {
-  boxes.blur[i] = *std::ranges::max_element(packet.blur);
-  // A face that rounding may put anywhere (or that is not finite) is looked at from everywhere.
-  const bool boundless = !(boxes.blur[i] < kInfinity);
-  boxes.length[i] = boundless ? 1 : *std::ranges::max_element(packet.length);
+FacePackets::Face make_face(const Surface::Face& face, int32_t index) {
+  FacePackets::Face result;
   for (int axis = 0; axis < 3; ++axis) {
-    boxes.low[axis][i] = -kInfinity;
-    boxes.high[axis][i] = kInfinity;
-    if (boundless) continue;
-    const auto [low_a, high_a] = std::ranges::minmax(packet.a[axis]);
-    const auto [low_b, high_b] = std::ranges::minmax(packet.b[axis]);
-    const auto [low_c, high_c] = std::ranges::minmax(packet.c[axis]);
-    boxes.low[axis][i] = std::min({low_a, low_b, low_c});
-    boxes.high[axis][i] = std::max({high_a, high_b, high_c});
+    result.a[axis] = face.a[axis];
+    result.b[axis] = face.b[axis];
+    result.c[axis] = face.c[axis];
+    result.ab[axis] = face.b[axis] - face.a[axis];
+    result.ac[axis] = face.c[axis] - face.a[axis];
   }
+  result.face = index;
+  return result;
 }
 
-FacePackets::Boxes boxes_of_none() {
-  FacePackets::Boxes boxes;
-  for (int i = 0; i < FacePackets::kBoxes; ++i) {
+template <int kCount>
+Boxes<kCount> boxes_of_nothing() {
+  Boxes<kCount> boxes;
+  for (int i = 0; i < kCount; ++i) {
     for (int axis = 0; axis < 3; ++axis) boxes.low[axis][i] = boxes.high[axis][i] = kFar;
     boxes.length[i] = boxes.blur[i] = 0;
   }
   return boxes;
+}
+
+/// A face that rounding may put anywhere (or that is not finite) is looked at from everywhere.
+void set_box(Boxes<FacePackets::kFaces>& boxes, int i, const Surface::Face& face) {
+  boxes.blur[i] = rounding_blur(face);
+  const bool boundless = !(boxes.blur[i] < kInfinity);
+  boxes.length[i] = boundless ? 1 : std::sqrt(longest_edge2(face));
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.low[axis][i] = boundless ? -kInfinity : std::min({face.a[axis], face.b[axis], face.c[axis]});
+    boxes.high[axis][i] = boundless ? kInfinity : std::max({face.a[axis], face.b[axis], face.c[axis]});
+  }
+}
+
+/// Around the first `count` boxes of a packet.
+void set_box(Boxes<FacePackets::kPackets>& boxes, int i, const Boxes<FacePackets::kFaces>& packet, size_t count) {
+  const auto most = [count](const float* values) { return *std::max_element(values, values + count); };
+  for (int axis = 0; axis < 3; ++axis) {
+    boxes.low[axis][i] = *std::min_element(packet.low[axis], packet.low[axis] + count);
+    boxes.high[axis][i] = most(packet.high[axis]);
+  }
+  boxes.length[i] = most(packet.length);
+  boxes.blur[i] = most(packet.blur);
 }
 
 }  // namespace
@@ -89,28 +75,31 @@ float rounding_blur(const Surface::Face& face) {
   return 2 * 4 * kAreas * std::sqrt(length2) / height2;
 }
 
-void FacePackets::assign(std::span<const Surface::Face> faces) {
-  order_.clear();
-  middles_.clear();
-  packets.clear();
-  boxes.clear();
+void FacePackets::assign(std::span<const Surface::Face> surface_faces, std::span<const uint32_t> order,
+                         uint32_t first_index) {
+  faces.clear();
+  face_boxes.clear();
+  packet_boxes.clear();
+  place.resize(surface_faces.size());
   slack = 0;
-  for (const Surface::Face& face : faces) {
-    const Eigen::Vector3f middle = (face.a + face.b + face.c) / 3;
-    order_.push_back(static_cast<int32_t>(order_.size()));
-    middles_.push_back(middle.allFinite() ? middle : Eigen::Vector3f::Zero());  // what is not finite has no order
-    slack = std::max(slack, middles_.back().lpNorm<Eigen::Infinity>());
+  for (size_t first = 0; first < order.size(); first += kFaces) {
+    const std::span<const uint32_t> some = order.subspan(first, std::min<size_t>(kFaces, order.size() - first));
+    Boxes<kFaces>& boxes = face_boxes.emplace_back(boxes_of_nothing<kFaces>());
+    for (int i = 0; i < kFaces; ++i) {
+      const auto index = static_cast<int32_t>(some[std::min<size_t>(i, some.size() - 1)] - first_index);
+      const Surface::Face& face = surface_faces[index];
+      faces.push_back(make_face(face, index));
+      if (i >= static_cast<int>(some.size())) continue;
+      place[index] = static_cast<int32_t>(first) + i;
+      set_box(boxes, i, face);
+      const Eigen::Vector3f middle = (face.a + face.b + face.c) / 3;
+      if (middle.allFinite()) slack = std::max(slack, middle.lpNorm<Eigen::Infinity>());
+    }
+    const int packet = static_cast<int>(first / kFaces) % kPackets;
+    if (packet == 0) packet_boxes.push_back(boxes_of_nothing<kPackets>());
+    set_box(packet_boxes.back(), packet, boxes, some.size());
   }
   slack *= 1e-6f;  // a few roundings of the largest coordinate
-  sort_into_packets(order_, middles_);
-  const std::span<const int32_t> order(order_);
-  for (size_t first = 0; first < order.size(); first += kFaces) {
-    const std::span<const int32_t> some = order.subspan(first, std::min<size_t>(kFaces, order.size() - first));
-    const int place = static_cast<int>(packets.size()) % kBoxes;
-    if (place == 0) boxes.push_back(boxes_of_none());
-    packets.push_back(make_packet(some, faces));
-    set_box(boxes.back(), place, packets.back());
-  }
 }
 
 }  // namespace glovebench
