@@ -1,0 +1,99 @@
+#pragma once
+
+// A bus of its own for each test of the middleware, on the loopback interface.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "eval/test_program.h"
+
+namespace glovebench::eval {
+
+/// Cyclone DDS for a sandbox: one interface, no multicast.
+inline const char* const kLoopbackDds =
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General><Discovery><Peers><Peer address=\"127.0.0.1\"/></Peers>"
+    "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>60</MaxAutoParticipantIndex></Discovery>"
+    "</Domain></CycloneDDS>";
+
+/// Asks again and again; whether it came true within a time in which it should by far.
+template <typename Condition>
+bool comes_true(const Condition& condition) {
+  for (int i = 0; i < 2000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// A domain that no other run has, and other processes in it.
+class DdsBus : public testing::Test {
+ protected:
+  void SetUp() override {
+    setenv("CYCLONEDDS_URI", kLoopbackDds, 1);
+    folder_ = make_test_folder();
+    domain_ = std::to_string(std::uniform_int_distribution(1, 200)(random_));
+  }
+  void TearDown() override {
+    for (const StartedProgram& program : running_) {
+      kill(program.process, SIGKILL);
+      finish_program(program);
+    }
+    std::filesystem::remove_all(folder_);
+  }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  StartedProgram start(std::vector<std::string> command) {
+    running_.push_back(start_program(command));
+    return running_.back();
+  }
+  ProgramRun finish(const StartedProgram& program) {
+    std::erase_if(running_, [&](const StartedProgram& other) { return other.process == program.process; });
+    return finish_program(program);
+  }
+  ProgramRun stop(const StartedProgram& program, int signal) {
+    kill(program.process, signal);
+    return finish(program);
+  }
+
+  /// Prints what arrives until nothing has for a second, or for longer.
+  StartedProgram listen(const std::string& seconds = "1.5") {
+    const StartedProgram listener = start({GLOVEBENCH_DDS_PROBE, "listen", domain_, seconds});
+    EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
+    return listener;
+  }
+  /// Does what a script of the probe says.
+  StartedProgram talk(const std::string& script) {
+    const std::string file = path("script-" + std::to_string(scripts_++));
+    write_file(file, script);
+    return start({GLOVEBENCH_DDS_PROBE, "talk", domain_, file});
+  }
+  static std::string said(const StartedProgram& program) {
+    return std::filesystem::exists(program.out) ? read_file(program.out) : "";
+  }
+
+  /// The lines of a topic, in order.
+  static std::vector<std::string> lines_of(const std::string& topic, const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream all(text);
+    for (std::string line; std::getline(all, line);)
+      if (line.starts_with(topic + " ")) lines.push_back(line);
+    return lines;
+  }
+
+  std::random_device random_;
+  std::string folder_, domain_;
+  std::vector<StartedProgram> running_;
+  int scripts_ = 0;
+};
+
+}  // namespace glovebench::eval
