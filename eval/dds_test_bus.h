@@ -17,12 +17,17 @@
 
 namespace glovebench::eval {
 
-/// Cyclone DDS for a sandbox: one interface, no multicast.
-inline const char* const kLoopbackDds =
-    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><Peers><Peer address=\"127.0.0.1\"/></Peers>"
-    "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>60</MaxAutoParticipantIndex></Discovery>"
-    "</Domain></CycloneDDS>";
+/// This process and those that it starts get a Cyclone DDS for a sandbox: one interface, no multicast, and a tag
+/// that keeps apart what runs at the same time.
+inline void use_loopback_dds() {
+  const std::string uri =
+      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+      "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>glovebench-" +
+      std::to_string(getpid()) + "-" + std::to_string(std::random_device()()) +
+      "</Tag><Peers><Peer address=\"127.0.0.1\"/></Peers><ParticipantIndex>auto</ParticipantIndex>"
+      "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>";
+  setenv("CYCLONEDDS_URI", uri.c_str(), 1);
+}
 
 /// Asks again and again; whether it came true within a time in which it should by far.
 template <typename Condition>
@@ -34,13 +39,12 @@ bool comes_true(const Condition& condition) {
   return false;
 }
 
-/// A domain that no other run has, and other processes in it.
+/// A bus that no other run is on, and other processes on it.
 class DdsBus : public testing::Test {
  protected:
   void SetUp() override {
-    setenv("CYCLONEDDS_URI", kLoopbackDds, 1);
+    use_loopback_dds();
     folder_ = make_test_folder();
-    domain_ = std::to_string(std::uniform_int_distribution(1, 200)(random_));
   }
   void TearDown() override {
     for (const StartedProgram& program : running_) {
@@ -90,8 +94,8 @@ class DdsBus : public testing::Test {
     return lines;
   }
 
-  std::random_device random_;
-  std::string folder_, domain_;
+  std::string folder_;
+  std::string domain_ = "7";
   std::vector<StartedProgram> running_;
   int scripts_ = 0;
 };

@@ -7,6 +7,8 @@
 #include "eval/test_program.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/angles.h"
+#include "core/robot/arm_follower.h"
+#include "core/robot/command_guard.h"
 #include "core/robot/server/command_messages.h"
 #include "eval/dds_test_bus.h"
 #endif
@@ -20,17 +22,13 @@ using testing::HasSubstr;
 
 #ifdef GLOVEBENCH_DDS
 
-constexpr double kSpeed = 2;           // rad/s: what the guard grants a joint of the hand
 constexpr double kRounded = 3e-6;      // degrees: two angles of a log
 constexpr double kLongestStepS = 0.1;  // what the guard takes as the time of one step, at most
 
 class RobotServer : public DdsBus {
  protected:
   StartedProgram serve(const std::string& side, const std::string& log) {
-    const StartedProgram server =
-        start({GLOVEBENCH_PROGRAM, "robot-server", side, "--robot", "dds:" + domain_, "--log", log});
-    served_ = log;
-    return server;
+    return start({GLOVEBENCH_PROGRAM, "robot-server", side, "--robot", "dds:" + domain_, "--log", log});
   }
   /// A server that has begun, as its log shows.
   StartedProgram serve_until_ready(const std::string& side, const std::string& log) {
@@ -70,26 +68,30 @@ class RobotServer : public DdsBus {
   static double last_angle(const std::string& log, const std::string& joint) {
     return lines(log, "state").back().at("position_deg").at(joint).get<double>();
   }
-  /// From one state to the next no joint of the hand moves farther than its speed allows, also not across a
-  /// restart.
+  /// rad/s: what the guard grants a joint of the hand, or the arm's own.
+  static double speed(const std::string& joint) {
+    for (const ArmJointInfo& info : arm_joint_infos())
+      if (info.name == joint) return radians_from_degrees(info.max_speed_deg_s);
+    return CommandLimits().hand_joint_speed;
+  }
+  /// From one state to the next no joint moves farther than its speed allows, also not across a restart.
   static void expect_safe(const std::string& log) {
     const std::vector<json> states = lines(log, "state");
     ASSERT_GE(states.size(), 2U);
     for (size_t i = 1; i < states.size(); ++i) {
-      const double seconds = 1e-6 * static_cast<double>(states[i].at("clock_us").get<int64_t>() -
-                                                        states[i - 1].at("clock_us").get<int64_t>());
-      ASSERT_GT(seconds, 0);
-      const double farthest_deg = degrees_from_radians(kSpeed * std::min(seconds, kLongestStepS)) + kRounded;
+      const auto clock_us = [&](size_t at) { return states[at].at("clock_us").get<int64_t>(); };
+      ASSERT_GT(clock_us(i), clock_us(i - 1));
+      const double seconds = std::min(1e-6 * static_cast<double>(clock_us(i) - clock_us(i - 1)), kLongestStepS);
       for (const auto& [name, angle] : states[i].at("position_deg").items()) {
-        ASSERT_LE(std::abs(angle.get<double>() - states[i - 1].at("position_deg").at(name).get<double>()),
-                  farthest_deg)
-            << name << " in state " << i;
+        const double way_deg =
+            std::abs(angle.get<double>() - states[i - 1].at("position_deg").at(name).get<double>());
+        ASSERT_LE(way_deg, degrees_from_radians(speed(name) * seconds) + kRounded) << name << " in state " << i;
       }
     }
   }
-
-  std::string served_;
 };
+
+class RobotServerLong : public RobotServer {};
 
 TEST_F(RobotServer, FollowsAStreamSaysWhereTheJointsAreAndEndsCleanly) {
   const std::string log = path("hand.jsonl");
@@ -175,7 +177,7 @@ TEST_F(RobotServer, HoldsAndStopsWhenItsSenderDiesAndFollowsTheNext) {
   expect_safe(log);
 }
 
-TEST_F(RobotServer, GoesOnWhereItWasKilled) {
+TEST_F(RobotServerLong, GoesOnWhereItWasKilled) {
   const std::string log = path("hand.jsonl");
   StartedProgram server = serve_until_ready("hand", log);
   std::string script = "wait hand\n";  // to and fro, so that it is always on its way
@@ -219,6 +221,98 @@ TEST_F(RobotServer, RefusesLogsOfOthers) {
   run = finish(serve("foot", path("log")));
   EXPECT_EQ(run.exit_code, 2);
 }
+
+#ifdef GLOVEBENCH_ARM
+
+/// Where the wrist is when the arm is at rest.
+Eigen::Isometry3d wrist_at_rest() {
+  return arm_flange_pose(kArmAtRest) * default_T_flange_wrist();
+}
+
+/// A pose that far from there, as a line for the probe.
+std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame = "base_link") {
+  const Eigen::Isometry3d T = wrist_at_rest();
+  const Eigen::Vector3d p = T.translation() + way;
+  const Eigen::Quaterniond q(T.linear());
+  return fmt::format("pose {} 0 {} {} {} {} {} {} {} {}\n", sec, frame, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(),
+                     q.w());
+}
+
+/// Where the wrist is at the end of a log.
+Eigen::Vector3d last_wrist(const json& state) {
+  ArmJoints joints;
+  for (int j = 0; j < kArmJointCount; ++j)
+    joints[j] =
+        radians_from_degrees(state.at("position_deg").at(std::string(arm_joint_infos()[j].name)).get<double>());
+  return (arm_flange_pose(joints) * default_T_flange_wrist()).translation();
+}
+
+TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
+  const std::string log = path("arm.jsonl");
+  const StartedProgram server = serve_until_ready("arm", log);
+  const Eigen::Vector3d way(-0.05, 0.08, -0.03);
+  finish(talk("wait pose\n" + pose(way, 1) + "again 60 10000\n"));
+  const ProgramRun run = stop(server, SIGTERM);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("arm: messages: 61 accepted; streams: 1;"));
+  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back());
+  EXPECT_LT((wrist - wrist_at_rest().translation() - way).norm(), 1e-4) << wrist.transpose();
+  expect_safe(log);
+}
+
+TEST_F(RobotServerLong, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
+  const std::string log = path("arm.jsonl");
+  const StartedProgram server = serve_until_ready("arm", log);
+  finish(talk("wait pose\n" + pose({0, 0, 0}, 10) + pose({0, 0.1, 0}, 11, "world") +
+              pose({0, std::nan(""), 0}, 11) + pose({0, 0.1, 0}, 9) + "pose 12 0 base_link 0.5 0 0.5 0 0 0 2\n" +
+              pose({50, 0, 0}, 20) + "again 600 10000\n"));
+  const ProgramRun run = stop(server, SIGTERM);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("messages: 602 accepted, 1 not_finite, 1 not_rotation, 1 wrong_frame, 1 went_back;"),
+                    HasSubstr(" arm_unreachable"), HasSubstr(" workspace")));
+  expect_safe(log);
+}
+
+TEST_F(RobotServerLong, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
+  const std::string hand_log = path("hand.jsonl"), arm_log = path("arm.jsonl");
+  StartedProgram hand = serve_until_ready("hand", hand_log), arm = serve_until_ready("arm", arm_log);
+  std::string script = "wait hand\nwait pose\n";
+  for (int i = 0; i < 600; ++i) {
+    const bool there = i / 40 % 2 == 1;
+    script += fingers(there ? 80 : 5, 1 + i) + pose({0, there ? 0.2 : 0, 0}, 1 + i) + "sleep 10\n";
+  }
+  const StartedProgram sender = talk(script);
+  for (int round = 0; round < 2; ++round) {
+    const auto sent = [&] {
+      return received(hand_log, "fingers", "accepted") + received(arm_log, "pose", "accepted");
+    };
+    const int64_t before = sent();
+    ASSERT_TRUE(comes_true([&] { return sent() > before + 100; }));
+    stop(hand, SIGKILL);
+    stop(arm, SIGKILL);
+    hand = serve_until_ready("hand", hand_log);
+    arm = serve_until_ready("arm", arm_log);
+  }
+  EXPECT_EQ(finish(sender).out, "said\n") << "the stream goes on";
+  for (const StartedProgram& server : {hand, arm}) {
+    const ProgramRun run = stop(server, SIGTERM);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
+  }
+  expect_safe(hand_log);
+  expect_safe(arm_log);
+}
+
+#else
+
+TEST_F(RobotServer, TheArmIsNamedWhereTheBuildLacksIt) {
+  const ProgramRun run = finish(serve("arm", path("arm.jsonl")));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("without Orocos KDL"), HasSubstr("liborocos-kdl-dev")));
+}
+
+#endif
 
 #endif
 

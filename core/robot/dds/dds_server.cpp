@@ -81,8 +81,8 @@ class ArmPort {
  public:
   static constexpr const char* kName = "arm";
   ArmPort(const DdsParticipant& participant, const CommandLimits& limits, const ArmSolver& solver,
-          const Eigen::Isometry3d& T_flange_hand, const std::vector<double>& start)
-      : server(limits, solver, T_flange_hand, start), pose_(participant, topics::kArm, kMaxWaiting) {}
+          const Eigen::Isometry3d& T_flange_wrist, const std::vector<double>& start)
+      : server(limits, solver, T_flange_wrist, start), pose_(participant, topics::kArm, kMaxWaiting) {}
 
   static const std::vector<std::string>& names() { return arm_joint_names(); }
   void attach(DdsWaitset& waitset) const { waitset.add(pose_.entity()); }
@@ -222,10 +222,10 @@ DdsServerSummary serve_hand(const DdsServerOptions& options) {
 }
 
 DdsServerSummary serve_arm(const DdsServerOptions& options, const ArmSolver& solver,
-                           const Eigen::Isometry3d& T_flange_hand, const ArmJoints& rest) {
+                           const Eigen::Isometry3d& T_flange_wrist, const ArmJoints& rest) {
   const std::vector<double> start = start_of(options, arm_joint_names(), {rest.begin(), rest.end()});
   const DdsParticipant participant(options.domain);
-  ArmPort port(participant, options.limits, solver, T_flange_hand, start);
+  ArmPort port(participant, options.limits, solver, T_flange_wrist, start);
   return Service(port, participant, options).run(options.stopping);
 }
 

@@ -29,6 +29,6 @@ struct DdsServerSummary {
 /// in it is unusable.
 DdsServerSummary serve_hand(const DdsServerOptions& options);
 DdsServerSummary serve_arm(const DdsServerOptions& options, const ArmSolver& solver,
-                           const Eigen::Isometry3d& T_flange_hand, const ArmJoints& rest);
+                           const Eigen::Isometry3d& T_flange_wrist, const ArmJoints& rest);
 
 }  // namespace glovebench

@@ -8,9 +8,9 @@
 namespace glovebench {
 
 /// Sends commands over DDS as a node of ROS 2 would (core/robot/README.md: topics, types, quality of service): the
-/// joints of the hand, the wrist, and the pose for the arm, one message of each a command. A lost frame sends the
-/// last targets again; before the first tracked frame nothing is sent. Nobody has to listen, and nobody who does
-/// holds it up.
+/// joints of the hand, those of its wrist, and a pose for the arm, one message of each a command. A lost frame
+/// sends the last targets again; before the first tracked frame nothing is sent. Nobody has to listen, and nobody
+/// who does holds it up.
 class DdsSink : public RobotCommandSink {
  public:
   /// Domain 0..230; CYCLONEDDS_URI configures the rest. Throws Error if there is no such domain or no network.

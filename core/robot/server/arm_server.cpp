@@ -12,13 +12,13 @@
 namespace glovebench {
 namespace {
 
-RobotCommand pose_command(const Eigen::Isometry3d& T_base_hand, int64_t now_us) {
+RobotCommand pose_command(const Eigen::Isometry3d& T_base_wrist, int64_t now_us) {
   RobotCommand command;
   command.frame_timestamp_us = command.timestamp_us = now_us;
   command.status = TrackStatus::tracked;
   command.hold = false;
   command.state = CommandState::following;
-  command.targets.emplace().T_base_hand = T_base_hand;
+  command.targets.emplace().T_base_hand = T_base_wrist;
   return command;
 }
 
@@ -43,16 +43,16 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 }  // namespace
 
-ArmServer::ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_hand,
+ArmServer::ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
                      const std::vector<double>& start)
     : limits_(limits),
       solver_(solver),
-      T_flange_hand_(T_flange_hand),
+      T_flange_wrist_(T_flange_wrist),
       guard_(limits),
       gate_(limits.stop_after_s),
       joints_(arm_joints(start)) {
   RobotTargets standing;
-  standing.T_base_hand = hand_pose(joints_);
+  standing.T_base_hand = wrist_pose(joints_);
   guard_.start_from(standing);
 }
 
@@ -68,29 +68,29 @@ Receipt ArmServer::receive(uint64_t sender, const ros::PoseStamped& message, int
   Receipt receipt = read.receipt;
   if (receipt == Receipt::accepted) receipt = gate_.admit(sender, 0, message.stamp, now_us);
   ++receipts_[static_cast<size_t>(receipt)];
-  if (receipt == Receipt::accepted) goal_ = read.T_base_hand;
+  if (receipt == Receipt::accepted) goal_ = read.T_base_wrist;
   return receipt;
 }
 
 /// Joints nearer to those of a pose, no farther away than all speeds allow in that time.
-ArmJoints ArmServer::step_towards(const Eigen::Isometry3d& T_base_hand, double seconds) {
-  const std::optional<ArmJoints> wanted = solver_.solve(T_base_hand * T_flange_hand_.inverse(), joints_);
+ArmJoints ArmServer::step_towards(const Eigen::Isometry3d& T_base_wrist, double seconds) {
+  const std::optional<ArmJoints> wanted = solver_.solve(T_base_wrist * T_flange_wrist_.inverse(), joints_);
   if (!wanted) {
     interventions_.add(Intervention::arm_unreachable);
     return joints_;
   }
-  double share = 1;  // of the way in joint space: the hand then moves about as much less
+  double share = 1;  // of the way in joint space: the wrist then moves about as much less
   for (int j = 0; j < kArmJointCount; ++j) {
     const double speed = limits_.arm_speed_share * radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s);
     const double way = std::abs((*wanted)[j] - joints_[j]);
     if (way > speed * seconds) share = std::min(share, speed * seconds / way);
   }
   if (share < 1) interventions_.add(Intervention::arm_speed);
-  const Eigen::Isometry3d T_base_now = hand_pose(joints_);
+  const Eigen::Isometry3d T_base_now = wrist_pose(joints_);
   for (int attempt = 0; attempt < 8; ++attempt) {
     ArmJoints next;
     for (int j = 0; j < kArmJointCount; ++j) next[j] = joints_[j] + share * ((*wanted)[j] - joints_[j]);
-    const Eigen::Isometry3d T_base_next = hand_pose(next);
+    const Eigen::Isometry3d T_base_next = wrist_pose(next);
     const double way =
         (T_base_next.translation() - T_base_now.translation()).norm() / (limits_.hand_speed * seconds);
     const double turn =

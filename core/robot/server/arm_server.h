@@ -13,10 +13,10 @@ namespace glovebench {
 /// Where the arm has no joints for a pose they stay, which is counted as `arm_unreachable`.
 class ArmServer {
  public:
-  /// `solver` must outlive the server; `T_flange_hand` is how the hand is mounted; `start`: where the joints stand,
-  /// rad. Throws Error unless they are within the limits and the hand is in the workspace there, or if the limits
-  /// have problems.
-  ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_hand,
+  /// `solver` must outlive the server; `T_flange_wrist` is how the hand's forearm is mounted; `start`: where the
+  /// joints stand, rad. Throws Error unless they are within the limits and the wrist is in the workspace there, or
+  /// if the limits have problems.
+  ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
             const std::vector<double>& start);
 
   /// Whether a message of that sender is foreign, whatever is in it; then it is counted and need not be read.
@@ -25,8 +25,8 @@ class ArmServer {
   Receipt receive(uint64_t sender, const ros::PoseStamped& message, int64_t now_us);
   /// What the joints shall do now. Later than the last tick.
   RobotState tick(int64_t now_us);
-  /// Where the hand is, in the arm's base frame, if the joints do as they are told.
-  Eigen::Isometry3d T_base_hand() const { return hand_pose(joints_); }
+  /// Where the wrist is, in the arm's base frame, if the joints do as they are told.
+  Eigen::Isometry3d T_base_wrist() const { return wrist_pose(joints_); }
 
   StreamGate& gate() { return gate_; }
   const StreamGate& gate() const { return gate_; }
@@ -34,12 +34,12 @@ class ArmServer {
   const Interventions& interventions() const { return interventions_; }
 
  private:
-  Eigen::Isometry3d hand_pose(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_hand_; }
-  ArmJoints step_towards(const Eigen::Isometry3d& T_base_hand, double seconds);
+  Eigen::Isometry3d wrist_pose(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_wrist_; }
+  ArmJoints step_towards(const Eigen::Isometry3d& T_base_wrist, double seconds);
 
   CommandLimits limits_;
   const ArmSolver& solver_;
-  Eigen::Isometry3d T_flange_hand_;
+  Eigen::Isometry3d T_flange_wrist_;
   CommandGuard guard_;
   StreamGate gate_;
   ReceiptCounts receipts_{};

@@ -67,10 +67,10 @@ const std::vector<double> kStart = {0, 0.5, 0, 1.5, 0, 0.8, 0};
 class ArmServerTest : public testing::Test {
  protected:
   RobotState tick(ArmServer& server) {
-    const Eigen::Isometry3d before = server.T_base_hand();
+    const Eigen::Isometry3d before = server.T_base_wrist();
     now_us_ += kPeriodUs;
     const RobotState state = server.tick(now_us_);
-    const Eigen::Isometry3d after = server.T_base_hand();
+    const Eigen::Isometry3d after = server.T_base_wrist();
     const double seconds = kPeriodUs * 1e-6;
     EXPECT_LE((after.translation() - before.translation()).norm(), limits_.hand_speed * seconds + kRounding);
     EXPECT_LE(Eigen::Quaterniond(before.linear()).angularDistance(Eigen::Quaterniond(after.linear())),
@@ -92,24 +92,24 @@ class ArmServerTest : public testing::Test {
 
   CommandLimits limits_;
   JacobianSolver solver_;
-  Eigen::Isometry3d T_flange_hand_ = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.1));
-  ArmServer server_{limits_, solver_, T_flange_hand_, kStart};
-  Eigen::Isometry3d T_start_ = server_.T_base_hand();
+  Eigen::Isometry3d T_flange_wrist_ = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.1));
+  ArmServer server_{limits_, solver_, T_flange_wrist_, kStart};
+  Eigen::Isometry3d T_start_ = server_.T_base_wrist();
   int64_t now_us_ = 1'000'000;
   std::vector<double> last_ = kStart;
 };
 
-TEST_F(ArmServerTest, FollowsThePoseOfTheHand) {
+TEST_F(ArmServerTest, FollowsThePoseOfTheWrist) {
   tick(server_);
   int ticks = 0;
   const Eigen::Vector3d way(0.03, -0.1, 0.04);
-  for (; ticks < 300 && (server_.T_base_hand().translation() - T_start_.translation() - way).norm() > 1e-6;
+  for (; ticks < 300 && (server_.T_base_wrist().translation() - T_start_.translation() - way).norm() > 1e-6;
        ++ticks) {
     EXPECT_EQ(server_.receive(kSender, displaced(way, now_us_), now_us_), Receipt::accepted);
     EXPECT_EQ(tick(server_).state, CommandState::following);
   }
   EXPECT_EQ(ticks, std::ceil(way.norm() / limits_.hand_speed * 100)) << "as fast as the hand may move";
-  EXPECT_TRUE(server_.T_base_hand().linear().isApprox(T_start_.linear(), 1e-6));
+  EXPECT_TRUE(server_.T_base_wrist().linear().isApprox(T_start_.linear(), 1e-6));
 }
 
 TEST_F(ArmServerTest, HoldsAndStopsOnTheWay) {
@@ -138,12 +138,12 @@ TEST_F(ArmServerTest, StaysWhereThePoseIsOutOfReach) {
     server_.receive(kSender, displaced({0, 0, 0}, i), now_us_);
     tick(server_);
   }
-  EXPECT_LT((server_.T_base_hand().translation() - T_start_.translation()).norm(), 1e-6) << "and it comes back";
+  EXPECT_LT((server_.T_base_wrist().translation() - T_start_.translation()).norm(), 1e-6) << "and it comes back";
 }
 
 TEST_F(ArmServerTest, MovesNoFasterThanTheHandMayWhateverTheSolverSays) {
   const FlippingSolver flipping;
-  ArmServer server(limits_, flipping, T_flange_hand_, kStart);
+  ArmServer server(limits_, flipping, T_flange_wrist_, kStart);
   tick(server);
   for (int i = 1; i < 300; ++i) {
     server.receive(kSender, displaced({0, 0, 0}, i), now_us_);
@@ -168,7 +168,7 @@ TEST(ArmServer, StartsWhereTheJointsStandIfThatIsAPlace) {
   const Eigen::Isometry3d mounted = Eigen::Isometry3d::Identity();
   EXPECT_EQ(ArmServer({}, solver, mounted, kStart).tick(1).position, kStart);
   EXPECT_THROW(ArmServer({}, solver, mounted, {0, 2, 0, 0, 0, 0, 0}), Error) << "115 degrees, of 94";
-  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 1.6, 0, 1, 0, 0, 0}), Error) << "the hand under the table";
+  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 1.6, 0, 1, 0, 0, 0}), Error) << "the wrist under the table";
   EXPECT_THROW(ArmServer({}, solver, mounted, {std::nan(""), 0, 0, 0, 0, 0, 0}), Error);
   EXPECT_THROW(ArmServer({}, solver, mounted, {0, 0}), Error);
 }

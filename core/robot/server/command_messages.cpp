@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/error.h"
+#include "core/robot/shadow_kinematics.h"
 
 namespace glovebench {
 namespace {
@@ -88,11 +89,12 @@ ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t period_u
 }
 
 ros::PoseStamped pose_message(const RobotCommand& command) {
-  const Eigen::Isometry3d& T_base_hand = command.targets->T_base_hand;
-  if (!T_base_hand.matrix().allFinite())
-    throw Error("robot command", "T_base_hand", "a value that is not finite", "a finite pose");
-  const Eigen::Vector3d p = T_base_hand.translation();
-  Eigen::Quaterniond q(T_base_hand.linear());
+  const Eigen::Isometry3d T_base_wrist =
+      command.targets->T_base_hand * shadow_T_wrist_hand(command.targets->hand.joints).inverse();
+  if (!T_base_wrist.matrix().allFinite())
+    throw Error("robot command", "T_base_hand or wrist", "a value that is not finite", "a finite pose");
+  const Eigen::Vector3d p = T_base_wrist.translation();
+  Eigen::Quaterniond q(T_base_wrist.linear());
   if (q.w() < 0) q.coeffs() = -q.coeffs();  // q and -q are one rotation: send one of them
   return {.stamp = ros_time(command.frame_timestamp_us),
           .frame_id = kBaseFrame,
@@ -129,7 +131,7 @@ PoseRead read_pose(const ros::PoseStamped& message) {
   const Eigen::Quaterniond q(message.qw, message.qx, message.qy, message.qz);
   if (!p.allFinite() || !q.coeffs().allFinite()) return {.receipt = Receipt::not_finite};
   if (!(std::abs(q.norm() - 1) < kUnitTolerance)) return {.receipt = Receipt::not_rotation};
-  return {.receipt = Receipt::accepted, .T_base_hand = Eigen::Translation3d(p) * q.normalized()};
+  return {.receipt = Receipt::accepted, .T_base_wrist = Eigen::Translation3d(p) * q.normalized()};
 }
 
 }  // namespace glovebench

@@ -30,7 +30,8 @@ int64_t nanoseconds(const ros::Time& time);
 /// reached `period_us` later; stamped with the time of the frame. Throws Error if a target is not finite.
 ros::JointTrajectory hand_message(const RobotCommand& command, int64_t period_us);
 ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t period_us);
-/// The same of the pose of the hand, T_base_hand.
+/// Where the arm shall take the wrist: the frame of WRJ2, which is fixed to the forearm (`shadow_T_wrist_hand`), so
+/// that the hand gets to T_base_hand when its wrist has bent, too. In kBaseFrame, stamped alike.
 ros::PoseStamped pose_message(const RobotCommand& command);
 
 /// A message as a server reads it, whatever is in it.
@@ -41,7 +42,7 @@ struct JointsRead {
 JointsRead read_joints(const ros::JointTrajectory& message, const std::vector<std::string>& names);
 struct PoseRead {
   Receipt receipt = Receipt::accepted;
-  Eigen::Isometry3d T_base_hand = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_base_wrist = Eigen::Isometry3d::Identity();
 };
 PoseRead read_pose(const ros::PoseStamped& message);
 

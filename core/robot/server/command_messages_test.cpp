@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/robot/server/test_messages.h"
+#include "core/robot/shadow_kinematics.h"
 #include "core/robot/test_commands.h"
 
 namespace glovebench {
@@ -31,8 +32,6 @@ TEST(CommandMessages, CarryTheTargets) {
   RobotCommand command = good_command(12'345'678);
   set_joint(*command.targets, kFFJ3, 0.5);
   set_joint(*command.targets, kWRJ2, -0.25);
-  command.targets->T_base_hand.linear() = Eigen::AngleAxisd(-1.0, Eigen::Vector3d::UnitX()).toRotationMatrix();
-
   const ros::JointTrajectory hand = hand_message(command, 66'667), wrist = wrist_message(command, 66'667);
   EXPECT_EQ(hand.stamp.sec, 12);
   EXPECT_EQ(hand.stamp.nanosec, 345'678'000U);
@@ -41,27 +40,39 @@ TEST(CommandMessages, CarryTheTargets) {
   EXPECT_EQ(hand.points[0].positions[kFFJ3], 0.5);
   EXPECT_EQ(hand.joint_names[kFFJ3], "rh_FFJ3");
   EXPECT_THAT(wrist.points[0].positions, ElementsAre(0, -0.25));
+}
 
+TEST(CommandMessages, TellTheArmWhereTheWristGoes) {
+  RobotCommand command = good_command(12'345'678);
+  set_joint(*command.targets, kWRJ1, 0.3);
+  set_joint(*command.targets, kWRJ2, -0.2);
+  command.targets->T_base_hand.linear() = Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
   const ros::PoseStamped pose = pose_message(command);
   EXPECT_EQ(pose.frame_id, "base_link");
-  EXPECT_EQ(pose.x, 0.5);
-  EXPECT_NEAR(pose.qx, -std::sin(0.5), 1e-15);
-  EXPECT_NEAR(pose.qw, std::cos(0.5), 1e-15);
+  EXPECT_EQ(pose.stamp.nanosec, 345'678'000U);
+  EXPECT_GE(pose.qw, 0);
+  const PoseRead read = read_pose(pose);
+  ASSERT_EQ(read.receipt, Receipt::accepted);
+  const Eigen::Isometry3d T_base_hand = read.T_base_wrist * shadow_T_wrist_hand(command.targets->hand.joints);
+  EXPECT_TRUE(T_base_hand.isApprox(command.targets->T_base_hand, 1e-12)) << "conversions of a rotation";
+
+  set_joint(*command.targets, kWRJ1, 0);
+  set_joint(*command.targets, kWRJ2, 0);
+  command.targets->T_base_hand = Eigen::Translation3d(0.5, 0, 0.5);
+  const ros::PoseStamped straight = pose_message(command);
+  // 34 mm from WRJ2 to WRJ1, and half of the way from there to the middle knuckle, 99 mm, along the hand's -z.
+  EXPECT_NEAR(straight.z - 0.5, 0.034 + 0.099 / 2, 2e-3);
 }
 
 TEST(CommandMessages, ComeBackAsTheyWere) {
   RobotCommand command = good_command(1);
   for (int j = 0; j < kShadowJointCount; ++j) set_joint(*command.targets, static_cast<ShadowJoint>(j), 0.01 * j);
-  command.targets->T_base_hand.linear() = Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
   const JointsRead fingers = read_joints(hand_message(command, 1000), hand_trajectory_names());
   const JointsRead wrist = read_joints(wrist_message(command, 1000), wrist_trajectory_names());
   ASSERT_EQ(fingers.receipt, Receipt::accepted);
   ASSERT_EQ(wrist.receipt, Receipt::accepted);
   for (int j = 0; j < kWRJ1; ++j) EXPECT_EQ(fingers.positions[static_cast<size_t>(j)], 0.01 * j);
   EXPECT_THAT(wrist.positions, ElementsAre(0.01 * 22, 0.01 * 23));
-  const PoseRead pose = read_pose(pose_message(command));
-  ASSERT_EQ(pose.receipt, Receipt::accepted);
-  EXPECT_TRUE(pose.T_base_hand.isApprox(command.targets->T_base_hand, 1e-12)) << "two conversions of a rotation";
 }
 
 TEST(CommandMessages, AreNotMadeOfWhatRosCannotSay) {
