@@ -40,6 +40,7 @@ int run(int argc, char** argv) {
   glovebench::eval::add_record(program);
   glovebench::eval::add_render(program);
   glovebench::eval::add_track(program);
+  glovebench::eval::add_robot_server(program, exit_code);
   glovebench::eval::add_explain(program);
   glovebench::eval::add_db(program);
   glovebench::eval::add_import(program);

@@ -63,6 +63,8 @@ void add_run(CLI::App& program);
 void add_record(CLI::App& program);
 void add_render(CLI::App& program);
 void add_track(CLI::App& program);
+/// Sets the exit code when it has run.
+void add_robot_server(CLI::App& program, int& exit_code);
 void add_explain(CLI::App& program);
 void add_db(CLI::App& program);
 void add_import(CLI::App& program);

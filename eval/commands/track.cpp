@@ -8,9 +8,9 @@
 #include "core/base/file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_guard.h"
-#include "core/robot/json_lines_sink.h"
 #include "core/tracker/estimate_line.h"
 #include "eval/commands/command.h"
+#include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"
 #include "eval/interruption.h"
 #include "eval/live_status.h"
@@ -54,14 +54,16 @@ struct Track {
   std::string colors;  ///< color table; empty: the tracker's own
   int limit = 0;       ///< frames; 0: to the end
   RobotFlags robot;
+  std::string middleware;
 
   // Of the run.
   int frames = 0, unusable = 0, tracked = 0;
-  std::optional<Error> failure;  ///< of the device
+  std::optional<Error> failure;  ///< of the device, or of whom the commands go to
 
   void run() {
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
+    RobotOutputs outputs(robot.output, middleware);
     TrackSource source = open_source(from);
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
@@ -71,14 +73,12 @@ struct Track {
             .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
     WholeFile output(common.output);
-    std::optional<JsonLinesSink> sink;
-    if (!robot.output.empty()) sink.emplace(robot.output);
     const Interruption interruption;
-    const RobotSetup setup = sink ? robot.setup(workbench) : RobotSetup{};
-    track_all(source, *method, output, setup, sink ? &*sink : nullptr);
+    const RobotSetup setup = outputs.any() ? robot.setup(workbench) : RobotSetup{};
+    track_all(source, *method, output, setup, outputs);
     if (frames == unusable) refuse();
     output.commit();
-    if (sink) sink->finish();
+    outputs.finish();
     fmt::print("{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames, counted(unusable, "unusable"),
                counted(source.dropped(), "dropped"));
     if (failure) throw *failure;
@@ -86,24 +86,31 @@ struct Track {
   }
 
   void track_all(TrackSource& source, Method& method, WholeFile& output, const RobotSetup& setup,
-                 JsonLinesSink* sink) {
+                 RobotOutputs& outputs) {
     RobotCommander commander(setup);
     CommandGuard guard;
     Progress progress("tracking", common.quiet);
     StatusLine status(common.quiet || source.frame_count > 0);
-    while (!Interruption::wished() && (limit == 0 || frames < limit)) {
+    while (!failure && !Interruption::wished() && (limit == 0 || frames < limit)) {
       const int number = frames;
       const std::optional<DeviceFrame> frame = next_frame(*source.device);
       if (!frame && frames == number) return;
       if (frame) {
         const TrackResult result = method.track(*frame);
+        if (outputs.any()) send(guard.guard(commander.command(result)), source.arrived_us(), outputs);
         output.append(estimate_line(number, result) + "\n");
         tracked += result.status == TrackStatus::tracked;
-        if (sink)
-          if (const auto safe = guard.guard(commander.command(result))) sink->send(*safe);
         status.show(result, source.dropped());
       }
       if (source.frame_count > 0) progress.show(static_cast<double>(frames) / source.frame_count);
+    }
+  }
+
+  void send(const std::optional<RobotCommand>& command, int64_t arrived_us, RobotOutputs& outputs) {
+    try {
+      if (command) outputs.send(*command, arrived_us);
+    } catch (const Error& e) {
+      failure = e;
     }
   }
 
@@ -158,6 +165,7 @@ void add_track(CLI::App& program) {
                       "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
   state->common.add_output(*command, "estimates to write, one line of JSON a frame (*.jsonl)", true);
   state->robot.add(*command, "robot commands to write (*.jsonl)");
+  command->add_option("--robot", state->middleware, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
   command->add_flag("--left", state->common.left, "a left hand");
   state->common.add_tracker(*command);
   state->common.add_machine(*command);

@@ -1,6 +1,7 @@
 #include "eval/commands/track_source.h"
 
 #include <charconv>
+#include <chrono>
 #include <limits>
 
 #include "core/base/error.h"
@@ -16,6 +17,11 @@ namespace {
 
 constexpr std::string_view kRecording = "fakenect:", kLive = "freenect";
 
+int64_t system_us() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+}
+
 TrackSource open_recording(const SourceFlags& flags) {
   const std::string folder = flags.source.substr(kRecording.size());
   auto device = flags.calibration.empty()
@@ -24,6 +30,7 @@ TrackSource open_recording(const SourceFlags& flags) {
   const RecordingDevice* recording = device.get();
   return {std::move(device), recording->frame_count(),
           [recording] { return recording->unpaired_depth_count() + recording->repeated_count(); },
+          system_us,  // it is read when it is asked for
           [] { return std::string(); }};
 }
 
@@ -53,7 +60,8 @@ TrackSource open_live(const SourceFlags& flags) {
   if (flags.every_frame) options.silence_limit = std::numeric_limits<double>::infinity();
   auto device = std::make_unique<FreenectDevice>(calibration, options);
   const FreenectDevice* live = device.get();
-  return {std::move(device), 0, [live] { return live->losses().total(); }, [live] { return live->end(); }};
+  return {std::move(device), 0, [live] { return live->losses().total(); }, [live] { return live->arrived_us(); },
+          [live] { return live->end(); }};
 #else
   throw Error("--source", flags.source,
               "a glovebench that was built without libfreenect (device " + std::to_string(index) + ")",

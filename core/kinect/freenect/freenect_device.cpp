@@ -50,6 +50,16 @@ class SignalsBlocked {
   sigset_t before_;
 };
 
+struct WholeFrame {
+  DeviceFrame frame;
+  int64_t arrived_us = 0;  ///< since 1970
+};
+
+int64_t system_us() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+}
+
 /// What fakenect plays, if it is the library behind the interface.
 const char* played_dump() {
   return std::getenv("FAKENECT_PATH");
@@ -122,6 +132,10 @@ class FreenectDevice::Stream {
     return frame;
   }
 
+  int64_t arrived_us() const {
+    const std::lock_guard lock(mutex_);
+    return fetched_us_;
+  }
   FreenectLosses losses() const {
     const std::lock_guard lock(mutex_);
     return {frames_.late(), pairer_.unpaired(), pairer_.went_back()};
@@ -216,14 +230,16 @@ class FreenectDevice::Stream {
   }
 
   std::optional<DeviceFrame> take_waiting() {
-    std::optional<DeviceFrame> frame = frames_.pop();
-    if (frame) changed_.notify_all();
-    return frame;
+    std::optional<WholeFrame> whole = frames_.pop();
+    if (!whole) return std::nullopt;
+    changed_.notify_all();
+    fetched_us_ = whole->arrived_us;
+    return std::move(whole->frame);
   }
 
   void fetch_pairs() {
     while (auto pair = pairer_.pop())
-      frames_.push({std::move(*pair->depth), *pair->color, pair->depth_us, pair->color_us});
+      frames_.push({{std::move(*pair->depth), *pair->color, pair->depth_us, pair->color_us}, system_us()});
   }
 
   FreenectOptions options_;
@@ -232,7 +248,8 @@ class FreenectDevice::Stream {
   std::condition_variable changed_;
   TickClock clock_;
   FramePairer<std::shared_ptr<Image<uint16_t>>, std::shared_ptr<ColorImage>> pairer_;
-  LatestQueue<DeviceFrame> frames_{kMaxFrames};
+  LatestQueue<WholeFrame> frames_{kMaxFrames};
+  int64_t fetched_us_ = 0;
   bool stopping_ = false;
   std::string end_;             ///< why, once the stream has ended well
   std::exception_ptr failure_;  ///< what has ended it otherwise
@@ -250,6 +267,10 @@ const RgbdCalibration& FreenectDevice::calibration() const {
 
 std::optional<DeviceFrame> FreenectDevice::next_frame() {
   return stream_->next_frame();
+}
+
+int64_t FreenectDevice::arrived_us() const {
+  return stream_->arrived_us();
 }
 
 FreenectLosses FreenectDevice::losses() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -47,6 +48,9 @@ class FreenectDevice : public Device {
   /// `interrupted`. Throws Error when the device has failed, once the frames that came before are fetched: it was
   /// unplugged, gave nothing for `silence_limit`, or there was no memory.
   std::optional<DeviceFrame> next_frame() override;
+
+  /// When the frame that was fetched last was whole, microseconds since 1970 by the system's clock; 0 before the first.
+  int64_t arrived_us() const;
 
   FreenectLosses losses() const;
   /// Why the stream has ended; empty while it has not, and if the device has failed.

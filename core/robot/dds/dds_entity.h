@@ -1,0 +1,135 @@
+#pragma once
+
+#include <dds/dds.h>
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "core/robot/dds/dds_types.h"
+
+/// Thin owners of Cyclone DDS's entities. Everything that the library refuses is an Error.
+namespace glovebench {
+
+/// Throws Error unless `result` is no error of Cyclone DDS; returns it.
+dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
+
+/// A participant in a domain. With it go all entities that were made with it.
+class DdsParticipant {
+ public:
+  /// Configured by CYCLONEDDS_URI, as every program with Cyclone DDS.
+  explicit DdsParticipant(int domain);
+  ~DdsParticipant() { dds_delete(entity_); }
+  DdsParticipant(const DdsParticipant&) = delete;
+  DdsParticipant& operator=(const DdsParticipant&) = delete;
+  dds_entity_t entity() const { return entity_; }
+
+  dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
+  /// As ROS 2 does by default: reliable, volatile, the last ten.
+  dds_entity_t make_writer(dds_entity_t topic) const;
+  /// Reliable, volatile, all until they are taken. The last ten would do for one sender, but a flood by one must
+  /// not push out what another has sent.
+  dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
+
+ private:
+  dds_entity_t entity_;
+};
+
+template <typename Message>
+class DdsWriter {
+ public:
+  DdsWriter(const DdsParticipant& participant, const std::string& topic)
+      : topic_(topic),
+        writer_(participant.make_writer(participant.make_topic(DdsType<Message>::descriptor(), topic))) {}
+
+  /// `source_ns`: when what the message tells began, ns since 1970; others see it as its source time.
+  void write(const Message& message, int64_t source_ns) const {
+    checked_dds(DdsType<Message>::write(writer_, message, source_ns), topic_, "a message to be sent");
+  }
+  /// Until all that listen now have everything, but no longer than `timeout_s`. False if they have not.
+  bool wait_for_listeners(double timeout_s) const {
+    return dds_wait_for_acks(writer_, static_cast<dds_duration_t>(timeout_s * 1e9)) == DDS_RETCODE_OK;
+  }
+  int listeners() const {
+    dds_publication_matched_status_t status = {};
+    dds_get_publication_matched_status(writer_, &status);
+    return static_cast<int>(status.current_count);
+  }
+
+ private:
+  std::string topic_;
+  dds_entity_t writer_;
+};
+
+/// Tells writers of a reader's messages apart by the process they belong to.
+class DdsSenders {
+ public:
+  explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
+  /// The participant that a message's writer belongs to, also if that has gone meanwhile.
+  uint64_t of(dds_instance_handle_t writer);
+  /// The participants of the writers that are there now.
+  std::set<uint64_t> present();
+
+ private:
+  uint64_t look_up(dds_instance_handle_t writer) const;
+
+  dds_entity_t reader_;
+  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;
+};
+
+template <typename Message>
+class DdsReader {
+ public:
+  struct Received {
+    std::optional<Message> message;  ///< empty if it was not wanted
+    uint64_t sender = 0;
+    int64_t source_ns = 0;
+  };
+
+  /// Keeps up to `max_waiting` messages until they are taken; then it makes the senders wait.
+  DdsReader(const DdsParticipant& participant, const std::string& topic, int max_waiting)
+      : reader_(
+            participant.make_reader(participant.make_topic(DdsType<Message>::descriptor(), topic), max_waiting)),
+        senders_(reader_) {}
+
+  dds_entity_t entity() const { return reader_; }
+  DdsSenders& senders() { return senders_; }
+
+  /// The next message, if there is one. It is read if `is_wanted(sender)`: a flood of others costs little.
+  template <typename IsWanted>
+  std::optional<Received> take(const IsWanted& is_wanted) {
+    for (;;) {
+      void* sample = nullptr;
+      dds_sample_info_t info;
+      const dds_return_t count = dds_take(reader_, &sample, &info, 1, 1);
+      if (count <= 0) return std::nullopt;
+      std::optional<Received> received;
+      if (info.valid_data) {
+        received = Received{std::nullopt, senders_.of(info.publication_handle), info.source_timestamp};
+        if (is_wanted(received->sender)) received->message = DdsType<Message>::read(sample);
+      }
+      dds_return_loan(reader_, &sample, count);
+      if (received) return received;
+    }
+  }
+
+ private:
+  dds_entity_t reader_;
+  DdsSenders senders_;
+};
+
+/// Waits until one of some readers has something.
+class DdsWaitset {
+ public:
+  explicit DdsWaitset(const DdsParticipant& participant);
+  void add(dds_entity_t reader);
+  void wait(int64_t timeout_ns) const;
+
+ private:
+  dds_entity_t waitset_;
+};
+
+}  // namespace glovebench

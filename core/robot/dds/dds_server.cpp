@@ -1,0 +1,232 @@
+#include "core/robot/dds/dds_server.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "core/robot/dds/dds_entity.h"
+#include "core/robot/dds/topics.h"
+#include "core/robot/server/arm_server.h"
+#include "core/robot/server/hand_server.h"
+#include "core/robot/server/server_log.h"
+
+namespace glovebench {
+namespace {
+
+constexpr int64_t kPeriodUs = 10'000;        // between two states
+constexpr int64_t kLookAroundUs = 100'000;   // between two looks at who is there
+constexpr int64_t kHeartbeatUs = 1'000'000;  // a state in the log even if nothing moves
+constexpr int kLogLinesPerSecond = 500;      // of messages, accepted and refused each: a flood fills no disk
+constexpr int kMaxWaiting = 20'000;          // messages that were not taken yet: a flood of 0.2 s
+constexpr int kMessagesAtOnce = 200;         // then the clock is asked again: a flood delays no state by much
+constexpr uint64_t kTailBytes = 1 << 20;     // seconds of the fullest log
+
+int64_t steady_us() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+int64_t system_us() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+/// The hand and its readers.
+class HandPort {
+ public:
+  static constexpr const char* kName = "hand";
+  HandPort(const DdsParticipant& participant, const CommandLimits& limits, const std::vector<double>& start)
+      : server(limits, start),
+        fingers_(participant, topics::kHand, kMaxWaiting),
+        wrist_(participant, topics::kWrist, kMaxWaiting) {}
+
+  static const std::vector<std::string>& names() { return hand_joint_names(); }
+  void attach(DdsWaitset& waitset) const {
+    waitset.add(fingers_.entity());
+    waitset.add(wrist_.entity());
+  }
+  template <typename Report>
+  void receive(const Report& report) {
+    receive(fingers_, HandTopic::fingers, "fingers", report);
+    receive(wrist_, HandTopic::wrist, "wrist", report);
+  }
+  std::set<uint64_t> present() {
+    std::set<uint64_t> senders = fingers_.senders().present();
+    senders.merge(wrist_.senders().present());
+    return senders;
+  }
+
+  HandServer server;
+
+ private:
+  template <typename Report>
+  void receive(DdsReader<ros::JointTrajectory>& reader, HandTopic topic, const char* name, const Report& report) {
+    for (int i = 0; i < kMessagesAtOnce; ++i) {
+      const int64_t now_us = steady_us();
+      const auto received = reader.take([&](uint64_t sender) { return !server.ignores(sender, now_us); });
+      if (!received) return;
+      const auto& message = received->message;
+      if (!message) continue;
+      report(name, server.receive(received->sender, topic, *message, now_us), message->stamp, received->source_ns);
+    }
+  }
+
+  DdsReader<ros::JointTrajectory> fingers_, wrist_;
+};
+
+/// The arm and its reader.
+class ArmPort {
+ public:
+  static constexpr const char* kName = "arm";
+  ArmPort(const DdsParticipant& participant, const CommandLimits& limits, const ArmSolver& solver,
+          const Eigen::Isometry3d& T_flange_wrist, const std::vector<double>& start)
+      : server(limits, solver, T_flange_wrist, start), pose_(participant, topics::kArm, kMaxWaiting) {}
+
+  static const std::vector<std::string>& names() { return arm_joint_names(); }
+  void attach(DdsWaitset& waitset) const { waitset.add(pose_.entity()); }
+  template <typename Report>
+  void receive(const Report& report) {
+    for (int i = 0; i < kMessagesAtOnce; ++i) {
+      const int64_t now_us = steady_us();
+      const auto received = pose_.take([&](uint64_t sender) { return !server.ignores(sender, now_us); });
+      if (!received) return;
+      const auto& message = received->message;
+      if (!message) continue;
+      report("pose", server.receive(received->sender, *message, now_us), message->stamp, received->source_ns);
+    }
+  }
+  std::set<uint64_t> present() { return pose_.senders().present(); }
+
+  ArmServer server;
+
+ private:
+  DdsReader<ros::PoseStamped> pose_;
+};
+
+/// The log, which no flood fills.
+class Log {
+ public:
+  explicit Log(const std::string& path) : file_(path) {}
+
+  void received(const ReceivedLine& line) {
+    int64_t& left = line.receipt == Receipt::accepted ? accepted_left_ : refused_left_;
+    if (left-- > 0) file_.append(received_line(line));
+  }
+  void state(const RobotState& state, int64_t time_us, const std::vector<std::string>& names) {
+    const bool heartbeat = state.clock_us - heartbeat_us_ >= kHeartbeatUs;
+    if (!heartbeat && state.position == last_.position && state.state == last_.state) return;
+    if (heartbeat) accepted_left_ = refused_left_ = kLogLinesPerSecond;
+    if (heartbeat) heartbeat_us_ = state.clock_us;
+    file_.append(state_line(state, time_us, names));
+    last_ = state;
+  }
+  int64_t lost() const { return file_.lost(); }
+  const std::string& failure() const { return file_.failure(); }
+
+ private:
+  GrowingFile file_;
+  int64_t accepted_left_ = kLogLinesPerSecond, refused_left_ = kLogLinesPerSecond;
+  int64_t heartbeat_us_ = 0;
+  RobotState last_;
+};
+
+template <typename Names, typename Counts>
+std::string counted(int kinds, const Names& name, const Counts& count) {
+  std::string text;
+  for (int i = 0; i < kinds; ++i)
+    if (count(i) > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count(i), name(i));
+  return text.empty() ? "none" : text;
+}
+
+template <typename Port>
+class Service {
+ public:
+  Service(Port& port, const DdsParticipant& participant, const DdsServerOptions& options)
+      : port_(port), states_(participant, topics::kJointStates), waitset_(participant), log_(options.log) {
+    port_.attach(waitset_);
+  }
+
+  DdsServerSummary run(const std::function<bool()>& stopping) {
+    int64_t next_us = steady_us(), look_us = next_us;
+    while (!stopping()) {
+      int64_t now_us = steady_us();
+      if (now_us >= next_us) {
+        tick(now_us);
+        next_us = std::max(next_us + kPeriodUs, now_us);
+      }
+      if (now_us >= look_us) {
+        port_.server.gate().keep_only(port_.present());
+        look_us = now_us + kLookAroundUs;
+      }
+      port_.receive([&](const char* topic, Receipt receipt, const ros::Time& stamp, int64_t source_ns) {
+        log_.received({system_us(), topic, receipt, nanoseconds(stamp), source_ns / 1000});
+      });
+      now_us = steady_us();
+      if (now_us < next_us) waitset_.wait((next_us - now_us) * 1000);
+    }
+    return {summary(), log_.lost()};
+  }
+
+ private:
+  void tick(int64_t now_us) {
+    if (now_us <= last_us_) return;
+    if (states_sent_ > 0) longest_gap_us_ = std::max(longest_gap_us_, now_us - last_us_);
+    last_us_ = now_us;
+    const RobotState state = port_.server.tick(now_us);
+    const int64_t time_us = system_us();
+    states_.write({ros_time(time_us), Port::names(), state.position, state.velocity}, time_us * 1000);
+    log_.state(state, time_us, Port::names());
+    ++states_sent_;
+  }
+
+  std::string summary() const {
+    const ReceiptCounts& receipts = port_.server.receipts();
+    const Interventions& interventions = port_.server.interventions();
+    std::string text = fmt::format(
+        "{}: messages: {}; streams: {}; interventions: {}; states: {}, the longest gap {:.1f} ms", Port::kName,
+        counted(
+            kReceiptCount, [](int i) { return to_string(static_cast<Receipt>(i)); },
+            [&](int i) { return receipts[static_cast<size_t>(i)]; }),
+        port_.server.gate().owners(),
+        counted(
+            kInterventionCount, [](int i) { return to_string(static_cast<Intervention>(i)); },
+            [&](int i) { return interventions[static_cast<Intervention>(i)]; }),
+        states_sent_, static_cast<double>(longest_gap_us_) * 1e-3);
+    if (log_.lost() > 0) text += fmt::format("; log: {} lines lost ({})", log_.lost(), log_.failure());
+    return text;
+  }
+
+  Port& port_;
+  DdsWriter<ros::JointState> states_;
+  DdsWaitset waitset_;
+  Log log_;
+  int64_t last_us_ = 0, longest_gap_us_ = 0, states_sent_ = 0;
+};
+
+std::vector<double> start_of(const DdsServerOptions& options, const std::vector<std::string>& names,
+                             const std::vector<double>& rest) {
+  if (options.log.empty()) return rest;
+  return last_positions(read_tail(options.log, kTailBytes), names, options.log).value_or(rest);
+}
+
+}  // namespace
+
+DdsServerSummary serve_hand(const DdsServerOptions& options) {
+  const std::vector<double> rest(kShadowJointCount, 0.0);  // the open hand
+  const std::vector<double> start = start_of(options, hand_joint_names(), rest);
+  const DdsParticipant participant(options.domain);
+  HandPort port(participant, options.limits, start);
+  return Service(port, participant, options).run(options.stopping);
+}
+
+DdsServerSummary serve_arm(const DdsServerOptions& options, const ArmSolver& solver,
+                           const Eigen::Isometry3d& T_flange_wrist, const ArmJoints& rest) {
+  const std::vector<double> start = start_of(options, arm_joint_names(), {rest.begin(), rest.end()});
+  const DdsParticipant participant(options.domain);
+  ArmPort port(participant, options.limits, solver, T_flange_wrist, start);
+  return Service(port, participant, options).run(options.stopping);
+}
+
+}  // namespace glovebench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "core/robot/command_guard.h"
+
+namespace glovebench {
+
+struct DdsServerOptions {
+  int domain = 0;
+  /// File to append the log to, which also says where the joints stood when the last server ended; empty: none.
+  std::string log;
+  CommandLimits limits;
+  std::function<bool()> stopping;  ///< asked a hundred times a second; true ends the server
+};
+
+/// What a server did.
+struct DdsServerSummary {
+  std::string text;            ///< one line
+  int64_t lost_log_lines = 0;  ///< that could not be written
+};
+
+/// Serves the hand (`HandServer`) or the arm (`ArmServer`) over DDS until it shall stop: takes commands, and a
+/// hundred times a second sends where the joints shall be as their state, `sensor_msgs/JointState`. The joints
+/// start where the log says they stood, or in their rest posture. Throws Error if the domain, the log or the state
+/// in it is unusable.
+DdsServerSummary serve_hand(const DdsServerOptions& options);
+DdsServerSummary serve_arm(const DdsServerOptions& options, const ArmSolver& solver,
+                           const Eigen::Isometry3d& T_flange_wrist, const ArmJoints& rest);
+
+}  // namespace glovebench

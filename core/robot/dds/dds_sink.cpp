@@ -1,0 +1,91 @@
+#include "core/robot/dds/dds_sink.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/robot/dds/dds_entity.h"
+#include "core/robot/dds/topics.h"
+#include "core/robot/server/command_messages.h"
+
+namespace glovebench {
+namespace {
+
+constexpr int64_t kFirstPeriodUs = 33'333;  // of a Kinect
+constexpr int64_t kShortestPeriodUs = 1'000, kLongestPeriodUs = 100'000;
+constexpr double kFarewell = 1;  // s
+
+}  // namespace
+
+class DdsSink::Writers {
+ public:
+  explicit Writers(int domain)
+      : participant_(domain),
+        hand_(participant_, topics::kHand),
+        wrist_(participant_, topics::kWrist),
+        arm_(participant_, topics::kArm) {}
+
+  void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
+
+  void send(const RobotCommand& command) {
+    const int64_t source_ns = std::exchange(arrived_ns_, std::nullopt).value_or(dds_time());
+    const int64_t period_us = next_period(command.frame_timestamp_us);
+    if (!command.targets) return;
+    hand_.write(hand_message(command, period_us), source_ns);
+    wrist_.write(wrist_message(command, period_us), source_ns);
+    arm_.write(pose_message(command), source_ns);
+    ++sent_;
+  }
+
+  void finish() const {
+    const int64_t end_ns = dds_time() + static_cast<int64_t>(kFarewell * 1e9);
+    const auto left_s = [&] { return std::max(0.0, static_cast<double>(end_ns - dds_time()) * 1e-9); };
+    hand_.wait_for_listeners(left_s());
+    wrist_.wait_for_listeners(left_s());
+    arm_.wait_for_listeners(left_s());
+  }
+
+  int64_t sent() const { return sent_; }
+  int listeners() const { return std::min({hand_.listeners(), wrist_.listeners(), arm_.listeners()}); }
+
+ private:
+  /// What lay between the last two frames: by then the targets shall be reached.
+  int64_t next_period(int64_t frame_us) {
+    if (frame_us_) period_us_ = std::clamp(frame_us - *frame_us_, kShortestPeriodUs, kLongestPeriodUs);
+    frame_us_ = frame_us;
+    return period_us_;
+  }
+
+  DdsParticipant participant_;
+  DdsWriter<ros::JointTrajectory> hand_, wrist_;
+  DdsWriter<ros::PoseStamped> arm_;
+  std::optional<int64_t> arrived_ns_, frame_us_;
+  int64_t period_us_ = kFirstPeriodUs;
+  int64_t sent_ = 0;
+};
+
+DdsSink::DdsSink(int domain) : writers_(std::make_unique<Writers>(domain)) {}
+
+DdsSink::~DdsSink() = default;
+
+void DdsSink::frame_arrived(int64_t system_us) {
+  writers_->frame_arrived(system_us);
+}
+
+void DdsSink::send(const RobotCommand& command) {
+  writers_->send(command);
+}
+
+void DdsSink::finish() {
+  writers_->finish();
+}
+
+int64_t DdsSink::sent() const {
+  return writers_->sent();
+}
+
+int DdsSink::listeners() const {
+  return writers_->listeners();
+}
+
+}  // namespace glovebench

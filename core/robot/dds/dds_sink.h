@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/robot/robot_command.h"
+
+namespace glovebench {
+
+/// Sends commands over DDS as a node of ROS 2 would (core/robot/README.md: topics, types, quality of service): the
+/// joints of the hand, those of its wrist, and a pose for the arm, one message of each a command. A lost frame
+/// sends the last targets again; before the first tracked frame nothing is sent. Nobody has to listen, and nobody
+/// who does holds it up.
+class DdsSink : public RobotCommandSink {
+ public:
+  /// Domain 0..230; CYCLONEDDS_URI configures the rest. Throws Error if there is no such domain or no network.
+  explicit DdsSink(int domain = 0);
+  ~DdsSink() override;
+
+  /// When the frame of the next command was there, microseconds since 1970: its messages carry it as their source
+  /// time. Without a call: the moment when it is sent.
+  void frame_arrived(int64_t system_us);
+  /// Throws Error if a target is not finite, a time stamp is negative, or DDS refuses.
+  void send(const RobotCommand& command) override;
+  /// Waits until those who listen have everything, at most a second.
+  void finish() override;
+
+  int64_t sent() const;   ///< commands
+  int listeners() const;  ///< now, to the topic that has the fewest
+
+ private:
+  class Writers;
+  std::unique_ptr<Writers> writers_;
+};
+
+}  // namespace glovebench

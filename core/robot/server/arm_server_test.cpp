@@ -1,0 +1,177 @@
+#include "core/robot/server/arm_server.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/robot/server/test_messages.h"
+
+namespace glovebench {
+namespace {
+
+constexpr int64_t kPeriodUs = 10'000;
+constexpr uint64_t kSender = 3;
+constexpr double kRounding = 1e-9;  // of a pose that went through seven rotations
+
+/// Steps along the numerical Jacobian: slow, and good enough near a solution.
+class JacobianSolver : public ArmSolver {
+ public:
+  std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const override {
+    Eigen::Matrix<double, kArmJointCount, 1> q = Eigen::Map<const Eigen::Matrix<double, 7, 1>>(start.data());
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::Matrix<double, 6, 1> wanted = difference(pose(q), T_base_flange);
+      if (wanted.norm() < 1e-10) return joints(q);
+      Eigen::Matrix<double, 6, kArmJointCount> J;
+      for (int j = 0; j < kArmJointCount; ++j) {
+        auto moved = q;
+        moved[j] += 1e-6;
+        J.col(j) = difference(pose(q), pose(moved)) * 1e6;
+      }
+      const Eigen::Matrix<double, 6, 6> damped = J * J.transpose() + 1e-8 * Eigen::Matrix<double, 6, 6>::Identity();
+      q += J.transpose() * damped.ldlt().solve(wanted);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static ArmJoints joints(const Eigen::Matrix<double, 7, 1>& q) {
+    ArmJoints result;
+    for (int j = 0; j < kArmJointCount; ++j) result[j] = q[j];
+    return result;
+  }
+  static Eigen::Isometry3d pose(const Eigen::Matrix<double, 7, 1>& q) { return arm_flange_pose(joints(q)); }
+  static Eigen::Matrix<double, 6, 1> difference(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
+    Eigen::Matrix<double, 6, 1> result;
+    result << to.translation() - from.translation(), turn.angle() * turn.axis();
+    return result;
+  }
+};
+
+/// Flips the elbow all the time, as no solver should.
+class FlippingSolver : public ArmSolver {
+ public:
+  std::optional<ArmJoints> solve(const Eigen::Isometry3d&, const ArmJoints& start) const override {
+    ArmJoints joints = start;
+    joints[1] = -std::copysign(1.2, start[1]);
+    joints[3] = -std::copysign(1.2, start[3]);
+    joints[6] = 3;
+    return joints;
+  }
+};
+
+const std::vector<double> kStart = {0, 0.5, 0, 1.5, 0, 0.8, 0};
+
+class ArmServerTest : public testing::Test {
+ protected:
+  RobotState tick(ArmServer& server) {
+    const Eigen::Isometry3d before = server.T_base_wrist();
+    now_us_ += kPeriodUs;
+    const RobotState state = server.tick(now_us_);
+    const Eigen::Isometry3d after = server.T_base_wrist();
+    const double seconds = kPeriodUs * 1e-6;
+    EXPECT_LE((after.translation() - before.translation()).norm(), limits_.hand_speed * seconds + kRounding);
+    EXPECT_LE(Eigen::Quaterniond(before.linear()).angularDistance(Eigen::Quaterniond(after.linear())),
+              limits_.hand_turn_speed * seconds + kRounding);
+    for (int j = 0; j < kArmJointCount; ++j) {
+      EXPECT_LE(std::abs(state.position[j] - last_[j]),
+                radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds + kRounding);
+    }
+    last_ = state.position;
+    return state;
+  }
+  ros::PoseStamped displaced(const Eigen::Vector3d& way, int64_t stamp_us) const {
+    const Eigen::Vector3d p = T_start_.translation() + way;
+    const Eigen::Quaterniond q(T_start_.linear());
+    ros::PoseStamped message = pose_at(p.x(), p.y(), p.z(), stamp_us);
+    message.qx = q.x(), message.qy = q.y(), message.qz = q.z(), message.qw = q.w();
+    return message;
+  }
+
+  CommandLimits limits_;
+  JacobianSolver solver_;
+  Eigen::Isometry3d T_flange_wrist_ = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.1));
+  ArmServer server_{limits_, solver_, T_flange_wrist_, kStart};
+  Eigen::Isometry3d T_start_ = server_.T_base_wrist();
+  int64_t now_us_ = 1'000'000;
+  std::vector<double> last_ = kStart;
+};
+
+TEST_F(ArmServerTest, FollowsThePoseOfTheWrist) {
+  tick(server_);
+  int ticks = 0;
+  const Eigen::Vector3d way(0.03, -0.1, 0.04);
+  for (; ticks < 300 && (server_.T_base_wrist().translation() - T_start_.translation() - way).norm() > 1e-6;
+       ++ticks) {
+    EXPECT_EQ(server_.receive(kSender, displaced(way, now_us_), now_us_), Receipt::accepted);
+    EXPECT_EQ(tick(server_).state, CommandState::following);
+  }
+  EXPECT_EQ(ticks, std::ceil(way.norm() / limits_.hand_speed * 100)) << "as fast as the hand may move";
+  EXPECT_TRUE(server_.T_base_wrist().linear().isApprox(T_start_.linear(), 1e-6));
+}
+
+TEST_F(ArmServerTest, HoldsAndStopsOnTheWay) {
+  tick(server_);
+  EXPECT_EQ(server_.receive(kSender, displaced({0, 0.2, 0}, 1), now_us_), Receipt::accepted);
+  for (int i = 0; i < 15; ++i) EXPECT_EQ(tick(server_).state, CommandState::following);
+  tick(server_);
+  const RobotState held = tick(server_);
+  EXPECT_EQ(held.state, CommandState::holding);
+  for (int i = 0; i < 40; ++i) tick(server_);
+  EXPECT_EQ(tick(server_).state, CommandState::stopped);
+  EXPECT_EQ(last_, held.position);
+}
+
+TEST_F(ArmServerTest, StaysWhereThePoseIsOutOfReach) {
+  tick(server_);
+  for (int i = 1; i < 900; ++i) {
+    EXPECT_EQ(server_.receive(kSender, displaced({1e3, 0, 0}, i), now_us_), Receipt::accepted);
+    tick(server_);
+  }
+  EXPECT_GT(server_.interventions()[Intervention::arm_unreachable], 0);
+  EXPECT_GT(server_.interventions()[Intervention::workspace], 0);
+  const std::vector<double> stuck = last_;
+  EXPECT_EQ(tick(server_).position, stuck);
+  for (int i = 1000; i < 3000; ++i) {
+    server_.receive(kSender, displaced({0, 0, 0}, i), now_us_);
+    tick(server_);
+  }
+  EXPECT_LT((server_.T_base_wrist().translation() - T_start_.translation()).norm(), 1e-6) << "and it comes back";
+}
+
+TEST_F(ArmServerTest, MovesNoFasterThanTheHandMayWhateverTheSolverSays) {
+  const FlippingSolver flipping;
+  ArmServer server(limits_, flipping, T_flange_wrist_, kStart);
+  tick(server);
+  for (int i = 1; i < 300; ++i) {
+    server.receive(kSender, displaced({0, 0, 0}, i), now_us_);
+    tick(server);  // checks it
+  }
+  EXPECT_NE(last_, kStart);
+  EXPECT_GT(
+      server.interventions()[Intervention::hand_speed] + server.interventions()[Intervention::hand_turn_speed], 0);
+}
+
+TEST_F(ArmServerTest, RefusesOtherFrames) {
+  tick(server_);
+  ros::PoseStamped message = displaced({0, 0.1, 0}, 1);
+  message.frame_id = "world";
+  EXPECT_EQ(server_.receive(kSender, message, now_us_), Receipt::wrong_frame);
+  EXPECT_EQ(tick(server_).position, kStart);
+  EXPECT_EQ(server_.receipts()[static_cast<size_t>(Receipt::wrong_frame)], 1);
+}
+
+TEST(ArmServer, StartsWhereTheJointsStandIfThatIsAPlace) {
+  const JacobianSolver solver;
+  const Eigen::Isometry3d mounted = Eigen::Isometry3d::Identity();
+  EXPECT_EQ(ArmServer({}, solver, mounted, kStart).tick(1).position, kStart);
+  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 2, 0, 0, 0, 0, 0}), Error) << "115 degrees, of 94";
+  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 1.6, 0, 1, 0, 0, 0}), Error) << "the wrist under the table";
+  EXPECT_THROW(ArmServer({}, solver, mounted, {std::nan(""), 0, 0, 0, 0, 0, 0}), Error);
+  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 0}), Error);
+}
+
+}  // namespace
+}  // namespace glovebench

@@ -1,0 +1,87 @@
+#include "core/robot/server/hand_server.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+namespace {
+
+/// The motors' targets follow from the joints'.
+void make_actuators(ShadowHandTargets& hand) {
+  for (int a = 0; a < kShadowActuatorCount; ++a) {
+    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
+    hand.actuators[a] = hand.joints[info.joint];
+    if (info.coupled_joint) hand.actuators[a] += hand.joints[*info.coupled_joint];
+  }
+}
+
+/// This server has no arm: its hand stays at one place, in the middle of the workspace.
+RobotTargets standing(const CommandLimits& limits, const std::vector<double>& joints) {
+  if (joints.size() != kShadowJointCount)
+    throw Error("hand server", "joints", fmt::format("{}", joints.size()), fmt::format("{}", kShadowJointCount));
+  RobotTargets targets;
+  std::ranges::copy(joints, targets.hand.joints.begin());
+  make_actuators(targets.hand);
+  targets.T_base_hand.translation() = (limits.workspace_min + limits.workspace_max) / 2;
+  return targets;
+}
+
+}  // namespace
+
+HandServer::HandServer(const CommandLimits& limits, const std::vector<double>& start)
+    : guard_(limits), gate_(limits.stop_after_s), goal_(standing(limits, start)) {
+  guard_.start_from(goal_);
+  last_.position = start;
+}
+
+bool HandServer::ignores(uint64_t sender, int64_t now_us) {
+  const bool foreign = gate_.is_foreign(sender, now_us);
+  receipts_[static_cast<size_t>(Receipt::foreign)] += foreign;
+  return foreign;
+}
+
+Receipt HandServer::receive(uint64_t sender, HandTopic topic, const ros::JointTrajectory& message, int64_t now_us) {
+  if (ignores(sender, now_us)) return Receipt::foreign;
+  const bool wrist = topic == HandTopic::wrist;
+  const JointsRead read = read_joints(message, wrist ? wrist_trajectory_names() : hand_trajectory_names());
+  Receipt receipt = read.receipt;
+  if (receipt == Receipt::accepted) receipt = gate_.admit(sender, wrist ? 1 : 0, message.stamp, now_us);
+  ++receipts_[static_cast<size_t>(receipt)];
+  if (receipt != Receipt::accepted) return receipt;
+  std::ranges::copy(read.positions, goal_.hand.joints.begin() + (wrist ? kWRJ1 : 0));
+  received_ = true;
+  return receipt;
+}
+
+RobotState HandServer::tick(int64_t now_us) {
+  std::optional<RobotCommand> sent;
+  // The first tick only says what time it is: from there the guard knows how far a joint may move.
+  if (ticked_ && std::exchange(received_, false)) {
+    make_actuators(goal_.hand);
+    RobotCommand command;
+    command.frame_timestamp_us = command.timestamp_us = now_us;
+    command.status = TrackStatus::tracked;
+    command.hold = false;
+    command.state = CommandState::following;
+    command.targets = goal_;
+    sent = guard_.guard(command, now_us);
+  } else {
+    sent = guard_.tick(now_us);
+  }
+  if (!sent) throw std::logic_error("a tick of the hand that is not after the last one");
+  RobotState state{now_us, sent->state, {}, std::vector<double>(kShadowJointCount, 0.0)};
+  state.position.assign(sent->targets->hand.joints.begin(), sent->targets->hand.joints.end());
+  for (size_t j = 0; ticked_ && j < state.position.size(); ++j)
+    state.velocity[j] =
+        (state.position[j] - last_.position[j]) / (static_cast<double>(now_us - last_.clock_us) * 1e-6);
+  ticked_ = true;
+  last_ = state;
+  return state;
+}
+
+}  // namespace glovebench

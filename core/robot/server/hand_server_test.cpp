@@ -1,0 +1,196 @@
+#include "core/robot/server/hand_server.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "core/robot/server/test_messages.h"
+
+namespace glovebench {
+namespace {
+
+using testing::Each;
+
+constexpr int64_t kPeriodUs = 10'000;
+constexpr uint64_t kFirst = 11, kSecond = 22;
+constexpr double kRounding = 1e-12;
+
+/// A server and its clock; every state is checked against the limits.
+class HandServerTest : public testing::Test {
+ protected:
+  Receipt fingers(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
+    return server_.receive(sender, HandTopic::fingers,
+                           trajectory_message(hand_trajectory_names(), angle_deg, stamp_us), now_us_);
+  }
+  Receipt wrist(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
+    return server_.receive(sender, HandTopic::wrist,
+                           trajectory_message(wrist_trajectory_names(), angle_deg, stamp_us), now_us_);
+  }
+  RobotState tick() {
+    now_us_ += kPeriodUs;
+    const RobotState state = server_.tick(now_us_);
+    for (size_t j = 0; j < state.position.size(); ++j) {
+      EXPECT_LE(std::abs(state.position[j] - last_.position[j]),
+                limits_.hand_joint_speed * kPeriodUs * 1e-6 + kRounding)
+          << hand_joint_names()[j];
+      const ShadowJointInfo& info = shadow_joint_infos()[j];
+      EXPECT_GE(state.position[j], radians_from_degrees(info.min_deg));
+      EXPECT_LE(state.position[j], radians_from_degrees(info.max_deg));
+    }
+    return last_ = state;
+  }
+  RobotState ticks(int count) {
+    for (int i = 0; i < count; ++i) tick();
+    return last_;
+  }
+  int64_t count(Receipt receipt) const { return server_.receipts()[static_cast<size_t>(receipt)]; }
+
+  CommandLimits limits_;
+  std::vector<double> start_ = std::vector<double>(kShadowJointCount, 0.0);
+  HandServer server_{limits_, start_};
+  int64_t now_us_ = 5'000'000;
+  RobotState last_{0, CommandState::stopped, start_, {}};
+};
+
+TEST_F(HandServerTest, StandsUntilSomethingComes) {
+  const RobotState state = ticks(10);
+  EXPECT_EQ(state.state, CommandState::stopped);
+  EXPECT_THAT(state.position, Each(0.0));
+  EXPECT_THAT(state.velocity, Each(0.0));
+}
+
+TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
+  tick();
+  int moving = 0;
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_EQ(fingers(30, 1000 * (i + 1)), Receipt::accepted);
+    EXPECT_EQ(wrist(8, 1000 * (i + 1)), Receipt::accepted);
+    const RobotState state = tick();
+    EXPECT_EQ(state.state, CommandState::following);
+    moving += state.velocity[kFFJ3] > 0;
+    EXPECT_LE(state.velocity[kFFJ3], 2 + 1e-9);
+  }
+  EXPECT_EQ(moving, 27) << "30 degrees at 2 rad/s are 0.262 s";
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kRounding);
+  EXPECT_NEAR(last_.position[kWRJ1], radians_from_degrees(8), kRounding);
+}
+
+TEST_F(HandServerTest, MovesNoFasterOnItsVeryFirstTick) {
+  EXPECT_EQ(fingers(90, 1), Receipt::accepted);
+  tick();  // checks it
+  EXPECT_GT(tick().position[kFFJ3], 0) << "what came before the first tick is not lost";
+}
+
+TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
+  tick();
+  fingers(80, 1);
+  EXPECT_EQ(ticks(15).state, CommandState::following);
+  const RobotState held = ticks(2);
+  EXPECT_EQ(held.state, CommandState::holding);
+  EXPECT_EQ(tick().position, held.position);
+  EXPECT_EQ(ticks(40).state, CommandState::stopped);
+  EXPECT_EQ(last_.position, held.position);
+  EXPECT_THAT(last_.velocity, Each(0.0));
+  EXPECT_EQ(fingers(80, 2), Receipt::accepted);
+  EXPECT_EQ(tick().state, CommandState::following);
+  EXPECT_NEAR(last_.position[kFFJ3] - held.position[kFFJ3], 0.02, kRounding) << "from where it stood";
+}
+
+TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
+  tick();
+  fingers(10, 1000);
+  const RobotState good = ticks(12);
+  ros::JointTrajectory bad = trajectory_message(hand_trajectory_names(), 80, 2000);
+  bad.points[0].positions[5] = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(server_.receive(kFirst, HandTopic::fingers, bad, now_us_), Receipt::not_finite);
+    EXPECT_EQ(fingers(80, 999), Receipt::went_back);
+    EXPECT_EQ(fingers(80, 1000), Receipt::went_back) << "the same once more";
+    EXPECT_EQ(tick().position, good.position);
+  }
+  EXPECT_EQ(last_.state, CommandState::holding) << "they do not keep the stream alive";
+  EXPECT_EQ(count(Receipt::accepted), 1);
+  EXPECT_EQ(count(Receipt::not_finite), 10);
+  EXPECT_EQ(count(Receipt::went_back), 20);
+}
+
+TEST_F(HandServerTest, ClampsWhatIsBeyondTheLimits) {
+  tick();
+  for (int i = 1; i < 200; ++i) {
+    EXPECT_EQ(fingers(i % 2 ? 1e6 : 500, i), Receipt::accepted);
+    tick();  // checks the limits
+  }
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(90), kRounding);
+  EXPECT_GT(server_.interventions()[Intervention::joint_limit], 0);
+}
+
+TEST_F(HandServerTest, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
+  tick();
+  for (int i = 1; i <= 50; ++i) {
+    EXPECT_EQ(fingers(10, i, kFirst), Receipt::accepted);
+    EXPECT_EQ(fingers(80, i, kSecond), Receipt::foreign);
+    EXPECT_EQ(wrist(5, i, kSecond), Receipt::foreign) << "also on a topic that the owner does not use";
+    tick();
+  }
+  EXPECT_LE(last_.position[kFFJ3], radians_from_degrees(10) + kRounding);
+  EXPECT_EQ(count(Receipt::foreign), 100);
+  int refused = 0;
+  while (fingers(20, 1, kSecond) == Receipt::foreign && refused < 1000) {
+    ++refused;
+    tick();
+  }
+  EXPECT_EQ(refused, 50) << "0.5 s after the owner's last message, which came one tick before";
+  EXPECT_EQ(server_.gate().owners(), 2);
+  EXPECT_EQ(fingers(80, 1000, kFirst), Receipt::foreign) << "who comes back has to wait as well";
+}
+
+TEST_F(HandServerTest, AnOwnerThatHasGoneIsFollowedByTheNextAtOnce) {
+  tick();
+  EXPECT_EQ(fingers(10, 1'000'000, kFirst), Receipt::accepted);
+  server_.gate().keep_only({kFirst, kSecond});
+  EXPECT_EQ(fingers(10, 1, kSecond), Receipt::foreign);
+  server_.gate().keep_only({kSecond});
+  EXPECT_EQ(fingers(10, 1, kSecond), Receipt::accepted) << "its stamps begin anew";
+}
+
+TEST_F(HandServerTest, BadMessagesDoNotMakeAnOwner) {
+  tick();
+  EXPECT_EQ(server_.receive(kSecond, HandTopic::fingers, ros::JointTrajectory(), now_us_), Receipt::wrong_joints);
+  EXPECT_EQ(fingers(10, 1, kFirst), Receipt::accepted);
+}
+
+TEST_F(HandServerTest, StampsOfZeroMeanNow) {
+  tick();
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(fingers(10, 0), Receipt::accepted);
+  EXPECT_EQ(fingers(10, 1), Receipt::accepted);
+  EXPECT_EQ(fingers(10, 0), Receipt::went_back);
+}
+
+TEST_F(HandServerTest, AFloodMovesNothingFaster) {
+  tick();
+  int64_t stamp = 0;
+  for (int i = 0; i < 20; ++i) {
+    for (int m = 0; m < 1000; ++m) EXPECT_EQ(fingers(m % 2 ? 90 : 0, ++stamp), Receipt::accepted);
+    tick();
+  }
+  EXPECT_EQ(count(Receipt::accepted), 20'000);
+  EXPECT_NEAR(last_.position[kFFJ3], 20 * 0.02, kRounding) << "the last one before a tick counts";
+}
+
+TEST(HandServer, StartsWhereTheJointsStandIfThatIsAPlace) {
+  std::vector<double> start(kShadowJointCount, 0.0);
+  start[kFFJ3] = 1;
+  HandServer server({}, start);
+  EXPECT_EQ(server.tick(1).position, start);
+  EXPECT_THROW(server.tick(1), std::logic_error);
+  start[kFFJ3] = 4;
+  EXPECT_THROW(HandServer({}, start), Error);
+  start[kFFJ3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(HandServer({}, start), Error);
+  EXPECT_THROW(HandServer({}, {}), Error);
+}
+
+}  // namespace
+}  // namespace glovebench

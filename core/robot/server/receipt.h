@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace glovebench {
+
+/// What became of a message that a server of the robot received.
+enum class Receipt {
+  accepted,
+  foreign,       ///< another sender owns the stream
+  wrong_joints,  ///< its joints are not exactly those of the topic, each once, in any order
+  wrong_points,  ///< not exactly one point, or not one position for each joint
+  not_finite,    ///< a position is no finite number
+  not_rotation,  ///< the quaternion has not the length 1
+  wrong_frame,   ///< a pose in another frame than the arm's base
+  bad_time,      ///< a time before 1970, or with a second and more of nanoseconds
+  went_back,     ///< its stamp is not after that of its sender's last message
+};
+inline constexpr int kReceiptCount = 9;
+std::string_view to_string(Receipt receipt);
+
+/// How often each has happened.
+using ReceiptCounts = std::array<int64_t, kReceiptCount>;
+
+}  // namespace glovebench

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "core/base/error.h"
+#include "eval/commands/command.h"
+#include "eval/commands/robot_outputs.h"
+#include "eval/interruption.h"
+#ifdef GLOVEBENCH_DDS
+#include "core/robot/arm_follower.h"
+#include "core/robot/dds/dds_server.h"
+#endif
+#ifdef GLOVEBENCH_ARM
+#include "core/robot/arm/kdl_arm_solver.h"
+#endif
+
+namespace glovebench::eval {
+namespace {
+
+struct RobotServer {
+  std::string middleware = "dds";
+  std::string log;
+
+  /// Serves until SIGINT or SIGTERM. Returns the exit code.
+  int serve_hand() const {
+#ifdef GLOVEBENCH_DDS
+    const Interruption interruption;
+    return finish(glovebench::serve_hand(options()));
+#else
+    return dds_domain(middleware, "--robot");  // throws
+#endif
+  }
+  int serve_arm() const {
+#if defined(GLOVEBENCH_DDS) && defined(GLOVEBENCH_ARM)
+    const std::unique_ptr<ArmSolver> solver = make_kdl_arm_solver();
+    const Interruption interruption;
+    return finish(glovebench::serve_arm(options(), *solver, default_T_flange_wrist(), kArmAtRest));
+#else
+    dds_domain(middleware, "--robot");         // throws where that is missing
+    throw Error("robot-server", "arm", "a glovebench that was built without Orocos KDL",
+                "one that was configured with it (Debian: liborocos-kdl-dev)");
+#endif
+  }
+
+ private:
+#ifdef GLOVEBENCH_DDS
+  DdsServerOptions options() const {
+    return {
+        .domain = dds_domain(middleware, "--robot"), .log = log, .limits = {}, .stopping = Interruption::wished};
+  }
+  int finish(const DdsServerSummary& summary) const {
+    fmt::print("{}\n", summary.text);
+    if (summary.lost_log_lines > 0)
+      throw Error(log, "lines", fmt::format("{} that could not be written", summary.lost_log_lines),
+                  "room for all");
+    return 0;
+  }
+#endif
+};
+
+}  // namespace
+
+void add_robot_server(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "robot-server",
+      "Take the commands of `track --robot` for a hand or an arm, keep them safe, say where the joints are.");
+  command->require_subcommand(1);
+  const auto state = std::make_shared<RobotServer>();
+  CLI::App* hand = command->add_subcommand("hand", "The Shadow hand and its wrist, until Ctrl-C.");
+  CLI::App* arm = command->add_subcommand("arm", "The PA-10 arm that carries the hand, until Ctrl-C.");
+  for (CLI::App* side : {hand, arm}) {
+    side->add_option("--robot", state->middleware, "where from: dds[:DOMAIN]")->capture_default_str();
+    side->add_option("--log", state->log,
+                     "log to append to (*.jsonl), which also tells the next server where the joints stood");
+  }
+  hand->callback([state, &exit_code] { exit_code = state->serve_hand(); });
+  arm->callback([state, &exit_code] { exit_code = state->serve_arm(); });
+}
+
+}  // namespace glovebench::eval

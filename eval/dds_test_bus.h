@@ -1,0 +1,103 @@
+#pragma once
+
+// A bus of its own for each test of the middleware, on the loopback interface.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "eval/test_program.h"
+
+namespace glovebench::eval {
+
+/// This process and those that it starts get a Cyclone DDS for a sandbox: one interface, no multicast, and a tag
+/// that keeps apart what runs at the same time.
+inline void use_loopback_dds() {
+  const std::string uri =
+      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+      "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>glovebench-" +
+      std::to_string(getpid()) + "-" + std::to_string(std::random_device()()) +
+      "</Tag><Peers><Peer address=\"127.0.0.1\"/></Peers><ParticipantIndex>auto</ParticipantIndex>"
+      "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>";
+  setenv("CYCLONEDDS_URI", uri.c_str(), 1);
+}
+
+/// Asks again and again; whether it came true within a time in which it should by far.
+template <typename Condition>
+bool comes_true(const Condition& condition) {
+  for (int i = 0; i < 2000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+/// A bus that no other run is on, and other processes on it.
+class DdsBus : public testing::Test {
+ protected:
+  void SetUp() override {
+    use_loopback_dds();
+    folder_ = make_test_folder();
+  }
+  void TearDown() override {
+    for (const StartedProgram& program : running_) {
+      kill(program.process, SIGKILL);
+      finish_program(program);
+    }
+    std::filesystem::remove_all(folder_);
+  }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  StartedProgram start(std::vector<std::string> command) {
+    running_.push_back(start_program(command));
+    return running_.back();
+  }
+  ProgramRun finish(const StartedProgram& program) {
+    std::erase_if(running_, [&](const StartedProgram& other) { return other.process == program.process; });
+    return finish_program(program);
+  }
+  ProgramRun stop(const StartedProgram& program, int signal) {
+    kill(program.process, signal);
+    return finish(program);
+  }
+
+  /// Prints what arrives until nothing has for a second, or for longer.
+  StartedProgram listen(const std::string& seconds = "1.5") {
+    const StartedProgram listener = start({GLOVEBENCH_DDS_PROBE, "listen", domain_, seconds});
+    EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
+    return listener;
+  }
+  /// Does what a script of the probe says.
+  StartedProgram talk(const std::string& script) {
+    const std::string file = path("script-" + std::to_string(scripts_++));
+    write_file(file, script);
+    return start({GLOVEBENCH_DDS_PROBE, "talk", domain_, file});
+  }
+  static std::string said(const StartedProgram& program) {
+    return std::filesystem::exists(program.out) ? read_file(program.out) : "";
+  }
+
+  /// The lines of a topic, in order.
+  static std::vector<std::string> lines_of(const std::string& topic, const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream all(text);
+    for (std::string line; std::getline(all, line);)
+      if (line.starts_with(topic + " ")) lines.push_back(line);
+    return lines;
+  }
+
+  std::string folder_;
+  std::string domain_ = "7";
+  std::vector<StartedProgram> running_;
+  int scripts_ = 0;
+};
+
+}  // namespace glovebench::eval
