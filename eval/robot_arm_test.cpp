@@ -15,15 +15,35 @@ struct ArmMotion {
   double largest_wish = 0;  ///< of a joint from frame to frame, rad, before the guard
 };
 
-/// The truth of a trajectory as if it was tracked, through commander and guard.
-ArmMotion arm_motion(const std::string& name) {
+void expect_within_speed(const RobotCommand& from, const RobotCommand& to) {
+  const double seconds = static_cast<double>(to.timestamp_us - from.timestamp_us) * 1e-6;
+  for (int j = 0; j < kArmJointCount; ++j)
+    EXPECT_LE(std::abs(to.targets->arm->at(j) - from.targets->arm->at(j)),
+              radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds + 1e-12)
+        << arm_joint_infos()[j].name << " at " << to.timestamp_us << " us";
+}
+
+/// There and back again, so that no frame is far from the one before it.
+std::vector<trajectories::TrajectoryFrame> to_and_fro(const std::string& name, int times) {
+  const auto frames = trajectories::source_trajectory(trajectory_folder(), name).frames;
+  std::vector<trajectories::TrajectoryFrame> path;
+  for (int i = 0; i < times; ++i) {
+    if (i % 2 == 0) path.insert(path.end(), frames.begin(), frames.end());
+    if (i % 2 == 1) path.insert(path.end(), frames.rbegin(), frames.rend());
+  }
+  for (size_t i = 0; i < path.size(); ++i) path[i].timestamp_us = static_cast<int64_t>(i) * 66'667;
+  return path;
+}
+
+/// The truth as if it was tracked, through commander and guard.
+ArmMotion arm_motion(const std::vector<trajectories::TrajectoryFrame>& path) {
   RobotSetup setup;
   setup.arm = make_kdl_arm_solver();
   RobotCommander commander(setup);
   CommandGuard guard;
   ArmMotion motion;
   std::optional<RobotCommand> sent, wished;
-  for (const auto& frame : trajectories::source_trajectory(trajectory_folder(), name).frames) {
+  for (const auto& frame : path) {
     TrackResult result;
     result.timestamp_us = frame.timestamp_us;
     result.status = TrackStatus::tracked;
@@ -31,14 +51,10 @@ ArmMotion arm_motion(const std::string& name) {
     result.T_camera_hand = frame.T_camera_hand;
     const RobotCommand wish = commander.command(result);
     const std::optional<RobotCommand> safe = guard.guard(wish);
-    for (int j = 0; sent && j < kArmJointCount; ++j) {
+    if (sent) expect_within_speed(*sent, *safe);
+    for (int j = 0; sent && j < kArmJointCount; ++j)
       motion.largest_wish =
           std::max(motion.largest_wish, std::abs(wish.targets->arm->at(j) - wished->targets->arm->at(j)));
-      const double seconds = static_cast<double>(safe->timestamp_us - sent->timestamp_us) * 1e-6;
-      EXPECT_LE(std::abs(safe->targets->arm->at(j) - sent->targets->arm->at(j)),
-                radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds + 1e-12)
-          << name << ", " << arm_joint_infos()[j].name << " at " << safe->timestamp_us << " us";
-    }
     sent = safe;
     wished = wish;
     ++motion.frames;
@@ -50,13 +66,13 @@ ArmMotion arm_motion(const std::string& name) {
 
 TEST(RobotArm, FollowsTheFiveTrajectoriesWithoutJumps) {
   for (const std::string& name : trajectories::ground_truth_names()) {
-    const ArmMotion motion = arm_motion(name);
+    const ArmMotion motion = arm_motion(to_and_fro(name, 5));
     fmt::print("{}: {} frames, {} out of reach, {} slowed down, largest wish {:.1f} degrees\n", name, motion.frames,
                motion.unreachable, motion.slowed, degrees_from_radians(motion.largest_wish));
-    // Where the wrist is straight a frame may be refused; a branch that was taken and lost would cost many.
-    EXPECT_LE(motion.unreachable, 1) << name;
-    EXPECT_LT(motion.slowed, motion.frames / 3) << name;
-    EXPECT_LT(motion.largest_wish, radians_from_degrees(60)) << name << ": another branch is a half turn away";
+    EXPECT_EQ(motion.unreachable, 0) << name;
+    // Tr1 turns the hand faster than the arm's shoulder can follow, in 51 frames of 685.
+    EXPECT_LT(motion.slowed, motion.frames / 10) << name;
+    EXPECT_LT(motion.largest_wish, radians_from_degrees(15)) << name << ": another branch is much farther away";
   }
 }
 

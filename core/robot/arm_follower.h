@@ -6,9 +6,9 @@
 
 namespace glovebench {
 
-/// The arm's joints at rest, where an ArmFollower starts unless told otherwise: elbow up, the flange ahead of the
-/// base at half a metre's height, pointing ahead, its y up.
-inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, -0.53, 1.5708};
+/// The arm's joints at rest, where an ArmFollower starts unless told otherwise: elbow up, the flange 0.6 m ahead of
+/// the base, looking down.
+inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, 1.04, 1.5708};
 
 /// Follows a pose with the arm without ever changing to joint angles far from the last ones: it solves along the
 /// way from the last pose to the next, in steps that are so small that each solution is near the one before.

@@ -25,8 +25,13 @@ Eigen::Isometry3d default_T_base_camera() {
 }
 
 Eigen::Isometry3d default_T_flange_wrist() {
-  // From the base of the forearm to WRJ2 (sr_description, hand with motors).
-  return Eigen::Isometry3d(Eigen::Translation3d(0, -0.010, 0.213));
+  // Exact, so that a level hand has a level forearm.
+  Eigen::Isometry3d T_flange_wrist = Eigen::Isometry3d::Identity();
+  T_flange_wrist.linear() << 1, 0, 0,  //
+      0, 0, 1,                         // along the flange's y
+      0, -1, 0;                        // its back away from the flange, up
+  T_flange_wrist.translation().y() = 0.213;
+  return T_flange_wrist;
 }
 
 RobotCommander::RobotCommander(const RobotSetup& setup)

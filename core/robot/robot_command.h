@@ -33,8 +33,9 @@ struct RobotCommand {
 /// 0.9 m ahead of the shoulder, looking straight down, the top of its image away from the arm.
 Eigen::Isometry3d default_T_base_camera();
 
-/// Where the wrist's first joint is on the flange: a forearm as Shadow's model has it, its base on the flange, its
-/// z along the flange's.
+/// Where the wrist's first joint (WRJ2) is on the flange: at the end of a forearm of 213 mm (Shadow's model) that
+/// lies across the flange, along its y. In line with the arm it would make the arm's own wrist straight where the
+/// hand points ahead, and there it winds up (core/robot/README.md).
 Eigen::Isometry3d default_T_flange_wrist();
 
 /// How a tracked hand becomes targets.
