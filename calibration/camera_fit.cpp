@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kFewestViews = 5;
 constexpr int kFewestTilted = 3;
 constexpr double kTilted_deg = 10;
-constexpr double kLargestDeviation = 0.05;   // of the focal length
+constexpr double kLargestDeviation = 0.05;  // of the focal length
 
 void require_views(size_t count, const std::string& where) {
   if (count < kFewestViews)
@@ -69,7 +69,8 @@ bool leave_out_misfits(const CameraFit& fit, std::vector<BoardView>& views, std:
 
 void require_determined(const CameraFit& fit, const std::string& where) {
   if (fit.tilted < kFewestTilted)
-    throw Error(where, fmt::format("boards tilted by more than {} degrees", kTilted_deg), fmt::format("{}", fit.tilted),
+    throw Error(where, fmt::format("boards tilted by more than {} degrees", kTilted_deg),
+                fmt::format("{}", fit.tilted),
                 fmt::format("at least {}: else the focal length cannot be told from the distance", kFewestTilted));
   const PinholeCamera &camera = fit.camera, &deviation = fit.deviation;
   const double share = std::max(deviation.fx / camera.fx, deviation.fy / camera.fy);

@@ -20,17 +20,17 @@ std::optional<LensModel> lens_model_from_string(std::string_view text);
 struct CameraFit {
   PinholeCamera camera;
   LensDistortion lens;
-  PinholeCamera deviation;         ///< standard deviations of fx, fy, cx, cy, px, if corners err by chance alone
+  PinholeCamera deviation;  ///< standard deviations of fx, fy, cx, cy, px, if corners err by chance alone
   double error_px = 0;
-  std::vector<BoardView> views;    ///< those that were used
+  std::vector<BoardView> views;  ///< those that were used
   std::vector<double> view_errors_px;
-  int tilted = 0;  ///< of the views, boards turned from the camera by more than 10 degrees
-  std::vector<LeftOut> left_out;   ///< those that were not
+  int tilted = 0;                 ///< of the views, boards turned from the camera by more than 10 degrees
+  std::vector<LeftOut> left_out;  ///< those that were not
 };
 
 /// Fits a camera to views of a board by Zhang's method (OpenCV). A view whose error is three times the median's is
-/// left out, and the rest fitted again. Throws Error naming `where` if fewer than five views are left, or if they do
-/// not tell the focal length: fewer than three boards are tilted, or its standard deviation is over 5%.
+/// left out, and the rest fitted again. Throws Error naming `where` if fewer than five views are left, or if they
+/// do not tell the focal length: fewer than three boards are tilted, or its standard deviation is over 5%.
 CameraFit fit_camera(const BoardViews& views, const Chessboard& board, LensModel lens, const std::string& where);
 
 }  // namespace glovebench::calibration

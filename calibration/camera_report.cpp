@@ -38,10 +38,11 @@ json camera_json(const CameraFit& fit) {
 
 std::string camera_row(const char* name, const PinholeCamera& c, const LensDistortion& lens, const CameraFit& fit) {
   const PinholeCamera& d = fit.deviation;
-  return fmt::format("| {} | {:.2f} ± {:.2f} | {:.2f} ± {:.2f} | {:.2f} ± {:.2f} | {:.2f} ± {:.2f} | {:.4f}, {:.4f}, "
-                     "{:.4f}, {:.4f}, {:.4f} | {} | {:.3f} |\n",
-                     name, c.fx, d.fx, c.fy, d.fy, c.cx, d.cx, c.cy, d.cy, lens.k1, lens.k2, lens.p1, lens.p2,
-                     lens.k3, fit.views.size(), fit.error_px);
+  return fmt::format(
+      "| {} | {:.2f} ± {:.2f} | {:.2f} ± {:.2f} | {:.2f} ± {:.2f} | {:.2f} ± {:.2f} | {:.4f}, {:.4f}, "
+      "{:.4f}, {:.4f}, {:.4f} | {} | {:.3f} |\n",
+      name, c.fx, d.fx, c.fy, d.fy, c.cx, d.cx, c.cy, d.cy, lens.k1, lens.k2, lens.p1, lens.p2, lens.k3,
+      fit.views.size(), fit.error_px);
 }
 
 std::string left_out_lines(const char* of, const std::vector<LeftOut>& left_out) {
@@ -72,11 +73,13 @@ std::string report_text(const StereoFit& fit) {
   const double angle = Eigen::AngleAxisd(fit.calibration.T_rgb_ir.linear()).angle();
   return "| camera | fx px | fy px | cx px | cy px | k1, k2, p1, p2, k3 | views | error px |\n"
          "| --- | --- | --- | --- | --- | --- | ---: | ---: |\n" +
-         camera_row("IR", fit.calibration.ir, fit.calibration.ir_lens, fit.ir) + camera_row("RGB", fit.calibration.rgb, fit.calibration.rgb_lens, fit.rgb) +
-         fmt::format("\nIR to RGB: {:.2f}, {:.2f}, {:.2f} mm (± {:.2f}), turned by {:.3f} degrees (± {:.3f}); {} pairs, "
-                     "error {:.3f} px\n",
-                     t_mm.x(), t_mm.y(), t_mm.z(), 1000 * fit.translation_error, degrees_from_radians(angle),
-                     degrees_from_radians(fit.rotation_error), fit.pairs.size(), fit.error_px) +
+         camera_row("IR", fit.calibration.ir, fit.calibration.ir_lens, fit.ir) +
+         camera_row("RGB", fit.calibration.rgb, fit.calibration.rgb_lens, fit.rgb) +
+         fmt::format(
+             "\nIR to RGB: {:.2f}, {:.2f}, {:.2f} mm (± {:.2f}), turned by {:.3f} degrees (± {:.3f}); {} pairs, "
+             "error {:.3f} px\n",
+             t_mm.x(), t_mm.y(), t_mm.z(), 1000 * fit.translation_error, degrees_from_radians(angle),
+             degrees_from_radians(fit.rotation_error), fit.pairs.size(), fit.error_px) +
          left_out_lines("IR", fit.ir.left_out) + left_out_lines("RGB", fit.rgb.left_out) +
          left_out_lines("pair", fit.left_out);
 }

@@ -40,7 +40,8 @@ void check_chessboard(const Chessboard& board, const std::string& where) {
     throw Error(where, "columns and rows", fmt::format("{} each", board.rows),
                 "different numbers: else rows and columns cannot be told apart");
   if (!(board.square > 0 && board.square <= kLargestSquare))
-    throw Error(where, "square", fmt::format("{} m", board.square), fmt::format("above 0, at most {} m", kLargestSquare));
+    throw Error(where, "square", fmt::format("{} m", board.square),
+                fmt::format("above 0, at most {} m", kLargestSquare));
 }
 
 std::vector<Eigen::Vector3d> corners_on(const Chessboard& board) {

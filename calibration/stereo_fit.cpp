@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kFewestPairs = 5;
 /// Of any sensor that is one device; what lies beyond was paired wrongly.
-constexpr double kFarthestApart = 0.5;         // m
+constexpr double kFarthestApart = 0.5;  // m
 constexpr double kMostTurned_deg = 45;
 
 /// The board in the same place before both cameras.
@@ -76,12 +76,12 @@ void fit_pairs(StereoFit& fit, const std::vector<Pair>& pairs, const Chessboard&
   cv::Mat K_ir = matrix_of(fit.ir.camera), K_rgb = matrix_of(fit.rgb.camera);
   cv::Mat lens_ir = coefficients_of(fit.ir.lens), lens_rgb = coefficients_of(fit.rgb.lens), R, t, E, F, errors;
   // OpenCV's R and t take points of the first camera, here IR, to the second.
-  fit.error_px =
-      cv::stereoCalibrate(on_board, in_ir, in_rgb, K_ir, lens_ir, K_rgb, lens_rgb, ir_size, R, t, E, F, errors,
-                          cv::CALIB_USE_INTRINSIC_GUESS | lens_flags(lens), solver_criteria());
+  fit.error_px = cv::stereoCalibrate(on_board, in_ir, in_rgb, K_ir, lens_ir, K_rgb, lens_rgb, ir_size, R, t, E, F,
+                                     errors, cv::CALIB_USE_INTRINSIC_GUESS | lens_flags(lens), solver_criteria());
   fit.pair_errors_px.clear();
   for (int i = 0; i < errors.rows; ++i)
-    fit.pair_errors_px.push_back(std::hypot(errors.at<double>(i, 0), errors.at<double>(i, 1)) / std::numbers::sqrt2);
+    fit.pair_errors_px.push_back(std::hypot(errors.at<double>(i, 0), errors.at<double>(i, 1)) /
+                                 std::numbers::sqrt2);
   fit.calibration = {.ir = camera_of(K_ir, ir_size),
                      .rgb = camera_of(K_rgb, rgb_size),
                      .T_rgb_ir = isometry_of(R, t),

@@ -6,7 +6,7 @@ namespace glovebench::calibration {
 
 /// Both cameras of a Kinect.
 struct StereoFit {
-  CameraFit ir, rgb;  ///< each alone, from all of its views
+  CameraFit ir, rgb;                   ///< each alone, from all of its views
   RgbdCalibration calibration;         ///< of both together, from the pairs
   double error_px = 0;                 ///< RMS over the corners of both cameras in all pairs
   std::vector<std::string> pairs;      ///< names of the views that both cameras have

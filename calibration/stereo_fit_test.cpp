@@ -22,7 +22,8 @@ struct Session {
   std::vector<Eigen::Isometry3d> T_ir_boards;
   BoardViews ir{640, 480, {}, {}}, rgb{640, 480, {}, {}};
 
-  Session(const Chessboard& a_board, int poses) : board(a_board), T_ir_boards(poses_before(truth, a_board, poses, 1)) {
+  Session(const Chessboard& a_board, int poses)
+      : board(a_board), T_ir_boards(poses_before(truth, a_board, poses, 1)) {
     const BoardCamera ir_camera(truth.ir, truth.ir_lens), rgb_camera(truth.rgb, truth.rgb_lens);
     for (int i = 0; i < poses; ++i) {
       add(ir, ir_camera, T_ir_boards[i], i, "ir");
@@ -64,7 +65,8 @@ Session askew_session() {
 BoardViews with_noise(BoardViews views, double sigma_px, uint64_t seed, const char* of) {
   RandomStream noise(seed, of, 0, "corners");
   for (BoardView& view : views.views)
-    for (Eigen::Vector2d& corner : view.corners) corner += sigma_px * Eigen::Vector2d(noise.normal(), noise.normal());
+    for (Eigen::Vector2d& corner : view.corners)
+      corner += sigma_px * Eigen::Vector2d(noise.normal(), noise.normal());
   return views;
 }
 
@@ -99,10 +101,11 @@ Errors worst_with_noise(const Session& session, LensModel lens, const char* titl
   }
   const Errors rms = {std::sqrt(squares.focal / kSeeds), std::sqrt(squares.translation_mm / kSeeds),
                       std::sqrt(squares.rotation_deg / kSeeds)};
-  std::printf("%s: RMS (worst) of %d seeds: focal length %.3f%% (%.3f%%), translation %.2f mm (%.2f), rotation "
-              "%.3f degrees (%.3f)\n",
-              title, kSeeds, 100 * rms.focal, 100 * worst.focal, rms.translation_mm, worst.translation_mm,
-              rms.rotation_deg, worst.rotation_deg);
+  std::printf(
+      "%s: RMS (worst) of %d seeds: focal length %.3f%% (%.3f%%), translation %.2f mm (%.2f), rotation "
+      "%.3f degrees (%.3f)\n",
+      title, kSeeds, 100 * rms.focal, 100 * worst.focal, rms.translation_mm, worst.translation_mm, rms.rotation_deg,
+      worst.rotation_deg);
   return worst;
 }
 
@@ -169,8 +172,8 @@ TEST(StereoFitLong, RecoversTheTruthWithNoise) {
   EXPECT_LT(worst.rotation_deg, 0.1);
 }
 
-/// A lens that is askew looks nearly like a center that is elsewhere, and that like a camera that is turned: to tell
-/// them apart takes more than these corners, and to leave it away errs by as much.
+/// A lens that is askew looks nearly like a center that is elsewhere, and that like a camera that is turned: to
+/// tell them apart takes more than these corners, and to leave it away errs by as much.
 TEST(StereoFitLong, LensesThatAreAskewCostTheRotation) {
   const Session askew = askew_session();
   const Errors full = worst_with_noise(askew, LensModel::full, "lenses askew, fitted as such");
@@ -185,7 +188,7 @@ TEST(StereoFitLong, LensesThatAreAskewCostTheRotation) {
 TEST(StereoFit, LeavesOutWhatDoesNotFit) {
   const Session& s = session();
   BoardViews ir = s.ir, rgb = s.rgb;
-  ir.views[3].corners[10] += Eigen::Vector2d(25, 0);     // one corner of one picture
+  ir.views[3].corners[10] += Eigen::Vector2d(25, 0);      // one corner of one picture
   std::swap(rgb.views[7].corners, rgb.views[8].corners);  // the board was moved in between
   const StereoFit fit = fit_stereo(ir, rgb, s.board, LensModel::radial);
   ASSERT_EQ(fit.ir.left_out.size(), 1U);
@@ -216,8 +219,10 @@ TEST(StereoFit, RefusesWhatTellsTooLittle) {
     views.views.resize(count);
     return views;
   };
-  EXPECT_THAT(refusal(first(s.ir, 4), s.rgb, s.board), HasSubstr("IR views: views with a whole chessboard: found 4"));
-  EXPECT_THAT(refusal(s.ir, first(s.rgb, 0), s.board), HasSubstr("RGB views: views with a whole chessboard: found 0"));
+  EXPECT_THAT(refusal(first(s.ir, 4), s.rgb, s.board),
+              HasSubstr("IR views: views with a whole chessboard: found 4"));
+  EXPECT_THAT(refusal(s.ir, first(s.rgb, 0), s.board),
+              HasSubstr("RGB views: views with a whole chessboard: found 0"));
   BoardViews renamed = s.rgb;
   for (BoardView& view : renamed.views) view.name += "_";
   EXPECT_THAT(refusal(s.ir, renamed, s.board), HasSubstr("views of the same name that fit: found 0"));
@@ -228,7 +233,8 @@ TEST(StereoFit, RefusesWhatTellsTooLittle) {
     T.translation() = Eigen::Vector3d(-0.1 + 0.01 * i, -0.06, 0.5 + 0.03 * i);
     facing.views.push_back({std::to_string(i), true_corners(s.truth.ir, {}, T, s.board)});
   }
-  EXPECT_THAT(refusal(with_noise(facing, 0.3, 1, "ir"), s.rgb, s.board), HasSubstr("IR views: boards tilted by more than 10 degrees: found 0"));
+  EXPECT_THAT(refusal(with_noise(facing, 0.3, 1, "ir"), s.rgb, s.board),
+              HasSubstr("IR views: boards tilted by more than 10 degrees: found 0"));
 }
 
 TEST(StereoFit, AModelLeavesOtherCoefficientsAtZero) {

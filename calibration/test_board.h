@@ -68,7 +68,8 @@ class BoardCamera {
     }
   }
 
-  Image<uint8_t> picture(const Eigen::Isometry3d& T_camera_board, const Chessboard& board, RandomStream& noise) const {
+  Image<uint8_t> picture(const Eigen::Isometry3d& T_camera_board, const Chessboard& board,
+                         RandomStream& noise) const {
     const Eigen::Isometry3d T_board_camera = T_camera_board.inverse();
     const Eigen::Vector3d origin = T_board_camera.translation();
     Image<uint8_t> picture(camera_.width, camera_.height);
@@ -79,7 +80,8 @@ class BoardCamera {
         const double along = -origin.z() / ray.z();
         sum += along > 0 ? gray_at((origin + along * ray).head<2>(), board) : 90;
       }
-      picture[pixel] = static_cast<uint8_t>(std::clamp(std::round(sum / kRays + kNoise * noise.normal()), 0.0, 255.0));
+      picture[pixel] =
+          static_cast<uint8_t>(std::clamp(std::round(sum / kRays + kNoise * noise.normal()), 0.0, 255.0));
     }
     return picture;
   }
@@ -100,8 +102,9 @@ inline std::vector<Eigen::Isometry3d> poses_before(const RgbdCalibration& truth,
   const auto is_whole = [&](const PinholeCamera& camera, const LensDistortion& lens, const Eigen::Isometry3d& T) {
     const double rim = 1.5 * board.square;
     const double right = board.columns * board.square, bottom = board.rows * board.square;
-    for (const Eigen::Vector3d& p : {Eigen::Vector3d(-rim, -rim, 0), Eigen::Vector3d(right + rim, -rim, 0),
-                                     Eigen::Vector3d(-rim, bottom + rim, 0), Eigen::Vector3d(right + rim, bottom + rim, 0)}) {
+    for (const Eigen::Vector3d& p :
+         {Eigen::Vector3d(-rim, -rim, 0), Eigen::Vector3d(right + rim, -rim, 0),
+          Eigen::Vector3d(-rim, bottom + rim, 0), Eigen::Vector3d(right + rim, bottom + rim, 0)}) {
       const Eigen::Vector2d uv = project(camera, lens, T * p);
       if (!(uv.x() > 0 && uv.y() > 0 && uv.x() < camera.width - 1 && uv.y() < camera.height - 1)) return false;
     }
@@ -109,7 +112,8 @@ inline std::vector<Eigen::Isometry3d> poses_before(const RgbdCalibration& truth,
   };
   std::vector<Eigen::Isometry3d> poses;
   while (static_cast<int>(poses.size()) < count) {
-    const double tilt = radians_from_degrees(random.uniform(15, 45)), side = random.uniform(0, 2 * std::numbers::pi);
+    const double tilt = radians_from_degrees(random.uniform(15, 45)),
+                 side = random.uniform(0, 2 * std::numbers::pi);
     const Eigen::Matrix3d R = (Eigen::AngleAxisd(tilt, Eigen::Vector3d(std::cos(side), std::sin(side), 0)) *
                                Eigen::AngleAxisd(random.uniform(-3.14, 3.14), Eigen::Vector3d::UnitZ()))
                                   .toRotationMatrix();

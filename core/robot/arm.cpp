@@ -5,8 +5,7 @@
 namespace glovebench {
 
 const std::array<ArmJointInfo, kArmJointCount>& arm_joint_infos() {
-  // Names, limits, lengths and speeds as Mitsubishi gives them for the PA-10-7C; the speeds are not verified on
-  // one.
+  // Of the PA-10-7C as it is commonly given; the speeds are not verified.
   static constexpr std::array<ArmJointInfo, kArmJointCount> infos = {{
       {"S1", -177, 177, 57, 0.315, -90},
       {"S2", -94, 94, 57, 0, 90},

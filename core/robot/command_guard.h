@@ -9,7 +9,7 @@ namespace glovebench {
 
 /// What a stream of commands may do. Where the joints lie is in `shadow_joint_infos` and `arm_joint_infos`.
 struct CommandLimits {
-  double hand_joint_speed = 2;   ///< of each joint of the hand, rad/s: the velocity limit of Shadow's URDF
+  double hand_joint_speed = 2;   ///< of each joint of the hand, rad/s: a choice, within what Shadow's hands can do
   double hand_speed = 0.25;      ///< of the hand in space, m/s: reduced speed of ISO 10218-1
   double hand_turn_speed = 1.5;  ///< of its turning, rad/s
   double arm_speed_share = 1;    ///< of the speeds in `arm_joint_infos`, 0..1
@@ -26,8 +26,7 @@ struct CommandLimits {
 
 /// Stands in front of every sink and changes what is not safe. What it returns holds, whatever it is given:
 /// - all values are finite, joints of hand and arm within their limits, J1 not above J2, each motor's target that
-/// of
-///   its joints, rotations are rotations, the hand is in the workspace;
+///   of its joints, rotations are rotations, the hand is in the workspace;
 /// - time stamps rise; frame stamps do not go back, unless the stream had stopped;
 /// - from one command to the next, joints, hand and arm move no farther than their speeds allow in the time between
 ///   the two stamps, or in `longest_step_s` if that is shorter: so also after a stop;

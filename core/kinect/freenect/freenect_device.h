@@ -49,7 +49,8 @@ class FreenectDevice : public Device {
   /// unplugged, gave nothing for `silence_limit`, or there was no memory.
   std::optional<DeviceFrame> next_frame() override;
 
-  /// When the frame that was fetched last was whole, microseconds since 1970 by the system's clock; 0 before the first.
+  /// When the frame that was fetched last was whole, microseconds since 1970 by the system's clock; 0 before the
+  /// first.
   int64_t arrived_us() const;
 
   FreenectLosses losses() const;
