@@ -120,7 +120,9 @@ TEST_F(CalibrateCamerasLong, NamesWhatItCannotUse) {
   EXPECT_THAT(refused({"--board", "6x6"}), HasSubstr("columns and rows: found 6 each"));
   EXPECT_THAT(refused({"--square-mm", "nan"}), HasSubstr("square"));
   EXPECT_THAT(refused({"--lens", "fisheye"}), HasSubstr("--lens: value: found fisheye"));
-  EXPECT_THAT(refused({"--ir", "fakenect:" + path("ir")}), HasSubstr("INDEX.txt"));
+  EXPECT_THAT(refusal(run_glovebench({"calibrate", "cameras", "--ir", "fakenect:" + path("ir"), "--rgb",
+                                      path("rgb"), "-o", path("own.json")})),
+              HasSubstr("INDEX.txt"));
 }
 
 }  // namespace

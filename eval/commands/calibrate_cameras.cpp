@@ -30,8 +30,9 @@ struct CalibrateCameras {
     const calibration::Chessboard chessboard = parse_board();
     const std::optional<calibration::LensModel> model = calibration::lens_model_from_string(lens);
     if (!model) throw Error("--lens", "value", lens, "none, radial or full");
-    calibration::StereoFit fit = calibration::fit_stereo(boards_of(ir, chessboard, "IR"),
-                                                         boards_of(rgb, chessboard, "RGB"), chessboard, *model);
+    const calibration::BoardViews ir_boards = boards_of(ir, chessboard, "IR");
+    const calibration::BoardViews rgb_boards = boards_of(rgb, chessboard, "RGB");
+    calibration::StereoFit fit = calibration::fit_stereo(ir_boards, rgb_boards, chessboard, *model);
     fit.calibration.ir = depth_camera(fit.calibration.ir);
     save_calibration(fit.calibration, output);
     if (!report.empty()) write_file(report, calibration::report_json(fit, chessboard).dump(2) + "\n");
