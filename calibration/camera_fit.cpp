@@ -103,6 +103,7 @@ CameraFit fit_camera(const BoardViews& boards, const Chessboard& board, LensMode
     require_views(views.size(), where);
     fit = fit_all(views, board, lens, cv::Size(boards.width_px, boards.height_px));
   } while (leave_out_misfits(fit, views, left_out));
+  require_fit(fit.error_px, where);
   require_determined(fit, where);
   fit.left_out = std::move(left_out);
   return fit;

@@ -142,6 +142,7 @@ StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboa
     require_pairs(pairs);
     fit_pairs(fit, pairs, board, lens);
   } while (leave_out_misfits(fit, pairs));
+  require_fit(fit.error_px, "IR and RGB views");
   require_one_device(fit.calibration.T_rgb_ir);
   add_standard_errors(fit, pairs, board);
   for (const Pair& pair : pairs) fit.pairs.push_back(pair.name);

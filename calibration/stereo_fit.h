@@ -19,8 +19,8 @@ struct StereoFit {
 
 /// Fits each camera to its views; then both and the transform between them, T_rgb_ir, to views of the same name, on
 /// which they have seen the board in the same place. Views of one camera alone help to find misfits. Throws Error:
-/// see fit_camera; if fewer than five pairs fit; or if the two cameras lie farther apart, or turned against each
-/// other more, than those of one device could.
+/// see fit_camera; if fewer than five pairs fit, or none but by over 2 px; or if the two cameras lie farther apart,
+/// or turned against each other more, than those of one device could.
 StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board, LensModel lens);
 
 }  // namespace glovebench::calibration

@@ -226,6 +226,10 @@ TEST(StereoFit, RefusesWhatTellsTooLittle) {
   BoardViews renamed = s.rgb;
   for (BoardView& view : renamed.views) view.name += "_";
   EXPECT_THAT(refusal(s.ir, renamed, s.board), HasSubstr("views of the same name that fit: found 0"));
+  BoardViews shifted = s.rgb;  // every picture has the name of the one before
+  for (size_t i = 0; i < shifted.views.size(); ++i)
+    shifted.views[i].corners = s.rgb.views[(i + 1) % shifted.views.size()].corners;
+  EXPECT_THAT(refusal(s.ir, shifted, s.board), HasSubstr("IR and RGB views: "));
   // Boards that all face the camera tell the focal length from nothing.
   BoardViews facing{640, 480, {}, {}};
   for (int i = 0; i < 8; ++i) {

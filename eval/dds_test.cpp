@@ -173,6 +173,10 @@ TEST_F(Dds, SendsNothingThatIsNoCommand) {
   DdsSink sink(std::stoi(domain_));
   await_listener(sink);
   sink.send(lost_command(1));  // nothing was tracked yet
+  RobotCommand held = command(1);
+  held.hold = true;
+  held.state = CommandState::holding;
+  sink.send(held);
   RobotCommand bad = command(1);
   bad.targets->hand.joints[3] = std::nan("");
   EXPECT_THROW(sink.send(bad), Error);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -13,8 +14,10 @@
 namespace glovebench::eval {
 namespace {
 
-/// A Kinect's depth image.
+/// A Kinect's depth image, and its color image.
 constexpr int kDepthWidth = 640, kDepthHeight = 480;
+/// What an IR picture may have more on each axis: libfreenect's have eight rows.
+constexpr int kMostRim = 16;
 
 struct CalibrateCameras {
   std::string ir, rgb;
@@ -34,6 +37,7 @@ struct CalibrateCameras {
     const calibration::BoardViews rgb_boards = boards_of(rgb, chessboard, "RGB");
     calibration::StereoFit fit = calibration::fit_stereo(ir_boards, rgb_boards, chessboard, *model);
     fit.calibration.ir = depth_camera(fit.calibration.ir);
+    require_device_size(fit.calibration.rgb);
     save_calibration(fit.calibration, output);
     if (!report.empty()) write_file(report, calibration::report_json(fit, chessboard).dump(2) + "\n");
     fmt::print("{}\n{}: both cameras and the transform between them\n", calibration::report_text(fit), output);
@@ -60,12 +64,20 @@ struct CalibrateCameras {
     return chessboard;
   }
 
+  void require_device_size(const PinholeCamera& camera) const {
+    if (camera.width != kDepthWidth || camera.height != kDepthHeight)
+      throw Error(rgb, "size", fmt::format("{}x{}", camera.width, camera.height),
+                  fmt::format("{}x{}, as the device's frames are", kDepthWidth, kDepthHeight));
+  }
+
   /// Of the depth image, a part of the IR pictures.
   PinholeCamera depth_camera(PinholeCamera camera) const {
-    if (camera.width < kDepthWidth + ir_offset[0] || camera.height < kDepthHeight + ir_offset[1])
-      throw Error(ir, "size less --ir-offset",
-                  fmt::format("{}x{}", camera.width - ir_offset[0], camera.height - ir_offset[1]),
-                  fmt::format("at least {}x{}, the depth image", kDepthWidth, kDepthHeight));
+    const double rim_x = camera.width - kDepthWidth, rim_y = camera.height - kDepthHeight;
+    if (rim_x < ir_offset[0] || rim_y < ir_offset[1] || std::max(rim_x, rim_y) > kMostRim)
+      throw Error(
+          ir, "size",
+          fmt::format("{}x{} with --ir-offset {} {}", camera.width, camera.height, ir_offset[0], ir_offset[1]),
+          fmt::format("the {}x{} of the depth image and a rim of at most {}", kDepthWidth, kDepthHeight, kMostRim));
     camera.width = kDepthWidth;
     camera.height = kDepthHeight;
     camera.cx -= ir_offset[0];

@@ -160,16 +160,20 @@ class Service {
         port_.server.gate().keep_only(port_.present());
         look_us = now_us + kLookAroundUs;
       }
-      port_.receive([&](const char* topic, Receipt receipt, const ros::Time& stamp, int64_t source_ns) {
-        log_.received({system_us(), topic, receipt, nanoseconds(stamp), source_ns / 1000});
-      });
+      receive();
       now_us = steady_us();
       if (now_us < next_us) waitset_.wait((next_us - now_us) * 1000);
     }
+    receive();  // what came before the end counts
     return {summary(), log_.lost()};
   }
 
  private:
+  void receive() {
+    port_.receive([&](const char* topic, Receipt receipt, const ros::Time& stamp, int64_t source_ns) {
+      log_.received({system_us(), topic, receipt, nanoseconds(stamp), source_ns / 1000});
+    });
+  }
   void tick(int64_t now_us) {
     if (now_us <= last_us_) return;
     if (states_sent_ > 0) longest_gap_us_ = std::max(longest_gap_us_, now_us - last_us_);

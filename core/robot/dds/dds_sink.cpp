@@ -30,7 +30,8 @@ class DdsSink::Writers {
   void send(const RobotCommand& command) {
     const int64_t source_ns = std::exchange(arrived_ns_, std::nullopt).value_or(dds_time());
     const int64_t period_us = next_period(command.frame_timestamp_us);
-    if (!command.targets) return;
+    // What is sent is to be followed: a lost hand is silence, at which a server holds and then stops.
+    if (command.hold || !command.targets) return;
     hand_.write(hand_message(command, period_us), source_ns);
     wrist_.write(wrist_message(command, period_us), source_ns);
     arm_.write(pose_message(command), source_ns);

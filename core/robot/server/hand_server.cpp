@@ -53,6 +53,9 @@ Receipt HandServer::receive(uint64_t sender, HandTopic topic, const ros::JointTr
   if (receipt == Receipt::accepted) receipt = gate_.admit(sender, wrist ? 1 : 0, message.stamp, now_us);
   ++receipts_[static_cast<size_t>(receipt)];
   if (receipt != Receipt::accepted) return receipt;
+  // What another sender wanted of the other joints, or this one before it fell silent, is wanted no more.
+  if (std::exchange(sender_, sender) != sender || (last_.state != CommandState::following && !received_))
+    std::ranges::copy(last_.position, goal_.hand.joints.begin());
   std::ranges::copy(read.positions, goal_.hand.joints.begin() + (wrist ? kWRJ1 : 0));
   received_ = true;
   return receipt;

@@ -37,7 +37,8 @@ class HandServer {
   StreamGate gate_;
   ReceiptCounts receipts_{};
   RobotTargets goal_;
-  bool received_ = false;  ///< since the last tick
+  std::optional<uint64_t> sender_;  ///< of the last message that was accepted
+  bool received_ = false;           ///< since the last tick
   bool ticked_ = false;
   RobotState last_;
 };

@@ -77,6 +77,23 @@ TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
   EXPECT_NEAR(last_.position[kWRJ1], radians_from_degrees(8), kRounding);
 }
 
+TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
+  tick();
+  for (int i = 0; i < 2; ++i) {
+    wrist(28, 1000 * (i + 1));
+    tick();
+  }
+  const double stood = ticks(80).position[kWRJ1];  // its sender is dead
+  EXPECT_GT(stood, 0);
+  EXPECT_LT(stood, radians_from_degrees(25)) << "it was on its way";
+  for (int i = 0; i < 60; ++i) {
+    EXPECT_EQ(fingers(10, 1000 * (i + 1), kSecond), Receipt::accepted);
+    tick();
+  }
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(10), kRounding);
+  EXPECT_EQ(last_.position[kWRJ1], stood);
+}
+
 TEST_F(HandServerTest, MovesNoFasterOnItsVeryFirstTick) {
   EXPECT_EQ(fingers(90, 1), Receipt::accepted);
   tick();  // checks it
