@@ -10,7 +10,7 @@ namespace glovebench {
 /// What a stream of commands may do. Where the joints lie is in `shadow_joint_infos` and `arm_joint_infos`.
 struct CommandLimits {
   double hand_joint_speed = 2;   ///< of each joint of the hand, rad/s: a choice, within what Shadow's hands can do
-  double hand_speed = 0.25;      ///< of the hand in space, m/s: reduced speed of ISO 10218-1
+  double hand_speed = 0.25;      ///< of the hand's origin, m/s: the number of ISO 10218-1's reduced speed
   double hand_turn_speed = 1.5;  ///< of its turning, rad/s
   double arm_speed_share = 1;    ///< of the speeds in `arm_joint_infos`, 0..1
   Eigen::Vector3d workspace_min{-1.5, -1.5, 0};  ///< where the hand may be in the arm's base frame, m
