@@ -70,6 +70,12 @@ TEST_F(CalibrateCamerasLong, GivesACalibrationThatTrackTakes) {
   EXPECT_EQ(report.at("rgb").at("left_out").at(0).at("name"), "99");
   EXPECT_LT(report.at("stereo").at("error_px"), 0.2);
 
+  ASSERT_EQ(calibrate({"--ir-offset", "5", "4"}).exit_code, 0) << "as of libfreenect's IR pictures";
+  const RgbdCalibration moved = load_calibration(path("own.json"));
+  EXPECT_EQ(moved.ir.cx, own.ir.cx - 5);
+  EXPECT_EQ(moved.ir.cy, own.ir.cy - 4);
+  save_calibration(own, path("own.json"));
+
   render_recording("good.json", "dump");
   const auto position_mm = [&](const std::string& estimates, const std::vector<std::string>& more) {
     expect_fine(track("dump", "DB_open_power", estimates, more));
@@ -119,6 +125,7 @@ TEST_F(CalibrateCamerasLong, NamesWhatItCannotUse) {
   EXPECT_THAT(refused({"--board", "9x6x2"}), HasSubstr("--board: value: found 9x6x2"));
   EXPECT_THAT(refused({"--board", "6x6"}), HasSubstr("columns and rows: found 6 each"));
   EXPECT_THAT(refused({"--square-mm", "nan"}), HasSubstr("square"));
+  EXPECT_THAT(refused({"--ir-offset", "nan", "0"}), HasSubstr("--ir-offset: value: found nan 0"));
   EXPECT_THAT(refused({"--lens", "fisheye"}), HasSubstr("--lens: value: found fisheye"));
   EXPECT_THAT(refusal(run_glovebench({"calibrate", "cameras", "--ir", "fakenect:" + path("ir"), "--rgb",
                                       path("rgb"), "-o", path("own.json")})),

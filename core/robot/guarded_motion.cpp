@@ -15,15 +15,6 @@ bool all_finite(const Range& values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// The targets of the motors are those of their joints.
-void make_actuators(ShadowHandTargets& hand) {
-  for (int a = 0; a < kShadowActuatorCount; ++a) {
-    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
-    hand.actuators[a] = hand.joints[info.joint];
-    if (info.coupled_joint) hand.actuators[a] += hand.joints[*info.coupled_joint];
-  }
-}
-
 void flag_actuators(ShadowHandTargets& hand, const std::array<bool, kShadowJointCount>& changed) {
   for (int a = 0; a < kShadowActuatorCount; ++a) {
     const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
@@ -118,6 +109,14 @@ Eigen::Matrix3d turned_towards(const Eigen::Matrix3d& from, const Eigen::Matrix3
 }
 
 }  // namespace
+
+void make_actuators(ShadowHandTargets& hand) {
+  for (int a = 0; a < kShadowActuatorCount; ++a) {
+    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
+    hand.actuators[a] = hand.joints[info.joint];
+    if (info.coupled_joint) hand.actuators[a] += hand.joints[*info.coupled_joint];
+  }
+}
 
 std::optional<Intervention> refusal(const RobotTargets& targets) {
   const Eigen::Matrix3d R = targets.T_base_hand.linear();

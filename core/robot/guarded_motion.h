@@ -6,6 +6,9 @@ namespace glovebench {
 
 /// What stands between two commands: the guard's arithmetic, without its state.
 
+/// Gives each motor the target that follows from its joints'.
+void make_actuators(ShadowHandTargets& hand);
+
 /// Why targets cannot be used at all, if so.
 std::optional<Intervention> refusal(const RobotTargets& targets);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "calibration/camera_report.h"
@@ -33,6 +34,10 @@ struct CalibrateCameras {
     const calibration::Chessboard chessboard = parse_board();
     const std::optional<calibration::LensModel> model = calibration::lens_model_from_string(lens);
     if (!model) throw Error("--lens", "value", lens, "none, radial or full");
+    // What is no number passes the check of its range.
+    if (!(std::isfinite(ir_offset[0]) && std::isfinite(ir_offset[1])))
+      throw Error("--ir-offset", "value", fmt::format("{} {}", ir_offset[0], ir_offset[1]),
+                  "two numbers of pixels");
     const calibration::BoardViews ir_boards = boards_of(ir, chessboard, "IR");
     const calibration::BoardViews rgb_boards = boards_of(rgb, chessboard, "RGB");
     calibration::StereoFit fit = calibration::fit_stereo(ir_boards, rgb_boards, chessboard, *model);
@@ -70,13 +75,12 @@ struct CalibrateCameras {
                   fmt::format("{}x{}, as the device's frames are", kDepthWidth, kDepthHeight));
   }
 
-  /// Of the depth image, a part of the IR pictures.
+  /// Of the depth image, which begins where --ir-offset says and may reach beyond the IR pictures.
   PinholeCamera depth_camera(PinholeCamera camera) const {
-    const double rim_x = camera.width - kDepthWidth, rim_y = camera.height - kDepthHeight;
-    if (rim_x < ir_offset[0] || rim_y < ir_offset[1] || std::max(rim_x, rim_y) > kMostRim)
+    const int rim_x = camera.width - kDepthWidth, rim_y = camera.height - kDepthHeight;
+    if (std::min(rim_x, rim_y) < 0 || std::max(rim_x, rim_y) > kMostRim)
       throw Error(
-          ir, "size",
-          fmt::format("{}x{} with --ir-offset {} {}", camera.width, camera.height, ir_offset[0], ir_offset[1]),
+          ir, "size", fmt::format("{}x{}", camera.width, camera.height),
           fmt::format("the {}x{} of the depth image and a rim of at most {}", kDepthWidth, kDepthHeight, kMostRim));
     camera.width = kDepthWidth;
     camera.height = kDepthHeight;

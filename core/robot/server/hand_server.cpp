@@ -7,18 +7,10 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/robot/guarded_motion.h"
 
 namespace glovebench {
 namespace {
-
-/// The motors' targets follow from the joints'.
-void make_actuators(ShadowHandTargets& hand) {
-  for (int a = 0; a < kShadowActuatorCount; ++a) {
-    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
-    hand.actuators[a] = hand.joints[info.joint];
-    if (info.coupled_joint) hand.actuators[a] += hand.joints[*info.coupled_joint];
-  }
-}
 
 /// This server has no arm: its hand stays at one place, in the middle of the workspace.
 RobotTargets standing(const CommandLimits& limits, const std::vector<double>& joints) {
