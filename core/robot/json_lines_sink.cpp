@@ -7,7 +7,6 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 
 namespace glovebench {
 namespace {
@@ -81,11 +80,11 @@ std::string to_json_line(const RobotCommand& command) {
 }
 
 void JsonLinesSink::send(const RobotCommand& command) {
-  lines_ += to_json_line(command) + "\n";
+  file_.append(to_json_line(command) + "\n");
 }
 
 void JsonLinesSink::finish() {
-  write_file(path_, lines_);
+  file_.commit();
 }
 
 }  // namespace glovebench

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/base/file.h"
 #include "core/robot/robot_command.h"
 
 namespace glovebench {
@@ -10,16 +11,16 @@ namespace glovebench {
 /// Numbers are rounded to 1e-6 of their unit, so equal commands are equal bytes. Throws Error if one is not finite.
 std::string to_json_line(const RobotCommand& command);
 
-/// Collects commands and writes them as JSON Lines. The file appears whole at `finish`, or not at all.
+/// Writes commands as JSON Lines, each as it comes, to a temporary file: the file itself appears whole at `finish`,
+/// or not at all. Every function throws Error if the disk has no room.
 class JsonLinesSink : public RobotCommandSink {
  public:
-  explicit JsonLinesSink(std::string path) : path_(std::move(path)) {}
+  explicit JsonLinesSink(const std::string& path) : file_(path) {}
   void send(const RobotCommand& command) override;
   void finish() override;
 
  private:
-  std::string path_;
-  std::string lines_;
+  WholeFile file_;
 };
 
 }  // namespace glovebench

@@ -192,6 +192,28 @@ TEST(RobotCommander, NothingThatIsNotFiniteLeaves) {
   EXPECT_THROW(to_json_line(command), Error);
 }
 
+TEST(JsonLinesSink, WritesEachLineAsItComesAndLeavesNothingWithoutAnEnd) {
+  const std::string folder = testing::TempDir() + "/robot_lines";
+  std::filesystem::remove_all(folder);
+  RobotCommander commander(Eigen::Isometry3d::Identity());
+  const auto bytes_on_disk = [&] {
+    uintmax_t bytes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) bytes += entry.file_size();
+    return bytes;
+  };
+  {
+    JsonLinesSink sink(folder + "/robot.jsonl");
+    uintmax_t before = 0;
+    for (int frame = 1; frame <= 3; ++frame) {
+      sink.send(commander.command(tracked(frame, Posture::Zero())));
+      EXPECT_GT(bytes_on_disk(), before + 500);
+      before = bytes_on_disk();
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder + "/robot.jsonl"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder)) << "never finished";
+}
+
 TEST(JsonLinesSink, WritesOneLineAFrame) {
   const std::string path = testing::TempDir() + "/robot.jsonl";
   std::filesystem::remove(path);
