@@ -61,6 +61,20 @@ TEST_F(TrackLong, NamesDamagedFilesAndGoesOn) {
   EXPECT_FALSE(fs::exists(path("none.jsonl")));
 }
 
+TEST_F(TrackLong, FullDiskKeepsTheOlderCommands) {
+  render_recording("good.json", "dump");
+  write_file(path("robot.jsonl"), "older");
+  expect_fine(track("dump", "DB_open_power", "whole.jsonl", {"--robot-out", path("whole_robot.jsonl")}));
+  ProgramSetting full;
+  full.max_file_bytes = fs::file_size(path("whole_robot.jsonl")) - 100;
+  EXPECT_THAT(
+      refusal(run_glovebench({"track", "--source", "fakenect:" + path("dump"), "--database", "DB_open_power", "-o",
+                              path("estimates.jsonl"), "--robot-out", path("robot.jsonl")},
+                             full)),
+      HasSubstr("room"));
+  EXPECT_EQ(read_file(path("robot.jsonl")), "older") << "not the first half of the new ones";
+}
+
 TEST_F(TrackLong, TakesACalibrationOfItsOwn) {
   render_recording("good.json", "dump");
   json calibration = json::parse(read_file(path("dump/calibration.json")));

@@ -10,6 +10,7 @@
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
 #endif
+#include "core/robot/command_limits.h"
 #include "eval/share.h"
 #include "reports/json_reader.h"
 
@@ -96,6 +97,14 @@ void RobotFlags::add(CLI::App& command, const std::string& what) {
           "--flange-wrist", flange_wrist,
           "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]")
       ->expected(7);
+  command.add_option(
+      "--robot-limits", limits_file,
+      "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
+}
+
+CommandLimits command_limits(const std::string& file) {
+  return file.empty() ? CommandLimits()
+                      : command_limits_from_json(reports::parse_json(read_file(file), file), file);
 }
 
 namespace {
@@ -132,7 +141,13 @@ RobotSetup RobotFlags::setup(Workbench& workbench) const {
 }
 
 RobotOutput RobotFlags::output_of(Workbench& workbench) const {
-  return output.empty() ? RobotOutput{} : RobotOutput{output, setup(workbench)};
+  RobotOutput robot{output, setup(workbench), limits()};
+  if (!limits_file.empty()) robot.changes["limits"] = to_json(robot.limits);
+  if (mapping != "direct") robot.changes["mapping"] = mapping;
+  if (arm != "auto") robot.changes["arm"] = arm;
+  if (!base_camera.empty()) robot.changes["base_camera"] = base_camera;
+  if (!flange_wrist.empty()) robot.changes["flange_wrist"] = flange_wrist;
+  return robot;
 }
 
 void CommonFlags::check_output_folder() const {

@@ -4,6 +4,7 @@
 
 #include "core/hand/hand_model.h"
 #include "core/methods/method.h"
+#include "core/robot/command_limits.h"
 #include "eval/commands/command.h"
 #include "eval/robot_kinematics.h"
 #include "eval/share.h"
@@ -66,6 +67,9 @@ void add_list(CLI::App& program) {
   list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
   list->add_subcommand("mapping", "How far the robot hand's fingertips are from the human's, by way of mapping.")
       ->callback(list_mapping);
+  list->add_subcommand("limits", "What robot commands may do, as JSON, as --robot-limits takes it.")->callback([] {
+    fmt::print("{}\n", to_json(CommandLimits()).dump(2));
+  });
   const auto common = std::make_shared<CommonFlags>();
   CLI::App* config = list->add_subcommand("config", "The tracker's configuration as JSON, as --config takes it.");
   common->add_tracker(*config);

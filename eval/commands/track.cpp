@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
 #include <optional>
 
 #include "core/base/error.h"
@@ -58,11 +59,13 @@ struct Track {
 
   // Of the run.
   int frames = 0, unusable = 0, tracked = 0;
-  std::optional<Error> failure;  ///< of the device, or of whom the commands go to
+  std::optional<Error> failure;  ///< of the device, or of a command
+  bool all_sent = true;          ///< no command failed
 
   void run() {
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
+    CommandGuard guard(robot.limits());
     RobotOutputs outputs(robot.output, middleware);
     TrackSource source = open_source(from);
     Workbench workbench = common.workbench();
@@ -74,21 +77,21 @@ struct Track {
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
     WholeFile output(common.output);
     const Interruption interruption;
-    const RobotSetup setup = outputs.any() ? robot.setup(workbench) : RobotSetup{};
-    track_all(source, *method, output, setup, outputs);
+    RobotCommander commander(robot.setup(workbench));
+    track_all(source, *method, output, [&](const TrackResult& result) {
+      if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
+    });
     if (frames == unusable) refuse();
     output.commit();
-    outputs.finish();
+    if (all_sent) outputs.finish();
     fmt::print("{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames, counted(unusable, "unusable"),
                counted(source.dropped(), "dropped"));
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) fmt::print(stderr, "glovebench: {}\n", source.ended_by());
   }
 
-  void track_all(TrackSource& source, Method& method, WholeFile& output, const RobotSetup& setup,
-                 RobotOutputs& outputs) {
-    RobotCommander commander(setup);
-    CommandGuard guard;
+  void track_all(TrackSource& source, Method& method, WholeFile& output,
+                 const std::function<void(const TrackResult&)>& command_robot) {
     Progress progress("tracking", common.quiet);
     StatusLine status(common.quiet || source.frame_count > 0);
     while (!failure && !Interruption::wished() && (limit == 0 || frames < limit)) {
@@ -97,7 +100,7 @@ struct Track {
       if (!frame && frames == number) return;
       if (frame) {
         const TrackResult result = method.track(*frame);
-        if (outputs.any()) send(guard.guard(commander.command(result)), source.arrived_us(), outputs);
+        command_robot(result);
         output.append(estimate_line(number, result) + "\n");
         tracked += result.status == TrackStatus::tracked;
         status.show(result, source.dropped());
@@ -106,11 +109,14 @@ struct Track {
     }
   }
 
-  void send(const std::optional<RobotCommand>& command, int64_t arrived_us, RobotOutputs& outputs) {
+  void command(const TrackResult& result, RobotCommander& commander, CommandGuard& guard, int64_t arrived_us,
+               RobotOutputs& outputs) {
     try {
-      if (command) outputs.send(*command, arrived_us);
+      if (const std::optional<RobotCommand> safe = guard.guard(commander.command(result)))
+        outputs.send(*safe, arrived_us);
     } catch (const Error& e) {
       failure = e;
+      all_sent = false;
     }
   }
 

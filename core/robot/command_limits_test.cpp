@@ -1,0 +1,71 @@
+#include "core/robot/command_limits.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string error_of(const json& limits) {
+  try {
+    command_limits_from_json(limits, "limits.json");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(CommandLimitsJson, ReturnsWithEveryField) {
+  CommandLimits limits;
+  limits.hand_joint_speed = 1.25;
+  limits.hand_speed = 0.5;
+  limits.hand_turn_speed = 0.75;
+  limits.arm_speed_share = 0.125;
+  limits.workspace_min = {-1, -0.5, 0.25};
+  limits.workspace_max = {1, 0.5, 1.5};
+  limits.longest_step_s = 0.0625;
+  limits.silence_s = 0.375;
+  limits.stop_after_s = 1.75;
+  const CommandLimits read = command_limits_from_json(to_json(limits), "limits.json");
+  EXPECT_EQ(to_json(read), to_json(limits));
+  EXPECT_EQ(read.hand_joint_speed, limits.hand_joint_speed);
+  EXPECT_EQ(read.workspace_min, limits.workspace_min);
+  EXPECT_EQ(read.stop_after_s, limits.stop_after_s);
+  const json written = to_json(limits), defaults = to_json(CommandLimits());
+  for (const auto& [key, value] : written.items())
+    EXPECT_NE(value, defaults[key]) << key << " is read, not the default";
+}
+
+TEST(CommandLimitsJson, KeepsTheDefaultsOfWhatIsNotThere) {
+  json expected = to_json(CommandLimits());
+  expected["hand_speed_m_s"] = 0.125;
+  EXPECT_EQ(to_json(command_limits_from_json({{"hand_speed_m_s", 0.125}}, "limits.json")), expected);
+  EXPECT_EQ(to_json(command_limits_from_json(json::object(), "limits.json")), to_json(CommandLimits()));
+}
+
+TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
+  EXPECT_THAT(error_of(json::array()), HasSubstr("limits.json: limits: found [], expected an object"));
+  EXPECT_THAT(error_of({{"hand_sped_m_s", 1}}),
+              AllOf(HasSubstr("\"hand_sped_m_s\": found an unknown key"), HasSubstr("hand_speed_m_s")));
+  EXPECT_THAT(error_of({{"hand_speed_m_s", "fast"}}),
+              HasSubstr("limits.json: hand_speed_m_s: found \"fast\", expected a number"));
+  EXPECT_THAT(error_of({{"hand_speed_m_s", 0}}), HasSubstr("hand_speed is not above 0"));
+  EXPECT_THAT(error_of({{"arm_speed_share", 1.5}}), HasSubstr("arm_speed_share"));
+  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0}}}),
+              HasSubstr("workspace_min_m: found [0,0], expected x, y and z"));
+  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, nullptr}}}), HasSubstr("workspace_min_m[2]: found null"));
+  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, 3}}}), HasSubstr("the workspace is empty"));
+  EXPECT_THAT(error_of({{"silence_s", 2}}), HasSubstr("stop_after_s is less than silence_s"));
+  EXPECT_THAT(error_of({{"stop_after_s", std::numeric_limits<double>::infinity()}}), HasSubstr("limits.json: "));
+}
+
+}  // namespace
+}  // namespace glovebench

@@ -1,0 +1,56 @@
+// Limits of robot commands, from the command line to commands and reports.
+#include "eval/command_test.h"
+
+namespace glovebench::eval {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class RobotLimitsLong : public CommandTest {};
+
+TEST_F(RobotLimitsLong, SlowTheHandDownAndStandInTheResults) {
+  write_file(path("slow.json"), R"({"hand_speed_m_s": 0.001})");
+  const json free = run_trajectory("good.json", "free", {"--robot-out", path("free_robot")});
+  const json slow =
+      run_trajectory("good.json", "slow", {"--robot-limits", path("slow.json"), "--robot-out", path("slow_robot")});
+  const auto interventions = [](const json& results) {
+    return results["experiments"][0]["commands"]["interventions"].value("hand_speed", 0);
+  };
+  EXPECT_EQ(interventions(free), 0);
+  EXPECT_EQ(interventions(slow), kFrames - 1) << "all but the first";
+  EXPECT_FALSE(free["configuration"].contains("robot"));
+  EXPECT_EQ(slow["configuration"]["robot"]["limits"]["hand_speed_m_s"], 0.001);
+  EXPECT_EQ(slow["configuration"]["robot"]["limits"]["stop_after_s"], 0.5) << "also what was not changed";
+  EXPECT_FALSE(read_folder(path("free_robot")) == read_folder(path("slow_robot")));
+
+  render_recording("good.json", "dump");
+  expect_fine(track("dump", "DB_open_power", "estimates.jsonl",
+                    {"--robot-limits", path("slow.json"), "--robot-out", path("tracked.jsonl")}));
+  EXPECT_EQ(read_file(path("tracked.jsonl")), read_folder(path("slow_robot")).begin()->second);
+}
+
+TEST_F(RobotLimitsLong, ListedOnesAreTheDefaults) {
+  const ProgramRun listed = run_glovebench({"list", "limits"});
+  expect_fine(listed);
+  write_file(path("limits.json"), listed.out);
+  const json results = run_trajectory("good.json", "out");
+  EXPECT_EQ(run_trajectory("good.json", "same", {"--robot-limits", path("limits.json")})["experiments"],
+            results["experiments"]);
+}
+
+TEST_F(RobotLimitsLong, ThatCannotBeAreRefused) {
+  const auto refused = [&](const std::string& limits) {
+    write_file(path("limits.json"), limits);
+    return refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
+                                   path("out"), "--robot-limits", path("limits.json")}));
+  };
+  EXPECT_THAT(refused("{"), HasSubstr("limits.json: byte 2"));
+  EXPECT_THAT(refused(R"({"hand_speed_m_s": -1})"), AllOf(HasSubstr("limits.json"), HasSubstr("hand_speed")));
+  EXPECT_THAT(refused(R"({"speed": 1})"), HasSubstr("an unknown key"));
+  EXPECT_FALSE(std::filesystem::exists(path("out/results.json")));
+}
+
+}  // namespace
+}  // namespace glovebench::eval
