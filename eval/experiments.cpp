@@ -5,7 +5,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <map>
+#include <tuple>
 
 #include "core/base/check.h"
 #include "core/base/file.h"
@@ -14,6 +15,7 @@
 #include "eval/page_material.h"
 #include "eval/program_info.h"
 #include "eval/replay_all.h"
+#include "eval/robot_commands.h"
 #include "eval/share.h"
 #include "reports/report.h"
 #include "trajectories/catalog.h"
@@ -117,22 +119,51 @@ reports::ExperimentTiming timing_of(const Gathered& experiment) {
   return timing;
 }
 
-void write_robot_commands(const RobotOutput& robot, const Gathered& experiment) {
-  for (size_t i = 0; i < experiment.passes.size(); ++i) {
-    JsonLinesSink sink(
-        fmt::format("{}/{}_seed{}.jsonl", robot.folder, to_string(experiment.key), experiment.replays[i]->seed));
-    RobotCommander commander(robot.setup);
-    CommandGuard guard(robot.limits);
-    for (const TrackResult& result : experiment.passes[i]->results)
-      if (const std::optional<RobotCommand> safe = guard.guard(commander.command(result))) sink.send(*safe);
+/// The robot commands of the experiments, beside those that their truths give.
+class Robot {
+ public:
+  explicit Robot(const RobotOutput& output) : output_(output) {
+    if (!output_.folder.empty()) remove_leftovers(output_.folder, is_of_robot_output);
+  }
+
+  /// Adds the times from frame to command to the experiment's.
+  reports::CommandResult command(const Gathered& experiment, reports::ExperimentTiming& timing) {
+    CommandMeasurement measurement;
+    for (size_t i = 0; i < experiment.passes.size(); ++i) {
+      const TrackedReplay& pass = *experiment.passes[i];
+      const CommandStream stream = make_commands(pass.results, output_.setup, output_.limits);
+      measurement.add(stream, of_truth(*experiment.replays[i]), static_cast<int>(pass.results.size()));
+      for (size_t f = 0; f < pass.results.size(); ++f)
+        timing.command_ms.push_back(pass.frame_ms[f] + stream.command_ms[f]);
+      if (!output_.folder.empty())
+        write(stream, fmt::format("{}_seed{}.jsonl", to_string(experiment.key), experiment.replays[i]->seed));
+    }
+    return measurement.result();
+  }
+
+ private:
+  /// "EXPERIMENT_seed1.jsonl".
+  static bool is_of_robot_output(const std::string& name) {
+    return name.find("_seed") != std::string::npos && name.ends_with(".jsonl");
+  }
+
+  void write(const CommandStream& stream, const std::string& name) const {
+    JsonLinesSink sink(output_.folder + "/" + name);
+    for (const RobotCommand& command : stream.commands) sink.send(command);
     sink.finish();
   }
-}
 
-/// Of a robot folder: "EXPERIMENT_seed1.jsonl".
-bool is_of_robot_output(const std::string& name) {
-  return name.find("_seed") != std::string::npos && name.ends_with(".jsonl");
-}
+  /// Databases, noises and seeds share a truth.
+  const CommandStream& of_truth(const Replay& replay) {
+    const auto key = std::tuple(replay.truth, replay.range.first, replay.range.count);
+    const auto [it, is_new] = of_truth_.try_emplace(key);
+    if (is_new) it->second = make_commands(true_results(frames_of(replay)), output_.setup, output_.limits);
+    return it->second;
+  }
+
+  const RobotOutput& output_;
+  std::map<std::tuple<std::shared_ptr<const Trajectory>, int, std::optional<int>>, CommandStream> of_truth_;
+};
 
 reports::ExperimentEstimates estimates_of(const Gathered& experiment) {
   reports::ExperimentEstimates estimates{experiment.key, {}};
@@ -207,11 +238,12 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
       replay_all(workbench, plan.replays, workbench.config().threads, run_folder);
   const std::vector<Gathered> experiments = gather(plan, outputs);
   Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads), {}};
-  if (!robot.folder.empty()) remove_leftovers(robot.folder, is_of_robot_output);
-  for (const Gathered& experiment : experiments) {
-    outcome.timings.experiments.push_back(timing_of(experiment));
-    outcome.estimates.push_back(estimates_of(experiment));
-    if (!robot.folder.empty()) write_robot_commands(robot, experiment);
+  if (!robot.changes.empty()) outcome.result.configuration["robot"] = robot.changes;
+  Robot commanded(robot);
+  for (size_t e = 0; e < experiments.size(); ++e) {
+    outcome.timings.experiments.push_back(timing_of(experiments[e]));
+    outcome.result.experiments[e].commands = commanded.command(experiments[e], outcome.timings.experiments.back());
+    outcome.estimates.push_back(estimates_of(experiments[e]));
   }
   note_resources(outcome.timings, start);
   return outcome;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -36,19 +37,20 @@ struct Outcome {
   reports::Timings timings;
   std::vector<reports::ExperimentEstimates> estimates;
 };
-/// Where the robot commands of each experiment are written; an empty folder: nowhere.
+/// How the robot commands of each experiment are made, and where they are written; an empty folder: nowhere.
 struct RobotOutput {
-  std::string folder;
+  std::string folder = {};
   RobotSetup setup = {};
   CommandLimits limits = {};
+  nlohmann::json changes = nlohmann::json::object();  ///< to what is by default, for the results' configuration
 };
 
 /// Checks all that a plan names, and makes or loads the databases and the color table: what a mistake in the plan
 /// throws Error for, it throws here.
 void prepare(Workbench& workbench, const Plan& plan);
 
-/// Runs a plan on the workbench's threads. The result does not depend on their number. With a robot folder, the
-/// robot commands of each experiment are written there as JSON Lines. With a run folder, replays that an
+/// Runs a plan on the workbench's threads. The result does not depend on their number. The robot commands of each
+/// experiment are measured, and with a robot folder written there as JSON Lines. With a run folder, replays that an
 /// interrupted run finished are taken from it, and each that is finished is stored in it.
 Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot = {},
                         const RunFolder* run_folder = nullptr);

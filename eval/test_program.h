@@ -128,6 +128,18 @@ inline std::map<std::string, std::string> read_folder(const std::string& folder)
   return files;
 }
 
+/// The same for a report's, without what differs from run to run: timings.json and, on the page, the time from
+/// frame to command.
+inline std::map<std::string, std::string> read_timeless(const std::string& folder) {
+  std::map<std::string, std::string> files = read_folder(folder);
+  EXPECT_EQ(files.erase("timings.json"), 1U);
+  std::string& page = files["index.html"];
+  const size_t begin = page.find("<h3>From frame to command"), end = page.find("</table>", begin);
+  EXPECT_NE(end, std::string::npos);
+  page.erase(begin, end - begin);
+  return files;
+}
+
 /// A trajectory as one writes it by hand: an open hand that moves and begins to close.
 inline nlohmann::json make_trajectory_json(const std::string& name, int frame_count) {
   nlohmann::json names = nlohmann::json::array(), frames = nlohmann::json::array();

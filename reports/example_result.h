@@ -40,8 +40,24 @@ inline FrameRecord example_lost_frame(int index) {
   return frame;
 }
 
-/// Four experiments: one whose means are 4 mm / 3 deg / 2 deg with one lost frame of four, one of lost frames only,
-/// one without frames, and one of another noise.
+/// Commands of frames of which the last two were lost, at 30 Hz.
+inline CommandResult example_commands(int frames, double error) {
+  CommandResult commands;
+  commands.frames = frames;
+  commands.sent = {frames - 2, 2, 0};
+  commands.rate_hz = 30;
+  commands.longest_gap_ms = 33.333;
+  commands.interventions.add(Intervention::hold, 2);
+  commands.interventions.add(Intervention::arm_speed, 1);
+  const std::vector<double> errors = {error, 2 * error};
+  commands.errors = {aggregate(errors), aggregate(errors), aggregate(errors), {}};
+  commands.jerk = {2e6, 150.5};
+  commands.truth_jerk = {5e4, 8};
+  return commands;
+}
+
+/// Four experiments: one whose means are 4 mm / 3 deg / 2 deg with one lost frame of four and robot commands, one
+/// of lost frames only, one without frames, and one of another noise.
 inline RunResult small_result() {
   RunResult result;
   result.protocol = make_protocol("by time stamp, exact");
@@ -58,6 +74,7 @@ inline RunResult small_result() {
   std::vector<SeedRun> runs = {{1, {example_frame(0, 3, 2, 1), example_lost_frame(1)}},
                                {2, {example_frame(0, 4, 3, 2), example_frame(1, 5, 4, 3)}}};
   result.experiments.push_back(summarize(key, runs, pck, {0.5, 0.25, 3.0}, bootstrap));
+  result.experiments.back().commands = example_commands(4, 3);
   result.experiments.push_back(summarize({"Tr4", "DB_open_power", TruthKind::source, 2, {}},
                                          {{1, {example_lost_frame(0), example_lost_frame(1)}}}, pck_curve({}, 2),
                                          {}));
@@ -109,6 +126,7 @@ inline RunResult full_result() {
         for (const FrameRecord& frame : runs[0].frames)
           if (frame.joint_error_mm) errors.push_back(*frame.joint_error_mm);
         result.experiments.push_back(summarize(key, std::move(runs), pck_curve(errors, frames), {0.4, 0.3, 2.9}));
+        result.experiments.back().commands = example_commands(2 * frames, level);
       }
     }
   }

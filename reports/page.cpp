@@ -4,6 +4,7 @@
 
 #include "reports/chart.h"
 #include "reports/claims/claims_report.h"
+#include "reports/command_tables.h"
 #include "reports/embedded.h"
 #include "reports/json_text.h"
 #include "reports/page/section.h"
@@ -73,6 +74,7 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
     sections.push_back(std::move(section));
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));
   if (!result.experiments.empty()) sections.push_back(metrics_section(result));
+  if (has_commands(result)) sections.push_back(command_section(result, timings));
   if (!material.worst_frames.empty()) sections.push_back(gallery_section(material.worst_frames));
   sections.push_back(configuration_section(result));
   if (!result.studies.empty()) sections.push_back(environment_section(timings));

@@ -20,8 +20,8 @@ struct PageMaterial {
 };
 
 /// index.html, one file that needs no other: the paper's figures 4 to 9 beside its numbers, as charts over tables;
-/// what was not run is left out. Without JavaScript the tables and the keyframes are there. The times of the run
-/// are shown if it has studies, which are of times themselves; another run's page depends on its results alone.
+/// what was not run is left out. Without JavaScript the tables and the keyframes are there. Of the times of the run
+/// those of the robot commands are shown, and, if it has studies, which are of times themselves, where it ran.
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
                       const PageMaterial& material = {});
 

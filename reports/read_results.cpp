@@ -4,19 +4,17 @@
 #include <cmath>
 
 #include "core/base/file.h"
-#include "reports/interval_json.h"
+#include "reports/commands_json.h"
 #include "reports/json_reader.h"
 #include "reports/results_json.h"
+#include "reports/statistics_json.h"
 #include "reports/study_json.h"
 
 namespace glovebench::reports {
 namespace {
 
-/// No error is larger (a kilometre, in mm), so that sums and squares of what a file holds stay finite.
-constexpr double kLargestValue = 1e6;
-
 std::optional<double> read_value(const JsonReader& json) {
-  return json.number_or_null(0, kLargestValue);
+  return json.number_or_null(0, kLargestError);
 }
 
 template <typename Value>
@@ -157,10 +155,9 @@ void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
   for (int m = 0; m < kMetricCount; ++m) {
     const JsonReader item = json[metrics()[m].key];
     item.expect_keys({"count", "mean", "median", "rms", "p95", "max", "interval"});
-    experiment.aggregates[m] = {item["count"].count(),   read_value(item["mean"]), read_value(item["median"]),
-                                read_value(item["rms"]), read_value(item["p95"]),  read_value(item["max"])};
+    experiment.aggregates[m] = read_aggregate(item);
     check_aggregate(item, experiment.aggregates[m], m, experiment.runs);
-    experiment.intervals[m] = read_interval(item["interval"], 0, kLargestValue);
+    experiment.intervals[m] = read_interval(item["interval"], 0, kLargestError);
   }
 }
 
@@ -171,13 +168,14 @@ ExperimentKey read_key(const JsonReader& json) {
   key.database = read_name(json["database"]);
   key.truth = named(json["truth"], {TruthKind::recorded, TruthKind::source});
   key.subject = json["subject"].count();
-  key.noise = {read_name(json["noise"]["model"]), json["noise"]["factor"].number(0, kLargestValue)};
+  key.noise = {read_name(json["noise"]["model"]), json["noise"]["factor"].number(0, kLargestError)};
   return key;
 }
 
 ExperimentResult read_experiment(const JsonReader& json) {
+  const bool has_commands = json.object().contains("commands");
   json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
-                    "sequence", "runs"});
+                    "sequence", "runs", has_commands ? "commands" : "runs"});
   json["joint_pck"].expect_keys({"thresholds_mm", "shares", "area"});
   json["sequence"].expect_keys({"jitter_position_mm", "jitter_rotation_deg", "latency_frames"});
   ExperimentResult experiment;
@@ -188,12 +186,17 @@ ExperimentResult read_experiment(const JsonReader& json) {
     json["coverage"].fail("the counts of the frames in runs");
   read_aggregates(json["aggregates"], experiment);
   const JsonReader pck = json["joint_pck"], sequence = json["sequence"];
-  experiment.pck = {read_numbers(pck["thresholds_mm"], kLargestValue), read_numbers(pck["shares"], 1),
+  experiment.pck = {read_numbers(pck["thresholds_mm"], kLargestError), read_numbers(pck["shares"], 1),
                     pck["area"].number_or_null(0, 1)};
   if (experiment.pck.shares.size() != experiment.pck.thresholds_mm.size())
     pck["shares"].fail("one for each threshold");
   experiment.sequence = {read_value(sequence["jitter_position_mm"]), read_value(sequence["jitter_rotation_deg"]),
-                         sequence["latency_frames"].number_or_null(-kLargestValue, kLargestValue)};
+                         sequence["latency_frames"].number_or_null(-kLargestError, kLargestError)};
+  if (has_commands) {
+    experiment.commands = read_commands(json["commands"]);
+    if (experiment.commands->frames != experiment.coverage.frames)
+      json["commands"]["frames"].fail("the frames in runs");
+  }
   return experiment;
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "reports/claims/claims_report.h"
+#include "reports/command_tables.h"
 #include "reports/histories/histories.h"
 #include "reports/json_text.h"
 #include "reports/latex.h"
@@ -41,6 +42,7 @@ std::vector<NamedFile> other_files(const RunResult& result) {
   add_curve("tables/figure6.csv", paper.figure_6);
   for (const ExperimentResult& experiment : result.experiments)
     files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment)});
+  if (has_commands(result)) files.push_back({"tables/commands.csv", commands_csv(result)});
   for (const StudyResult& study : result.studies)
     for (const Table& table : study.tables) files.push_back({table_file(table), table_csv(table)});
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
@@ -73,8 +75,8 @@ std::vector<std::string> older_study_files(const std::string& folder) {
 /// studies'.
 bool is_of_some_reports(const std::string& name) {
   static const std::string experiment = R"([^/]+_(recorded|source)_subject[0-9]+_[a-z]+_[0-9.e+-]+\.csv)";
-  static const std::regex pattern("claims\\.json|tables/(figure[56]|claims)\\.csv|(tables/frames_|estimates/)" +
-                                  experiment);
+  static const std::regex pattern(
+      "claims\\.json|tables/(figure[56]|claims|commands)\\.csv|(tables/frames_|estimates/)" + experiment);
   return std::regex_match(name, pattern);
 }
 bool is_of_a_report(const std::string& name) {

@@ -18,11 +18,11 @@ namespace glovebench::reports {
 ///   timings.json   what differs from run to run
 ///   claims.json    what became of the paper's claims, if any was run; tables/claims.csv the same as a table
 ///   tables/        figure4.csv and .tex; figure5.csv and figure6.csv if those experiments were run; frames_*.csv
-///                  for each; one file a table of a study
+///                  for each; commands.csv; one file a table of a study
 ///   histories/     bencher.json and github_action_benchmark.json, for services that keep a history
 ///   estimates/     what the tracker said, one file an experiment
-/// Without studies all but timings.json depend on the results alone; with them, so does results.json, but their
-/// tables and what the claims say hold times as well.
+/// Without studies all but timings.json and the latencies in index.html depend on the results alone; with them, so
+/// does results.json, but their tables and what the claims say hold times as well.
 /// The older report's files of experiments and studies that are no longer there go, and no others. results.json
 /// comes last: while it is an older one, so may be any file beside it. No other run may be writing there. Throws
 /// Error if the folder cannot be written; an older report then stays as it was.

@@ -29,7 +29,8 @@ Timings example_timings() {
   timings.date = "2026-01-01T00:00:00Z";
   timings.wall_s = 1.5;
   timings.peak_memory_mb = 512;
-  timings.experiments = {{small_result().experiments[0].key, 1.25, {{"align", {1, 2, 3}}, {"look_up", {}}}}};
+  timings.experiments = {
+      {small_result().experiments[0].key, 1.25, {{"align", {1, 2, 3}}, {"look_up", {}}}, {4, 5, 6, 105}}};
   return timings;
 }
 
@@ -62,6 +63,7 @@ TEST(Report, WritesEveryFile) {
       "Tr4_DB_open_power_recorded_subject1_gradient_1", "Tr4_DB_open_power_source_subject2_gradient_1",
       "Tr1_DB_20_postures_source_subject1_gradient_1", "Tr4_DB_open_power_recorded_subject1_kinect_0.5"};
   for (const std::string& name : experiments) expected.push_back("tables/frames_" + name + ".csv");
+  expected.push_back("tables/commands.csv");
   expected.push_back("claims.json");
   expected.push_back("tables/claims.csv");
   for (const std::string& name : experiments) expected.push_back("estimates/" + name + ".csv");
@@ -116,16 +118,22 @@ TEST(Report, RemovesTablesOfAnOlderReportsStudies) {
   EXPECT_TRUE(fs::exists(folder + "/tables/mine.csv"));
 }
 
-TEST(Report, OnlyTimingsDifferBetweenRuns) {
+TEST(Report, OnlyTimingsAndTheLatencyOfCommandsDifferBetweenRuns) {
   Timings slower = example_timings();
   slower.wall_s = 99;
   RunResult result = full_result();
   result.studies.clear();
-  const std::string first = fresh_folder("first"), second = fresh_folder("second");
+  const std::string first = fresh_folder("first"), second = fresh_folder("second"), third = fresh_folder("third");
   const std::vector<std::string> names = write_report(first, result, example_timings());
   ASSERT_EQ(write_report(second, result, slower), names);
   for (const std::string& name : names)
     EXPECT_EQ(read_file(first + "/" + name) == read_file(second + "/" + name), name != "timings.json") << name;
+  slower.experiments[0].command_ms = {77};
+  ASSERT_EQ(write_report(third, result, slower), names);
+  for (const std::string& name : names)
+    EXPECT_EQ(read_file(first + "/" + name) == read_file(third + "/" + name),
+              name != "timings.json" && name != "index.html")
+        << name;
 }
 
 TEST(Report, RemovesWhatAnOlderReportLeftAndNothingElse) {
@@ -172,6 +180,17 @@ TEST(Timings, StagesWithoutFramesAreNull) {
   EXPECT_DOUBLE_EQ(experiment["stages"]["align"]["p95_ms"].get<double>(), 2.9);
   EXPECT_EQ(experiment["stages"]["look_up"]["count"], 0);
   EXPECT_TRUE(experiment["stages"]["look_up"]["mean_ms"].is_null());
+}
+
+TEST(Timings, HaveThe99thPercentileFromFrameToCommand) {
+  Timings timings = example_timings();
+  const auto latency = [&] { return nlohmann::json::parse(timings_json(timings))["experiments"][0]; };
+  EXPECT_EQ(latency()["frame_to_command"]["count"], 4);
+  EXPECT_EQ(latency()["frame_to_command"]["median_ms"], 5.5);
+  EXPECT_DOUBLE_EQ(latency()["frame_to_command"]["p99_ms"].get<double>(), 102.03);
+  EXPECT_EQ(latency()["frame_to_command"]["max_ms"], 105);
+  timings.experiments[0].command_ms.clear();
+  EXPECT_FALSE(latency().contains("frame_to_command"));
 }
 
 }  // namespace

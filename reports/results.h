@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/tracker/track_result.h"
+#include "reports/commands.h"
 #include "reports/statistics.h"
 #include "reports/study.h"
 
@@ -122,6 +123,7 @@ struct ExperimentResult {
   std::array<std::optional<ConfidenceInterval>, kMetricCount> intervals;  ///< of the means
   PckCurve pck;                                                           ///< of the joints' position errors
   SequenceMetrics sequence;
+  std::optional<CommandResult> commands = {};  ///< empty in results from before they were measured
 
   const Aggregate& aggregate_of(std::string_view metric) const { return aggregates[metric_index(metric)]; }
   friend bool operator==(const ExperimentResult&, const ExperimentResult&) = default;

@@ -1,8 +1,9 @@
 #include "reports/results_json.h"
 
 #include "core/base/file.h"
-#include "reports/interval_json.h"
+#include "reports/commands_json.h"
 #include "reports/json_text.h"
+#include "reports/statistics_json.h"
 #include "reports/study_json.h"
 
 namespace glovebench::reports {
@@ -13,14 +14,8 @@ using Json = nlohmann::ordered_json;
 Json aggregates_json(const ExperimentResult& experiment) {
   Json json = Json::object();
   for (int m = 0; m < kMetricCount; ++m) {
-    const Aggregate& a = experiment.aggregates[m];
-    json[std::string(metrics()[m].key)] = {{"count", a.count},
-                                           {"mean", rounded_or_null(a.mean)},
-                                           {"median", rounded_or_null(a.median)},
-                                           {"rms", rounded_or_null(a.rms)},
-                                           {"p95", rounded_or_null(a.p95)},
-                                           {"max", rounded_or_null(a.max)},
-                                           {"interval", interval_json(experiment.intervals[m])}};
+    Json& aggregate = json[std::string(metrics()[m].key)] = aggregate_json(experiment.aggregates[m]);
+    aggregate["interval"] = interval_json(experiment.intervals[m]);
   }
   return json;
 }
@@ -54,19 +49,22 @@ Json runs_json(const std::vector<SeedRun>& runs) {
 Json experiment_json(const ExperimentResult& experiment) {
   const ExperimentKey& key = experiment.key;
   const SequenceMetrics& sequence = experiment.sequence;
-  return {{"trajectory", key.trajectory},
-          {"database", key.database},
-          {"truth", std::string(to_string(key.truth))},
-          {"subject", key.subject},
-          {"noise", {{"model", key.noise.model}, {"factor", rounded(key.noise.factor)}}},
-          {"coverage", coverage_json(experiment.coverage)},
-          {"aggregates", aggregates_json(experiment)},
-          {"joint_pck", pck_json(experiment.pck)},
-          {"sequence",
-           {{"jitter_position_mm", rounded_or_null(sequence.jitter_position_mm)},
-            {"jitter_rotation_deg", rounded_or_null(sequence.jitter_rotation_deg)},
-            {"latency_frames", rounded_or_null(sequence.latency_frames)}}},
-          {"runs", runs_json(experiment.runs)}};
+  Json json = {{"trajectory", key.trajectory},
+               {"database", key.database},
+               {"truth", std::string(to_string(key.truth))},
+               {"subject", key.subject},
+               {"noise", {{"model", key.noise.model}, {"factor", rounded(key.noise.factor)}}},
+               {"coverage", coverage_json(experiment.coverage)},
+               {"aggregates", aggregates_json(experiment)},
+               {"joint_pck", pck_json(experiment.pck)},
+               {"sequence",
+                {{"jitter_position_mm", rounded_or_null(sequence.jitter_position_mm)},
+                 {"jitter_rotation_deg", rounded_or_null(sequence.jitter_rotation_deg)},
+                 {"latency_frames", rounded_or_null(sequence.latency_frames)}}},
+               {"runs", runs_json(experiment.runs)}};
+  // Results from before there were any are the same bytes.
+  if (experiment.commands) json["commands"] = commands_json(*experiment.commands);
+  return json;
 }
 
 }  // namespace

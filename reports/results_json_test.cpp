@@ -8,6 +8,7 @@
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "reports/commands_json.h"
 #include "reports/example_result.h"
 #include "reports/json_text.h"
 
@@ -67,6 +68,40 @@ TEST(ResultsJson, StudiesAreThereOnlyIfThereAreAny) {
   const RunResult read = parse_results(with, "results.json");
   ASSERT_EQ(read.studies.size(), 2u);
   EXPECT_EQ(results_json(read), with);
+}
+
+TEST(ResultsJson, CommandsAreThereOnlyIfThereAreAny) {
+  const RunResult result = small_result();
+  const json results = json::parse(results_json(result));
+  EXPECT_EQ(results["experiments"][0]["commands"]["interventions"], (json{{"arm_speed", 1}, {"hold", 2}}));
+  EXPECT_FALSE(results["experiments"][1].contains("commands"));
+  const RunResult read = parse_results(results_json(result), "results.json");
+  ASSERT_TRUE(read.experiments[0].commands.has_value());
+  EXPECT_EQ(read.experiments[0].commands->sent, result.experiments[0].commands->sent);
+  EXPECT_EQ(read.experiments[0].commands->interventions, result.experiments[0].commands->interventions);
+  EXPECT_EQ(commands_json(*read.experiments[0].commands), commands_json(*result.experiments[0].commands));
+  EXPECT_FALSE(read.experiments[1].commands.has_value());
+}
+
+TEST(ResultsJson, CommandsThatNoRunHas) {
+  const auto error_of_commands = [](const std::function<void(json&)>& change) {
+    return error_of_change([&](json& r) { change(r["experiments"][0]["commands"]); });
+  };
+  EXPECT_THAT(error_of_commands([](json& c) { c["frames"] = 5; }),
+              HasSubstr("commands.frames: found 5, expected the frames in runs"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["sent"]["stopped"] = 1; }),
+              HasSubstr("commands.sent: found an object, expected no more commands than frames"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["sent"]["following"] = 2147483647; }),
+              HasSubstr("expected no more commands than frames"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["interventions"]["panic"] = 1; }),
+              HasSubstr("commands.interventions.panic: found 1, expected a known intervention"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["interventions"]["hold"] = 0; }), HasSubstr("interventions.hold"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["errors"].erase("arm_deg"); }), HasSubstr("commands.errors"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["errors"]["joints_deg"]["count"] = 3; }),
+              HasSubstr("errors.joints_deg.count: found 3, expected no more than the commands that follow"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["jerk"]["joints_deg_s3"] = -1; }), HasSubstr("jerk.joints_deg_s3"));
+  EXPECT_THAT(error_of_commands([](json& c) { c["rate_hz"] = "often"; }), HasSubstr("commands.rate_hz"));
+  EXPECT_THAT(error_of_commands([](json& c) { c.erase("truth_jerk"); }), HasSubstr("commands.truth_jerk"));
 }
 
 TEST(ResultsJson, NoValueIsNull) {

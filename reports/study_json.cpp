@@ -4,8 +4,8 @@
 #include <set>
 
 #include "core/base/check.h"
-#include "reports/interval_json.h"
 #include "reports/json_text.h"
+#include "reports/statistics_json.h"
 
 namespace glovebench::reports {
 namespace {
@@ -27,7 +27,7 @@ bool is_name(const std::string& name, bool is_measure = false) {
 
 /// Of a table whose file would be another report's.
 bool is_taken(const std::string& name) {
-  return name == "figure4" || name == "figure5" || name == "figure6" || name == "claims" ||
+  return name == "figure4" || name == "figure5" || name == "figure6" || name == "claims" || name == "commands" ||
          name.starts_with("frames_");
 }
 

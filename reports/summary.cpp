@@ -4,6 +4,7 @@
 
 #include "reports/chart.h"
 #include "reports/claims/claims_report.h"
+#include "reports/command_tables.h"
 #include "reports/study_text.h"
 
 namespace glovebench::reports {
@@ -51,6 +52,16 @@ std::string to_html(const TextTable& table) {
   return text + "</tbody></table></div>\n";
 }
 
+std::vector<std::string> experiment_heading() {
+  return {"trajectory", "database", "truth", "noise"};
+}
+
+std::vector<std::string> experiment_cells(const ExperimentKey& key) {
+  return {key.trajectory, key.database,
+          fmt::format("{}{}", to_string(key.truth), key.subject == 1 ? "" : ", second subject"),
+          fmt::format("{} x {}", key.noise.model, key.noise.factor)};
+}
+
 TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
   TextTable table;
   table.heading = {"trajectory", "database"};
@@ -67,27 +78,25 @@ TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, co
 }
 
 TextTable detail_summary(const RunResult& result) {
-  TextTable table;
-  table.name_columns = 4;
-  table.heading = {"trajectory",  "database",       "truth",     "noise",         "position mm [95%]",
-                   "vertices mm", "fingertips mm",  "joints mm", "PCK area",      "jitter mm",
-                   "jitter deg",  "latency frames", "lost",      "false tracked", "false lost",
-                   "frames"};
+  TextTable table{experiment_heading(), {}, static_cast<int>(experiment_heading().size())};
+  for (const char* column :
+       {"position mm [95%]", "vertices mm", "fingertips mm", "joints mm", "PCK area", "jitter mm", "jitter deg",
+        "latency frames", "lost", "false tracked", "false lost", "frames"})
+    table.heading.emplace_back(column);
   for (const ExperimentResult& experiment : result.experiments) {
-    const ExperimentKey& key = experiment.key;
     const Coverage& coverage = experiment.coverage;
-    table.rows.push_back({key.trajectory, key.database,
-                          fmt::format("{}{}", to_string(key.truth), key.subject == 1 ? "" : ", second subject"),
-                          fmt::format("{} x {}", key.noise.model, key.noise.factor),
-                          mean_with_interval(experiment, "position_error_mm"),
-                          fixed(experiment.aggregate_of("vertex_error_mm").mean, 2),
-                          fixed(experiment.aggregate_of("fingertip_error_mm").mean, 2),
-                          fixed(experiment.aggregate_of("joint_error_mm").mean, 2), fixed(experiment.pck.area, 3),
-                          fixed(experiment.sequence.jitter_position_mm, 2),
-                          fixed(experiment.sequence.jitter_rotation_deg, 2),
-                          fixed(experiment.sequence.latency_frames, 1), std::to_string(coverage.lost),
-                          std::to_string(coverage.false_tracked), std::to_string(coverage.false_lost),
-                          std::to_string(coverage.frames)});
+    std::vector<std::string> row = experiment_cells(experiment.key);
+    for (std::string cell :
+         {mean_with_interval(experiment, "position_error_mm"),
+          fixed(experiment.aggregate_of("vertex_error_mm").mean, 2),
+          fixed(experiment.aggregate_of("fingertip_error_mm").mean, 2),
+          fixed(experiment.aggregate_of("joint_error_mm").mean, 2), fixed(experiment.pck.area, 3),
+          fixed(experiment.sequence.jitter_position_mm, 2), fixed(experiment.sequence.jitter_rotation_deg, 2),
+          fixed(experiment.sequence.latency_frames, 1), std::to_string(coverage.lost),
+          std::to_string(coverage.false_tracked), std::to_string(coverage.false_lost),
+          std::to_string(coverage.frames)})
+      row.push_back(std::move(cell));
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
@@ -125,6 +134,7 @@ std::string summary_markdown(const RunResult& result, const PaperNumbers& paper)
         "## More metrics\n\nIntervals are over blocks of frames and, where there are several, noise "
         "seeds; not over movements or hands.\n\n{}",
         to_markdown(detail_summary(result)));
+  if (has_commands(result)) text += "\n" + commands_markdown(result);
   return text;
 }
 

@@ -8,17 +8,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json times_json(const std::vector<double>& ms) {
+  const Aggregate a = aggregate(ms);
+  return {{"count", a.count},
+          {"mean_ms", rounded_or_null(a.mean)},
+          {"median_ms", rounded_or_null(a.median)},
+          {"p95_ms", rounded_or_null(a.p95)},
+          {"max_ms", rounded_or_null(a.max)}};
+}
+
 Json experiment_json(const ExperimentTiming& timing) {
   Json stages = Json::object();
-  for (const StageTiming& stage : timing.stages) {
-    const Aggregate a = aggregate(stage.frame_ms);
-    stages[stage.stage] = {{"count", a.count},
-                           {"mean_ms", rounded_or_null(a.mean)},
-                           {"median_ms", rounded_or_null(a.median)},
-                           {"p95_ms", rounded_or_null(a.p95)},
-                           {"max_ms", rounded_or_null(a.max)}};
+  for (const StageTiming& stage : timing.stages) stages[stage.stage] = times_json(stage.frame_ms);
+  Json json = {
+      {"experiment", to_string(timing.key)}, {"wall_s", rounded(timing.wall_s)}, {"stages", std::move(stages)}};
+  if (!timing.command_ms.empty()) {
+    Json& latency = json["frame_to_command"] = times_json(timing.command_ms);
+    latency["p99_ms"] = rounded_or_null(percentile(timing.command_ms, 0.99));
   }
-  return {{"experiment", to_string(timing.key)}, {"wall_s", rounded(timing.wall_s)}, {"stages", std::move(stages)}};
+  return json;
 }
 
 }  // namespace

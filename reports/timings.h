@@ -18,6 +18,7 @@ struct ExperimentTiming {
   ExperimentKey key;
   double wall_s = 0;
   std::vector<StageTiming> stages;
+  std::vector<double> command_ms = {};  ///< from a device frame to its robot command, one value a frame
 };
 
 /// What differs from run to run, and so stands apart from the results.
@@ -36,7 +37,8 @@ struct Timings {
   std::vector<ExperimentTiming> experiments;
 };
 
-/// timings.json: of each stage count, mean, median, 95th percentile and maximum; of the studies what is a time.
+/// timings.json: of each stage count, mean, median, 95th percentile and maximum; of the robot
+/// commands the 99th as well; of the studies what is a time.
 std::string timings_json(const Timings& timings, const std::vector<StudyResult>& studies = {});
 
 }  // namespace glovebench::reports

@@ -7,8 +7,8 @@
 
 #include "reports/chart.h"
 #include "reports/csv.h"
-#include "reports/interval_json.h"
 #include "reports/json_text.h"
+#include "reports/statistics_json.h"
 #include "reports/summary.h"
 
 namespace glovebench::reports {

@@ -28,6 +28,9 @@ std::vector<Section> experiment_sections(const RunResult& result, const PaperNum
 /// A section for each study of a run, with its charts and tables.
 std::vector<Section> study_sections(const RunResult& result);
 
+/// The robot commands of the experiments, with the times of the run.
+Section command_section(const RunResult& result, const Timings& timings);
+
 /// The keyframes of a curve and, for data/page_frames.js, the place of one frame with its slider.
 std::string keyframes_html(const FrameSheet& sheet);
 std::string frame_viewer_html(const FrameSheet& sheet);

@@ -1,8 +1,22 @@
-#include "reports/interval_json.h"
+#include "reports/statistics_json.h"
 
 #include "reports/json_text.h"
 
 namespace glovebench::reports {
+
+nlohmann::ordered_json aggregate_json(const Aggregate& aggregate) {
+  return {{"count", aggregate.count},
+          {"mean", rounded_or_null(aggregate.mean)},
+          {"median", rounded_or_null(aggregate.median)},
+          {"rms", rounded_or_null(aggregate.rms)},
+          {"p95", rounded_or_null(aggregate.p95)},
+          {"max", rounded_or_null(aggregate.max)}};
+}
+
+Aggregate read_aggregate(const JsonReader& json) {
+  const auto value = [&](std::string_view key) { return json[key].number_or_null(0, kLargestError); };
+  return {json["count"].count(), value("mean"), value("median"), value("rms"), value("p95"), value("max")};
+}
 
 nlohmann::ordered_json interval_json(const std::optional<ConfidenceInterval>& interval) {
   if (!interval) return nullptr;

@@ -1,0 +1,121 @@
+#include "eval/robot_commands.h"
+
+#include "core/base/angles.h"
+#include "eval/metrics.h"
+#include "eval/thread_time.h"
+
+namespace glovebench::eval {
+namespace {
+
+using JointVector = Eigen::Map<const Eigen::Vector<double, kShadowJointCount>>;
+
+template <size_t Count>
+double rms_difference_deg(const std::array<double, Count>& a, const std::array<double, Count>& b) {
+  const Eigen::Map<const Eigen::ArrayXd> values(a.data(), Count), others(b.data(), Count);
+  return degrees_from_radians(std::sqrt((values - others).square().mean()));
+}
+
+double seconds_between(const RobotCommand& before, const RobotCommand& after) {
+  return static_cast<double>(after.timestamp_us - before.timestamp_us) * 1e-6;
+}
+
+/// The third derivative at the middle of four commands, by divided differences: exact for a cubic at any steps.
+template <typename Value>
+auto third_derivative(std::span<const RobotCommand, 4> commands, const Value& value) {
+  std::array<std::decay_t<decltype(value(commands[0]))>, 4> d;
+  for (size_t i = 0; i < 4; ++i) d[i] = value(commands[i]);
+  for (size_t order = 1; order < 4; ++order)
+    for (size_t i = 0; i + order < 4; ++i)
+      d[i] = (d[i + 1] - d[i]) / seconds_between(commands[i], commands[i + order]);
+  return (6 * d[0]).eval();
+}
+
+}  // namespace
+
+CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
+                            const CommandLimits& limits) {
+  RobotCommander commander(setup);
+  CommandGuard guard(limits);
+  CommandStream stream;
+  for (const TrackResult& result : results) {
+    const double start = thread_time_ms();
+    std::optional<RobotCommand> safe = guard.guard(commander.command(result));
+    stream.command_ms.push_back(thread_time_ms() - start);
+    if (safe) stream.commands.push_back(*std::move(safe));
+  }
+  stream.interventions = guard.interventions();
+  return stream;
+}
+
+std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFrame> truth) {
+  std::vector<TrackResult> results;
+  for (const trajectories::TrajectoryFrame& frame : truth) {
+    TrackResult& result = results.emplace_back();
+    result.timestamp_us = frame.timestamp_us;
+    result.status = TrackStatus::tracked;
+    result.posture = frame.posture;
+    result.T_camera_hand = frame.T_camera_hand;
+  }
+  return results;
+}
+
+void CommandMeasurement::Errors::add(const RobotTargets& targets, const RobotTargets& of_truth) {
+  joints_deg.push_back(rms_difference_deg(targets.hand.joints, of_truth.hand.joints));
+  position_mm.push_back(1e3 * (targets.T_base_hand.translation() - of_truth.T_base_hand.translation()).norm());
+  rotation_deg.push_back(rotation_error_deg(targets.T_base_hand.linear(), of_truth.T_base_hand.linear()));
+  if (targets.arm && of_truth.arm) arm_deg.push_back(rms_difference_deg(*targets.arm, *of_truth.arm));
+}
+
+void CommandMeasurement::JerkSums::add(std::span<const RobotCommand> commands) {
+  for (size_t i = 0; i + 4 <= commands.size(); ++i) {
+    const std::span<const RobotCommand, 4> four = commands.subspan(i).first<4>();
+    if (!four[0].targets) continue;  // who has targets keeps them
+    joints += third_derivative(four,
+                               [](const RobotCommand& c) -> Eigen::Vector<double, kShadowJointCount> {
+                                 return JointVector(c.targets->hand.joints.data());
+                               })
+                  .squaredNorm() /
+              kShadowJointCount;
+    position += third_derivative(four, [](const RobotCommand& c) -> Eigen::Vector3d {
+                  return c.targets->T_base_hand.translation();
+                }).squaredNorm();
+    ++count;
+  }
+}
+
+reports::Jerk CommandMeasurement::JerkSums::rms() const {
+  if (count == 0) return {};
+  return {degrees_from_radians(std::sqrt(joints / count)), std::sqrt(position / count)};
+}
+
+void CommandMeasurement::add(const CommandStream& stream, const CommandStream& of_truth, int frames) {
+  counts_.frames += frames;
+  counts_.interventions.add(stream.interventions);
+  auto truth = of_truth.commands.begin();
+  for (size_t i = 0; i < stream.commands.size(); ++i) {
+    const RobotCommand& command = stream.commands[i];
+    ++counts_.sent[static_cast<size_t>(command.state)];
+    if (i > 0) gaps_s_.push_back(seconds_between(stream.commands[i - 1], command));
+    while (truth != of_truth.commands.end() && truth->timestamp_us < command.timestamp_us) ++truth;
+    const bool belongs = truth != of_truth.commands.end() && truth->timestamp_us == command.timestamp_us;
+    if (belongs && truth->targets && command.state == CommandState::following)
+      errors_.add(*command.targets, *truth->targets);
+  }
+  jerk_.add(stream.commands);
+  truth_jerk_.add(of_truth.commands);
+}
+
+reports::CommandResult CommandMeasurement::result() const {
+  reports::CommandResult result = counts_;
+  if (const std::optional<double> step = reports::mean(gaps_s_)) {
+    result.rate_hz = 1 / *step;
+    result.longest_gap_ms = 1e3 * std::ranges::max(gaps_s_);
+  }
+  result.errors = {reports::aggregate(errors_.joints_deg), reports::aggregate(errors_.position_mm),
+                   reports::aggregate(errors_.rotation_deg), reports::aggregate(errors_.arm_deg)};
+  result.jerk = jerk_.rms();
+  result.truth_jerk = truth_jerk_.rms();
+  return result;
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/robot/command_guard.h"
+#include "reports/commands.h"
+#include "trajectories/trajectory.h"
+
+namespace glovebench::eval {
+
+/// The commands that hand and arm get for what a tracker said: as `track` sends them.
+struct CommandStream {
+  std::vector<RobotCommand> commands;  ///< in time order; one a result, less those that the guard drops
+  std::vector<double> command_ms;      ///< processor time of mapping, arm and guard; one a result
+  Interventions interventions;         ///< of the guard and the arm
+};
+CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
+                            const CommandLimits& limits);
+/// What a tracker would say that is never wrong.
+std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFrame> truth);
+
+/// Measures the commands of several passes over one movement against those that its truth gives. Commands belong
+/// together by their time stamps. Errors are of commands that follow. Jerk is the third difference of four commands
+/// in a row that have targets, over time, also where they hold: a robot feels that, too.
+class CommandMeasurement {
+ public:
+  /// `frames`: of the pass, whether they have a command or not.
+  void add(const CommandStream& stream, const CommandStream& of_truth, int frames);
+  reports::CommandResult result() const;
+
+ private:
+  struct JerkSums {
+    double joints = 0, position = 0;  ///< of squares
+    int count = 0;                    ///< of third differences
+    void add(std::span<const RobotCommand> commands);
+    reports::Jerk rms() const;
+  };
+  struct Errors {
+    std::vector<double> joints_deg, position_mm, rotation_deg, arm_deg;
+    void add(const RobotTargets& targets, const RobotTargets& of_truth);
+  };
+
+  reports::CommandResult counts_;
+  std::vector<double> gaps_s_;
+  Errors errors_;
+  JerkSums jerk_, truth_jerk_;
+};
+
+}  // namespace glovebench::eval

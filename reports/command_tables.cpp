@@ -1,0 +1,174 @@
+#include "reports/command_tables.h"
+
+#include <fmt/format.h>
+
+#include "reports/csv.h"
+#include "reports/json_text.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+TextTable table_of(std::vector<std::string> columns) {
+  TextTable table{experiment_heading(), {}, static_cast<int>(experiment_heading().size())};
+  table.heading.insert(table.heading.end(), columns.begin(), columns.end());
+  return table;
+}
+
+void add_row(TextTable& table, const ExperimentKey& key, std::vector<std::string> cells) {
+  std::vector<std::string> row = experiment_cells(key);
+  row.insert(row.end(), cells.begin(), cells.end());
+  table.rows.push_back(std::move(row));
+}
+
+int count_sent(const CommandResult& commands) {
+  int count = 0;
+  for (const int sent : commands.sent) count += sent;
+  return count;
+}
+
+/// The kinds that happened in any of the experiments.
+std::vector<Intervention> interventions_of(const RunResult& result) {
+  std::vector<Intervention> kinds;
+  for (int i = 0; i < kInterventionCount; ++i) {
+    const auto kind = static_cast<Intervention>(i);
+    if (std::ranges::any_of(result.experiments, [&](const ExperimentResult& experiment) {
+          return experiment.commands && experiment.commands->interventions[kind] > 0;
+        }))
+      kinds.push_back(kind);
+  }
+  return kinds;
+}
+
+std::string error_cell(const Aggregate& error) {
+  return error.count > 0 ? fmt::format("{} ({})", fixed(error.mean, 2), fixed(error.p95, 2)) : "-";
+}
+
+std::string jerk_cell(const std::optional<double>& jerk, const std::optional<double>& of_truth, int digits) {
+  return jerk ? fmt::format("{} ({})", fixed(jerk, digits), fixed(of_truth, digits)) : "-";
+}
+
+}  // namespace
+
+bool has_commands(const RunResult& result) {
+  return std::ranges::any_of(result.experiments, [](const ExperimentResult& e) { return e.commands.has_value(); });
+}
+
+std::string command_explanation() {
+  return "What the robot's hand and arm would have been sent: one command a frame, after the guard. A command "
+         "holds "
+         "while the hand is not tracked and stops after a while; an intervention is what the guard changed or "
+         "refused, or a pose that the arm could not reach. Errors are those of the commands that follow, against "
+         "the command that the truth would have given by the same mapping, arm and guard, also while the guard "
+         "still "
+         "slows them down on their way back to a hand that was lost: mean and, in brackets, 95th percentile; "
+         "joints and arm are the root mean square over their joints. Jerk is the root mean square "
+         "of the third derivative by time, in brackets the truth's; less is smoother.";
+}
+
+TextTable command_stream_table(const RunResult& result) {
+  TextTable table = table_of({"frames", "sent", "rate Hz", "longest gap ms", "following", "holding", "stopped"});
+  for (const ExperimentResult& experiment : result.experiments) {
+    if (!experiment.commands) continue;
+    const CommandResult& commands = *experiment.commands;
+    std::vector<std::string> cells = {std::to_string(commands.frames), std::to_string(count_sent(commands)),
+                                      fixed(commands.rate_hz, 1), fixed(commands.longest_gap_ms, 0)};
+    for (const int sent : commands.sent) cells.push_back(std::to_string(sent));
+    add_row(table, experiment.key, std::move(cells));
+  }
+  return table;
+}
+
+TextTable command_intervention_table(const RunResult& result) {
+  const std::vector<Intervention> kinds = interventions_of(result);
+  std::vector<std::string> columns;
+  for (const Intervention kind : kinds) columns.emplace_back(to_string(kind));
+  TextTable table = table_of(columns);
+  if (kinds.empty()) return table;
+  for (const ExperimentResult& experiment : result.experiments) {
+    if (!experiment.commands) continue;
+    std::vector<std::string> cells;
+    for (const Intervention kind : kinds) cells.push_back(std::to_string(experiment.commands->interventions[kind]));
+    add_row(table, experiment.key, std::move(cells));
+  }
+  return table;
+}
+
+TextTable command_error_table(const RunResult& result) {
+  std::vector<std::string> columns;
+  for (const CommandErrorInfo& info : command_error_infos()) columns.emplace_back(info.heading);
+  columns.insert(columns.end(), {"jerk deg/s³", "jerk m/s³"});
+  TextTable table = table_of(columns);
+  for (const ExperimentResult& experiment : result.experiments) {
+    if (!experiment.commands) continue;
+    const CommandResult& commands = *experiment.commands;
+    std::vector<std::string> cells;
+    for (const CommandErrorInfo& info : command_error_infos())
+      cells.push_back(error_cell(commands.errors.*info.value));
+    cells.push_back(jerk_cell(commands.jerk.joints_deg_s3, commands.truth_jerk.joints_deg_s3, 0));
+    cells.push_back(jerk_cell(commands.jerk.position_m_s3, commands.truth_jerk.position_m_s3, 1));
+    add_row(table, experiment.key, std::move(cells));
+  }
+  return table;
+}
+
+TextTable command_latency_table(const RunResult& result, const Timings& timings) {
+  TextTable table = table_of({"median ms", "p99 ms", "longest ms"});
+  for (const ExperimentTiming& timing : timings.experiments) {
+    const ExperimentResult* experiment = find_experiment(result, timing.key);
+    if (!experiment || timing.command_ms.empty()) continue;
+    const std::vector<double>& ms = timing.command_ms;
+    add_row(table, timing.key,
+            {fixed(percentile(ms, 0.5), 2), fixed(percentile(ms, 0.99), 2), fixed(percentile(ms, 1), 2)});
+  }
+  return table;
+}
+
+std::string commands_csv(const RunResult& result) {
+  Json heading = {"trajectory", "database", "truth", "subject", "noise", "noise_factor", "frames"};
+  for (int s = 0; s < kCommandStateCount; ++s) heading.push_back(to_string(static_cast<CommandState>(s)));
+  for (const char* column : {"rate_hz", "longest_gap_ms"}) heading.push_back(column);
+  for (int i = 0; i < kInterventionCount; ++i)
+    heading.push_back(fmt::format("interventions_{}", to_string(static_cast<Intervention>(i))));
+  for (const CommandErrorInfo& info : command_error_infos())
+    for (const char* part : {"mean", "p95", "max"}) heading.push_back(fmt::format("{}_{}", info.key, part));
+  for (const char* column :
+       {"jerk_joints_deg_s3", "truth_jerk_joints_deg_s3", "jerk_position_m_s3", "truth_jerk_position_m_s3"})
+    heading.push_back(column);
+  std::string csv = csv_line(heading);
+  for (const ExperimentResult& experiment : result.experiments) {
+    if (!experiment.commands) continue;
+    const ExperimentKey& key = experiment.key;
+    const CommandResult& commands = *experiment.commands;
+    Json cells = {key.trajectory, key.database,    to_string(key.truth),
+                  key.subject,    key.noise.model, rounded(key.noise.factor),
+                  commands.frames};
+    for (const int sent : commands.sent) cells.push_back(sent);
+    cells.push_back(rounded_or_null(commands.rate_hz));
+    cells.push_back(rounded_or_null(commands.longest_gap_ms));
+    for (int i = 0; i < kInterventionCount; ++i)
+      cells.push_back(commands.interventions[static_cast<Intervention>(i)]);
+    for (const CommandErrorInfo& info : command_error_infos()) {
+      const Aggregate& error = commands.errors.*info.value;
+      for (const std::optional<double>& value : {error.mean, error.p95, error.max})
+        cells.push_back(rounded_or_null(value));
+    }
+    for (const std::optional<double>& value : {commands.jerk.joints_deg_s3, commands.truth_jerk.joints_deg_s3,
+                                               commands.jerk.position_m_s3, commands.truth_jerk.position_m_s3})
+      cells.push_back(rounded_or_null(value));
+    csv += csv_line(cells);
+  }
+  return csv;
+}
+
+std::string commands_markdown(const RunResult& result) {
+  if (!has_commands(result)) return "";
+  const TextTable interventions = command_intervention_table(result);
+  return fmt::format("## Robot commands\n\n{}\n\n{}\n{}\n\n{}\n", command_explanation(),
+                     to_markdown(command_stream_table(result)),
+                     interventions.rows.empty() ? "Nothing intervened." : to_markdown(interventions),
+                     to_markdown(command_error_table(result)));
+}
+
+}  // namespace glovebench::reports
