@@ -41,17 +41,26 @@ struct CommonFlags {
   void check_output_folder() const;
 };
 
+/// How the hand is mounted on the arm.
+struct MountingFlag {
+  std::vector<double> flange_wrist;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_flange_wrist()
+
+  void add(CLI::App& command);
+  /// Throws Error unless all is finite and the quaternion has unit length.
+  Eigen::Isometry3d T_flange_wrist() const;
+};
+
 /// Where robot commands go, and how a hand becomes one.
 struct RobotFlags {
   std::string output;
   std::string mapping = "direct";
   std::string arm = "auto";
-  std::vector<double> base_camera;   ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
-  std::vector<double> flange_wrist;  ///< the same; empty: default_T_flange_wrist()
+  std::vector<double> base_camera;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
+  MountingFlag mounting;
 
   void add(CLI::App& command, const std::string& what);
-  /// Of the workbench's hand. Throws Error unless quaternions have unit length, or if the arm is asked for and this
-  /// program was built without it.
+  /// Of the workbench's hand. Throws Error unless transforms are finite and their quaternions have unit length, or if
+  /// the arm is asked for and this program was built without it.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };
