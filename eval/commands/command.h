@@ -59,8 +59,8 @@ struct RobotFlags {
   MountingFlag mounting;
 
   void add(CLI::App& command, const std::string& what);
-  /// Of the workbench's hand. Throws Error unless transforms are finite and their quaternions have unit length, or if
-  /// the arm is asked for and this program was built without it.
+  /// Of the workbench's hand. Throws Error unless transforms are finite and their quaternions have unit length, or
+  /// if the arm is asked for and this program was built without it.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };

@@ -56,9 +56,9 @@ std::shared_ptr<const dds_entity_t> join_domain(int domain, const std::string& w
   if (std::shared_ptr<const dds_entity_t> joined = domains[domain].lock()) return joined;
   dds_set_log_sink(&hear_library, nullptr);
   const char* const own = std::getenv("CYCLONEDDS_URI");
-  const std::string configuration =
-      fmt::format("{},<CycloneDDS><Domain><Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
-                  own ? own : "", kLargestMessage);
+  const std::string configuration = fmt::format(
+      "{},<CycloneDDS><Domain><Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
+      own ? own : "", kLargestMessage);
   const dds_entity_t made =
       checked_dds(dds_create_domain(static_cast<dds_domainid_t>(domain), configuration.c_str()), what, expected);
   const auto leave = [](const dds_entity_t* entity) {

@@ -18,8 +18,8 @@ namespace glovebench {
 /// Throws Error unless `result` is no error of Cyclone DDS; returns it.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// What anybody on the network can make a process keep: messages of at most that size, each reader that many of them.
-/// One for the hand has a thousand bytes. What is larger, the library drops at its first fragment.
+/// What anybody on the network can make a process keep: messages of at most that size, each reader that many of
+/// them. One for the hand has a thousand bytes. What is larger, the library drops at its first fragment.
 inline constexpr int kLargestMessage = 64 << 10;  // bytes, on the wire
 inline constexpr int kMaxWaiting = 1'000;
 

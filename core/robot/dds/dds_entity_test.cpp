@@ -89,9 +89,7 @@ TEST_F(DdsEntity, WhatIsTooLargeIsDroppedAndCounted) {
   DdsReader<ros::JointTrajectory> reader(here, kTopic);
   ASSERT_TRUE(comes_true([&] { return hostile.listeners() == 1 && reader.senders().present().size() == 1; }));
   const int64_t before = dds_messages_too_large();
-  const auto named = [](size_t length) {
-    return ros::JointTrajectory{{}, "", {std::string(length, 'x')}, {}};
-  };
+  const auto named = [](size_t length) { return ros::JointTrajectory{{}, "", {std::string(length, 'x')}, {}}; };
   hostile.write(named(kLargestMessage));
   hostile.write(named(10'000'000));
   hostile.write({{}, "", {}, std::vector<ros::JointTrajectoryPoint>(100'000)});

@@ -228,7 +228,8 @@ class Service {
     const std::optional<std::string> joint = others_.heard();
     if (!joint) return;
     if (seen_others_++ == 0)
-      options_.tell(fmt::format("{}: another process tells of {}, too: two servers of one robot?", Port::kName, *joint));
+      options_.tell(
+          fmt::format("{}: another process tells of {}, too: two servers of one robot?", Port::kName, *joint));
   }
   void tick(int64_t now_us) {
     if (now_us <= last_us_) return;
@@ -271,8 +272,8 @@ class Service {
   int seen_others_ = 0;  ///< looks at which there was another
 };
 
-/// Throws Error if another server of these joints is there. It tells of them all the time, so a second is enough for
-/// whoever the middleware finds.
+/// Throws Error if another server of these joints is there. It tells of them all the time, so a second is enough
+/// for whoever the middleware finds.
 void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   const int64_t end_us = steady_us() + kListenUs;
   while (steady_us() < end_us && !options.stopping()) {

@@ -222,9 +222,9 @@ TEST_F(DdsServer, BelievesALogForATime) {
     return std::filesystem::file_size(log);
   };
   seconds_ago(kMaxLogAge + 60);
-  EXPECT_THAT(hand(options(log))->failure(),
-              AllOf(HasSubstr("hand.jsonl: last state: found one of 20"), HasSubstr(" s ago, expected one of the last 600 s"),
-                    HasSubstr("--log-age"), HasSubstr("another --log")));
+  EXPECT_THAT(hand(options(log))->failure(), AllOf(HasSubstr("hand.jsonl: last state: found one of 20"),
+                                                   HasSubstr(" s ago, expected one of the last 600 s"),
+                                                   HasSubstr("--log-age"), HasSubstr("another --log")));
   seconds_ago(-60);
   EXPECT_THAT(hand(options(log))->failure(), AllOf(HasSubstr("60.0 s ahead"), HasSubstr("set the clock")));
 
@@ -244,7 +244,8 @@ TEST_F(DdsServer, StartsAtALimitAndNotBeyond) {
   const std::string log = path("arm.jsonl");
   for (int j = 0; j < kArmJointCount; ++j) {
     const ArmJointInfo& info = arm_joint_infos()[j];
-    if (info.name != "S1" && info.name != "S3" && info.name != "W2") continue;  // others take the wrist under the table
+    if (info.name != "S1" && info.name != "S3" && info.name != "W2")
+      continue;  // others take the wrist under the table
     for (const double angle_deg : {info.min_deg, info.max_deg}) {
       std::vector<double> stood(kArmAtRest.begin(), kArmAtRest.end());
       stood[static_cast<size_t>(j)] = radians_from_degrees(angle_deg);

@@ -18,8 +18,8 @@ class UnboundedWriter {
  public:
   explicit UnboundedWriter(const std::string& topic)
       : participant_(checked_dds(dds_create_participant(kFar, nullptr, nullptr), "participant", "one")) {
-    const dds_entity_t made =
-        dds_create_topic(participant_, &DdsType<ros::JointTrajectory>::descriptor(), topic.c_str(), nullptr, nullptr);
+    const dds_entity_t made = dds_create_topic(participant_, &DdsType<ros::JointTrajectory>::descriptor(),
+                                               topic.c_str(), nullptr, nullptr);
     dds_qos_t* const qos = dds_create_qos();
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
     dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);

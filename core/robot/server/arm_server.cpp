@@ -98,7 +98,8 @@ ArmJoints ArmServer::step_towards(const Eigen::Isometry3d& T_base_wrist, double 
   double share = std::min({1.0, limits_.hand_speed * seconds / way.norm(),
                            limits_.hand_turn_speed * seconds / q_now.angularDistance(q_to)});
   for (int attempt = 0; attempt < 4; ++attempt, share /= 2) {
-    next = step(Eigen::Translation3d(T_base_now.translation() + share * way) * q_now.slerp(share, q_to).normalized());
+    next =
+        step(Eigen::Translation3d(T_base_now.translation() + share * way) * q_now.slerp(share, q_to).normalized());
     if (next && outside(*next) <= farthest_outside) return *next;
   }
   return joints_;

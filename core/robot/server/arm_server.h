@@ -15,8 +15,8 @@ namespace glovebench {
 class ArmServer {
  public:
   /// `solver` must outlive the server; `T_flange_wrist` is how the hand's forearm is mounted; `start`: where the
-  /// joints stand, rad, and `source` who says so. Throws Error unless they are within the limits and the wrist is in
-  /// the workspace there (start_place.h), or if the limits have problems.
+  /// joints stand, rad, and `source` who says so. Throws Error unless they are within the limits and the wrist is
+  /// in the workspace there (start_place.h), or if the limits have problems.
   ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
             const std::vector<double>& start, const std::string& source = "arm server");
 

@@ -177,7 +177,8 @@ TEST_F(ArmServerTest, StaysInTheWorkspaceWhenItHasToCatchUp) {
     EXPECT_LE(server.T_base_wrist().translation().x(), limits_.workspace_max.x() + 1e-4) << i;
   }
   EXPECT_GT(server.interventions()[Intervention::workspace], 0);
-  EXPECT_LT((server.T_base_wrist().translation() - T_start_.translation() - way).norm(), 1e-3) << "and it gets there";
+  EXPECT_LT((server.T_base_wrist().translation() - T_start_.translation() - way).norm(), 1e-3)
+      << "and it gets there";
 }
 
 TEST_F(ArmServerTest, RefusesOtherFrames) {
@@ -204,9 +205,11 @@ TEST(ArmServer, StartsAtALimitOfAJoint) {
     for (const double limit_deg : {arm_joint_infos()[j].min_deg, arm_joint_infos()[j].max_deg}) {
       const double outwards = std::copysign(1, limit_deg), limit = radians_from_degrees(limit_deg);
       std::vector<double> start = kStart;
-      for (const double angle : {limit, logged(limit), std::nextafter(limit, outwards * 10), limit + outwards * 1e-8}) {
+      for (const double angle :
+           {limit, logged(limit), std::nextafter(limit, outwards * 10), limit + outwards * 1e-8}) {
         start[j] = angle;
-        EXPECT_EQ(ArmServer(everywhere, solver, mounted, start).tick(1).position[j], limit) << arm_joint_infos()[j].name;
+        EXPECT_EQ(ArmServer(everywhere, solver, mounted, start).tick(1).position[j], limit)
+            << arm_joint_infos()[j].name;
       }
       start[j] = limit + outwards * 1e-6;
       EXPECT_THROW(ArmServer(everywhere, solver, mounted, start), Error) << arm_joint_infos()[j].name;
@@ -242,8 +245,9 @@ TEST(ArmServer, StartsAtTheEdgeOfTheWorkspace) {
       ArmServer(outside_by(1e-3), solver, mounted, start, "arm.jsonl");
       ADD_FAILURE() << axis;
     } catch (const Error& e) {
-      EXPECT_THAT(e.what(), testing::MatchesRegex("arm.jsonl: wrist of the arm: found \\(.*\\) m, expected a place in "
-                                                  "the workspace, \\(-1.5 -1.5 0\\) to \\(.*\\)"));
+      EXPECT_THAT(e.what(),
+                  testing::MatchesRegex("arm.jsonl: wrist of the arm: found \\(.*\\) m, expected a place in "
+                                        "the workspace, \\(-1.5 -1.5 0\\) to \\(.*\\)"));
     }
   }
 }

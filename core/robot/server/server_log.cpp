@@ -108,8 +108,9 @@ std::optional<LoggedState> last_state(std::string_view log, const std::vector<st
 
 std::string age_text(const LoggedState& state, int64_t now_us) {
   const double age = age_s(state, now_us);
-  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC, {} {}", fmt::gmtime(static_cast<std::time_t>(state.time_us / 1'000'000)),
-                     duration_text(std::abs(age)), age < 0 ? "ahead" : "ago");
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC, {} {}",
+                     fmt::gmtime(static_cast<std::time_t>(state.time_us / 1'000'000)), duration_text(std::abs(age)),
+                     age < 0 ? "ahead" : "ago");
 }
 
 void check_age(const LoggedState& state, int64_t now_us, double max_age_s, const std::string& path) {
@@ -118,10 +119,11 @@ void check_age(const LoggedState& state, int64_t now_us, double max_age_s, const
     throw Error(path, "last state", "one of " + age_text(state, now_us),
                 "one of the past: set the clock, or give the server another --log to start at rest");
   if (!(age <= max_age_s))
-    throw Error(path, "last state", "one of " + age_text(state, now_us),
-                fmt::format("one of the last {} s: look where the joints stand. If there: a longer --log-age; if at "
-                            "rest: another --log",
-                            max_age_s));
+    throw Error(
+        path, "last state", "one of " + age_text(state, now_us),
+        fmt::format("one of the last {} s: look where the joints stand. If there: a longer --log-age; if at "
+                    "rest: another --log",
+                    max_age_s));
 }
 
 std::string read_tail(const std::string& path, uint64_t max_bytes) {

@@ -47,9 +47,9 @@ TEST_F(ServerLog, SaysWhereTheJointsStood) {
   const std::string received = received_line({}) + "\n";
   EXPECT_FALSE(last_state("", kNames, "log"));
   EXPECT_FALSE(last_state(received, kNames, "log"));
-  const auto expected = Optional(AllOf(Field(&LoggedState::time_us, 6),
-                                       Field(&LoggedState::positions,
-                                             ElementsAre(radians_from_degrees(3), radians_from_degrees(45)))));
+  const auto expected = Optional(
+      AllOf(Field(&LoggedState::time_us, 6),
+            Field(&LoggedState::positions, ElementsAre(radians_from_degrees(3), radians_from_degrees(45)))));
   EXPECT_THAT(last_state(first + last + "\n" + received, kNames, "log"), expected);
   EXPECT_THAT(last_state("its beginning is not read\n" + last + "\n", kNames, "log"), expected);
 }
@@ -77,8 +77,9 @@ TEST_F(ServerLog, OfOtherJointsIsRefused) {
   EXPECT_TRUE(last_state(state(R"("time_us":1,"position_deg":{"a":1,"b":2})"), kNames, "log"));
   EXPECT_THROW(last_state(state(R"("time_us":1,"position_deg":{"a":"1","b":2})"), kNames, "log"), Error);
   for (const char* time : {"-1", "1.5", "\"1\"", "18446744073709551615", "null"}) {
-    EXPECT_THROW(last_state(state(fmt::format(R"("time_us":{},"position_deg":{{"a":1,"b":2}})", time)), kNames, "log"),
-                 Error)
+    EXPECT_THROW(
+        last_state(state(fmt::format(R"("time_us":{},"position_deg":{{"a":1,"b":2}})", time)), kNames, "log"),
+        Error)
         << time;
   }
   EXPECT_THROW(last_state(state(R"("position_deg":{"a":1,"b":2})"), kNames, "log"), Error);
@@ -99,13 +100,15 @@ TEST_F(ServerLog, IsBelievedForATime) {
   EXPECT_EQ(error_after(600, 600), "");
   EXPECT_EQ(error_after(-1, 600), "") << "a clock that was corrected";
   EXPECT_EQ(error_after(7200, 7200), "");
-  EXPECT_EQ(error_after(600.1, 600),
-            "log.jsonl: last state: found one of 2026-11-22 16:00:00 UTC, 600.1 s ago, expected one of the last 600 s: "
-            "look where the joints stand. If there: a longer --log-age; if at rest: another --log");
+  EXPECT_EQ(
+      error_after(600.1, 600),
+      "log.jsonl: last state: found one of 2026-11-22 16:00:00 UTC, 600.1 s ago, expected one of the last 600 s: "
+      "look where the joints stand. If there: a longer --log-age; if at rest: another --log");
   EXPECT_THAT(error_after(3 * 86400, 600), HasSubstr(", 3.0 days ago,"));
-  EXPECT_EQ(error_after(-1.5, 600),
-            "log.jsonl: last state: found one of 2026-11-22 16:00:00 UTC, 1.5 s ahead, expected one of the past: set the "
-            "clock, or give the server another --log to start at rest");
+  EXPECT_EQ(
+      error_after(-1.5, 600),
+      "log.jsonl: last state: found one of 2026-11-22 16:00:00 UTC, 1.5 s ahead, expected one of the past: set the "
+      "clock, or give the server another --log to start at rest");
   EXPECT_NE(error_after(1, std::nan("")), "");
   EXPECT_NE(error_after(0.1, 0), "");
 }

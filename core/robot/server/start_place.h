@@ -8,8 +8,8 @@
 
 namespace glovebench {
 
-/// Where a server begins must be a place that it could have gone to. What misses a limit by no more than the rounding
-/// of a log is moved onto it; whatever else is outside throws Error: `source` is where it was found.
+/// Where a server begins must be a place that it could have gone to. What misses a limit by no more than the
+/// rounding of a log is moved onto it; whatever else is outside throws Error: `source` is where it was found.
 
 /// The angle of a joint, rad.
 double start_angle(double angle, double min_deg, double max_deg, const std::string& source, std::string_view joint);
