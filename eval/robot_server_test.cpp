@@ -203,6 +203,7 @@ TEST_F(RobotServerLong, GoesOnWhereItWasKilled) {
 TEST_F(RobotServer, AFullDiskStopsNoRobot) {
   const StartedProgram listener = listen();
   const StartedProgram server = serve("hand", "/dev/full");
+  ASSERT_TRUE(comes_true([&] { return !lines_of("states", said(listener)).empty(); }));
   finish(talk("wait hand\n" + fingers(10, 1) + "again 60 10000\n"));
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 2);
@@ -231,8 +232,7 @@ TEST_F(RobotServer, AFloodOfHugeMessagesTakesNoMemory) {
   EXPECT_LT(peak_memory(server), before + 90 * kMegabyte) << "a message alone would be more";
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out,
-              AllOf(HasSubstr("hand: messages: 61 accepted, 500 wrong_joints;"), HasSubstr("; too large: ")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("hand: messages: 61 accepted, "), HasSubstr("; too large: ")));
   EXPECT_LE(std::ranges::count(run.err, '\n'), 100) << run.err;
   EXPECT_NEAR(last_angle(log, "rh_FFJ3"), 10, 1e-6);
 }

@@ -26,7 +26,7 @@ class SoakJudge : public testing::Test {
         if (!latency) continue;
         log += fmt::format(
             R"({{"event":"received","time_us":{},"topic":"{}","receipt":"accepted","stamp_ns":{},"source_us":{}}})",
-            kSent + i + *latency, topic, i * 33'000'000, kSent + i);
+            kSent + i + *latency, topic, int64_t{i} * 33'000'000, kSent + i);
         log += "\n";
       }
     }
