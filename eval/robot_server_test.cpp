@@ -225,7 +225,7 @@ TEST_F(RobotServer, AFloodOfHugeMessagesTakesNoMemory) {
   const std::string log = path("hand.jsonl");
   const StartedProgram server = serve_until_ready("hand", log);
   const size_t before = peak_memory(server);
-  EXPECT_EQ(finish(talk("wait hand\nhuge names 2 100000000\nhuge points 2 50000000\nhuge names 500 60000\n" +
+  EXPECT_EQ(finish(talk("wait hand\nhuge names 2 100000000\nhuge points 2 50000000\nhuge names 500 15000\n" +
                         fingers(10, 1) + "again 60 10000\n"))
                 .out,
             "said\n");

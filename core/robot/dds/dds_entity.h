@@ -20,8 +20,8 @@ dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std
 
 /// What anybody on the network can make a process keep: messages of at most that size, each reader that many of
 /// them. One for the hand has a thousand bytes. What is larger, the library drops at its first fragment.
-inline constexpr int kLargestMessage = 64 << 10;  // bytes, on the wire
-inline constexpr int kMaxWaiting = 1'000;
+inline constexpr int kLargestMessage = 16 << 10;  // bytes, on the wire
+inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s: who has to wait longer loses what it sent
 
 /// Larger messages that were dropped since the process began.
 int64_t dds_messages_too_large();

@@ -155,7 +155,7 @@ TEST_F(DdsServer, AFloodOfLargeMessagesIsRefusedAndOthersAreFollowed) {
   ASSERT_TRUE(comes_true([&] { return hostile.listeners() > 0; }));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the server knows it a little later
   for (int i = 0; i < 20; ++i) hostile.write({{}, "", {std::string(2'000'000, 'x')}, {}});
-  for (int i = 0; i < 20; ++i) hostile.write({{}, "", {std::string(60'000, 'x')}, {}});
+  for (int i = 0; i < 20; ++i) hostile.write({{}, "", {std::string(15'000, 'x')}, {}});
   ros::JointTrajectory good{{1, 0}, "", hand_trajectory_names(), {{std::vector<double>(22, 0.1), {}}}};
   hostile.write(good);
   EXPECT_TRUE(comes_true([&] { return read_file(log).find("\"accepted\"") != std::string::npos; }));
