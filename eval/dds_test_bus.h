@@ -1,43 +1,20 @@
 #pragma once
 
-// A bus of its own for each test of the middleware, on the loopback interface.
+// A bus of its own for each test of the middleware, with other processes on it.
 
 #include <gtest/gtest.h>
 #include <signal.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <random>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "core/robot/dds/test_bus.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {
-
-/// This process and those that it starts get a Cyclone DDS for a sandbox: one interface, no multicast, and a tag
-/// that keeps apart what runs at the same time.
-inline void use_loopback_dds() {
-  const std::string uri =
-      "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-      "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>glovebench-" +
-      std::to_string(getpid()) + "-" + std::to_string(std::random_device()()) +
-      "</Tag><Peers><Peer address=\"127.0.0.1\"/></Peers><ParticipantIndex>auto</ParticipantIndex>"
-      "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex></Discovery></Domain></CycloneDDS>";
-  setenv("CYCLONEDDS_URI", uri.c_str(), 1);
-}
-
-/// Asks again and again; whether it came true within a time in which it should by far.
-template <typename Condition>
-bool comes_true(const Condition& condition) {
-  for (int i = 0; i < 2000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  return false;
-}
 
 /// A bus that no other run is on, and other processes on it.
 class DdsBus : public testing::Test {
@@ -69,7 +46,7 @@ class DdsBus : public testing::Test {
     return finish(program);
   }
 
-  /// Prints what arrives until nothing has for a second, or for longer.
+  /// Prints what arrives until nothing has for a second and a half, or for longer, after the first.
   StartedProgram listen(const std::string& seconds = "1.5") {
     const StartedProgram listener = start({GLOVEBENCH_DDS_PROBE, "listen", domain_, seconds});
     EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));

@@ -27,13 +27,17 @@ constexpr double kLongestStepS = 0.1;  // what the guard takes as the time of on
 
 class RobotServer : public DdsBus {
  protected:
-  StartedProgram serve(const std::string& side, const std::string& log) {
-    return start({GLOVEBENCH_PROGRAM, "robot-server", side, "--robot", "dds:" + domain_, "--log", log});
+  StartedProgram serve(const std::string& side, const std::string& log, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> command = {GLOVEBENCH_PROGRAM, "robot-server", side, "--robot",
+                                        "dds:" + domain_,   "--log",        log};
+    command.insert(command.end(), more.begin(), more.end());
+    return start(command);
   }
   /// A server that has begun, as its log shows.
-  StartedProgram serve_until_ready(const std::string& side, const std::string& log) {
+  StartedProgram serve_until_ready(const std::string& side, const std::string& log,
+                                   const std::vector<std::string>& more = {}) {
     const size_t before = std::filesystem::exists(log) ? std::filesystem::file_size(log) : 0;
-    const StartedProgram server = serve(side, log);
+    const StartedProgram server = serve(side, log, more);
     EXPECT_TRUE(
         comes_true([&] { return std::filesystem::exists(log) && std::filesystem::file_size(log) > before; }));
     return server;
@@ -199,6 +203,7 @@ TEST_F(RobotServerLong, GoesOnWhereItWasKilled) {
 TEST_F(RobotServer, AFullDiskStopsNoRobot) {
   const StartedProgram listener = listen();
   const StartedProgram server = serve("hand", "/dev/full");
+  ASSERT_TRUE(comes_true([&] { return !lines_of("states", said(listener)).empty(); }));
   finish(talk("wait hand\n" + fingers(10, 1) + "again 60 10000\n"));
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 2);
@@ -207,6 +212,59 @@ TEST_F(RobotServer, AFullDiskStopsNoRobot) {
   const std::vector<std::string> states = lines_of("states", finish(listener).out);
   ASSERT_FALSE(states.empty());
   EXPECT_THAT(states.back(), HasSubstr(" rh_FFJ3=0.1745")) << "it still did what it was told";
+}
+
+/// The most memory that a process has had, bytes.
+size_t peak_memory(const StartedProgram& program) {
+  const std::string status = read_file(fmt::format("/proc/{}/status", program.process));
+  return std::stoull(status.substr(status.find("VmHWM:") + 6)) * 1024;
+}
+
+TEST_F(RobotServer, AFloodOfHugeMessagesTakesNoMemory) {
+  constexpr size_t kMegabyte = 1'000'000;
+  const std::string log = path("hand.jsonl");
+  const StartedProgram server = serve_until_ready("hand", log);
+  const size_t before = peak_memory(server);
+  EXPECT_EQ(finish(talk("wait hand\nhuge names 2 100000000\nhuge points 2 50000000\nhuge names 500 15000\n" +
+                        fingers(10, 1) + "again 60 10000\n"))
+                .out,
+            "said\n");
+  EXPECT_LT(peak_memory(server), before + 90 * kMegabyte) << "a message alone would be more";
+  const ProgramRun run = stop(server, SIGTERM);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("hand: messages: 61 accepted, "), HasSubstr("; too large: ")));
+  EXPECT_LE(std::ranges::count(run.err, '\n'), 100) << run.err;
+  EXPECT_NEAR(last_angle(log, "rh_FFJ3"), 10, 1e-6);
+}
+
+TEST_F(RobotServer, OneServesAHandAndALog) {
+  const std::string log = path("hand.jsonl");
+  const StartedProgram server = serve_until_ready("hand", log);
+  const ProgramRun same_log = finish(serve("hand", log));
+  EXPECT_EQ(same_log.exit_code, 2);
+  EXPECT_EQ(same_log.err, "glovebench: " + log +
+                              ": log: found another server that is writing it, expected a log of its own for each "
+                              "server\n");
+  const ProgramRun same_hand = finish(serve("hand", path("other.jsonl")));
+  EXPECT_EQ(same_hand.exit_code, 2);
+  EXPECT_THAT(same_hand.err, HasSubstr("another process that tells of rh_"));
+  EXPECT_EQ(stop(server, SIGTERM).exit_code, 0);
+  const StartedProgram next = serve_until_ready("hand", log);
+  const ProgramRun run = stop(next, SIGTERM);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("glovebench: " + log + ": starts at its last state, of 20"));
+}
+
+TEST_F(RobotServer, BelievesALogForAsLongAsItIsTold) {
+  const std::string log = path("hand.jsonl");
+  stop(serve_until_ready("hand", log), SIGTERM);
+  ProgramRun run = finish(serve("hand", log, {"--log-age", "0"}));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("hand.jsonl: last state: found one of 20"), HasSubstr(" s ago, expected"),
+                             HasSubstr("--log-age")));
+  EXPECT_EQ(std::ranges::count(run.err, '\n'), 1);
+  for (const char* wrong : {"-1", "x", "inf"})
+    EXPECT_EQ(finish(serve("hand", log, {"--log-age", wrong})).exit_code, 2);
 }
 
 TEST_F(RobotServer, RefusesLogsOfOthers) {
@@ -225,13 +283,14 @@ TEST_F(RobotServer, RefusesLogsOfOthers) {
 #ifdef GLOVEBENCH_ARM
 
 /// Where the wrist is when the arm is at rest.
-Eigen::Isometry3d wrist_at_rest() {
-  return arm_flange_pose(kArmAtRest) * default_T_flange_wrist();
+Eigen::Isometry3d wrist_at_rest(const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
+  return arm_flange_pose(kArmAtRest) * T_flange_wrist;
 }
 
 /// A pose that far from there, as a line for the probe.
-std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame = "base_link") {
-  const Eigen::Isometry3d T = wrist_at_rest();
+std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame = "base_link",
+                 const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
+  const Eigen::Isometry3d T = wrist_at_rest(T_flange_wrist);
   const Eigen::Vector3d p = T.translation() + way;
   const Eigen::Quaterniond q(T.linear());
   return fmt::format("pose {} 0 {} {} {} {} {} {} {} {}\n", sec, frame, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(),
@@ -239,12 +298,12 @@ std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame =
 }
 
 /// Where the wrist is at the end of a log.
-Eigen::Vector3d last_wrist(const json& state) {
+Eigen::Vector3d last_wrist(const json& state, const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
   ArmJoints joints;
   for (int j = 0; j < kArmJointCount; ++j)
     joints[j] =
         radians_from_degrees(state.at("position_deg").at(std::string(arm_joint_infos()[j].name)).get<double>());
-  return (arm_flange_pose(joints) * default_T_flange_wrist()).translation();
+  return (arm_flange_pose(joints) * T_flange_wrist).translation();
 }
 
 TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
@@ -258,6 +317,55 @@ TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
   const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back());
   EXPECT_LT((wrist - wrist_at_rest().translation() - way).norm(), 1e-4) << wrist.transpose();
   expect_safe(log);
+}
+
+TEST_F(RobotServer, TheArmKnowsHowTheHandIsMounted) {
+  const std::string log = path("arm.jsonl");
+  const StartedProgram server =
+      serve_until_ready("arm", log, {"--flange-wrist", "0", "0", "0.1", "0.6", "0", "0", "0.8"});
+  const Eigen::Isometry3d mounted = Eigen::Translation3d(0, 0, 0.1) * Eigen::Quaterniond(0.6, 0, 0, 0.8);
+  const Eigen::Vector3d way(-0.05, 0.08, -0.03);
+  finish(talk("wait pose\n" + pose(way, 1, "base_link", mounted) + "again 60 10000\n"));
+  EXPECT_EQ(stop(server, SIGTERM).exit_code, 0);
+  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back(), mounted);
+  EXPECT_LT((wrist - wrist_at_rest(mounted).translation() - way).norm(), 1e-4) << wrist.transpose();
+  expect_safe(log);
+
+  const auto refusal = [&](const std::string& side, const std::vector<std::string>& numbers) {
+    std::vector<std::string> more = {"--flange-wrist"};
+    more.insert(more.end(), numbers.begin(), numbers.end());
+    const ProgramRun run = finish(serve(side, path("other.jsonl"), more));
+    EXPECT_EQ(run.exit_code, 2);
+    return run.err;
+  };
+  EXPECT_THAT(refusal("arm", {"0", "0", "0", "1", "1", "0", "0"}),
+              HasSubstr("--flange-wrist: length of the quaternion"));
+  EXPECT_THAT(refusal("arm", {"nan", "0", "0", "1", "0", "0", "0"}),
+              HasSubstr("--flange-wrist: transform: found nan"));
+  refusal("arm", {"0", "0", "0.1"});
+  refusal("hand", {"0", "0", "0.1", "1", "0", "0", "0"});
+}
+
+TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
+  const std::string log = path("arm.jsonl");
+  stop(serve_until_ready("arm", log), SIGTERM);
+  const std::string last = lines(log, "state").back().dump();
+  const auto log_at = [&](double angle_deg) {
+    json state = json::parse(last);
+    state["position_deg"]["S1"] = angle_deg;
+    std::string text = state.dump();  // in the order of a log: `event` comes first
+    text.erase(text.find(R"("event":"state",)"), 16);
+    write_file(log, R"({"event":"state",)" + text.substr(1) + "\n");
+  };
+  log_at(177);
+  ProgramRun run = stop(serve_until_ready("arm", log), SIGTERM);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(last_angle(log, "S1"), 177);
+  log_at(177.5);
+  run = finish(serve("arm", log));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.err.substr(run.err.rfind("glovebench: ")),
+            "glovebench: " + log + ": S1: found 177.5 degrees, expected -177 to 177\n");
 }
 
 TEST_F(RobotServerLong, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {

@@ -76,6 +76,25 @@ Workbench CommonFlags::workbench() const {
   return Workbench(config);
 }
 
+void MountingFlag::add(CLI::App& command) {
+  command
+      .add_option(
+          "--flange-wrist", flange_wrist,
+          "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]")
+      ->expected(7);
+}
+
+void LimitsFlag::add(CLI::App& command) {
+  command.add_option(
+      "--robot-limits", file,
+      "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
+}
+
+CommandLimits LimitsFlag::limits() const {
+  return file.empty() ? CommandLimits()
+                      : command_limits_from_json(reports::parse_json(read_file(file), file), file);
+}
+
 void RobotFlags::add(CLI::App& command, const std::string& what) {
   command.add_option("--robot-out", output, what);
   command
@@ -92,24 +111,15 @@ void RobotFlags::add(CLI::App& command, const std::string& what) {
       .add_option("--base-camera", base_camera,
                   "the camera in the arm's base frame: X Y Z (m) QW QX QY QZ [above the work, looking down]")
       ->expected(7);
-  command
-      .add_option(
-          "--flange-wrist", flange_wrist,
-          "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]")
-      ->expected(7);
-  command.add_option(
-      "--robot-limits", limits_file,
-      "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
-}
-
-CommandLimits command_limits(const std::string& file) {
-  return file.empty() ? CommandLimits()
-                      : command_limits_from_json(reports::parse_json(read_file(file), file), file);
+  mounting.add(command);
+  limits.add(command);
 }
 
 namespace {
 
 Eigen::Isometry3d rigid_transform(const char* flag, const std::vector<double>& values) {
+  for (const double value : values)
+    if (!std::isfinite(value)) throw Error(flag, "transform", fmt::format("{}", value), "finite numbers");
   const Eigen::Quaterniond q(values[3], values[4], values[5], values[6]);
   if (!(std::abs(q.norm() - 1) < 1e-3)) {
     throw Error(flag, "length of the quaternion", fmt::format("{}", q.norm()), "1");
@@ -131,22 +141,26 @@ std::shared_ptr<const ArmSolver> arm_solver([[maybe_unused]] bool required) {
 
 }  // namespace
 
+Eigen::Isometry3d MountingFlag::T_flange_wrist() const {
+  return flange_wrist.empty() ? default_T_flange_wrist() : rigid_transform("--flange-wrist", flange_wrist);
+}
+
 RobotSetup RobotFlags::setup(Workbench& workbench) const {
   RobotSetup setup;
   if (!base_camera.empty()) setup.T_base_camera = rigid_transform("--base-camera", base_camera);
-  if (!flange_wrist.empty()) setup.T_flange_wrist = rigid_transform("--flange-wrist", flange_wrist);
+  setup.T_flange_wrist = mounting.T_flange_wrist();
   if (arm != "none") setup.arm = arm_solver(arm == "pa10");
   if (mapping == "fingertip") setup.skeleton = workbench.model()->skeleton();
   return setup;
 }
 
 RobotOutput RobotFlags::output_of(Workbench& workbench) const {
-  RobotOutput robot{output, setup(workbench), limits()};
-  if (!limits_file.empty()) robot.changes["limits"] = to_json(robot.limits);
+  RobotOutput robot{output, setup(workbench), limits.limits()};
+  if (!limits.file.empty()) robot.changes["limits"] = to_json(robot.limits);
   if (mapping != "direct") robot.changes["mapping"] = mapping;
   if (arm != "auto") robot.changes["arm"] = arm;
   if (!base_camera.empty()) robot.changes["base_camera"] = base_camera;
-  if (!flange_wrist.empty()) robot.changes["flange_wrist"] = flange_wrist;
+  if (!mounting.flange_wrist.empty()) robot.changes["flange_wrist"] = mounting.flange_wrist;
   return robot;
 }
 

@@ -41,24 +41,37 @@ struct CommonFlags {
   void check_output_folder() const;
 };
 
-/// The limits of a file (`glovebench list limits`); an empty name: CommandLimits' own. Throws Error.
-CommandLimits command_limits(const std::string& file);
+/// How the hand is mounted on the arm.
+struct MountingFlag {
+  std::vector<double> flange_wrist;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_flange_wrist()
+
+  void add(CLI::App& command);
+  /// Throws Error unless all is finite and the quaternion has unit length.
+  Eigen::Isometry3d T_flange_wrist() const;
+};
+
+/// What robot commands may do.
+struct LimitsFlag {
+  std::string file;  ///< JSON (`glovebench list limits`); empty: CommandLimits' own
+
+  void add(CLI::App& command);
+  /// Throws Error.
+  CommandLimits limits() const;
+};
 
 /// Where robot commands go, and how a hand becomes one.
 struct RobotFlags {
   std::string output;
   std::string mapping = "direct";
   std::string arm = "auto";
-  std::vector<double> base_camera;   ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
-  std::vector<double> flange_wrist;  ///< the same; empty: default_T_flange_wrist()
-  std::string limits_file;           ///< empty: CommandLimits' own
+  std::vector<double> base_camera;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
+  MountingFlag mounting;
+  LimitsFlag limits;
 
   void add(CLI::App& command, const std::string& what);
-  /// Of the workbench's hand. Throws Error unless quaternions have unit length, or if the arm is asked for and this
-  /// program was built without it.
+  /// Of the workbench's hand. Throws Error unless transforms are finite and their quaternions have unit length, or
+  /// if the arm is asked for and this program was built without it.
   RobotSetup setup(Workbench& workbench) const;
-  /// Throws Error.
-  CommandLimits limits() const { return command_limits(limits_file); }
   RobotOutput output_of(Workbench& workbench) const;
 };
 

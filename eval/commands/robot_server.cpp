@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/base/error.h"
+#include "core/robot/server/server_log.h"
 #include "eval/commands/command.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/interruption.h"
@@ -21,6 +22,9 @@ namespace {
 struct RobotServer {
   std::string middleware = "dds";
   std::string log;
+  double max_log_age_s = kMaxLogAge;
+  MountingFlag mounting;
+  LimitsFlag limits;
 
   /// Serves until SIGINT or SIGTERM. Returns the exit code.
   int serve_hand() const {
@@ -35,7 +39,7 @@ struct RobotServer {
 #if defined(GLOVEBENCH_DDS) && defined(GLOVEBENCH_ARM)
     const std::unique_ptr<ArmSolver> solver = make_kdl_arm_solver();
     const Interruption interruption;
-    return finish(glovebench::serve_arm(options(), *solver, default_T_flange_wrist(), kArmAtRest));
+    return finish(glovebench::serve_arm(options(), *solver, mounting.T_flange_wrist(), kArmAtRest));
 #else
     dds_domain(middleware, "--robot");         // throws where that is missing
     throw Error("robot-server", "arm", "a glovebench that was built without Orocos KDL",
@@ -46,8 +50,12 @@ struct RobotServer {
  private:
 #ifdef GLOVEBENCH_DDS
   DdsServerOptions options() const {
-    return {
-        .domain = dds_domain(middleware, "--robot"), .log = log, .limits = {}, .stopping = Interruption::wished};
+    return {.domain = dds_domain(middleware, "--robot"),
+            .log = log,
+            .max_log_age_s = max_log_age_s,
+            .limits = limits.limits(),
+            .stopping = Interruption::wished,
+            .tell = [](const std::string& line) { fmt::print(stderr, "glovebench: {}\n", line); }};
   }
   int finish(const DdsServerSummary& summary) const {
     fmt::print("{}\n", summary.text);
@@ -73,7 +81,13 @@ void add_robot_server(CLI::App& program, int& exit_code) {
     side->add_option("--robot", state->middleware, "where from: dds[:DOMAIN]")->capture_default_str();
     side->add_option("--log", state->log,
                      "log to append to (*.jsonl), which also tells the next server where the joints stood");
+    side->add_option("--log-age", state->max_log_age_s,
+                     "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    state->limits.add(*side);
   }
+  state->mounting.add(*arm);
   hand->callback([state, &exit_code] { exit_code = state->serve_hand(); });
   arm->callback([state, &exit_code] { exit_code = state->serve_arm(); });
 }

@@ -65,7 +65,7 @@ struct Track {
   void run() {
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
-    CommandGuard guard(robot.limits());
+    CommandGuard guard(robot.limits.limits());
     RobotOutputs outputs(robot.output, middleware);
     TrackSource source = open_source(from);
     Workbench workbench = common.workbench();

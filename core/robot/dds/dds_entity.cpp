@@ -1,9 +1,17 @@
 #include "core/robot/dds/dds_entity.h"
 
+#include <dds/ddsrt/log.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -13,6 +21,7 @@ namespace {
 
 constexpr int kRosDepth = 10;
 constexpr int kLastDomain = 230;  // later ones have no ports
+constexpr int kLinesPerSecond = 10;
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
@@ -24,7 +33,48 @@ Qos make_qos() {
   return qos;
 }
 
+std::atomic<int64_t> messages_too_large = 0;
+
+/// What the library says: to stderr, as without this, but not without end.
+void hear_library(void*, const dds_log_data_t* said) {
+  using namespace std::chrono;
+  static std::mutex mutex;
+  static int64_t second = 0, lines = 0;
+  const std::lock_guard lock(mutex);
+  messages_too_large += std::string_view(said->message, said->size).starts_with("dropping oversize");
+  const int64_t now = duration_cast<seconds>(steady_clock::now().time_since_epoch()).count();
+  if (std::exchange(second, now) != now) lines = 0;
+  if (++lines <= kLinesPerSecond)
+    std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size + 1, stderr);
+}
+
+/// A domain of this process, for as long as somebody has it: it is deleted with all that lives in it.
+std::shared_ptr<const dds_entity_t> join_domain(int domain, const std::string& what, const std::string& expected) {
+  static std::mutex mutex;
+  static std::map<int, std::weak_ptr<const dds_entity_t>> domains;
+  const std::lock_guard lock(mutex);
+  if (std::shared_ptr<const dds_entity_t> joined = domains[domain].lock()) return joined;
+  dds_set_log_sink(&hear_library, nullptr);
+  const char* const own = std::getenv("CYCLONEDDS_URI");
+  const std::string configuration = fmt::format(
+      "{},<CycloneDDS><Domain><Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
+      own ? own : "", kLargestMessage);
+  const dds_entity_t made =
+      checked_dds(dds_create_domain(static_cast<dds_domainid_t>(domain), configuration.c_str()), what, expected);
+  const auto leave = [](const dds_entity_t* entity) {
+    dds_delete(*entity);
+    delete entity;
+  };
+  const std::shared_ptr<const dds_entity_t> joined(new dds_entity_t(made), leave);
+  domains[domain] = joined;
+  return joined;
+}
+
 }  // namespace
+
+int64_t dds_messages_too_large() {
+  return messages_too_large;
+}
 
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected) {
   if (result < 0) throw Error("DDS", what, dds_strretcode(-result), expected);
@@ -34,9 +84,11 @@ dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std
 DdsParticipant::DdsParticipant(int domain) {
   if (domain < 0 || domain > kLastDomain)
     throw Error("DDS", "domain", std::to_string(domain), fmt::format("0 to {}", kLastDomain));
-  entity_ = checked_dds(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr),
-                        fmt::format("participant in domain {}", domain),
-                        "a network interface that CYCLONEDDS_URI allows");
+  const std::string what = fmt::format("participant in domain {}", domain);
+  const char* const expected = "a network interface that CYCLONEDDS_URI allows";
+  domain_ = join_domain(domain, what, expected);
+  entity_ =
+      checked_dds(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr), what, expected);
 }
 
 dds_entity_t DdsParticipant::make_topic(const dds_topic_descriptor_t& type, const std::string& name) const {
@@ -53,6 +105,13 @@ dds_entity_t DdsParticipant::make_reader(dds_entity_t topic, int max_waiting) co
   const Qos qos = make_qos();
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
   dds_qset_resource_limits(qos.get(), max_waiting, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
+}
+
+dds_entity_t DdsParticipant::make_reader_of_others(dds_entity_t topic) const {
+  const Qos qos = make_qos();
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kRosDepth);
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
 }
 

@@ -3,6 +3,7 @@
 #include <dds/dds.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,10 +18,19 @@ namespace glovebench {
 /// Throws Error unless `result` is no error of Cyclone DDS; returns it.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
+/// What anybody on the network can make a process keep: messages of at most that size, each reader that many of
+/// them. One for the hand has a thousand bytes. What is larger, the library drops at its first fragment.
+inline constexpr int kLargestMessage = 16 << 10;  // bytes, on the wire
+inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s: who has to wait longer loses what it sent
+
+/// Larger messages that were dropped since the process began.
+int64_t dds_messages_too_large();
+
 /// A participant in a domain. With it go all entities that were made with it.
 class DdsParticipant {
  public:
-  /// Configured by CYCLONEDDS_URI, as every program with Cyclone DDS.
+  /// Configured by CYCLONEDDS_URI, as every program with Cyclone DDS, but for the size of messages. Of what the
+  /// library has to say a flood does not reach stderr.
   explicit DdsParticipant(int domain);
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
@@ -30,11 +40,14 @@ class DdsParticipant {
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
   /// As ROS 2 does by default: reliable, volatile, the last ten.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile, all until they are taken. The last ten would do for one sender, but a flood by one must
-  /// not push out what another has sent.
+  /// Reliable, volatile, up to `max_waiting` until they are taken; then the senders wait. The last ten would do for
+  /// one sender, but a flood by one must not push out what another has sent.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
+  /// The last ten that other participants have sent.
+  dds_entity_t make_reader_of_others(dds_entity_t topic) const;
 
  private:
+  std::shared_ptr<const dds_entity_t> domain_;
   dds_entity_t entity_;
 };
 
@@ -90,10 +103,12 @@ class DdsReader {
   };
 
   /// Keeps up to `max_waiting` messages until they are taken; then it makes the senders wait.
-  DdsReader(const DdsParticipant& participant, const std::string& topic, int max_waiting)
-      : reader_(
-            participant.make_reader(participant.make_topic(DdsType<Message>::descriptor(), topic), max_waiting)),
-        senders_(reader_) {}
+  DdsReader(const DdsParticipant& participant, const std::string& topic, int max_waiting = kMaxWaiting)
+      : DdsReader(participant.make_reader(make_topic(participant, topic), max_waiting)) {}
+  /// Keeps the last ten that other participants have sent.
+  static DdsReader of_others(const DdsParticipant& participant, const std::string& topic) {
+    return DdsReader(participant.make_reader_of_others(make_topic(participant, topic)));
+  }
 
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
@@ -117,6 +132,11 @@ class DdsReader {
   }
 
  private:
+  explicit DdsReader(dds_entity_t reader) : reader_(reader), senders_(reader) {}
+  static dds_entity_t make_topic(const DdsParticipant& participant, const std::string& topic) {
+    return participant.make_topic(DdsType<Message>::descriptor(), topic);
+  }
+
   dds_entity_t reader_;
   DdsSenders senders_;
 };

@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <thread>
+#include <utility>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/robot/dds/dds_entity.h"
 #include "core/robot/dds/topics.h"
 #include "core/robot/server/arm_server.h"
@@ -19,9 +23,9 @@ constexpr int64_t kPeriodUs = 10'000;        // between two states
 constexpr int64_t kLookAroundUs = 100'000;   // between two looks at who is there
 constexpr int64_t kHeartbeatUs = 1'000'000;  // a state in the log even if nothing moves
 constexpr int kLogLinesPerSecond = 500;      // of messages, accepted and refused each: a flood fills no disk
-constexpr int kMaxWaiting = 20'000;          // messages that were not taken yet: a flood of 0.2 s
 constexpr int kMessagesAtOnce = 200;         // then the clock is asked again: a flood delays no state by much
 constexpr uint64_t kTailBytes = 1 << 20;     // seconds of the fullest log
+constexpr int64_t kListenUs = 1'000'000;     // for another server, before the first state
 
 int64_t steady_us() {
   using namespace std::chrono;
@@ -37,10 +41,8 @@ int64_t system_us() {
 class HandPort {
  public:
   static constexpr const char* kName = "hand";
-  HandPort(const DdsParticipant& participant, const CommandLimits& limits, const std::vector<double>& start)
-      : server(limits, start),
-        fingers_(participant, topics::kHand, kMaxWaiting),
-        wrist_(participant, topics::kWrist, kMaxWaiting) {}
+  HandPort(const DdsParticipant& participant, HandServer at_start)
+      : server(std::move(at_start)), fingers_(participant, topics::kHand), wrist_(participant, topics::kWrist) {}
 
   static const std::vector<std::string>& names() { return hand_joint_names(); }
   void attach(DdsWaitset& waitset) const {
@@ -80,9 +82,8 @@ class HandPort {
 class ArmPort {
  public:
   static constexpr const char* kName = "arm";
-  ArmPort(const DdsParticipant& participant, const CommandLimits& limits, const ArmSolver& solver,
-          const Eigen::Isometry3d& T_flange_wrist, const std::vector<double>& start)
-      : server(limits, solver, T_flange_wrist, start), pose_(participant, topics::kArm, kMaxWaiting) {}
+  ArmPort(const DdsParticipant& participant, ArmServer at_start)
+      : server(std::move(at_start)), pose_(participant, topics::kArm) {}
 
   static const std::vector<std::string>& names() { return arm_joint_names(); }
   void attach(DdsWaitset& waitset) const { waitset.add(pose_.entity()); }
@@ -105,10 +106,51 @@ class ArmPort {
   DdsReader<ros::PoseStamped> pose_;
 };
 
+/// Where the joints start, and who says so.
+struct StartPlace {
+  std::vector<double> joints;
+  std::string source;
+};
+
+/// Whether another process says where these joints are: it serves them, too.
+class OtherServers {
+ public:
+  OtherServers(const DdsParticipant& participant, const std::vector<std::string>& names)
+      : states_(DdsReader<ros::JointState>::of_others(participant, topics::kJointStates)), names_(names) {}
+
+  /// The name of a joint that another has told of since the last call.
+  std::optional<std::string> heard() {
+    std::optional<std::string> joint;
+    while (const auto received = states_.take([](uint64_t) { return true; })) {
+      if (!received->message) continue;
+      const auto& told = received->message->name;
+      const auto ours = std::ranges::find_first_of(told, names_);
+      if (ours != told.end()) joint = *ours;
+    }
+    return joint;
+  }
+
+ private:
+  DdsReader<ros::JointState> states_;
+  const std::vector<std::string>& names_;
+};
+
 /// The log, which no flood fills.
 class Log {
  public:
-  explicit Log(const std::string& path) : file_(path) {}
+  explicit Log(const std::string& path) : file_(path), path_(path) {}
+
+  /// Where the joints shall start: where the last state has them, if there is one; else at rest.
+  StartPlace start(const DdsServerOptions& options, const std::vector<std::string>& names,
+                   const std::vector<double>& rest) const {
+    if (path_.empty()) return {rest, "posture at rest"};
+    const std::optional<LoggedState> last = last_state(read_tail(path_, kTailBytes), names, path_);
+    if (!last) return {rest, "posture at rest"};
+    const int64_t now_us = system_us();
+    check_age(*last, now_us, options.max_log_age_s, path_);
+    options.tell(fmt::format("{}: starts at its last state, of {}", path_, age_text(*last, now_us)));
+    return {last->positions, path_};
+  }
 
   void received(const ReceivedLine& line) {
     int64_t& left = line.receipt == Receipt::accepted ? accepted_left_ : refused_left_;
@@ -127,6 +169,7 @@ class Log {
 
  private:
   GrowingFile file_;
+  std::string path_;
   int64_t accepted_left_ = kLogLinesPerSecond, refused_left_ = kLogLinesPerSecond;
   int64_t heartbeat_us_ = 0;
   RobotState last_;
@@ -143,14 +186,20 @@ std::string counted(int kinds, const Names& name, const Counts& count) {
 template <typename Port>
 class Service {
  public:
-  Service(Port& port, const DdsParticipant& participant, const DdsServerOptions& options)
-      : port_(port), states_(participant, topics::kJointStates), waitset_(participant), log_(options.log) {
+  Service(Port& port, const DdsParticipant& participant, const DdsServerOptions& options, OtherServers& others,
+          Log& log)
+      : port_(port),
+        options_(options),
+        others_(others),
+        log_(log),
+        states_(participant, topics::kJointStates),
+        waitset_(participant) {
     port_.attach(waitset_);
   }
 
-  DdsServerSummary run(const std::function<bool()>& stopping) {
+  DdsServerSummary run() {
     int64_t next_us = steady_us(), look_us = next_us;
-    while (!stopping()) {
+    while (!options_.stopping()) {
       int64_t now_us = steady_us();
       if (now_us >= next_us) {
         tick(now_us);
@@ -158,6 +207,7 @@ class Service {
       }
       if (now_us >= look_us) {
         port_.server.gate().keep_only(port_.present());
+        look_for_others();
         look_us = now_us + kLookAroundUs;
       }
       receive();
@@ -173,6 +223,13 @@ class Service {
     port_.receive([&](const char* topic, Receipt receipt, const ros::Time& stamp, int64_t source_ns) {
       log_.received({system_us(), topic, receipt, nanoseconds(stamp), source_ns / 1000});
     });
+  }
+  void look_for_others() {
+    const std::optional<std::string> joint = others_.heard();
+    if (!joint) return;
+    if (seen_others_++ == 0)
+      options_.tell(
+          fmt::format("{}: another process tells of {}, too: two servers of one robot?", Port::kName, *joint));
   }
   void tick(int64_t now_us) {
     if (now_us <= last_us_) return;
@@ -198,39 +255,62 @@ class Service {
             kInterventionCount, [](int i) { return to_string(static_cast<Intervention>(i)); },
             [&](int i) { return interventions[static_cast<Intervention>(i)]; }),
         states_sent_, static_cast<double>(longest_gap_us_) * 1e-3);
+    if (const int64_t count = dds_messages_too_large(); count > 0)
+      text += fmt::format("; too large: {} messages", count);
+    if (seen_others_ > 0) text += fmt::format("; another server: heard in {:.1f} s", 0.1 * seen_others_);
     if (log_.lost() > 0) text += fmt::format("; log: {} lines lost ({})", log_.lost(), log_.failure());
     return text;
   }
 
   Port& port_;
+  const DdsServerOptions& options_;
+  OtherServers& others_;
+  Log& log_;
   DdsWriter<ros::JointState> states_;
   DdsWaitset waitset_;
-  Log log_;
   int64_t last_us_ = 0, longest_gap_us_ = 0, states_sent_ = 0;
+  int seen_others_ = 0;  ///< looks at which there was another
 };
 
-std::vector<double> start_of(const DdsServerOptions& options, const std::vector<std::string>& names,
-                             const std::vector<double>& rest) {
-  if (options.log.empty()) return rest;
-  return last_positions(read_tail(options.log, kTailBytes), names, options.log).value_or(rest);
+/// Throws Error if another server of these joints is there. It tells of them all the time, so a second is enough
+/// for whoever the middleware finds.
+void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
+  const int64_t end_us = steady_us() + kListenUs;
+  while (steady_us() < end_us && !options.stopping()) {
+    if (const std::optional<std::string> joint = others.heard())
+      throw Error(fmt::format("DDS domain {}", options.domain), topics::kJointStates,
+                  fmt::format("another process that tells of {}", *joint), "one server of a joint");
+    std::this_thread::sleep_for(std::chrono::microseconds(kPeriodUs));
+  }
+}
+
+/// `make_server`: the server of a side at a StartPlace.
+template <typename Port, typename MakeServer>
+DdsServerSummary serve(const DdsServerOptions& options, const std::vector<double>& rest,
+                       const MakeServer& make_server) {
+  Log log(options.log);  // first: nobody else writes on from here
+  auto server = make_server(log.start(options, Port::names(), rest));
+  const DdsParticipant participant(options.domain);
+  OtherServers others(participant, Port::names());
+  refuse_beside(others, options);
+  Port port(participant, std::move(server));
+  return Service(port, participant, options, others, log).run();
 }
 
 }  // namespace
 
 DdsServerSummary serve_hand(const DdsServerOptions& options) {
-  const std::vector<double> rest(kShadowJointCount, 0.0);  // the open hand
-  const std::vector<double> start = start_of(options, hand_joint_names(), rest);
-  const DdsParticipant participant(options.domain);
-  HandPort port(participant, options.limits, start);
-  return Service(port, participant, options).run(options.stopping);
+  const std::vector<double> open(kShadowJointCount, 0.0);
+  return serve<HandPort>(options, open, [&](const StartPlace& start) {
+    return HandServer(options.limits, start.joints, start.source);
+  });
 }
 
 DdsServerSummary serve_arm(const DdsServerOptions& options, const ArmSolver& solver,
                            const Eigen::Isometry3d& T_flange_wrist, const ArmJoints& rest) {
-  const std::vector<double> start = start_of(options, arm_joint_names(), {rest.begin(), rest.end()});
-  const DdsParticipant participant(options.domain);
-  ArmPort port(participant, options.limits, solver, T_flange_wrist, start);
-  return Service(port, participant, options).run(options.stopping);
+  return serve<ArmPort>(options, {rest.begin(), rest.end()}, [&](const StartPlace& start) {
+    return ArmServer(options.limits, solver, T_flange_wrist, start.joints, start.source);
+  });
 }
 
 }  // namespace glovebench

@@ -8,9 +8,12 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/robot/server/start_place.h"
 
 namespace glovebench {
 namespace {
+
+constexpr double kSlightlyOutside = 5e-5;  // m: less than what is taken as inside at a start (start_place.cpp)
 
 RobotCommand pose_command(const Eigen::Isometry3d& T_base_wrist, int64_t now_us) {
   RobotCommand command;
@@ -22,17 +25,13 @@ RobotCommand pose_command(const Eigen::Isometry3d& T_base_wrist, int64_t now_us)
   return command;
 }
 
-ArmJoints arm_joints(const std::vector<double>& start) {
+ArmJoints arm_joints(const std::vector<double>& start, const std::string& source) {
   if (start.size() != kArmJointCount)
-    throw Error("arm server", "joints", fmt::format("{}", start.size()), fmt::format("{}", kArmJointCount));
+    throw Error(source, "joints", fmt::format("{}", start.size()), fmt::format("{}", kArmJointCount));
   ArmJoints joints;
-  std::ranges::copy(start, joints.begin());
   for (int j = 0; j < kArmJointCount; ++j) {
     const ArmJointInfo& info = arm_joint_infos()[j];
-    const double angle_deg = degrees_from_radians(joints[j]);
-    if (!(angle_deg >= info.min_deg && angle_deg <= info.max_deg))
-      throw Error("arm server", std::string(info.name), fmt::format("{} degrees", angle_deg),
-                  fmt::format("{} to {}", info.min_deg, info.max_deg));
+    joints[j] = start_angle(start[j], info.min_deg, info.max_deg, source, info.name);
   }
   return joints;
 }
@@ -44,15 +43,16 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 }  // namespace
 
 ArmServer::ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
-                     const std::vector<double>& start)
+                     const std::vector<double>& start, const std::string& source)
     : limits_(limits),
       solver_(solver),
       T_flange_wrist_(T_flange_wrist),
       guard_(limits),
       gate_(limits.stop_after_s),
-      joints_(arm_joints(start)) {
+      joints_(arm_joints(start, source)) {
   RobotTargets standing;
   standing.T_base_hand = wrist_pose(joints_);
+  standing.T_base_hand.translation() = start_in_workspace(standing.T_base_hand.translation(), limits, source);
   guard_.start_from(standing);
 }
 
@@ -72,24 +72,52 @@ Receipt ArmServer::receive(uint64_t sender, const ros::PoseStamped& message, int
   return receipt;
 }
 
-/// Joints nearer to those of a pose, no farther away than all speeds allow in that time.
+/// How far the wrist is outside the workspace, m.
+double ArmServer::outside(const ArmJoints& joints) const {
+  const Eigen::Vector3d p = wrist_pose(joints).translation();
+  return (p.cwiseMax(limits_.workspace_min).cwiseMin(limits_.workspace_max) - p).norm();
+}
+
+/// Joints nearer to those of a pose, no farther away than all speeds allow in that time, with the wrist in the
+/// workspace.
 ArmJoints ArmServer::step_towards(const Eigen::Isometry3d& T_base_wrist, double seconds) {
-  const std::optional<ArmJoints> wanted = solver_.solve(T_base_wrist * T_flange_wrist_.inverse(), joints_);
-  if (!wanted) {
-    interventions_.add(Intervention::arm_unreachable);
-    return joints_;
+  const double farthest_outside = std::max(kSlightlyOutside, outside(joints_));
+  const auto step = [&](const Eigen::Isometry3d& T) -> std::optional<ArmJoints> {
+    const std::optional<ArmJoints> wanted = solver_.solve(T * T_flange_wrist_.inverse(), joints_);
+    if (!wanted) return std::nullopt;
+    return next_joints(*wanted, seconds);
+  };
+  std::optional<ArmJoints> next = step(T_base_wrist);
+  if (!next) interventions_.add(Intervention::arm_unreachable);
+  if (!next || outside(*next) <= farthest_outside) return next.value_or(joints_);
+  // Joints that have to catch up would take the wrist out on a curve; the straight way stays inside.
+  interventions_.add(Intervention::workspace);
+  const Eigen::Isometry3d T_base_now = wrist_pose(joints_);
+  const Eigen::Quaterniond q_now(T_base_now.linear()), q_to(T_base_wrist.linear());
+  const Eigen::Vector3d way = T_base_wrist.translation() - T_base_now.translation();
+  double share = std::min({1.0, limits_.hand_speed * seconds / way.norm(),
+                           limits_.hand_turn_speed * seconds / q_now.angularDistance(q_to)});
+  for (int attempt = 0; attempt < 4; ++attempt, share /= 2) {
+    next =
+        step(Eigen::Translation3d(T_base_now.translation() + share * way) * q_now.slerp(share, q_to).normalized());
+    if (next && outside(*next) <= farthest_outside) return *next;
   }
+  return joints_;
+}
+
+/// On the way of all joints to those that are wanted, as far as all speeds allow.
+ArmJoints ArmServer::next_joints(const ArmJoints& wanted, double seconds) {
   double share = 1;  // of the way in joint space: the wrist then moves about as much less
   for (int j = 0; j < kArmJointCount; ++j) {
     const double speed = limits_.arm_speed_share * radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s);
-    const double way = std::abs((*wanted)[j] - joints_[j]);
+    const double way = std::abs(wanted[j] - joints_[j]);
     if (way > speed * seconds) share = std::min(share, speed * seconds / way);
   }
   if (share < 1) interventions_.add(Intervention::arm_speed);
   const Eigen::Isometry3d T_base_now = wrist_pose(joints_);
   for (int attempt = 0; attempt < 8; ++attempt) {
     ArmJoints next;
-    for (int j = 0; j < kArmJointCount; ++j) next[j] = joints_[j] + share * ((*wanted)[j] - joints_[j]);
+    for (int j = 0; j < kArmJointCount; ++j) next[j] = joints_[j] + share * (wanted[j] - joints_[j]);
     const Eigen::Isometry3d T_base_next = wrist_pose(next);
     const double way =
         (T_base_next.translation() - T_base_now.translation()).norm() / (limits_.hand_speed * seconds);

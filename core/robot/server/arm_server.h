@@ -9,15 +9,16 @@ namespace glovebench {
 
 /// The arm's side of the stream, as HandServer is the hand's. CommandGuard lets the pose of the hand move no faster
 /// than a hand may; the joints follow it by inverse kinematics, each no faster than it may, and all of them no
-/// faster than lets the hand keep its speeds on their way, which is not the pose's when they have to catch up.
+/// faster than lets the hand keep its speeds on their way, which is not the pose's when they have to catch up: then
+/// they go straight wherever their way would take the wrist out of the workspace.
 /// Where the arm has no joints for a pose they stay, which is counted as `arm_unreachable`.
 class ArmServer {
  public:
   /// `solver` must outlive the server; `T_flange_wrist` is how the hand's forearm is mounted; `start`: where the
-  /// joints stand, rad. Throws Error unless they are within the limits and the wrist is in the workspace there, or
-  /// if the limits have problems.
+  /// joints stand, rad, and `source` who says so. Throws Error unless they are within the limits and the wrist is
+  /// in the workspace there (start_place.h), or if the limits have problems.
   ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
-            const std::vector<double>& start);
+            const std::vector<double>& start, const std::string& source = "arm server");
 
   /// Whether a message of that sender is foreign, whatever is in it; then it is counted and need not be read.
   bool ignores(uint64_t sender, int64_t now_us);
@@ -35,7 +36,9 @@ class ArmServer {
 
  private:
   Eigen::Isometry3d wrist_pose(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_wrist_; }
+  double outside(const ArmJoints& joints) const;
   ArmJoints step_towards(const Eigen::Isometry3d& T_base_wrist, double seconds);
+  ArmJoints next_joints(const ArmJoints& wanted, double seconds);
 
   CommandLimits limits_;
   const ArmSolver& solver_;

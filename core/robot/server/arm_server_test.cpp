@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/robot/server/test_messages.h"
 
@@ -154,6 +155,32 @@ TEST_F(ArmServerTest, MovesNoFasterThanTheHandMayWhateverTheSolverSays) {
       server.interventions()[Intervention::hand_speed] + server.interventions()[Intervention::hand_turn_speed], 0);
 }
 
+/// Finds nothing until it is told to.
+class SleepingSolver : public JacobianSolver {
+ public:
+  std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const override {
+    return asleep ? std::nullopt : JacobianSolver::solve(T_base_flange, start);
+  }
+  bool asleep = true;
+};
+
+TEST_F(ArmServerTest, StaysInTheWorkspaceWhenItHasToCatchUp) {
+  limits_.workspace_max.x() = T_start_.translation().x();
+  SleepingSolver solver;
+  ArmServer server(limits_, solver, T_flange_wrist_, kStart);
+  tick(server);
+  const Eigen::Vector3d way(0, 0.4, 0);
+  for (int i = 1; i < 800; ++i) {
+    solver.asleep = i < 200;  // meanwhile the pose goes there
+    server.receive(kSender, displaced(way, i), now_us_);
+    tick(server);
+    EXPECT_LE(server.T_base_wrist().translation().x(), limits_.workspace_max.x() + 1e-4) << i;
+  }
+  EXPECT_GT(server.interventions()[Intervention::workspace], 0);
+  EXPECT_LT((server.T_base_wrist().translation() - T_start_.translation() - way).norm(), 1e-3)
+      << "and it gets there";
+}
+
 TEST_F(ArmServerTest, RefusesOtherFrames) {
   tick(server_);
   ros::PoseStamped message = displaced({0, 0.1, 0}, 1);
@@ -161,6 +188,68 @@ TEST_F(ArmServerTest, RefusesOtherFrames) {
   EXPECT_EQ(server_.receive(kSender, message, now_us_), Receipt::wrong_frame);
   EXPECT_EQ(tick(server_).position, kStart);
   EXPECT_EQ(server_.receipts()[static_cast<size_t>(Receipt::wrong_frame)], 1);
+}
+
+/// What a log makes of an angle.
+double logged(double angle) {
+  return radians_from_degrees(std::round(degrees_from_radians(angle) * 1e6) / 1e6);
+}
+
+TEST(ArmServer, StartsAtALimitOfAJoint) {
+  const JacobianSolver solver;
+  const Eigen::Isometry3d mounted = Eigen::Isometry3d::Identity();
+  CommandLimits everywhere;
+  everywhere.workspace_min.setConstant(-3);
+  everywhere.workspace_max.setConstant(3);
+  for (int j = 0; j < kArmJointCount; ++j) {
+    for (const double limit_deg : {arm_joint_infos()[j].min_deg, arm_joint_infos()[j].max_deg}) {
+      const double outwards = std::copysign(1, limit_deg), limit = radians_from_degrees(limit_deg);
+      std::vector<double> start = kStart;
+      for (const double angle :
+           {limit, logged(limit), std::nextafter(limit, outwards * 10), limit + outwards * 1e-8}) {
+        start[j] = angle;
+        EXPECT_EQ(ArmServer(everywhere, solver, mounted, start).tick(1).position[j], limit)
+            << arm_joint_infos()[j].name;
+      }
+      start[j] = limit + outwards * 1e-6;
+      EXPECT_THROW(ArmServer(everywhere, solver, mounted, start), Error) << arm_joint_infos()[j].name;
+    }
+  }
+}
+
+TEST(ArmServer, StartsAtTheEdgeOfTheWorkspace) {
+  const JacobianSolver solver;
+  const Eigen::Isometry3d mounted(Eigen::Translation3d(0, 0, 0.1));
+  std::vector<double> start = kStart;
+  for (double& angle : start) angle = logged(angle + 1e-7);
+  ArmJoints joints;
+  std::ranges::copy(start, joints.begin());
+  const Eigen::Vector3d p = (arm_flange_pose(joints) * mounted).translation();
+  for (int axis = 0; axis < 3; ++axis) {
+    CommandLimits limits;
+    const auto outside_by = [&](double distance) {
+      limits.workspace_max[axis] = p[axis] - distance;
+      return limits;
+    };
+    for (const double rounding : {0.0, 1e-7, 2e-5}) {  // of the log, of inverse kinematics
+      ArmServer server(outside_by(rounding), solver, mounted, start);
+      EXPECT_EQ(server.tick(1).position, start);
+      ros::PoseStamped message = pose_at(p.x() - 0.05, p.y() - 0.05, p.z() - 0.05, 1);
+      const Eigen::Quaterniond q(server.T_base_wrist().linear());
+      message.qx = q.x(), message.qy = q.y(), message.qz = q.z(), message.qw = q.w();
+      server.receive(kSender, message, 2);
+      EXPECT_EQ(server.tick(10'000).state, CommandState::following) << "and goes on from there";
+      EXPECT_LT(server.T_base_wrist().translation()[axis], p[axis]);
+    }
+    try {
+      ArmServer(outside_by(1e-3), solver, mounted, start, "arm.jsonl");
+      ADD_FAILURE() << axis;
+    } catch (const Error& e) {
+      EXPECT_THAT(e.what(),
+                  testing::MatchesRegex("arm.jsonl: wrist of the arm: found \\(.*\\) m, expected a place in "
+                                        "the workspace, \\(-1.5 -1.5 0\\) to \\(.*\\)"));
+    }
+  }
 }
 
 TEST(ArmServer, StartsWhereTheJointsStandIfThatIsAPlace) {

@@ -8,16 +8,26 @@
 
 #include "core/base/error.h"
 #include "core/robot/guarded_motion.h"
+#include "core/robot/server/start_place.h"
 
 namespace glovebench {
 namespace {
 
 /// This server has no arm: its hand stays at one place, in the middle of the workspace.
-RobotTargets standing(const CommandLimits& limits, const std::vector<double>& joints) {
-  if (joints.size() != kShadowJointCount)
-    throw Error("hand server", "joints", fmt::format("{}", joints.size()), fmt::format("{}", kShadowJointCount));
+RobotTargets standing(const CommandLimits& limits, const std::vector<double>& start, const std::string& source) {
+  if (start.size() != kShadowJointCount)
+    throw Error(source, "joints", fmt::format("{}", start.size()), fmt::format("{}", kShadowJointCount));
   RobotTargets targets;
-  std::ranges::copy(joints, targets.hand.joints.begin());
+  std::array<double, kShadowJointCount>& joints = targets.hand.joints;
+  for (size_t j = 0; j < joints.size(); ++j) {
+    const ShadowJointInfo& info = shadow_joint_infos()[j];
+    joints[j] = start_angle(start[j], info.min_deg, info.max_deg, source, hand_joint_names()[j]);
+  }
+  for (const ShadowActuatorInfo& info : shadow_actuator_infos()) {
+    if (!info.coupled_joint) continue;
+    double& distal = joints[*info.coupled_joint];
+    distal = start_distal(distal, joints[info.joint], source, hand_joint_names()[*info.coupled_joint]);
+  }
   make_actuators(targets.hand);
   targets.T_base_hand.translation() = (limits.workspace_min + limits.workspace_max) / 2;
   return targets;
@@ -25,10 +35,10 @@ RobotTargets standing(const CommandLimits& limits, const std::vector<double>& jo
 
 }  // namespace
 
-HandServer::HandServer(const CommandLimits& limits, const std::vector<double>& start)
-    : guard_(limits), gate_(limits.stop_after_s), goal_(standing(limits, start)) {
+HandServer::HandServer(const CommandLimits& limits, const std::vector<double>& start, const std::string& source)
+    : guard_(limits), gate_(limits.stop_after_s), goal_(standing(limits, start, source)) {
   guard_.start_from(goal_);
-  last_.position = start;
+  last_.position.assign(goal_.hand.joints.begin(), goal_.hand.joints.end());
 }
 
 bool HandServer::ignores(uint64_t sender, int64_t now_us) {

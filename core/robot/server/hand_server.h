@@ -16,9 +16,10 @@ enum class HandTopic { fingers, wrist };
 /// the last one counts.
 class HandServer {
  public:
-  /// `start`: where the joints stand, rad, in the order of ShadowJoint. Throws Error unless they are within the
-  /// limits, or if the limits have problems.
-  HandServer(const CommandLimits& limits, const std::vector<double>& start);
+  /// `start`: where the joints stand, rad, in the order of ShadowJoint; `source`: who says so. Throws Error unless
+  /// they are within the limits (start_place.h), or if the limits have problems.
+  HandServer(const CommandLimits& limits, const std::vector<double>& start,
+             const std::string& source = "hand server");
 
   /// Whether a message of that sender is foreign, whatever is in it; then it is counted and need not be read.
   bool ignores(uint64_t sender, int64_t now_us);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/robot/server/test_messages.h"
 
@@ -194,6 +195,46 @@ TEST_F(HandServerTest, AFloodMovesNothingFaster) {
   }
   EXPECT_EQ(count(Receipt::accepted), 20'000);
   EXPECT_NEAR(last_.position[kFFJ3], 20 * 0.02, kRounding) << "the last one before a tick counts";
+}
+
+TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
+  const double rounding = radians_from_degrees(5e-7);
+  for (const double outwards : {-rounding, 0.0, rounding}) {
+    std::vector<double> lowest, highest;
+    for (const ShadowJointInfo& info : shadow_joint_infos()) {
+      lowest.push_back(radians_from_degrees(info.min_deg) - outwards);
+      highest.push_back(radians_from_degrees(info.max_deg) + outwards);
+    }
+    for (const std::vector<double>& start : {lowest, highest}) {
+      const RobotState state = HandServer({}, start).tick(1);
+      for (size_t j = 0; j < start.size(); ++j) {
+        EXPECT_NEAR(state.position[j], start[j], rounding * 1.001);
+        EXPECT_GE(state.position[j], radians_from_degrees(shadow_joint_infos()[j].min_deg));
+        EXPECT_LE(state.position[j], radians_from_degrees(shadow_joint_infos()[j].max_deg));
+      }
+    }
+  }
+  std::vector<double> start(kShadowJointCount, 0.0);
+  start[kFFJ2] = 1;
+  start[kFFJ1] = 1 + rounding;
+  EXPECT_EQ(HandServer({}, start).tick(1).position[kFFJ1], 1) << "not above J2";
+}
+
+TEST(HandServer, NamesWhatIsOutside) {
+  std::vector<double> start(kShadowJointCount, 0.0);
+  const auto error = [&]() -> std::string {
+    try {
+      HandServer({}, start, "hand.jsonl");
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  start[kFFJ3] = radians_from_degrees(91);
+  EXPECT_EQ(error(), "hand.jsonl: rh_FFJ3: found 91 degrees, expected -15 to 90");
+  start[kFFJ3] = 0;
+  start[kFFJ1] = radians_from_degrees(45);
+  EXPECT_EQ(error(), "hand.jsonl: rh_FFJ1: found 45 degrees, expected at most the 0 of the joint before it");
 }
 
 TEST(HandServer, StartsWhereTheJointsStandIfThatIsAPlace) {

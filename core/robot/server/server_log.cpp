@@ -1,13 +1,17 @@
 #include "core/robot/server/server_log.h"
 
 #include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -18,6 +22,7 @@
 namespace glovebench {
 namespace {
 
+constexpr double kClockCorrection = 1;  // s
 constexpr std::string_view kEvent = R"({"event":")", kState = R"({"event":"state",)";
 
 double rounded_deg(double angle) {
@@ -25,7 +30,7 @@ double rounded_deg(double angle) {
 }
 
 /// The last state that was written as a whole; null if there is none.
-nlohmann::json last_state(std::string_view log) {
+nlohmann::json last_state_line(std::string_view log) {
   size_t end = log.rfind('\n');
   while (end != std::string_view::npos) {
     const size_t before = end == 0 ? std::string_view::npos : log.rfind('\n', end - 1);
@@ -38,6 +43,27 @@ nlohmann::json last_state(std::string_view log) {
     end = before;
   }
   return nullptr;
+}
+
+std::string duration_text(double seconds) {
+  if (seconds < 7200) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 48 * 3600) return fmt::format("{:.1f} h", seconds / 3600);
+  return fmt::format("{:.1f} days", seconds / 86400);
+}
+
+/// How long before `now_us`; negative if after.
+double age_s(const LoggedState& state, int64_t now_us) {
+  return (static_cast<double>(now_us) - static_cast<double>(state.time_us)) * 1e-6;
+}
+
+/// Locks a file, for as long as it is open; a device is everybody's.
+void lock_file(int descriptor, const std::string& path) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return;
+  if (errno == EWOULDBLOCK)
+    throw Error(path, "log", "another server that is writing it", "a log of its own for each server");
+  throw Error(path, "log", std::strerror(errno), "a file that can be locked");
 }
 
 }  // namespace
@@ -56,14 +82,16 @@ std::string state_line(const RobotState& state, int64_t time_us, const std::vect
   return line + "}}";
 }
 
-std::optional<std::vector<double>> last_positions(std::string_view log, const std::vector<std::string>& names,
-                                                  const std::string& path) {
-  const nlohmann::json state = last_state(log);
+std::optional<LoggedState> last_state(std::string_view log, const std::vector<std::string>& names,
+                                      const std::string& path) {
+  const nlohmann::json state = last_state_line(log);
   const bool is_log = log.empty() || log.starts_with(kEvent) || log.find(fmt::format("\n{}", kEvent)) != log.npos;
   if (!is_log) throw Error(path, "lines", "none of a log of `robot-server`", "a log, or no file");
   if (state.is_null()) return std::nullopt;
   if (!state.contains("position_deg") || !state["position_deg"].is_object())
     throw Error(path, "last state", "no object position_deg", "a line of this server");
+  if (!state.contains("time_us") || !state["time_us"].is_number_integer() || state["time_us"].get<int64_t>() < 0)
+    throw Error(path, "last state", "no time_us", "a line of this server");
   const nlohmann::json& angles = state["position_deg"];
   std::vector<double> positions;
   for (const std::string& name : names) {
@@ -75,7 +103,27 @@ std::optional<std::vector<double>> last_positions(std::string_view log, const st
   }
   if (angles.size() != names.size())
     throw Error(path, "last state", fmt::format("{} joints", angles.size()), fmt::format("{}", names.size()));
-  return positions;
+  return LoggedState{state["time_us"].get<int64_t>(), std::move(positions)};
+}
+
+std::string age_text(const LoggedState& state, int64_t now_us) {
+  const double age = age_s(state, now_us);
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC, {} {}",
+                     fmt::gmtime(static_cast<std::time_t>(state.time_us / 1'000'000)), duration_text(std::abs(age)),
+                     age < 0 ? "ahead" : "ago");
+}
+
+void check_age(const LoggedState& state, int64_t now_us, double max_age_s, const std::string& path) {
+  const double age = age_s(state, now_us);
+  if (age < -kClockCorrection)
+    throw Error(path, "last state", "one of " + age_text(state, now_us),
+                "one of the past: set the clock, or give the server another --log to start at rest");
+  if (!(age <= max_age_s))
+    throw Error(
+        path, "last state", "one of " + age_text(state, now_us),
+        fmt::format("one of the last {} s: look where the joints stand. If there: a longer --log-age; if at "
+                    "rest: another --log",
+                    max_age_s));
 }
 
 std::string read_tail(const std::string& path, uint64_t max_bytes) {
@@ -94,6 +142,12 @@ GrowingFile::GrowingFile(const std::string& path) {
   if (path.empty()) return;
   descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "one that can be appended to");
+  try {
+    lock_file(descriptor_, path);
+  } catch (const Error&) {
+    close(descriptor_);
+    throw;
+  }
   char last = '\n';
   const off_t size = lseek(descriptor_, 0, SEEK_END);
   if (size > 0 && pread(descriptor_, &last, 1, size - 1) == 1) cut_ = last != '\n';

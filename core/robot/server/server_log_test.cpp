@@ -1,7 +1,9 @@
 #include "core/robot/server/server_log.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/base/angles.h"
@@ -11,8 +13,11 @@
 namespace glovebench {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::Field;
 using testing::HasSubstr;
+using testing::Optional;
 
 const std::vector<std::string> kNames = {"a", "b"};
 
@@ -38,37 +43,85 @@ TEST_F(ServerLog, HasOneObjectALine) {
 
 TEST_F(ServerLog, SaysWhereTheJointsStood) {
   const std::string first = state_line(state_at(1, 2), 5, kNames) + "\n",
-                    last = state_line(state_at(3, 45), 5, kNames);
+                    last = state_line(state_at(3, 45), 6, kNames);
   const std::string received = received_line({}) + "\n";
-  EXPECT_FALSE(last_positions("", kNames, "log"));
-  EXPECT_FALSE(last_positions(received, kNames, "log"));
-  const auto expected = ElementsAre(radians_from_degrees(3), radians_from_degrees(45));
-  EXPECT_THAT(last_positions(first + last + "\n" + received, kNames, "log"), testing::Optional(expected));
-  EXPECT_THAT(last_positions("its beginning is not read\n" + last + "\n", kNames, "log"),
-              testing::Optional(expected));
+  EXPECT_FALSE(last_state("", kNames, "log"));
+  EXPECT_FALSE(last_state(received, kNames, "log"));
+  const auto expected = Optional(
+      AllOf(Field(&LoggedState::time_us, 6),
+            Field(&LoggedState::positions, ElementsAre(radians_from_degrees(3), radians_from_degrees(45)))));
+  EXPECT_THAT(last_state(first + last + "\n" + received, kNames, "log"), expected);
+  EXPECT_THAT(last_state("its beginning is not read\n" + last + "\n", kNames, "log"), expected);
 }
 
 TEST_F(ServerLog, ForgetsALineThatWasCutOff) {
   const std::string first = state_line(state_at(1, 2), 5, kNames) + "\n",
                     last = state_line(state_at(3, 45), 5, kNames);
-  const auto expected = testing::Optional(ElementsAre(radians_from_degrees(1), radians_from_degrees(2)));
+  const auto expected =
+      Optional(Field(&LoggedState::positions, ElementsAre(radians_from_degrees(1), radians_from_degrees(2))));
   for (size_t length = 0; length <= last.size(); ++length) {
-    EXPECT_THAT(last_positions(first + last.substr(0, length), kNames, "log"), expected) << length;
+    EXPECT_THAT(last_state(first + last.substr(0, length), kNames, "log"), expected) << length;
     if (length < last.size()) {
-      EXPECT_THAT(last_positions(first + last.substr(0, length) + "\n", kNames, "log"), expected) << length;
+      EXPECT_THAT(last_state(first + last.substr(0, length) + "\n", kNames, "log"), expected) << length;
     }
   }
 }
 
 TEST_F(ServerLog, OfOtherJointsIsRefused) {
   const std::string log = state_line(state_at(1, 2), 5, kNames) + "\n";
-  EXPECT_THROW(last_positions(log, {"a", "c"}, "log"), Error);
-  EXPECT_THROW(last_positions(log, {"a"}, "log"), Error);
-  EXPECT_THROW(last_positions(state_line(state_at(1, 361), 5, kNames) + "\n", kNames, "log"), Error);
-  EXPECT_THROW(last_positions("a letter\nto a friend\n", kNames, "log"), Error);
-  EXPECT_THROW(last_positions("{\"event\":\"state\",\"position_deg\":{\"a\":\"1\",\"b\":2}}\n", kNames, "log"),
-               Error);
-  EXPECT_THROW(last_positions("{\"event\":\"state\",\"time_us\":1}\n", kNames, "log"), Error);
+  EXPECT_THROW(last_state(log, {"a", "c"}, "log"), Error);
+  EXPECT_THROW(last_state(log, {"a"}, "log"), Error);
+  EXPECT_THROW(last_state(state_line(state_at(1, 361), 5, kNames) + "\n", kNames, "log"), Error);
+  EXPECT_THROW(last_state("a letter\nto a friend\n", kNames, "log"), Error);
+  const auto state = [](const std::string& fields) { return "{\"event\":\"state\"," + fields + "}\n"; };
+  EXPECT_TRUE(last_state(state(R"("time_us":1,"position_deg":{"a":1,"b":2})"), kNames, "log"));
+  EXPECT_THROW(last_state(state(R"("time_us":1,"position_deg":{"a":"1","b":2})"), kNames, "log"), Error);
+  for (const char* time : {"-1", "1.5", "\"1\"", "18446744073709551615", "null"}) {
+    EXPECT_THROW(
+        last_state(state(fmt::format(R"("time_us":{},"position_deg":{{"a":1,"b":2}})", time)), kNames, "log"),
+        Error)
+        << time;
+  }
+  EXPECT_THROW(last_state(state(R"("position_deg":{"a":1,"b":2})"), kNames, "log"), Error);
+  EXPECT_THROW(last_state("{\"event\":\"state\",\"time_us\":1}\n", kNames, "log"), Error);
+}
+
+TEST_F(ServerLog, IsBelievedForATime) {
+  constexpr int64_t kSecond = 1'000'000, kThen = 1'795'363'200 * kSecond;
+  const auto error_after = [&](double seconds, double max_age_s) -> std::string {
+    try {
+      check_age({kThen, {}}, kThen + std::llround(seconds * 1e6), max_age_s, "log.jsonl");
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error_after(0, 600), "");
+  EXPECT_EQ(error_after(600, 600), "");
+  EXPECT_EQ(error_after(-1, 600), "") << "a clock that was corrected";
+  EXPECT_EQ(error_after(7200, 7200), "");
+  EXPECT_EQ(
+      error_after(600.1, 600),
+      "log.jsonl: last state: found one of 2026-11-22 16:00:00 UTC, 600.1 s ago, expected one of the last 600 s: "
+      "look where the joints stand. If there: a longer --log-age; if at rest: another --log");
+  EXPECT_THAT(error_after(3 * 86400, 600), HasSubstr(", 3.0 days ago,"));
+  EXPECT_EQ(
+      error_after(-1.5, 600),
+      "log.jsonl: last state: found one of 2026-11-22 16:00:00 UTC, 1.5 s ahead, expected one of the past: set the "
+      "clock, or give the server another --log to start at rest");
+  EXPECT_NE(error_after(1, std::nan("")), "");
+  EXPECT_NE(error_after(0.1, 0), "");
+}
+
+TEST_F(ServerLog, IsWrittenByOneAtATime) {
+  {
+    GrowingFile first(path_);
+    EXPECT_THROW(GrowingFile{path_}, Error);
+    first.append("one");
+  }
+  GrowingFile(path_).append("two");
+  EXPECT_EQ(read_file(path_), "one\ntwo\n");
+  const GrowingFile device("/dev/null"), again("/dev/null");
 }
 
 TEST_F(ServerLog, GrowsAndMendsWhatWasCutOff) {

@@ -1,13 +1,15 @@
 // Another process on the bus, for tests: listens and prints what arrived, or says what a script tells it to.
 //
-//   dds_probe listen DOMAIN SECONDS [COUNT]   prints "ready", then one line a message, until nothing came for SECONDS
-//                                             or COUNT messages came in all
+//   dds_probe listen DOMAIN SECONDS [COUNT]   prints "ready", then one line a message, until COUNT messages came in all
+//                                             or nothing came for SECONDS: after the first, which it awaits a minute
 //   dds_probe raw DOMAIN SECONDS              prints the bytes of the first command of the hand, in hexadecimal
 //   dds_probe talk DOMAIN SCRIPT              one action a line; prints "said" at the end:
 //     hand|wrist SEC NANOSEC POINTS NAME=VALUE ...    a JointTrajectory of that many equal points
 //     short SEC NANOSEC NAME=VALUE ...                one of the hand whose point lacks its last position
 //     pose SEC NANOSEC FRAME X Y Z QX QY QZ QW        a PoseStamped
 //     again COUNT MICROSECONDS                        the last one, that often, each stamp a nanosecond later
+//     huge names|points COUNT BYTES                   so many for the hand, with a name of that length, or points that
+//                                                     take that much
 //     sleep MILLISECONDS
 //     wait TOPIC                                      until somebody listens to hand, wrist or pose, and half a second
 //                                                     more, for the listener knows the sender a little later
@@ -105,8 +107,10 @@ static int listen_to_all(dds_entity_t participant, double seconds, int wanted) {
   printf("ready\n");
   fflush(stdout);
   int count = 0;
-  dds_time_t last = dds_time();
-  while (dds_time() - last < (dds_time_t)(seconds * 1e9) && (wanted == 0 || count < wanted)) {
+  const dds_time_t begin = dds_time();
+  dds_time_t last = begin;
+  while ((wanted == 0 || count < wanted) &&
+         (count == 0 ? dds_time() - begin < DDS_SECS(60) : dds_time() - last < (dds_time_t)(seconds * 1e9))) {
     int came = 0;
     for (int t = 0; t < kTopics; ++t) came += print_all(readers[t], t);
     count += came;
@@ -191,6 +195,26 @@ static void say_again(const dds_entity_t* writers, int count, int microseconds) 
   }
 }
 
+static void say_huge(const dds_entity_t* writers, const char* what, int count, size_t bytes) {
+  const int of_names = strcmp(what, "names") == 0;
+  char* text = of_names ? malloc(bytes + 1) : NULL;
+  const uint32_t size = of_names ? 0 : (uint32_t)(bytes / 24);  // four empty sequences and a duration
+  if (of_names) {
+    memset(text, 'x', bytes);
+    text[bytes] = '\0';
+  }
+  memset(&trajectory, 0, sizeof trajectory);
+  trajectory.header.frame_id = "";
+  trajectory.joint_names._maximum = trajectory.joint_names._length = of_names ? 1 : 0;
+  trajectory.joint_names._buffer = &text;
+  trajectory.points._maximum = trajectory.points._length = size;
+  trajectory.points._buffer = calloc(size + 1, sizeof *trajectory.points._buffer);
+  last_topic = kHand;
+  say_again(writers, count, 0);
+  free(trajectory.points._buffer);
+  free(text);
+}
+
 static void await_listener(const dds_entity_t* writers, const char* topic) {
   for (int t = 0; t < kStates; ++t) {
     if (strcmp(topic, short_names[t]) != 0) continue;
@@ -209,6 +233,7 @@ static void act(const dds_entity_t* writers, char* line) {
   if (sscanf(line, "again %d %d", &a, &b) == 2) return say_again(writers, a, b);
   if (sscanf(line, "sleep %d", &a) == 1) return dds_sleepfor(DDS_MSECS(a));
   if (sscanf(line, "wait %15s", word) == 1) return await_listener(writers, word);
+  if (sscanf(line, "huge %15s %d %d", word, &a, &b) == 3) return say_huge(writers, word, a, (size_t)b);
   if (sscanf(line, "pose %d %u %255s %lf %lf %lf %lf %lf %lf %lf", &pose.header.stamp.sec, &pose.header.stamp.nanosec,
              frame, &pose.pose.position.x, &pose.pose.position.y, &pose.pose.position.z, &pose.pose.orientation.x,
              &pose.pose.orientation.y, &pose.pose.orientation.z, &pose.pose.orientation.w) == 10) {

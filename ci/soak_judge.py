@@ -1,0 +1,39 @@
+"""soak_judge.py FOLDER SECONDS: judges what ci/soak has recorded (estimates.jsonl of the tracker, hand.jsonl and arm.jsonl
+of the servers) and prints one line. Exit code 1 if a command was missed, which says something about the program; 3 if none
+was but 1% of them took 10 ms or more, which may say something about what else the machine did."""
+import json
+import os
+import sys
+
+MISSED, LATE = 1, 3
+LIMIT_MS = 10
+
+work, seconds = sys.argv[1], int(sys.argv[2])
+frames = [json.loads(line) for line in open(f"{work}/estimates.jsonl")]
+tracked = [i for i, frame in enumerate(frames) if frame["status"] == "tracked"]
+# Before the first tracked frame there is nothing to send; from it on, every frame is a command.
+expected = {frame["timestamp_us"] for frame in frames[tracked[0]:]} if tracked else set()
+latencies, missed, counts = [], 0, []
+for side, topics in (("hand", ("fingers", "wrist")), ("arm", ("pose",))):
+    received = [json.loads(line) for line in open(f"{work}/{side}.jsonl") if '"received"' in line]
+    for topic in topics:
+        lines = [line for line in received if line["topic"] == topic and line["receipt"] == "accepted"]
+        missed += len(expected - {line["stamp_ns"] // 1000 for line in lines})
+        counts.append(f"{topic} {len(lines)}")
+        latencies += [(line["time_us"] - line["source_us"]) / 1000 for line in lines]
+latencies.sort()
+
+
+def at(share):
+    return latencies[min(len(latencies) - 1, int(share * len(latencies)))] if latencies else float("inf")
+
+
+elapsed_us = frames[-1]["timestamp_us"] - frames[0]["timestamp_us"] if frames else 0
+frame_rate = (len(frames) - 1) / elapsed_us * 1e6 if elapsed_us > 0 else 0
+print(f"soak: {seconds} s, {len(frames)} frames at {frame_rate:.1f} Hz, {len(tracked)} tracked; commands expected "
+      f"{len(expected)}, received {', '.join(counts)}, missed {missed}; frame to command {at(0.5):.2f} ms median, "
+      f"{at(0.99):.2f} ms p99, {at(1):.2f} ms at most (system clock, frame whole at the device to reception by the "
+      f"server); {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
+if not expected or missed > 0:
+    sys.exit(MISSED)
+sys.exit(0 if at(0.99) < LIMIT_MS else LATE)

@@ -1,0 +1,263 @@
+#include "core/robot/dds/dds_server.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+
+#include "core/base/angles.h"
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/robot/arm_follower.h"
+#include "core/robot/dds/dds_sink.h"
+#include "core/robot/dds/test_bus.h"
+#include "core/robot/dds/test_peers.h"
+#include "core/robot/dds/topics.h"
+#include "core/robot/server/command_messages.h"
+#include "core/robot/test_commands.h"
+
+namespace glovebench {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+int64_t system_us() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+/// A server in a thread of this process.
+class RunningServer {
+ public:
+  template <typename Serve>
+  RunningServer(DdsServerOptions options, const Serve& serve) {
+    options.stopping = [this] { return stopping_.load(); };
+    options.tell = [this](const std::string& line) {
+      const std::lock_guard lock(mutex_);
+      told_.push_back(line);
+    };
+    thread_ = std::thread([this, options, serve] {
+      try {
+        summary_ = serve(options).text;
+      } catch (const Error& e) {
+        failure_ = e.what();
+      }
+      ended_ = true;
+    });
+  }
+  ~RunningServer() { stop(); }
+  RunningServer(const RunningServer&) = delete;
+  RunningServer& operator=(const RunningServer&) = delete;
+
+  /// What it says at its end, which a failure has brought or this brings.
+  std::string stop() {
+    stopping_ = true;
+    if (thread_.joinable()) thread_.join();
+    return summary_;
+  }
+  std::string failure() {
+    EXPECT_TRUE(comes_true([&] { return ended_.load(); }));
+    stop();
+    return failure_;
+  }
+  std::vector<std::string> told() {
+    const std::lock_guard lock(mutex_);
+    return told_;
+  }
+
+ private:
+  std::atomic<bool> stopping_ = false, ended_ = false;
+  std::mutex mutex_;
+  std::vector<std::string> told_;
+  std::string summary_, failure_;
+  std::thread thread_;
+};
+
+/// An arm that reaches nothing.
+class NoSolver : public ArmSolver {
+ public:
+  std::optional<ArmJoints> solve(const Eigen::Isometry3d&, const ArmJoints&) const override { return std::nullopt; }
+};
+
+class DdsServer : public testing::Test {
+ protected:
+  void SetUp() override {
+    use_loopback_dds(kFarDomain);
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  static DdsServerOptions options(const std::string& log, int domain = kDomain) {
+    DdsServerOptions options;
+    options.domain = domain;
+    options.log = log;
+    return options;
+  }
+  static std::unique_ptr<RunningServer> hand(const DdsServerOptions& options) {
+    return std::make_unique<RunningServer>(options, serve_hand);
+  }
+  static std::unique_ptr<RunningServer> arm(const DdsServerOptions& options) {
+    return std::make_unique<RunningServer>(options, [](const DdsServerOptions& its) {
+      const NoSolver solver;
+      return serve_arm(its, solver, default_T_flange_wrist(), kArmAtRest);
+    });
+  }
+  static bool serves(const std::string& log, size_t begin = 0) {
+    return comes_true([&] { return std::filesystem::exists(log) && std::filesystem::file_size(log) > begin; });
+  }
+  /// A log with one state.
+  static void write_log(const std::string& log, const std::vector<std::string>& names,
+                        const std::vector<double>& positions, int64_t time_us) {
+    write_file(log, state_line({1, CommandState::stopped, positions, {}}, time_us, names) + "\n");
+  }
+  static std::vector<double> last_positions(const std::string& log, const std::vector<std::string>& names) {
+    return last_state(read_file(log), names, log).value().positions;
+  }
+
+  std::string folder_ = testing::TempDir() + "glovebench-dds-" + std::to_string(getpid());
+};
+
+TEST_F(DdsServer, TheHandFollowsAStreamOverTheNetwork) {
+  const std::string log = path("hand.jsonl");
+  const auto server = hand(options(log));
+  ASSERT_TRUE(serves(log));
+  DdsSink sink(kFar);
+  RobotCommand command = good_command(1'000'000);
+  set_joint(*command.targets, kFFJ3, 0.2);
+  const auto arrived = [&] { return read_file(log).find("\"accepted\"") != std::string::npos; };
+  for (int i = 0; i < 2000 && !arrived(); ++i) {  // until both have found each other
+    command.frame_timestamp_us += 33'333;
+    sink.send(command);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  for (int i = 0; i < 30; ++i) {
+    command.frame_timestamp_us += 33'333;
+    sink.send(command);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  sink.finish();
+  EXPECT_THAT(server->stop(), AllOf(HasSubstr(" accepted; streams: 1;"), HasSubstr("the longest gap")));
+  EXPECT_THAT(server->told(), IsEmpty());
+  EXPECT_NEAR(last_positions(log, hand_joint_names())[kFFJ3], 0.2, 1e-8);
+}
+
+TEST_F(DdsServer, AFloodOfLargeMessagesIsRefusedAndOthersAreFollowed) {
+  const std::string log = path("hand.jsonl");
+  const auto server = hand(options(log));
+  ASSERT_TRUE(serves(log));
+  const UnboundedWriter hostile(topics::kHand);
+  ASSERT_TRUE(comes_true([&] { return hostile.listeners() > 0; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the server knows it a little later
+  for (int i = 0; i < 20; ++i) hostile.write({{}, "", {std::string(2'000'000, 'x')}, {}});
+  for (int i = 0; i < 20; ++i) hostile.write({{}, "", {std::string(15'000, 'x')}, {}});
+  ros::JointTrajectory good{{1, 0}, "", hand_trajectory_names(), {{std::vector<double>(22, 0.1), {}}}};
+  hostile.write(good);
+  EXPECT_TRUE(comes_true([&] { return read_file(log).find("\"accepted\"") != std::string::npos; }));
+  const std::string summary = server->stop();
+  EXPECT_THAT(summary, AllOf(HasSubstr("messages: 1 accepted, 20 wrong_joints;"), HasSubstr("; too large: 2")));
+}
+
+TEST_F(DdsServer, TwoDoNotShareALog) {
+  const std::string log = path("hand.jsonl");
+  const auto first = hand(options(log));
+  ASSERT_TRUE(serves(log));
+  EXPECT_EQ(hand(options(log))->failure(),
+            log + ": log: found another server that is writing it, expected a log of its own for each server");
+  EXPECT_THAT(first->stop(), HasSubstr("hand: messages: none"));
+  const auto next = hand(options(log));
+  EXPECT_TRUE(serves(log, std::filesystem::file_size(log)));
+  EXPECT_THAT(next->told(), ElementsAre(HasSubstr("hand.jsonl: starts at its last state, of 20")));
+}
+
+TEST_F(DdsServer, TwoDoNotServeOneHand) {
+  const std::string log = path("hand.jsonl"), others = path("other.jsonl");
+  const auto first = hand(options(log));
+  ASSERT_TRUE(serves(log));
+  EXPECT_THAT(hand(options(others, kFar))->failure(),
+              AllOf(HasSubstr("DDS domain 8: rt/joint_states: found another process that tells of rh_"),
+                    HasSubstr("expected one server of a joint")));
+  EXPECT_EQ(std::filesystem::file_size(others), 0U) << "it has served nothing";
+  const auto other_side = arm(options(path("arm.jsonl"), kFar));
+  EXPECT_TRUE(serves(path("arm.jsonl"))) << "the arm has other joints";
+  EXPECT_THAT(first->stop(), testing::Not(HasSubstr("another server")));
+}
+
+TEST_F(DdsServer, TellsOfAnotherThatComesLater) {
+  const std::string log = path("hand.jsonl");
+  const auto server = hand(options(log));
+  ASSERT_TRUE(serves(log));
+  const DdsParticipant there(kFar);
+  const DdsWriter<ros::JointState> writer(there, topics::kJointStates);
+  const auto say = [&](const std::string& joint) { writer.write({{}, {joint}, {0}, {0}}, 1); };
+  const auto told_of = [&](const std::string& joint) {
+    return comes_true([&] {
+      say(joint);
+      return !server->told().empty();
+    });
+  };
+  for (int i = 0; i < 50; ++i) {
+    say("S1");
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_THAT(server->told(), IsEmpty()) << "not a joint of the hand";
+  EXPECT_TRUE(told_of("rh_FFJ3"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  say("rh_FFJ3");
+  EXPECT_THAT(server->told(), ElementsAre(HasSubstr("hand: another process tells of rh_FFJ3, too"))) << "once";
+  EXPECT_THAT(server->stop(), HasSubstr("; another server: heard in 0."));
+}
+
+TEST_F(DdsServer, BelievesALogForATime) {
+  const std::string log = path("hand.jsonl");
+  std::vector<double> stood(kShadowJointCount, 0.0);
+  stood[kFFJ3] = radians_from_degrees(30);
+  const auto seconds_ago = [&](double seconds) {
+    write_log(log, hand_joint_names(), stood, system_us() - static_cast<int64_t>(seconds * 1e6));
+    return std::filesystem::file_size(log);
+  };
+  seconds_ago(kMaxLogAge + 60);
+  EXPECT_THAT(hand(options(log))->failure(), AllOf(HasSubstr("hand.jsonl: last state: found one of 20"),
+                                                   HasSubstr(" s ago, expected one of the last 600 s"),
+                                                   HasSubstr("--log-age"), HasSubstr("another --log")));
+  seconds_ago(-60);
+  EXPECT_THAT(hand(options(log))->failure(), AllOf(HasSubstr("60.0 s ahead"), HasSubstr("set the clock")));
+
+  DdsServerOptions patient = options(log);
+  patient.max_log_age_s = kMaxLogAge + 600;
+  for (const DdsServerOptions& its : {options(log), patient}) {
+    const size_t size = seconds_ago(its.max_log_age_s - 300);
+    const auto server = hand(its);
+    ASSERT_TRUE(serves(log, size)) << server->failure();
+    EXPECT_THAT(server->told(), ElementsAre(HasSubstr(" ago")));
+    server->stop();
+    EXPECT_EQ(last_positions(log, hand_joint_names()), stood);
+  }
+}
+
+TEST_F(DdsServer, StartsAtALimitAndNotBeyond) {
+  const std::string log = path("arm.jsonl");
+  for (int j = 0; j < kArmJointCount; ++j) {
+    const ArmJointInfo& info = arm_joint_infos()[j];
+    if (info.name != "S1" && info.name != "S3" && info.name != "W2")
+      continue;  // others take the wrist under the table
+    for (const double angle_deg : {info.min_deg, info.max_deg}) {
+      std::vector<double> stood(kArmAtRest.begin(), kArmAtRest.end());
+      stood[static_cast<size_t>(j)] = radians_from_degrees(angle_deg);
+      write_log(log, arm_joint_names(), stood, system_us());
+      const auto server = arm(options(log));
+      EXPECT_TRUE(serves(log, std::filesystem::file_size(log))) << server->failure();
+    }
+  }
+  const std::vector<double> beyond(kArmJointCount, radians_from_degrees(256));
+  write_log(log, arm_joint_names(), beyond, system_us());
+  EXPECT_EQ(arm(options(log))->failure(), log + ": S1: found 256 degrees, expected -177 to 177");
+}
+
+}  // namespace
+}  // namespace glovebench
