@@ -238,7 +238,7 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
       replay_all(workbench, plan.replays, workbench.config().threads, run_folder);
   const std::vector<Gathered> experiments = gather(plan, outputs);
   Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads), {}};
-  if (!robot.changes.empty()) outcome.result.configuration["robot"] = robot.changes;
+  if (!robot.configuration.is_null()) outcome.result.configuration["robot"] = robot.configuration;
   Robot commanded(robot);
   for (size_t e = 0; e < experiments.size(); ++e) {
     outcome.timings.experiments.push_back(timing_of(experiments[e]));

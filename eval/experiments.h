@@ -42,7 +42,7 @@ struct RobotOutput {
   std::string folder = {};
   RobotSetup setup = {};
   CommandLimits limits = {};
-  nlohmann::json changes = nlohmann::json::object();  ///< to what is by default, for the results' configuration
+  nlohmann::json configuration = {};  ///< all of that, for the results'; null: nothing is said of it
 };
 
 /// Checks all that a plan names, and makes or loads the databases and the color table: what a mistake in the plan

@@ -21,13 +21,19 @@ double seconds_between(const RobotCommand& before, const RobotCommand& after) {
 
 /// The third derivative at the middle of four commands, by divided differences: exact for a cubic at any steps.
 template <typename Value>
-auto third_derivative(std::span<const RobotCommand, 4> commands, const Value& value) {
-  std::array<std::decay_t<decltype(value(commands[0]))>, 4> d;
-  for (size_t i = 0; i < 4; ++i) d[i] = value(commands[i]);
+auto third_derivative(std::span<const RobotCommand* const, 4> commands, const Value& value) {
+  std::array<std::decay_t<decltype(value(*commands[0]))>, 4> d;
+  for (size_t i = 0; i < 4; ++i) d[i] = value(*commands[i]);
   for (size_t order = 1; order < 4; ++order)
     for (size_t i = 0; i + order < 4; ++i)
-      d[i] = (d[i + 1] - d[i]) / seconds_between(commands[i], commands[i + order]);
+      d[i] = (d[i + 1] - d[i]) / seconds_between(*commands[i], *commands[i + order]);
   return (6 * d[0]).eval();
+}
+
+/// The command of that time, if there is one; `from` goes on to it.
+const RobotCommand* command_at(int64_t timestamp_us, std::span<const RobotCommand> commands, size_t& from) {
+  while (from < commands.size() && commands[from].timestamp_us < timestamp_us) ++from;
+  return from < commands.size() && commands[from].timestamp_us == timestamp_us ? &commands[from] : nullptr;
 }
 
 }  // namespace
@@ -66,21 +72,17 @@ void CommandMeasurement::Errors::add(const RobotTargets& targets, const RobotTar
   if (targets.arm && of_truth.arm) arm_deg.push_back(rms_difference_deg(*targets.arm, *of_truth.arm));
 }
 
-void CommandMeasurement::JerkSums::add(std::span<const RobotCommand> commands) {
-  for (size_t i = 0; i + 4 <= commands.size(); ++i) {
-    const std::span<const RobotCommand, 4> four = commands.subspan(i).first<4>();
-    if (!four[0].targets) continue;  // who has targets keeps them
-    joints += third_derivative(four,
-                               [](const RobotCommand& c) -> Eigen::Vector<double, kShadowJointCount> {
-                                 return JointVector(c.targets->hand.joints.data());
-                               })
-                  .squaredNorm() /
-              kShadowJointCount;
-    position += third_derivative(four, [](const RobotCommand& c) -> Eigen::Vector3d {
-                  return c.targets->T_base_hand.translation();
-                }).squaredNorm();
-    ++count;
-  }
+void CommandMeasurement::JerkSums::add(std::span<const RobotCommand* const, 4> commands) {
+  joints += third_derivative(commands,
+                             [](const RobotCommand& c) -> Eigen::Vector<double, kShadowJointCount> {
+                               return JointVector(c.targets->hand.joints.data());
+                             })
+                .squaredNorm() /
+            kShadowJointCount;
+  position += third_derivative(commands, [](const RobotCommand& c) -> Eigen::Vector3d {
+                return c.targets->T_base_hand.translation();
+              }).squaredNorm();
+  ++count;
 }
 
 reports::Jerk CommandMeasurement::JerkSums::rms() const {
@@ -91,18 +93,25 @@ reports::Jerk CommandMeasurement::JerkSums::rms() const {
 void CommandMeasurement::add(const CommandStream& stream, const CommandStream& of_truth, int frames) {
   counts_.frames += frames;
   counts_.interventions.add(stream.interventions);
-  auto truth = of_truth.commands.begin();
+  std::vector<const RobotCommand*> following, of_truths;  // those in a row, and the truth's at their times
+  size_t at = 0;
   for (size_t i = 0; i < stream.commands.size(); ++i) {
     const RobotCommand& command = stream.commands[i];
     ++counts_.sent[static_cast<size_t>(command.state)];
     if (i > 0) gaps_s_.push_back(seconds_between(stream.commands[i - 1], command));
-    while (truth != of_truth.commands.end() && truth->timestamp_us < command.timestamp_us) ++truth;
-    const bool belongs = truth != of_truth.commands.end() && truth->timestamp_us == command.timestamp_us;
-    if (belongs && truth->targets && command.state == CommandState::following)
-      errors_.add(*command.targets, *truth->targets);
+    const RobotCommand* truth = command_at(command.timestamp_us, of_truth.commands, at);
+    if (command.state != CommandState::following || !truth || !truth->targets) {
+      following.clear();
+      of_truths.clear();
+      continue;
+    }
+    errors_.add(*command.targets, *truth->targets);
+    following.push_back(&command);
+    of_truths.push_back(truth);
+    if (following.size() < 4) continue;
+    jerk_.add(std::span(following).last<4>());
+    truth_jerk_.add(std::span(of_truths).last<4>());
   }
-  jerk_.add(stream.commands);
-  truth_jerk_.add(of_truth.commands);
 }
 
 reports::CommandResult CommandMeasurement::result() const {

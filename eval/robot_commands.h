@@ -21,8 +21,8 @@ CommandStream make_commands(std::span<const TrackResult> results, const RobotSet
 std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFrame> truth);
 
 /// Measures the commands of several passes over one movement against those that its truth gives. Commands belong
-/// together by their time stamps. Errors are of commands that follow. Jerk is the third difference of four commands
-/// in a row that have targets, over time, also where they hold: a robot feels that, too.
+/// together by their time stamps. Errors are of commands that follow. Jerk is by four commands in a row that do,
+/// and by those of the truth at the same times.
 class CommandMeasurement {
  public:
   /// `frames`: of the pass, whether they have a command or not.
@@ -32,8 +32,8 @@ class CommandMeasurement {
  private:
   struct JerkSums {
     double joints = 0, position = 0;  ///< of squares
-    int count = 0;                    ///< of third differences
-    void add(std::span<const RobotCommand> commands);
+    int count = 0;                    ///< of third derivatives
+    void add(std::span<const RobotCommand* const, 4> commands);
     reports::Jerk rms() const;
   };
   struct Errors {

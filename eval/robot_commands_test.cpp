@@ -83,7 +83,7 @@ TEST(RobotCommands, NothingTrackedIsCountedAndHasNoValues) {
   const reports::CommandResult result = measure(results, truth);
   EXPECT_EQ(result.sent[static_cast<size_t>(CommandState::stopped)], 5);
   EXPECT_FALSE(result.jerk.joints_deg_s3.has_value());
-  EXPECT_TRUE(result.truth_jerk.joints_deg_s3.has_value());
+  EXPECT_FALSE(result.truth_jerk.joints_deg_s3.has_value()) << "nothing to compare";
   EXPECT_EQ(result.errors.joints_deg.count, 0);
 }
 
@@ -111,6 +111,20 @@ TEST(RobotCommands, JerkOfACubicIsItsThirdDerivative) {
   ASSERT_TRUE(result.interventions.none()) << "nothing is slowed down";
   EXPECT_NEAR(*result.jerk.position_m_s3, 6 * 0.25, 1e-3);
   EXPECT_NEAR(*result.jerk.joints_deg_s3, degrees_from_radians(6 * 0.5) / std::sqrt(24.0), 0.05);
+}
+
+TEST(RobotCommands, LosingTheHandIsNoSmoothness) {
+  const auto truth = slow_movement(60);
+  std::vector<TrackResult> results = true_results(truth);
+  for (size_t i = 0; i < 60; ++i) {
+    results[i].T_camera_hand.translation().y() += i % 2 == 0 ? 0.001 : 0;
+    if (i >= 10) results[i].status = TrackStatus::no_hand;
+  }
+  const reports::CommandResult lost = measure(results, truth);
+  const reports::CommandResult whole = measure(std::span(results).first(10), std::span(truth).first(10));
+  EXPECT_EQ(lost.jerk, whole.jerk) << "what it held does not count";
+  EXPECT_EQ(lost.truth_jerk, whole.truth_jerk) << "nor what the truth did meanwhile";
+  EXPECT_GT(*lost.jerk.position_m_s3, 100 * *lost.truth_jerk.position_m_s3);
 }
 
 TEST(RobotCommands, PassesAddUp) {

@@ -353,6 +353,9 @@ TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
   const auto log_at = [&](double angle_deg) {
     json state = json::parse(last);
     state["position_deg"]["S1"] = angle_deg;
+    state["time_us"] =
+        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+            .count();
     std::string text = state.dump();  // in the order of a log: `event` comes first
     text.erase(text.find(R"("event":"state",)"), 16);
     write_file(log, R"({"event":"state",)" + text.substr(1) + "\n");

@@ -64,11 +64,14 @@ std::string command_explanation() {
          "still "
          "slows them down on their way back to a hand that was lost: mean and, in brackets, 95th percentile; "
          "joints and arm are the root mean square over their joints. Jerk is the root mean square "
-         "of the third derivative by time, in brackets the truth's; less is smoother.";
+         "of the third derivative by time of commands that follow, in brackets of the truth's at the same times; "
+         "less "
+         "is smoother.";
 }
 
 TextTable command_stream_table(const RunResult& result) {
-  TextTable table = table_of({"frames", "sent", "rate Hz", "longest gap ms", "following", "holding", "stopped"});
+  TextTable table =
+      table_of({"frames", "sent", "rate Hz (by stamps)", "longest gap ms", "following", "holding", "stopped"});
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
     const CommandResult& commands = *experiment.commands;

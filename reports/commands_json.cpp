@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Derivatives by time and gaps between commands are far larger than errors.
-constexpr double kLargest = 1e12;
+constexpr double kLargest = 1e30;
 
 Json jerk_json(const Jerk& jerk) {
   return {{"joints_deg_s3", rounded_or_null(jerk.joints_deg_s3)},

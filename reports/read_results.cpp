@@ -174,6 +174,7 @@ ExperimentKey read_key(const JsonReader& json) {
 
 ExperimentResult read_experiment(const JsonReader& json) {
   const bool has_commands = json.object().contains("commands");
+  // A key of the others in its place where there is none.
   json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
                     "sequence", "runs", has_commands ? "commands" : "runs"});
   json["joint_pck"].expect_keys({"thresholds_mm", "shares", "area"});

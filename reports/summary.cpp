@@ -134,7 +134,7 @@ std::string summary_markdown(const RunResult& result, const PaperNumbers& paper)
         "## More metrics\n\nIntervals are over blocks of frames and, where there are several, noise "
         "seeds; not over movements or hands.\n\n{}",
         to_markdown(detail_summary(result)));
-  if (has_commands(result)) text += "\n" + commands_markdown(result);
+  if (has_commands(result)) text.append("\n") += commands_markdown(result);
   return text;
 }
 

@@ -37,9 +37,10 @@ std::vector<std::string> CommandLimits::problems() const {
   require(workspace_min.allFinite() && workspace_max.allFinite() &&
               (workspace_min.array() <= workspace_max.array()).all(),
           "the workspace is empty");
-  require(is_positive(longest_step_s), "longest_step_s is not above 0");
-  require(is_positive(silence_s), "silence_s is not above 0");
-  require(std::isfinite(stop_after_s) && stop_after_s >= silence_s, "stop_after_s is less than silence_s");
+  constexpr double kLongestStep = 2, kLongestWait = 60;
+  require(longest_step_s > 0 && longest_step_s <= kLongestStep, "longest_step_s is not above 0 and at most 2");
+  require(silence_s > 0 && silence_s <= kLongestWait, "silence_s is not above 0 and at most 60");
+  require(stop_after_s >= silence_s && stop_after_s <= kLongestWait, "stop_after_s is not silence_s to 60");
   return problems;
 }
 

@@ -63,7 +63,9 @@ TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
               HasSubstr("workspace_min_m: found [0,0], expected x, y and z"));
   EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, nullptr}}}), HasSubstr("workspace_min_m[2]: found null"));
   EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, 3}}}), HasSubstr("the workspace is empty"));
-  EXPECT_THAT(error_of({{"silence_s", 2}}), HasSubstr("stop_after_s is less than silence_s"));
+  EXPECT_THAT(error_of({{"stop_after_s", 1e99}}), HasSubstr("stop_after_s is not silence_s to 60"));
+  EXPECT_THAT(error_of({{"longest_step_s", 3}}), HasSubstr("longest_step_s"));
+  EXPECT_THAT(error_of({{"silence_s", 2}}), HasSubstr("stop_after_s is not silence_s to 60"));
   EXPECT_THAT(error_of({{"stop_after_s", std::numeric_limits<double>::infinity()}}), HasSubstr("limits.json: "));
 }
 

@@ -13,6 +13,7 @@
 #include "core/robot/command_limits.h"
 #include "eval/share.h"
 #include "reports/json_reader.h"
+#include "reports/json_text.h"
 
 namespace glovebench::eval {
 
@@ -127,6 +128,16 @@ Eigen::Isometry3d rigid_transform(const char* flag, const std::vector<double>& v
   return Eigen::Translation3d(values[0], values[1], values[2]) * q.normalized();
 }
 
+/// As the flags take it, rounded.
+nlohmann::json transform_json(const Eigen::Isometry3d& T) {
+  const Eigen::Quaterniond q(T.linear());
+  nlohmann::json values = nlohmann::json::array();
+  for (const double value :
+       {T.translation().x(), T.translation().y(), T.translation().z(), q.w(), q.x(), q.y(), q.z()})
+    values.push_back(reports::rounded(value));
+  return values;
+}
+
 /// The arm that was built in, if one was. Throws Error if it is required and was not.
 std::shared_ptr<const ArmSolver> arm_solver([[maybe_unused]] bool required) {
 #ifdef GLOVEBENCH_ARM
@@ -156,11 +167,11 @@ RobotSetup RobotFlags::setup(Workbench& workbench) const {
 
 RobotOutput RobotFlags::output_of(Workbench& workbench) const {
   RobotOutput robot{output, setup(workbench), limits.limits()};
-  if (!limits.file.empty()) robot.changes["limits"] = to_json(robot.limits);
-  if (mapping != "direct") robot.changes["mapping"] = mapping;
-  if (arm != "auto") robot.changes["arm"] = arm;
-  if (!base_camera.empty()) robot.changes["base_camera"] = base_camera;
-  if (!mounting.flange_wrist.empty()) robot.changes["flange_wrist"] = mounting.flange_wrist;
+  robot.configuration = {{"mapping", mapping},
+                         {"arm", robot.setup.arm ? "pa10" : "none"},
+                         {"base_camera", transform_json(robot.setup.T_base_camera)},
+                         {"flange_wrist", transform_json(robot.setup.T_flange_wrist)},
+                         {"limits", to_json(robot.limits)}};
   return robot;
 }
 

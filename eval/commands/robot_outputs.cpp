@@ -49,10 +49,11 @@ RobotOutputs::RobotOutputs(const std::string& file, const std::string& middlewar
 RobotOutputs::~RobotOutputs() = default;
 
 void RobotOutputs::send(const RobotCommand& command, int64_t arrived_us) {
+  if (stream_) {  // first: a slow disk does not hold the robot up
+    stream_->frame_arrived(arrived_us);
+    stream_->send(command);
+  }
   if (file_) file_->send(command);
-  if (!stream_) return;
-  stream_->frame_arrived(arrived_us);
-  stream_->send(command);
 }
 
 void RobotOutputs::finish() {

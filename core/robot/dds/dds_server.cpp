@@ -23,6 +23,7 @@ constexpr int64_t kPeriodUs = 10'000;        // between two states
 constexpr int64_t kLookAroundUs = 100'000;   // between two looks at who is there
 constexpr int64_t kHeartbeatUs = 1'000'000;  // a state in the log even if nothing moves
 constexpr int kLogLinesPerSecond = 500;      // of messages, accepted and refused each: a flood fills no disk
+constexpr int kMostStates = 10;              // of other servers, at a look
 constexpr int kMessagesAtOnce = 200;         // then the clock is asked again: a flood delays no state by much
 constexpr uint64_t kTailBytes = 1 << 20;     // seconds of the fullest log
 constexpr int64_t kListenUs = 1'000'000;     // for another server, before the first state
@@ -121,7 +122,9 @@ class OtherServers {
   /// The name of a joint that another has told of since the last call.
   std::optional<std::string> heard() {
     std::optional<std::string> joint;
-    while (const auto received = states_.take([](uint64_t) { return true; })) {
+    for (int i = 0; i < kMostStates && !joint; ++i) {  // a flood is looked at a little at a time
+      const auto received = states_.take([](uint64_t) { return true; });
+      if (!received) break;
       if (!received->message) continue;
       const auto& told = received->message->name;
       const auto ours = std::ranges::find_first_of(told, names_);
@@ -148,6 +151,7 @@ class Log {
     if (!last) return {rest, "posture at rest"};
     const int64_t now_us = system_us();
     check_age(*last, now_us, options.max_log_age_s, path_);
+    check_whole(*last, changed_us(path_), path_);
     options.tell(fmt::format("{}: starts at its last state, of {}", path_, age_text(*last, now_us)));
     return {last->positions, path_};
   }
@@ -257,7 +261,7 @@ class Service {
         states_sent_, static_cast<double>(longest_gap_us_) * 1e-3);
     if (const int64_t count = dds_messages_too_large(); count > 0)
       text += fmt::format("; too large: {} messages", count);
-    if (seen_others_ > 0) text += fmt::format("; another server: heard in {:.1f} s", 0.1 * seen_others_);
+    if (seen_others_ > 0) text += fmt::format("; another server: heard at {} looks", seen_others_);
     if (log_.lost() > 0) text += fmt::format("; log: {} lines lost ({})", log_.lost(), log_.failure());
     return text;
   }

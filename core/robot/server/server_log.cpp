@@ -23,6 +23,7 @@ namespace glovebench {
 namespace {
 
 constexpr double kClockCorrection = 1;  // s
+constexpr double kLongestPause = 5;     // s: a server writes a state a second
 constexpr std::string_view kEvent = R"({"event":")", kState = R"({"event":"state",)";
 
 double rounded_deg(double angle) {
@@ -126,6 +127,21 @@ void check_age(const LoggedState& state, int64_t now_us, double max_age_s, const
                     max_age_s));
 }
 
+void check_whole(const LoggedState& state, int64_t changed_us, const std::string& path) {
+  const double missing = age_s(state, changed_us);
+  if (missing > kLongestPause)
+    throw Error(
+        path, "last state", fmt::format("one {:.1f} s before the file was changed last", missing),
+        "the last thing that happened: states after it are lost, as with a full disk. Look where the joints "
+        "stand; if at rest: another --log");
+}
+
+int64_t changed_us(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) throw Error(path, "log", std::strerror(errno), "a file");
+  return int64_t{status.st_mtim.tv_sec} * 1'000'000 + status.st_mtim.tv_nsec / 1000;
+}
+
 std::string read_tail(const std::string& path, uint64_t max_bytes) {
   if (!std::filesystem::is_regular_file(path)) return "";
   std::ifstream file(path, std::ios::binary | std::ios::ate);
@@ -168,6 +184,7 @@ void GrowingFile::append(const std::string& line) {
     cut_ = false;
     return;
   }
+  futimens(descriptor_, nullptr);  // takes no room, and tells the next reader that there was more
   if (lost_++ == 0) failure_ = written < 0 ? std::strerror(errno) : "no room for a whole line";
   cut_ = cut_ || written > 0;
 }

@@ -43,13 +43,19 @@ inline constexpr double kMaxLogAge = 600;
 /// or as little later as a clock is corrected: whatever was done to the joints since then, nobody has written down.
 void check_age(const LoggedState& state, int64_t now_us, double max_age_s, const std::string& path);
 
+/// Throws Error naming `path` if the file was changed (`changed_us`, by the system's clock) seconds after its last
+/// state: then later ones could not be written.
+void check_whole(const LoggedState& state, int64_t changed_us, const std::string& path);
+/// When a file was changed last, microseconds since 1970 by the system's clock. Throws Error.
+int64_t changed_us(const std::string& path);
+
 /// The end of a file, at most that many bytes; empty if there is none or it is a device. Throws Error if it cannot
 /// be read.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
 /// A file that grows by a line at a time and has each of them at once, for it is read after a kill. What cannot be
-/// written is counted: a robot does not stop for a full disk. Nobody else has it as his GrowingFile meanwhile,
-/// unless it is a device.
+/// written is counted, and the file's time of change goes on: a robot does not stop for a full disk. Nobody else
+/// has it as his GrowingFile meanwhile, unless it is a device.
 class GrowingFile {
  public:
   /// Opens a file to append to, or none for an empty path. Throws Error if it cannot be opened, or another has it.

@@ -152,5 +152,13 @@ TEST_F(ServerLog, CountsWhatAFullDiskDoesNotTake) {
   EXPECT_EQ(none.lost(), 0);
 }
 
+TEST(ServerLog, IsWholeIfItsLastStateIsItsLastChange) {
+  const LoggedState state{1'000'000'000, {}};
+  EXPECT_NO_THROW(check_whole(state, 1'000'000'000, "a.jsonl"));
+  EXPECT_NO_THROW(check_whole(state, 1'004'000'000, "a.jsonl")) << "messages come after a state, too";
+  EXPECT_NO_THROW(check_whole(state, 990'000'000, "a.jsonl")) << "a copy that kept its date";
+  EXPECT_THROW(check_whole(state, 1'006'000'000, "a.jsonl"), Error);
+}
+
 }  // namespace
 }  // namespace glovebench
