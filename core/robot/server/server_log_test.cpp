@@ -152,7 +152,7 @@ TEST_F(ServerLog, CountsWhatAFullDiskDoesNotTake) {
   EXPECT_EQ(none.lost(), 0);
 }
 
-TEST(ServerLog, IsWholeIfItsLastStateIsItsLastChange) {
+TEST_F(ServerLog, IsWholeIfItsLastStateIsItsLastChange) {
   const LoggedState state{1'000'000'000, {}};
   EXPECT_NO_THROW(check_whole(state, 1'000'000'000, "a.jsonl"));
   EXPECT_NO_THROW(check_whole(state, 1'004'000'000, "a.jsonl")) << "messages come after a state, too";
