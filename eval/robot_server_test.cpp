@@ -1,101 +1,18 @@
-// The servers of hand and arm as processes, with other processes that send to them.
-#include <fmt/format.h>
+// The hand's server as a process, with other processes that send to it.
 #include <gmock/gmock.h>
-
-#include <nlohmann/json.hpp>
 
 #include "eval/test_program.h"
 #ifdef GLOVEBENCH_DDS
-#include "core/base/angles.h"
-#include "core/robot/arm_follower.h"
-#include "core/robot/command_guard.h"
-#include "core/robot/server/command_messages.h"
-#include "eval/dds_test_bus.h"
+#include "eval/robot_server_fixture.h"
 #endif
 
 namespace glovebench::eval {
 namespace {
 
-using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
 #ifdef GLOVEBENCH_DDS
-
-constexpr double kRounded = 3e-6;      // degrees: two angles of a log
-constexpr double kLongestStepS = 0.1;  // what the guard takes as the time of one step, at most
-
-class RobotServer : public DdsBus {
- protected:
-  StartedProgram serve(const std::string& side, const std::string& log, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> command = {GLOVEBENCH_PROGRAM, "robot-server", side, "--robot",
-                                        "dds:" + domain_,   "--log",        log};
-    command.insert(command.end(), more.begin(), more.end());
-    return start(command);
-  }
-  /// A server that has begun, as its log shows.
-  StartedProgram serve_until_ready(const std::string& side, const std::string& log,
-                                   const std::vector<std::string>& more = {}) {
-    const size_t before = std::filesystem::exists(log) ? std::filesystem::file_size(log) : 0;
-    const StartedProgram server = serve(side, log, more);
-    EXPECT_TRUE(
-        comes_true([&] { return std::filesystem::exists(log) && std::filesystem::file_size(log) > before; }));
-    return server;
-  }
-
-  static std::string joints(const std::vector<std::string>& names, double angle_deg) {
-    std::string text;
-    for (const std::string& name : names) text += fmt::format(" {}={}", name, radians_from_degrees(angle_deg));
-    return text + "\n";
-  }
-  static std::string fingers(double angle_deg, int sec, int points = 1) {
-    return fmt::format("hand {} 0 {}", sec, points) + joints(hand_trajectory_names(), angle_deg);
-  }
-  static std::string wrist(double angle_deg, int sec) {
-    return fmt::format("wrist {} 0 1", sec) + joints(wrist_trajectory_names(), angle_deg);
-  }
-
-  static std::vector<json> lines(const std::string& log, const std::string& event) {
-    std::vector<json> found;
-    std::istringstream all(read_file(log));
-    for (std::string line; std::getline(all, line);) {
-      json parsed = json::parse(line, nullptr, false);  // a kill may have cut one
-      if (!parsed.is_discarded() && parsed.at("event") == event) found.push_back(std::move(parsed));
-    }
-    return found;
-  }
-  static int64_t received(const std::string& log, const std::string& topic, const std::string& receipt) {
-    const std::vector<json> all = lines(log, "received");
-    return std::ranges::count_if(
-        all, [&](const json& line) { return line.at("topic") == topic && line.at("receipt") == receipt; });
-  }
-  static double last_angle(const std::string& log, const std::string& joint) {
-    return lines(log, "state").back().at("position_deg").at(joint).get<double>();
-  }
-  /// rad/s: what the guard grants a joint of the hand, or the arm's own.
-  static double speed(const std::string& joint) {
-    for (const ArmJointInfo& info : arm_joint_infos())
-      if (info.name == joint) return radians_from_degrees(info.max_speed_deg_s);
-    return CommandLimits().hand_joint_speed;
-  }
-  /// From one state to the next no joint moves farther than its speed allows, also not across a restart.
-  static void expect_safe(const std::string& log) {
-    const std::vector<json> states = lines(log, "state");
-    ASSERT_GE(states.size(), 2U);
-    for (size_t i = 1; i < states.size(); ++i) {
-      const auto clock_us = [&](size_t at) { return states[at].at("clock_us").get<int64_t>(); };
-      ASSERT_GT(clock_us(i), clock_us(i - 1));
-      const double seconds = std::min(1e-6 * static_cast<double>(clock_us(i) - clock_us(i - 1)), kLongestStepS);
-      for (const auto& [name, angle] : states[i].at("position_deg").items()) {
-        const double way_deg =
-            std::abs(angle.get<double>() - states[i - 1].at("position_deg").at(name).get<double>());
-        ASSERT_LE(way_deg, degrees_from_radians(speed(name) * seconds) + kRounded) << name << " in state " << i;
-      }
-    }
-  }
-};
-
-class RobotServerLong : public RobotServer {};
 
 TEST_F(RobotServer, FollowsAStreamSaysWhereTheJointsAreAndEndsCleanly) {
   const std::string log = path("hand.jsonl");
@@ -263,7 +180,7 @@ TEST_F(RobotServer, BelievesALogForAsLongAsItIsTold) {
   EXPECT_THAT(run.err, AllOf(HasSubstr("hand.jsonl: last state: found one of 20"), HasSubstr(" s ago, expected"),
                              HasSubstr("--log-age")));
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 1);
-  for (const char* wrong : {"-1", "x", "inf"})
+  for (const char* wrong : {"-1", "x", "inf", "nan", "1e400"})
     EXPECT_EQ(finish(serve("hand", log, {"--log-age", wrong})).exit_code, 2);
 }
 
@@ -279,151 +196,6 @@ TEST_F(RobotServer, RefusesLogsOfOthers) {
   run = finish(serve("foot", path("log")));
   EXPECT_EQ(run.exit_code, 2);
 }
-
-#ifdef GLOVEBENCH_ARM
-
-/// Where the wrist is when the arm is at rest.
-Eigen::Isometry3d wrist_at_rest(const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
-  return arm_flange_pose(kArmAtRest) * T_flange_wrist;
-}
-
-/// A pose that far from there, as a line for the probe.
-std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame = "base_link",
-                 const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
-  const Eigen::Isometry3d T = wrist_at_rest(T_flange_wrist);
-  const Eigen::Vector3d p = T.translation() + way;
-  const Eigen::Quaterniond q(T.linear());
-  return fmt::format("pose {} 0 {} {} {} {} {} {} {} {}\n", sec, frame, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(),
-                     q.w());
-}
-
-/// Where the wrist is at the end of a log.
-Eigen::Vector3d last_wrist(const json& state, const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
-  ArmJoints joints;
-  for (int j = 0; j < kArmJointCount; ++j)
-    joints[j] =
-        radians_from_degrees(state.at("position_deg").at(std::string(arm_joint_infos()[j].name)).get<double>());
-  return (arm_flange_pose(joints) * T_flange_wrist).translation();
-}
-
-TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
-  const std::string log = path("arm.jsonl");
-  const StartedProgram server = serve_until_ready("arm", log);
-  const Eigen::Vector3d way(-0.05, 0.08, -0.03);
-  finish(talk("wait pose\n" + pose(way, 1) + "again 60 10000\n"));
-  const ProgramRun run = stop(server, SIGTERM);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("arm: messages: 61 accepted; streams: 1;"));
-  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back());
-  EXPECT_LT((wrist - wrist_at_rest().translation() - way).norm(), 1e-4) << wrist.transpose();
-  expect_safe(log);
-}
-
-TEST_F(RobotServer, TheArmKnowsHowTheHandIsMounted) {
-  const std::string log = path("arm.jsonl");
-  const StartedProgram server =
-      serve_until_ready("arm", log, {"--flange-wrist", "0", "0", "0.1", "0.6", "0", "0", "0.8"});
-  const Eigen::Isometry3d mounted = Eigen::Translation3d(0, 0, 0.1) * Eigen::Quaterniond(0.6, 0, 0, 0.8);
-  const Eigen::Vector3d way(-0.05, 0.08, -0.03);
-  finish(talk("wait pose\n" + pose(way, 1, "base_link", mounted) + "again 60 10000\n"));
-  EXPECT_EQ(stop(server, SIGTERM).exit_code, 0);
-  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back(), mounted);
-  EXPECT_LT((wrist - wrist_at_rest(mounted).translation() - way).norm(), 1e-4) << wrist.transpose();
-  expect_safe(log);
-
-  const auto refusal = [&](const std::string& side, const std::vector<std::string>& numbers) {
-    std::vector<std::string> more = {"--flange-wrist"};
-    more.insert(more.end(), numbers.begin(), numbers.end());
-    const ProgramRun run = finish(serve(side, path("other.jsonl"), more));
-    EXPECT_EQ(run.exit_code, 2);
-    return run.err;
-  };
-  EXPECT_THAT(refusal("arm", {"0", "0", "0", "1", "1", "0", "0"}),
-              HasSubstr("--flange-wrist: length of the quaternion"));
-  EXPECT_THAT(refusal("arm", {"nan", "0", "0", "1", "0", "0", "0"}),
-              HasSubstr("--flange-wrist: transform: found nan"));
-  refusal("arm", {"0", "0", "0.1"});
-  refusal("hand", {"0", "0", "0.1", "1", "0", "0", "0"});
-}
-
-TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
-  const std::string log = path("arm.jsonl");
-  stop(serve_until_ready("arm", log), SIGTERM);
-  const std::string last = lines(log, "state").back().dump();
-  const auto log_at = [&](double angle_deg) {
-    json state = json::parse(last);
-    state["position_deg"]["S1"] = angle_deg;
-    state["time_us"] =
-        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-            .count();
-    std::string text = state.dump();  // in the order of a log: `event` comes first
-    text.erase(text.find(R"("event":"state",)"), 16);
-    write_file(log, R"({"event":"state",)" + text.substr(1) + "\n");
-  };
-  log_at(177);
-  ProgramRun run = stop(serve_until_ready("arm", log), SIGTERM);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(last_angle(log, "S1"), 177);
-  log_at(177.5);
-  run = finish(serve("arm", log));
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_EQ(run.err.substr(run.err.rfind("glovebench: ")),
-            "glovebench: " + log + ": S1: found 177.5 degrees, expected -177 to 177\n");
-}
-
-TEST_F(RobotServerLong, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
-  const std::string log = path("arm.jsonl");
-  const StartedProgram server = serve_until_ready("arm", log);
-  finish(talk("wait pose\n" + pose({0, 0, 0}, 10) + pose({0, 0.1, 0}, 11, "world") +
-              pose({0, std::nan(""), 0}, 11) + pose({0, 0.1, 0}, 9) + "pose 12 0 base_link 0.5 0 0.5 0 0 0 2\n" +
-              pose({50, 0, 0}, 20) + "again 600 10000\n"));
-  const ProgramRun run = stop(server, SIGTERM);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out,
-              AllOf(HasSubstr("messages: 602 accepted, 1 not_finite, 1 not_rotation, 1 wrong_frame, 1 went_back;"),
-                    HasSubstr(" arm_unreachable"), HasSubstr(" workspace")));
-  expect_safe(log);
-}
-
-TEST_F(RobotServerLong, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
-  const std::string hand_log = path("hand.jsonl"), arm_log = path("arm.jsonl");
-  StartedProgram hand = serve_until_ready("hand", hand_log), arm = serve_until_ready("arm", arm_log);
-  std::string script = "wait hand\nwait pose\n";
-  for (int i = 0; i < 600; ++i) {
-    const bool there = i / 40 % 2 == 1;
-    script += fingers(there ? 80 : 5, 1 + i) + pose({0, there ? 0.2 : 0, 0}, 1 + i) + "sleep 10\n";
-  }
-  const StartedProgram sender = talk(script);
-  for (int round = 0; round < 2; ++round) {
-    const auto sent = [&] {
-      return received(hand_log, "fingers", "accepted") + received(arm_log, "pose", "accepted");
-    };
-    const int64_t before = sent();
-    ASSERT_TRUE(comes_true([&] { return sent() > before + 100; }));
-    stop(hand, SIGKILL);
-    stop(arm, SIGKILL);
-    hand = serve_until_ready("hand", hand_log);
-    arm = serve_until_ready("arm", arm_log);
-  }
-  EXPECT_EQ(finish(sender).out, "said\n") << "the stream goes on";
-  for (const StartedProgram& server : {hand, arm}) {
-    const ProgramRun run = stop(server, SIGTERM);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
-  }
-  expect_safe(hand_log);
-  expect_safe(arm_log);
-}
-
-#else
-
-TEST_F(RobotServer, TheArmIsNamedWhereTheBuildLacksIt) {
-  const ProgramRun run = finish(serve("arm", path("arm.jsonl")));
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("without Orocos KDL"), HasSubstr("liborocos-kdl-dev")));
-}
-
-#endif
 
 #endif
 

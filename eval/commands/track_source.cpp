@@ -1,10 +1,10 @@
 #include "eval/commands/track_source.h"
 
 #include <charconv>
-#include <chrono>
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/base/system_time.h"
 #include "core/kinect/recording.h"
 #include "core/kinect/rectified_device.h"
 #include "eval/interruption.h"
@@ -16,11 +16,6 @@ namespace glovebench::eval {
 namespace {
 
 constexpr std::string_view kRecording = "fakenect:", kLive = "freenect";
-
-int64_t system_us() {
-  using namespace std::chrono;
-  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 TrackSource open_recording(const SourceFlags& flags) {
   const std::string folder = flags.source.substr(kRecording.size());

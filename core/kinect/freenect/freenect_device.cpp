@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/system_time.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/frame_pairer.h"
 #include "core/kinect/freenect/freenect_handle.h"
@@ -54,11 +55,6 @@ struct WholeFrame {
   DeviceFrame frame;
   int64_t arrived_us = 0;  ///< since 1970
 };
-
-int64_t system_us() {
-  using namespace std::chrono;
-  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 /// What fakenect plays, if it is the library behind the interface.
 const char* played_dump() {

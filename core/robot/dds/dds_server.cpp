@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/system_time.h"
 #include "core/robot/dds/dds_entity.h"
 #include "core/robot/dds/topics.h"
 #include "core/robot/server/arm_server.h"
@@ -31,11 +32,6 @@ constexpr int64_t kListenUs = 1'000'000;     // for another server, before the f
 int64_t steady_us() {
   using namespace std::chrono;
   return duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
-}
-
-int64_t system_us() {
-  using namespace std::chrono;
-  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
 }
 
 /// The hand and its readers.

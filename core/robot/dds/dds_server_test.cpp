@@ -10,6 +10,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/system_time.h"
 #include "core/robot/arm_follower.h"
 #include "core/robot/dds/dds_sink.h"
 #include "core/robot/dds/test_bus.h"
@@ -25,11 +26,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-int64_t system_us() {
-  using namespace std::chrono;
-  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
-}
 
 /// A server in a thread of this process.
 class RunningServer {
