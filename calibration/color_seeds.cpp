@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "core/segmentation/color_table_file.h"
 
 namespace glovebench::calibration {
@@ -26,21 +28,13 @@ Eigen::Array3d rgb_of_cell(size_t cell, ColorSpace space) {
   return axes[0] * rgb_of_chroma(Chroma(axes[1] - 128, axes[2] - 128) / axes[0]);
 }
 
-/// What a value is, on one line and not long; what lies in it is not looked at, however deep.
-std::string shown(const nlohmann::json& json) {
-  if (json.is_array()) return fmt::format("an array of {}", json.size());
-  if (json.is_object()) return "an object";
-  std::string text = json.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  return text.size() > 60 ? text.substr(0, 60) + "..." : text;
-}
-
 Chroma seed_from(const nlohmann::json& json, const std::string& where, const std::string& field) {
-  if (!json.is_array() || json.size() != 3) throw Error(where, field, shown(json), "an array of 3");
+  if (!json.is_array() || json.size() != 3) throw Error(where, field, excerpt(json), "an array of 3");
   Eigen::Array3d rgb;
   for (size_t i = 0; i < 3; ++i) {
     const double value = json[i].is_number() ? json[i].get<double>() : -1;
     if (!(value >= 0 && value <= 255))
-      throw Error(where, fmt::format("{}[{}]", field, i), shown(json[i]), "a number of 0..255");
+      throw Error(where, fmt::format("{}[{}]", field, i), excerpt(json[i]), "a number of 0..255");
     rgb[static_cast<Eigen::Index>(i)] = value;
   }
   if (!(luma_of(rgb) >= 1)) throw Error(where, field, "black", "a color");
@@ -70,20 +64,19 @@ ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where) {
 }
 
 ColorSeeds parse_glove_colors(std::string_view text, const std::string& where) {
-  const nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
-  if (root.is_discarded()) throw Error(where, "content", "something else", "JSON");
-  if (!root.is_object()) throw Error(where, "content", shown(root), "an object");
+  const nlohmann::json root = parse_json(text, where);
+  if (!root.is_object()) throw Error(where, "content", excerpt(root), "an object");
   for (const auto& [key, value] : root.items()) {
     if (key != "format" && key != "version" && key != "colors_rgb")
-      throw Error(where, "key", shown(key), "format, version or colors_rgb");
+      throw Error(where, "key", excerpt(key), "format, version or colors_rgb");
   }
   const nlohmann::json format = root.value("format", nlohmann::json());
-  if (format != kFormat) throw Error(where, "format", shown(format), fmt::format("\"{}\"", kFormat));
+  if (format != kFormat) throw Error(where, "format", excerpt(format), fmt::format("\"{}\"", kFormat));
   const nlohmann::json version = root.value("version", nlohmann::json());
-  if (version != kVersion) throw Error(where, "version", shown(version), fmt::format("{}", kVersion));
+  if (version != kVersion) throw Error(where, "version", excerpt(version), fmt::format("{}", kVersion));
   const nlohmann::json colors = root.value("colors_rgb", nlohmann::json());
   if (!colors.is_array() || colors.size() != kColorCount)
-    throw Error(where, "colors_rgb", colors.is_array() ? fmt::format("{} colors", colors.size()) : shown(colors),
+    throw Error(where, "colors_rgb", colors.is_array() ? fmt::format("{} colors", colors.size()) : excerpt(colors),
                 fmt::format("{} colors", kColorCount));
   ColorSeeds seeds;
   seeds[0] = Chroma::Zero();

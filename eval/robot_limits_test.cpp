@@ -47,9 +47,10 @@ TEST_F(RobotLimitsLong, ThatCannotBeAreRefused) {
     return refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
                                    path("out"), "--robot-limits", path("limits.json")}));
   };
-  EXPECT_THAT(refused("{"), HasSubstr("limits.json: byte 2"));
+  EXPECT_THAT(refused("{"), HasSubstr("limits.json: column 2: found the end, expected JSON"));
   EXPECT_THAT(refused(R"({"hand_speed_m_s": -1})"), AllOf(HasSubstr("limits.json"), HasSubstr("hand_speed")));
   EXPECT_THAT(refused(R"({"speed": 1})"), HasSubstr("an unknown key"));
+  EXPECT_THAT(refused(R"({"silence_s": 0.1, "silence_s": 0.2})"), HasSubstr("silence_s: found the key twice"));
   EXPECT_FALSE(std::filesystem::exists(path("out/results.json")));
 }
 

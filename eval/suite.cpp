@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
 #include "trajectories/json_field.h"
@@ -209,7 +210,7 @@ std::vector<Replay> replays_of(Workbench& workbench, const Suite& suite, const s
 }  // namespace
 
 Suite parse_suite(std::string_view text, const std::string& path) {
-  const nlohmann::json document = JsonField::parse(text, path);
+  const nlohmann::json document = parse_json(text, path);
   const JsonField root(document, path);
   root.expect_members({"format", "version", "name", "description", "seeds", "experiments"});
   root.member("format").expect_text("glovebench-suite");

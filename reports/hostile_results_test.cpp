@@ -60,7 +60,7 @@ std::string error_of_reading(const std::string& path) {
 
 TEST(HostileResults, NestedAMillionDeep) {
   constexpr size_t kDeep = 1'000'000;
-  EXPECT_THAT(error_of(std::string(kDeep, '[')), HasSubstr("results.json: byte 65: found deeper nesting"));
+  EXPECT_THAT(error_of(std::string(kDeep, '[')), HasSubstr("results.json: column 65: found deeper nesting"));
   std::string objects;
   for (size_t i = 0; i < kDeep; ++i) objects += "{\"a\":";
   EXPECT_THAT(error_of(objects), HasSubstr("deeper nesting"));
@@ -124,7 +124,7 @@ TEST(HostileResults, FramesThatDoNotFollowEachOther) {
     return r["experiments"][0]["runs"][run]["frames"][row];
   };
   EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[0] = 0; }),
-              HasSubstr("frames[1]: found 23 items, expected a frame after 0"));
+              HasSubstr("frames[1]: found an array of 23, expected a frame after 0"));
   EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[1] = 0; }), HasSubstr("expected a time stamp after 0"));
   EXPECT_THAT(error_of_change([&](json& r) { frame(r, 1, 1)[1] = 7; }), HasSubstr("runs[1].frames[1]"));
   EXPECT_THAT(error_of_change([&](json& r) {
@@ -149,7 +149,7 @@ TEST(HostileResults, StudiesThatNoRunWrites) {
   EXPECT_THAT(error_of_change([&](json& r) { table(r)["name"] = "figure7"; }),
               HasSubstr("studies[1].tables[0].name: found \"figure7\", expected a name that no table has had"));
   EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][3].push_back(nullptr); }),
-              HasSubstr("rows[3]: found 14 items, expected one cell for each of columns"));
+              HasSubstr("rows[3]: found an array of 14, expected one cell for each of columns"));
   EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][0][5] = 1e308; }), HasSubstr("rows[0][5]"));
   EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][0][5] = json::object(); }), HasSubstr("rows[0][5]"));
   EXPECT_THAT(error_of_change([](json& r) { r["studies"] = nullptr; }), HasSubstr("studies: found null"));

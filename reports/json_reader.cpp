@@ -5,51 +5,10 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 
 namespace glovebench::reports {
-namespace {
-
 using nlohmann::json;
-
-/// The value in a few characters, for one line of an error.
-std::string excerpt(const json& value) {
-  constexpr size_t kLongest = 40;
-  if (value.is_structured()) return value.is_object() ? "an object" : fmt::format("{} items", value.size());
-  // Replacing instead of throwing: a damaged file may hold text that is no UTF-8.
-  const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
-}
-
-/// Before anything is parsed: what is nested deeper than that would overflow the stack where it is copied.
-void check_nesting(const std::string& text, const std::string& where) {
-  int depth = 0;
-  bool in_text = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_text && c == '\\') ++i;
-    if (c == '"') in_text = !in_text;
-    if (in_text) continue;
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') --depth;
-    if (depth > kDeepestNesting) {
-      throw Error(where, fmt::format("byte {}", i + 1), "deeper nesting",
-                  fmt::format("{} levels", kDeepestNesting));
-    }
-  }
-}
-
-}  // namespace
-
-json parse_json(const std::string& text, const std::string& where) {
-  check_nesting(text, where);
-  try {
-    return json::parse(text);
-  } catch (const json::parse_error& error) {
-    throw Error(where, fmt::format("byte {}", error.byte), "something else", "JSON");
-  } catch (const json::exception&) {
-    throw Error(where, "number", "one that no double can hold", "a finite number");
-  }
-}
 
 void JsonReader::expect_keys(std::initializer_list<std::string_view> keys) const {
   for (const auto& member : object().items())

@@ -11,13 +11,8 @@
 
 namespace glovebench::reports {
 
-/// Larger files, and values nested deeper, are refused before they take memory or stack: 256 MB is the report of
-/// some million frames.
+/// Larger files are refused before they take memory: 256 MB is the report of some million frames.
 inline constexpr uint64_t kLargestFile = 256'000'000;
-inline constexpr int kDeepestNesting = 64;
-
-/// Parses JSON text; throws Error naming `where` and the place of what cannot be parsed.
-nlohmann::json parse_json(const std::string& text, const std::string& where);
 
 /// A value in a JSON document and the way to it, for reading strictly: whatever is missing, superfluous or of
 /// another kind throws Error(where, field, found, expected). Refers to the document and to `where`, which must

@@ -1,5 +1,6 @@
 #include "reports/paper_numbers.h"
 
+#include "core/base/parse_json.h"
 #include "reports/embedded.h"
 #include "reports/json_reader.h"
 

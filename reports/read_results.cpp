@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "reports/commands_json.h"
 #include "reports/json_reader.h"
 #include "reports/results_json.h"
@@ -121,7 +122,7 @@ std::vector<SeedRun> read_runs(const JsonReader& json) {
       run.frames.push_back(frame);
     }
     if (!runs.empty() && run.frames.size() != runs.front().frames.size())
-      item["frames"].fail(std::to_string(runs.front().frames.size()) + " items, as the first seed has");
+      item["frames"].fail(fmt::format("an array of {}, as the first seed has", runs.front().frames.size()));
     runs.push_back(std::move(run));
   }
   return runs;

@@ -127,8 +127,8 @@ TEST(ResultsJson, NumbersAreRoundedOnce) {
 }
 
 TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
-  EXPECT_THAT(error_of("{\"format\": "), HasSubstr("results.json: byte"));
-  EXPECT_THAT(error_of("[]"), HasSubstr("top level: found 0 items, expected an object"));
+  EXPECT_THAT(error_of("{\"format\": "), HasSubstr("results.json: column 12: found the end"));
+  EXPECT_THAT(error_of("[]"), HasSubstr("top level: found an array of 0, expected an object"));
   EXPECT_THAT(error_of("{}"), HasSubstr("format: found nothing"));
   EXPECT_THAT(error_of_change([](json& r) { r["version"] = 1; }), HasSubstr("version: found 1, expected"));
   EXPECT_THAT(error_of_change([](json& r) { r["protocol"]["association"] = "nearest"; }), HasSubstr("protocol.id"));
@@ -138,11 +138,11 @@ TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][1]["frames"][0][2] = "lucky"; }),
               HasSubstr("experiments[0].runs[1].frames[0][2]: found \"lucky\", expected a frame's status"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"][0].erase(22); }),
-              HasSubstr("frames[0]: found 22 items"));
+              HasSubstr("frames[0]: found an array of 22"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["coverage"]["lost"] = 0; }),
               HasSubstr("experiments[0].coverage"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"].erase(1); }),
-              HasSubstr("experiments[0].runs[1].frames: found 2 items, expected 1 items"));
+              HasSubstr("experiments[0].runs[1].frames: found an array of 2, expected an array of 1"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["aggregates"].erase("position_error_mm"); }),
               HasSubstr("experiments[0].aggregates"));
 }

@@ -113,8 +113,8 @@ TEST(StudyJson, ErrorsInRowsAndMeasures) {
   const auto row = [](json& j) -> json& { return j[0]["tables"][0]["rows"][1]; };
   const auto measure = [](json& j) -> json& { return j[0]["measures"][0]; };
   EXPECT_THAT(error_of_change([&](json& j) { row(j).push_back(1); }),
-              HasSubstr("rows[1]: found 3 items, expected one cell for each of columns"));
-  EXPECT_THAT(error_of_change([&](json& j) { row(j).erase(1); }), HasSubstr("rows[1]: found 1 items"));
+              HasSubstr("rows[1]: found an array of 3, expected one cell for each of columns"));
+  EXPECT_THAT(error_of_change([&](json& j) { row(j).erase(1); }), HasSubstr("rows[1]: found an array of 1"));
   EXPECT_THAT(error_of_change([&](json& j) { row(j)[1] = true; }), HasSubstr("rows[1][1]: found true"));
   EXPECT_THAT(error_of_change([&](json& j) { row(j)[1] = json::array(); }), HasSubstr("rows[1][1]"));
   EXPECT_THAT(error_of_change([&](json& j) { row(j)[1] = 1e13; }), HasSubstr("rows[1][1]"));

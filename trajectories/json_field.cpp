@@ -5,33 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <set>
-#include <vector>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 
 namespace glovebench::trajectories {
 
 using nlohmann::json;
-
-json JsonField::parse(std::string_view text, const std::string& where) {
-  // The library keeps the last of two equal keys; a file written by hand deserves to hear of it.
-  std::vector<std::set<std::string>> keys;
-  const auto notice_keys = [&](int /*depth*/, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key) {
-      const auto key = parsed.get<std::string>();
-      if (!keys.back().insert(key).second) throw Error(where, excerpt(key), "the key twice", "each key once");
-    }
-    return true;
-  };
-  try {
-    return json::parse(text, notice_keys);
-  } catch (const json::exception& e) {
-    throw Error(where, "document", e.what(), "JSON");
-  }
-}
 
 void JsonField::expect_object() const {
   if (!value_->is_object()) fail("an object");
@@ -50,7 +30,7 @@ void JsonField::expect_members(std::initializer_list<std::string_view> required,
   for (const auto& [key, unused] : value_->items()) {
     if (std::ranges::find(required, key) != required.end()) continue;
     if (std::ranges::find(optional, key) != optional.end()) continue;
-    throw Error(where_, path_.empty() ? "document" : path_, "unknown key " + excerpt(in_quotes(key)),
+    throw Error(where_, path_.empty() ? "document" : path_, "unknown key " + printable(in_quotes(key)),
                 fmt::format("{}", fmt::join(required, ", ")));
   }
 }
@@ -118,9 +98,7 @@ std::string JsonField::name() const {
 }
 
 void JsonField::fail(const std::string& expected) const {
-  if (value_->is_object()) fail("an object", expected);
-  if (value_->is_array()) fail("an array", expected);
-  fail(excerpt(value_->dump()), expected);
+  fail(excerpt(*value_), expected);
 }
 
 void JsonField::fail(const std::string& found, const std::string& expected) const {
@@ -145,14 +123,6 @@ std::string fixed(double value, int decimals) {
 
 std::string in_quotes(std::string_view text) {
   return json(text).dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-std::string excerpt(std::string_view text) {
-  constexpr size_t longest = 60;
-  std::string line(text.substr(0, longest));
-  std::ranges::replace_if(
-      line, [](unsigned char c) { return c < ' '; }, ' ');
-  return text.size() > longest ? line + "..." : line;
 }
 
 }  // namespace glovebench::trajectories

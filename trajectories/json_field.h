@@ -12,9 +12,6 @@ namespace glovebench::trajectories {
 /// ("frames[17].angles_deg[3]"). All members throw Error. Refers to the document: must not outlive it.
 class JsonField {
  public:
-  /// Parses strictly: no comments, no NaN or Infinity, no number out of range, no key twice in one object.
-  static nlohmann::json parse(std::string_view text, const std::string& where);
-
   JsonField(const nlohmann::json& value, std::string where) : JsonField(value, std::move(where), "") {}
 
   void expect_object() const;
@@ -63,7 +60,5 @@ inline constexpr const char* kNameExpected =
 std::string fixed(double value, int decimals);
 /// The text as a JSON string, quoted and escaped.
 std::string in_quotes(std::string_view text);
-/// Text from a file in a length fit for a one-line message.
-std::string excerpt(std::string_view text);
 
 }  // namespace glovebench::trajectories

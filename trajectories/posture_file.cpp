@@ -10,6 +10,7 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "trajectories/angle_json.h"
 #include "trajectories/json_field.h"
 #include "trajectories/text_cells.h"
@@ -60,7 +61,7 @@ std::string canonical_json(const PostureSet& set) {
 }  // namespace
 
 PostureSet parse_postures_json(std::string_view text, const std::string& where) {
-  const nlohmann::json document = JsonField::parse(text, where);
+  const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "name", "joint_order", "postures"}, {"description"});
   root.expect_format(kFormat, kVersion);

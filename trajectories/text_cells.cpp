@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "trajectories/json_field.h"
 
 namespace glovebench::trajectories {
@@ -57,7 +58,7 @@ double number_from(std::string_view cell, double min, double max, const std::str
 }
 
 std::string quoted_excerpt(std::string_view text) {
-  return excerpt(in_quotes(text));
+  return printable(in_quotes(text));
 }
 
 }  // namespace glovebench::trajectories

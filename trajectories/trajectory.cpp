@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/parse_json.h"
 #include "trajectories/angle_json.h"
 #include "trajectories/json_field.h"
 
@@ -142,7 +144,7 @@ std::string canonical_json(const Trajectory& trajectory) {
 }  // namespace
 
 Trajectory parse_trajectory(std::string_view text, const std::string& where) {
-  const nlohmann::json document = JsonField::parse(text, where);
+  const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "name", "side", "joint_order", "frames"},
                       {"description", "kind", "provenance"});
@@ -170,7 +172,7 @@ Trajectory load_trajectory(const std::string& path) {
 std::string canonical_text(const Trajectory& trajectory) {
   std::string json = canonical_json(trajectory);
   // Whatever is wrong with a trajectory made in memory is said where it is made, not by a later reader.
-  parse_trajectory(json, "trajectory " + excerpt(in_quotes(trajectory.name)));
+  parse_trajectory(json, "trajectory " + printable(in_quotes(trajectory.name)));
   return json;
 }
 

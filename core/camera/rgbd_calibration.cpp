@@ -7,7 +7,9 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 
 namespace glovebench {
 namespace {
@@ -31,16 +33,9 @@ struct Place {
   }
 };
 
-/// A key of a file that may be anything: an error message is one line.
-std::string printable(std::string key) {
-  for (char& c : key)
-    if (c >= 0 && c < ' ') c = '?';
-  return key;
-}
-
 void require_keys(const json& object, const Place& place, std::initializer_list<std::string_view> keys,
                   std::string_view optional_key = "") {
-  if (!object.is_object()) throw place.error(object.type_name(), "an object");
+  if (!object.is_object()) throw place.error(excerpt(object), "an object");
   for (std::string_view key : keys)
     if (!object.contains(std::string(key))) throw(place / key).error("nothing", "a value");
   for (const auto& [key, value] : object.items())
@@ -49,7 +44,7 @@ void require_keys(const json& object, const Place& place, std::initializer_list<
 }
 
 double read_number(const json& value, const Place& place) {
-  if (!value.is_number()) throw place.error(value.type_name(), "a number");
+  if (!value.is_number()) throw place.error(excerpt(value), "a number");
   const double number = value.get<double>();
   if (!std::isfinite(number)) throw place.error("a number that is not finite", "a finite number");
   return number;
@@ -57,30 +52,30 @@ double read_number(const json& value, const Place& place) {
 
 double read_positive(const json& value, const Place& place) {
   const double number = read_number(value, place);
-  if (number <= 0) throw place.error(value.dump(), "a number above 0");
+  if (number <= 0) throw place.error(excerpt(value), "a number above 0");
   return number;
 }
 
 int read_side(const json& value, const Place& place) {
   const bool in_range = value.is_number_integer() && value >= 1 && value <= kMaxSide_px;
-  if (!in_range) throw place.error(value.dump(), "a whole number of 1.." + std::to_string(kMaxSide_px));
+  if (!in_range) throw place.error(excerpt(value), "a whole number of 1.." + std::to_string(kMaxSide_px));
   return value.get<int>();
 }
 
 Eigen::Vector3d read_vector(const json& value, const Place& place) {
-  if (!value.is_array() || value.size() != 3) throw place.error(value.dump(), "an array of 3 numbers");
+  if (!value.is_array() || value.size() != 3) throw place.error(excerpt(value), "an array of 3 numbers");
   Eigen::Vector3d vector;
   for (int i = 0; i < 3; ++i) vector[i] = read_number(value[i], place / std::to_string(i));
   return vector;
 }
 
 Eigen::Matrix3d read_rotation(const json& value, const Place& place) {
-  if (!value.is_array() || value.size() != 3) throw place.error(value.dump(), "an array of 3 rows");
+  if (!value.is_array() || value.size() != 3) throw place.error(excerpt(value), "an array of 3 rows");
   Eigen::Matrix3d R;
   for (int row = 0; row < 3; ++row) R.row(row) = read_vector(value[row], place / std::to_string(row));
   const double deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(deviation <= kOrthonormalTolerance) || R.determinant() < 0)
-    throw place.error(value.dump(), "an orthonormal, right-handed matrix");
+    throw place.error(excerpt(value), "an orthonormal, right-handed matrix");
   return R;
 }
 
@@ -180,13 +175,7 @@ json to_json(const RgbdCalibration& calibration) {
 }
 
 RgbdCalibration calibration_from_text(std::string_view text, const std::string& where) {
-  json content;
-  try {
-    content = json::parse(text);
-  } catch (const json::exception& e) {
-    throw Error(where, "content", e.what(), "JSON of a calibration");
-  }
-  return calibration_from_json(content, where);
+  return calibration_from_json(parse_json(text, where), where);
 }
 
 RgbdCalibration load_calibration(const std::string& path) {

@@ -7,6 +7,7 @@
 
 #include "core/base/check.h"
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/tick_clock.h"
 
@@ -52,14 +53,6 @@ class NameReader {
   }
 
  private:
-  /// Short and without control characters: an error message is one line, whatever the file holds.
-  static std::string printable(std::string_view text) {
-    std::string shown(text.substr(0, 60));
-    for (char& c : shown)
-      if (c < ' ' || c > '~') c = '?';
-    return shown;
-  }
-
   std::string_view name_, rest_;
   const std::string& where_;
 };

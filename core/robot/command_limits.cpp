@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 
 namespace glovebench {
 namespace {
@@ -24,13 +25,6 @@ void visit_fields(Limits& limits, Visit&& visit) {
   visit("longest_step_s", limits.longest_step_s);
   visit("silence_s", limits.silence_s);
   visit("stop_after_s", limits.stop_after_s);
-}
-
-/// In a few characters and plain ASCII, for one line of an error.
-std::string excerpt(const json& value) {
-  constexpr size_t kLongest = 40;
-  const std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
 void read(double& value, const json& found, const std::string& where, const std::string& field) {

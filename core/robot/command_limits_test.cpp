@@ -52,7 +52,7 @@ TEST(CommandLimitsJson, KeepsTheDefaultsOfWhatIsNotThere) {
 }
 
 TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
-  EXPECT_THAT(error_of(json::array()), HasSubstr("limits.json: limits: found [], expected an object"));
+  EXPECT_THAT(error_of(json::array()), HasSubstr("limits.json: limits: found an array of 0, expected an object"));
   EXPECT_THAT(error_of({{"hand_sped_m_s", 1}}),
               AllOf(HasSubstr("\"hand_sped_m_s\": found an unknown key"), HasSubstr("hand_speed_m_s")));
   EXPECT_THAT(error_of({{"hand_speed_m_s", "fast"}}),
@@ -60,7 +60,7 @@ TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
   EXPECT_THAT(error_of({{"hand_speed_m_s", 0}}), HasSubstr("hand_speed is not above 0"));
   EXPECT_THAT(error_of({{"arm_speed_share", 1.5}}), HasSubstr("arm_speed_share"));
   EXPECT_THAT(error_of({{"workspace_min_m", {0, 0}}}),
-              HasSubstr("workspace_min_m: found [0,0], expected x, y and z"));
+              HasSubstr("workspace_min_m: found an array of 2, expected x, y and z"));
   EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, nullptr}}}), HasSubstr("workspace_min_m[2]: found null"));
   EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, 3}}}), HasSubstr("the workspace is empty"));
   EXPECT_THAT(error_of({{"stop_after_s", 1e99}}), HasSubstr("stop_after_s is not silence_s to 60"));

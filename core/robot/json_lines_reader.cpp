@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 
 namespace glovebench {
 namespace {
@@ -19,14 +20,6 @@ constexpr double kUnitTolerance = 1e-5;  // the four numbers are rounded to 1e-6
 constexpr double kLargestNumber = 1e9;  // of any unit: no angle or place, but far from what overflows
 
 /// Of text that may be anything: short, and on one line.
-std::string printable(std::string text) {
-  constexpr size_t kLongest = 40;
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  for (char& c : text)
-    if (c >= 0 && c < ' ') c = '?';
-  return text;
-}
-
 /// A value in the line and the way to it.
 class Field {
  public:
@@ -36,7 +29,7 @@ class Field {
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
     throw Error(where_, path_, found, expected);
   }
-  [[noreturn]] void fail(const std::string& expected) const { fail(printable(shown()), expected); }
+  [[noreturn]] void fail(const std::string& expected) const { fail(excerpt(value_), expected); }
 
   /// The value is an object with these keys and no others.
   template <typename Keys>
@@ -89,11 +82,6 @@ class Field {
   }
 
  private:
-  std::string shown() const {
-    return value_.is_structured() ? value_.type_name()
-                                  : value_.dump(-1, ' ', false, json::error_handler_t::replace);
-  }
-
   const json& value_;
   const std::string& where_;
   std::string path_;
@@ -103,19 +91,7 @@ json parse_document(std::string_view line, const std::string& where) {
   if (line.size() > kLongestCommandLine)
     throw Error(where, "line", fmt::format("{} bytes", line.size()),
                 fmt::format("at most {}", kLongestCommandLine));
-  std::vector<std::set<std::string>> keys;
-  const auto notice_keys = [&](int /*depth*/, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) keys.emplace_back();
-    if (event == json::parse_event_t::object_end) keys.pop_back();
-    if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw Error(where, printable(parsed.get<std::string>()), "the key twice", "each key once");
-    return true;
-  };
-  try {
-    return json::parse(line, notice_keys);
-  } catch (const json::exception& e) {
-    throw Error(where, "line", e.what(), "JSON");
-  }
+  return parse_json(line, where);
 }
 
 template <typename Infos>

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
 #include "core/base/for_each_nonzero.h"
 #include "core/base/hash.h"
@@ -20,14 +21,6 @@ constexpr std::string_view kVersion = "2, ";
 constexpr size_t kSpaceLength = 3;
 constexpr size_t kHashLength = 32;
 constexpr size_t kHeaderLength = kMagic.size() + kVersion.size() + kSpaceLength + 1 + kHashLength + 1;
-
-/// What a damaged header holds, on one line.
-std::string printable(std::string_view text) {
-  std::string line(text);
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return line;
-}
 
 constexpr uint8_t kOutside = kColorCount + 1;  // pads the label image; has no vote
 

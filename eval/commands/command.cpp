@@ -6,13 +6,13 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "core/methods/method.h"
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
 #endif
 #include "core/robot/command_limits.h"
 #include "eval/share.h"
-#include "reports/json_reader.h"
 #include "reports/json_text.h"
 
 namespace glovebench::eval {
@@ -57,7 +57,7 @@ TrackerConfig CommonFlags::tracker_config() const {
   TrackerConfig config = glovebench::profile(profile);
   if (!config_json.is_null()) config = config_from_json(config_json, config, "configuration of the run");
   if (!config_file.empty())
-    config = config_from_json(reports::parse_json(read_file(config_file), config_file), config, config_file);
+    config = config_from_json(parse_json(read_file(config_file), config_file), config, config_file);
   if (!method.empty()) config.method = find_method(method).name;
   if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
   return config;
@@ -92,8 +92,7 @@ void LimitsFlag::add(CLI::App& command) {
 }
 
 CommandLimits LimitsFlag::limits() const {
-  return file.empty() ? CommandLimits()
-                      : command_limits_from_json(reports::parse_json(read_file(file), file), file);
+  return file.empty() ? CommandLimits() : command_limits_from_json(parse_json(read_file(file), file), file);
 }
 
 void RobotFlags::add(CLI::App& command, const std::string& what) {
@@ -114,6 +113,15 @@ void RobotFlags::add(CLI::App& command, const std::string& what) {
       ->expected(7);
   mounting.add(command);
   limits.add(command);
+}
+
+CLI::Validator number_within(double min, double max) {
+  return {[=](const std::string& text) -> std::string {
+            double value = 0;
+            if (CLI::detail::lexical_cast(text, value) && value >= min && value <= max) return {};
+            return fmt::format("found {}, expected a number from {} to {}", text, min, max);
+          },
+          fmt::format("FLOAT in [{} - {}]", min, max)};
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/parse_json.h"
 #include "eval/program_info.h"
 #include "eval/run_folder.h"
 #include "eval/suite.h"
@@ -48,7 +49,7 @@ std::string provenance_json(const reports::NamedResult& run, const std::string& 
 
 template <typename Read>
 auto read_provenance(const std::string& path, const Read& read) {
-  const nlohmann::json document = reports::parse_json(read_file(path), path);
+  const nlohmann::json document = parse_json(read_file(path), path);
   const reports::JsonReader json(document, path);
   json["format"].expect_text(kProvenanceFormat);
   json["version"].integer(1, 1);

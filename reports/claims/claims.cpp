@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/base/check.h"
+#include "core/base/parse_json.h"
 #include "reports/embedded.h"
 #include "reports/json_reader.h"
 

@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "reports/comparison/noise_floor.h"
 #include "reports/comparison/quantities.h"
 #include "reports/json_reader.h"

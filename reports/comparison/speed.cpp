@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "reports/comparison/pairing.h"
 #include "reports/json_reader.h"
 #include "reports/json_text.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/file.h"
+#include "core/base/parse_json.h"
 #include "reports/json_text.h"
 
 namespace glovebench::reports {

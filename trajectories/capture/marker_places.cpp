@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
+#include "core/base/parse_json.h"
 #include "trajectories/capture/marker_sequence.h"
 #include "trajectories/capture/webxr_joints.h"
 #include "trajectories/json_field.h"
@@ -113,7 +115,7 @@ std::string known_places() {
 }  // namespace
 
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where) {
-  const nlohmann::json document = JsonField::parse(text, where);
+  const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "markers"});
   root.expect_format(kFormat, kVersion);
@@ -147,7 +149,7 @@ std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, c
                                         const HandModel& model, const std::string& where) {
   for (const auto& [name, place] : layout) {
     if (std::ranges::find(names, name) == names.end()) {
-      throw Error(where, "points", "none named " + excerpt(in_quotes(name)), "all points of the layout");
+      throw Error(where, "points", "none named " + printable(in_quotes(name)), "all points of the layout");
     }
   }
   std::vector<PlacedMarker> markers;
@@ -156,7 +158,7 @@ std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, c
     const auto named = layout.find(name);
     std::optional<PlacedMarker> marker = place_marker(named == layout.end() ? name : named->second, model);
     if (!marker) {
-      throw Error(where, "point", excerpt(in_quotes(name)),
+      throw Error(where, "point", printable(in_quotes(name)),
                   "a place on the hand (trajectories/README.md) or a layout that says it");
     }
     marker->name = name;

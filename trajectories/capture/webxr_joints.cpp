@@ -6,6 +6,8 @@
 #include <cstring>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
+#include "core/base/parse_json.h"
 #include "core/hand/skeleton.h"
 #include "trajectories/capture/marker_cells.h"
 #include "trajectories/json_field.h"
@@ -39,7 +41,8 @@ MarkerFrame frame_from(const JsonField& field) {
   const JsonField joints = field.member("joints_m");
   joints.expect_object();
   for (const auto& [name, value] : joints.value().items()) {
-    if (!is_webxr_joint(name)) joints.member(name).fail(excerpt(in_quotes(name)), "the name of a WebXR hand joint");
+    if (!is_webxr_joint(name))
+      joints.member(name).fail(printable(in_quotes(name)), "the name of a WebXR hand joint");
     frame.points[static_cast<size_t>(joint_index(name))] = position_from(joints.member(name));
   }
   return frame;
@@ -69,7 +72,7 @@ bool is_webxr_joint(const std::string& name) {
 }
 
 MarkerSequence parse_webxr_joints(std::string_view text, const std::string& where) {
-  const nlohmann::json document = JsonField::parse(text, where);
+  const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "frames"});
   root.expect_format(kFormat, kVersion);

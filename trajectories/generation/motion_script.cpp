@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/angles.h"
+#include "core/base/parse_json.h"
 #include "trajectories/generation/natural_variation.h"
 #include "trajectories/json_field.h"
 #include "trajectories/posture_file.h"
@@ -148,7 +149,7 @@ HandPose pose_at(const MotionScript& script, int frame) {
 }  // namespace
 
 MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where) {
-  const nlohmann::json document = JsonField::parse(text, where);
+  const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members(
       {"format", "version", "name", "description", "seed", "frame_count", "postures", "wrist", "poses"});

@@ -1,0 +1,17 @@
+#pragma once
+
+// What a file holds, as an error of one line shows it: short and in plain ASCII, whatever it is.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+namespace glovebench {
+
+/// The beginning of a text.
+std::string printable(std::string_view text);
+
+/// A value; of an array or an object what it is, for what lies in it may be deep.
+std::string excerpt(const nlohmann::json& value);
+
+}  // namespace glovebench

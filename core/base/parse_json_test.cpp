@@ -1,0 +1,75 @@
+#include "core/base/parse_json.h"
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "core/base/excerpt.h"
+
+namespace glovebench {
+namespace {
+
+using nlohmann::json;
+
+std::string refusal(std::string_view text) {
+  try {
+    return parse_json(text, "x.json").dump();
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(ParseJson, ReadsJson) {
+  EXPECT_EQ(parse_json(R"( {"b": [1, {"b": 2}], "a": {"b": null}} )", "x.json"),
+            (json{{"a", {{"b", nullptr}}}, {"b", {1, {{"b", 2}}}}}));
+  EXPECT_EQ(parse_json("7", "x.json"), 7);
+}
+
+TEST(ParseJson, NamesThePlaceOfWhatIsNone) {
+  EXPECT_EQ(refusal(""), "x.json: column 1: found the end, expected JSON");
+  EXPECT_EQ(refusal("{\"a\": 1"), "x.json: column 8: found the end, expected JSON");
+  EXPECT_EQ(refusal("[1, ]"), "x.json: column 5: found something else, expected JSON");
+  EXPECT_EQ(refusal("{\n  \"a\": 1,\n  \"b\": ?\n}"),
+            "x.json: line 3, column 8: found something else, expected JSON");
+  EXPECT_EQ(refusal("[1] 2"), "x.json: column 5: found something else, expected JSON");
+  for (const char* text :
+       {"[NaN]", "[Infinity]", "[1] // one", "['a']", "[01]", "[\"\xff\"]", "[\"\\ud800\"]", "\xef\xbb"})
+    EXPECT_TRUE(refusal(text).ends_with("expected JSON")) << text << ": " << refusal(text);
+}
+
+TEST(ParseJson, RefusesNumbersThatNoDoubleHolds) {
+  EXPECT_EQ(refusal("[1e400]"), "x.json: number: found one that no double can hold, expected a finite number");
+}
+
+TEST(ParseJson, RefusesAKeyTwiceInOneObject) {
+  EXPECT_EQ(refusal(R"({"a": 1, "b": {"a": 1}, "a": 1})"),
+            "x.json: a: found the key twice, expected each key once");
+  EXPECT_EQ(refusal(R"([{"a": 1}, {"a\n": {"c": 1, "\u0063": 2}}])"),
+            "x.json: c: found the key twice, expected each key once");
+}
+
+TEST(ParseJson, RefusesWhatIsNestedTooDeep) {
+  const auto nested = [](size_t depth, const std::string& begin = "") {
+    return std::string(begin).append(depth, '[').append(depth, ']');
+  };
+  EXPECT_EQ(refusal(nested(kDeepestNesting)), nested(kDeepestNesting));
+  EXPECT_EQ(refusal(nested(1'000'000, "\n")),
+            "x.json: line 2, column 65: found deeper nesting, expected 64 levels");
+  const std::string in_text = R"(["\"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["])";
+  EXPECT_EQ(refusal(in_text), in_text) << "brackets in a text are no nesting";
+}
+
+TEST(Excerpt, IsShortAndOnOneLine) {
+  EXPECT_EQ(printable("a name"), "a name");
+  EXPECT_EQ(printable("a\nb\x7f\xc3\xa9"), "a?b???");
+  EXPECT_EQ(printable(std::string(61, 'x')), std::string(60, 'x').append("..."));
+  EXPECT_EQ(excerpt(json("a\n\u00e9")), R"("a\n\u00e9")");
+  EXPECT_EQ(excerpt(1.5), "1.5");
+  EXPECT_EQ(excerpt(nullptr), "null");
+  EXPECT_EQ(excerpt(json("\xff")), R"("\ufffd")") << "no text that was read holds it, but one made of it may";
+  EXPECT_EQ(excerpt(json(std::string(1000, 'x'))).size(), 63U);
+  EXPECT_EQ(excerpt(json::array({1, 2})), "an array of 2");
+  EXPECT_EQ(excerpt(json::object()), "an object");
+}
+
+}  // namespace
+}  // namespace glovebench
