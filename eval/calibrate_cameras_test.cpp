@@ -125,7 +125,8 @@ TEST_F(CalibrateCamerasLong, NamesWhatItCannotUse) {
   EXPECT_THAT(refused({"--board", "9x6x2"}), HasSubstr("--board: value: found 9x6x2"));
   EXPECT_THAT(refused({"--board", "6x6"}), HasSubstr("columns and rows: found 6 each"));
   EXPECT_THAT(refused({"--square-mm", "nan"}), HasSubstr("square"));
-  EXPECT_THAT(refused({"--ir-offset", "nan", "0"}), HasSubstr("--ir-offset: value: found nan 0"));
+  EXPECT_THAT(refused({"--ir-offset", "nan", "0"}),
+              HasSubstr("--ir-offset: found nan, expected a number from -16 to 16"));
   EXPECT_THAT(refused({"--lens", "fisheye"}), HasSubstr("--lens: value: found fisheye"));
   EXPECT_THAT(refusal(run_glovebench({"calibrate", "cameras", "--ir", "fakenect:" + path("ir"), "--rgb",
                                       path("rgb"), "-o", path("own.json")})),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "calibration/camera_report.h"
@@ -10,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "eval/commands/calibrate.h"
+#include "eval/commands/command.h"
 #include "eval/progress.h"
 
 namespace glovebench::eval {
@@ -34,10 +34,6 @@ struct CalibrateCameras {
     const calibration::Chessboard chessboard = parse_board();
     const std::optional<calibration::LensModel> model = calibration::lens_model_from_string(lens);
     if (!model) throw Error("--lens", "value", lens, "none, radial or full");
-    // What is no number passes the check of its range.
-    if (!(std::isfinite(ir_offset[0]) && std::isfinite(ir_offset[1])))
-      throw Error("--ir-offset", "value", fmt::format("{} {}", ir_offset[0], ir_offset[1]),
-                  "two numbers of pixels");
     const calibration::BoardViews ir_boards = boards_of(ir, chessboard, "IR");
     const calibration::BoardViews rgb_boards = boards_of(rgb, chessboard, "RGB");
     calibration::StereoFit fit = calibration::fit_stereo(ir_boards, rgb_boards, chessboard, *model);
@@ -102,14 +98,16 @@ void add_calibrate_cameras(CLI::App& calibrate) {
   command->add_option("--rgb", state->rgb, "pictures of the RGB camera: a folder, or fakenect:FOLDER")->required();
   command->add_option("--board", state->board, "inner corners of the chessboard, COLUMNSxROWS")
       ->capture_default_str();
-  command->add_option("--square-mm", state->square_mm, "side of a square, mm")->capture_default_str();
+  command->add_option("--square-mm", state->square_mm, "side of a square, mm")
+      ->check(number_within(1, 1000))
+      ->capture_default_str();
   command->add_option("--lens", state->lens, "distortion to fit: none, radial (k1, k2, k3), full (also p1, p2)")
       ->capture_default_str();
   command
       ->add_option("--ir-offset", state->ir_offset,
                    "where the depth image begins in the IR pictures: pixels from the left, from the top")
       ->expected(2)
-      ->check(CLI::Range(-16.0, 16.0))
+      ->check(number_within(-16, 16))
       ->capture_default_str();
   command->add_option("--most", state->most, "of a recording, take at most that many pictures")
       ->check(CLI::Range(5, 10000))

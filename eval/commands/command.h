@@ -41,6 +41,9 @@ struct CommonFlags {
   void check_output_folder() const;
 };
 
+/// Checks an option: a number from `min` to `max`. CLI::Range lets pass what is no number.
+CLI::Validator number_within(double min, double max);
+
 /// How the hand is mounted on the arm.
 struct MountingFlag {
   std::vector<double> flange_wrist;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_flange_wrist()

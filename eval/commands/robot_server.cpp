@@ -83,7 +83,7 @@ void add_robot_server(CLI::App& program, int& exit_code) {
                      "log to append to (*.jsonl), which also tells the next server where the joints stood");
     side->add_option("--log-age", state->max_log_age_s,
                      "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number_within(0, 1e8))
         ->capture_default_str();
     state->limits.add(*side);
   }

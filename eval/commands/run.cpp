@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/experiments.h"
@@ -85,8 +83,6 @@ struct Run {
   }
 
   Suite suite_of_flags() const {
-    // A range check lets it pass.
-    if (std::isnan(gain)) throw Error("--gain", "value", "nan", "a number from 0 to 100");
     Suite suite;
     for (const std::string& trajectory : trajectories) {
       SuiteEntry entry{trajectory, {}, databases, subject, {noise, gain}, {}};
@@ -149,7 +145,7 @@ void add_run(CLI::App& program) {
       ->check(CLI::IsMember({"gradient", "kinect", "none"}))
       ->capture_default_str();
   command->add_option("--gain", state->gain, "factor on the noise's gain")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(number_within(0, 100))
       ->capture_default_str();
   command->add_option("--subject", state->subject, "whose hand is in front of the camera; the tracker's own is 1")
       ->check(CLI::Range(1, 2))
