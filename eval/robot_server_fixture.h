@@ -4,9 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/base/angles.h"
+#include "core/base/file.h"
 #include "core/robot/arm_follower.h"
 #include "core/robot/command_guard.h"
 #include "core/robot/server/command_messages.h"

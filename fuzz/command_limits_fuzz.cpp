@@ -8,7 +8,7 @@ using namespace glovebench;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   return fuzz::expect_value_or_error([&] {
-    const nlohmann::json json = parse_json(std::string(fuzz::as_text(data, size)), "limits.json");
+    const nlohmann::json json = parse_json(fuzz::as_text(data, size), "limits.json");
     const CommandLimits limits = command_limits_from_json(json, "limits.json");
     check(limits.problems().empty(), "limits that were read have no problems");
     const nlohmann::json written = to_json(limits);

@@ -8,6 +8,7 @@
 #include "core/base/excerpt.h"
 
 namespace glovebench::reports {
+
 using nlohmann::json;
 
 void JsonReader::expect_keys(std::initializer_list<std::string_view> keys) const {
@@ -20,7 +21,7 @@ void JsonReader::expect_keys(std::initializer_list<std::string_view> keys) const
 }
 
 JsonReader JsonReader::operator[](std::string_view key) const {
-  const std::string field = field_.empty() ? std::string(key) : fmt::format("{}.{}", field_, key);
+  const std::string field = field_.empty() ? printable(key) : fmt::format("{}.{}", field_, printable(key));
   const auto member = object().find(key);
   if (member == value_.end()) throw Error(where_, field, "nothing", "a value");
   return {*member, where_, field};

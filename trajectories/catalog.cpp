@@ -35,7 +35,7 @@ void expect_known(const fs::path& folder, const std::string& name) {
   if (std::ranges::find(known, name) != known.end()) return;
   const std::string expected =
       known.empty() ? "files *.json there" : fmt::format("one of {}", fmt::join(known, ", "));
-  throw Error(folder.string(), "name", printable(in_quotes(name)), expected);
+  throw Error(folder.string(), "name", quoted_excerpt(name), expected);
 }
 
 Trajectory trajectory_of(const std::string& data_folder, TrajectoryKind kind, const std::string& name) {
@@ -60,7 +60,7 @@ std::string grasp_of(std::string_view trajectory) {
   const std::vector<std::string>& names = ground_truth_names();
   const auto found = std::ranges::find(names, trajectory);
   if (found == names.end()) {
-    throw Error("ground truths", "trajectory", printable(in_quotes(trajectory)),
+    throw Error("ground truths", "trajectory", quoted_excerpt(trajectory),
                 fmt::format("one of {}", fmt::join(names, ", ")));
   }
   constexpr int pinch_count = 2;  // Tr1 and Tr2 pinch, the others grasp with the whole hand

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "core/base/error.h"
@@ -30,7 +29,7 @@ void JsonField::expect_members(std::initializer_list<std::string_view> required,
   for (const auto& [key, unused] : value_->items()) {
     if (std::ranges::find(required, key) != required.end()) continue;
     if (std::ranges::find(optional, key) != optional.end()) continue;
-    throw Error(where_, path_.empty() ? "document" : path_, "unknown key " + printable(in_quotes(key)),
+    throw Error(where_, path_.empty() ? "document" : path_, "unknown key " + quoted_excerpt(key),
                 fmt::format("{}", fmt::join(required, ", ")));
   }
 }
@@ -38,7 +37,7 @@ void JsonField::expect_members(std::initializer_list<std::string_view> required,
 JsonField JsonField::member(std::string_view key) const {
   expect_object();
   const auto found = value_->find(key);
-  std::string path = path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+  std::string path = path_.empty() ? printable(key) : fmt::format("{}.{}", path_, printable(key));
   if (found == value_->end()) throw Error(where_, path, "nothing", "a value");
   return {*found, where_, std::move(path)};
 }

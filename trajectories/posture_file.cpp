@@ -9,6 +9,7 @@
 #include "core/base/angles.h"
 #include "core/base/check.h"
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
 #include "core/base/parse_json.h"
 #include "trajectories/angle_json.h"

@@ -57,8 +57,4 @@ double number_from(std::string_view cell, double min, double max, const std::str
   return *number;
 }
 
-std::string quoted_excerpt(std::string_view text) {
-  return printable(in_quotes(text));
-}
-
 }  // namespace glovebench::trajectories

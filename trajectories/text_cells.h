@@ -21,7 +21,4 @@ std::optional<double> number_in(std::string_view cell);
 double number_from(std::string_view cell, double min, double max, const std::string& where,
                    const std::string& field);
 
-/// Text from a file in quotes, in a length fit for a one-line message.
-std::string quoted_excerpt(std::string_view text);
-
 }  // namespace glovebench::trajectories

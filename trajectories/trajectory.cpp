@@ -172,7 +172,7 @@ Trajectory load_trajectory(const std::string& path) {
 std::string canonical_text(const Trajectory& trajectory) {
   std::string json = canonical_json(trajectory);
   // Whatever is wrong with a trajectory made in memory is said where it is made, not by a later reader.
-  parse_trajectory(json, "trajectory " + printable(in_quotes(trajectory.name)));
+  parse_trajectory(json, "trajectory " + quoted_excerpt(trajectory.name));
   return json;
 }
 

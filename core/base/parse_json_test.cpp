@@ -36,15 +36,22 @@ TEST(ParseJson, NamesThePlaceOfWhatIsNone) {
     EXPECT_TRUE(refusal(text).ends_with("expected JSON")) << text << ": " << refusal(text);
 }
 
+TEST(ParseJson, EndsWithItsText) {
+  EXPECT_EQ(refusal("[1, \n"), "x.json: column 5: found the end, expected JSON") << "of one line, with its end";
+  EXPECT_EQ(refusal({"[1]\0[2]", 7}), "x.json: column 4: found a zero byte, expected JSON");
+}
+
 TEST(ParseJson, RefusesNumbersThatNoDoubleHolds) {
-  EXPECT_EQ(refusal("[1e400]"), "x.json: number: found one that no double can hold, expected a finite number");
+  EXPECT_EQ(refusal("[1,\n 1e400]"),
+            "x.json: line 2, column 6: found a number that no double can hold, expected a finite number");
 }
 
 TEST(ParseJson, RefusesAKeyTwiceInOneObject) {
   EXPECT_EQ(refusal(R"({"a": 1, "b": {"a": 1}, "a": 1})"),
             "x.json: a: found the key twice, expected each key once");
-  EXPECT_EQ(refusal(R"([{"a": 1}, {"a\n": {"c": 1, "\u0063": 2}}])"),
-            "x.json: c: found the key twice, expected each key once");
+  EXPECT_EQ(refusal(R"([{"a": 1}, {"a\n": [[], {"c": 1, "\u0063": 2}]}])"),
+            "x.json: [1].a?[1].c: found the key twice, expected each key once");
+  EXPECT_EQ(refusal(R"({"": 1, "": 1})"), "x.json: \"\": found the key twice, expected each key once");
 }
 
 TEST(ParseJson, RefusesWhatIsNestedTooDeep) {
@@ -63,10 +70,11 @@ TEST(Excerpt, IsShortAndOnOneLine) {
   EXPECT_EQ(printable("a\nb\x7f\xc3\xa9"), "a?b???");
   EXPECT_EQ(printable(std::string(61, 'x')), std::string(60, 'x').append("..."));
   EXPECT_EQ(excerpt(json("a\n\u00e9")), R"("a\n\u00e9")");
+  EXPECT_EQ(quoted_excerpt("K\xc3\xb6ln"), R"("K\u00f6ln")");
   EXPECT_EQ(excerpt(1.5), "1.5");
   EXPECT_EQ(excerpt(nullptr), "null");
   EXPECT_EQ(excerpt(json("\xff")), R"("\ufffd")") << "no text that was read holds it, but one made of it may";
-  EXPECT_EQ(excerpt(json(std::string(1000, 'x'))).size(), 63U);
+  EXPECT_EQ(excerpt(json(std::string(1000, 'x'))).size(), 65U);
   EXPECT_EQ(excerpt(json::array({1, 2})), "an array of 2");
   EXPECT_EQ(excerpt(json::object()), "an object");
 }

@@ -75,7 +75,8 @@ Eigen::Matrix3d read_rotation(const json& value, const Place& place) {
   for (int row = 0; row < 3; ++row) R.row(row) = read_vector(value[row], place / std::to_string(row));
   const double deviation = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(deviation <= kOrthonormalTolerance) || R.determinant() < 0)
-    throw place.error(excerpt(value), "an orthonormal, right-handed matrix");
+    throw place.error(R.determinant() < 0 ? "a left-handed one" : "one that is off by " + std::to_string(deviation),
+                      "an orthonormal, right-handed matrix");
   return R;
 }
 

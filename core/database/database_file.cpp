@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/hash.h"
+#include "core/base/parse_json.h"
 #include "core/database/field_rows.h"
 #include "core/database/packed_labels.h"
 #include "core/database/tiny_image.h"
@@ -52,7 +54,7 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
   header.side = text.at("side") == "right" ? Side::right : Side::left;
   const std::string memory = text.at("memory");
   const auto known = database_memory_from_string(memory);
-  if (!known) throw Error(path, "memory", '"' + memory + '"', "\"normal\" or \"low\"");
+  if (!known) throw Error(path, "memory", quoted_excerpt(memory), "\"normal\" or \"low\"");
   header.memory = *known;
   header.field_cap_share = text.at("field_cap_share");
   if (!(header.field_cap_share > 0 && header.field_cap_share <= 1)) {
@@ -108,7 +110,7 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
   if (hash_text(text) != checksum) throw Error(path, "header checksum", hash_text(text), checksum);
 
   try {
-    const json parsed = json::parse(text);
+    const json parsed = parse_json(text, path);
     header_ = header_from_json(parsed, path);
     checksums_ = parsed.at("checksums").get<std::vector<std::string>>();
   } catch (const json::exception& e) {

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
@@ -19,7 +23,6 @@ constexpr double kUnitTolerance = 1e-5;  // the four numbers are rounded to 1e-6
 
 constexpr double kLargestNumber = 1e9;  // of any unit: no angle or place, but far from what overflows
 
-/// Of text that may be anything: short, and on one line.
 /// A value in the line and the way to it.
 class Field {
  public:

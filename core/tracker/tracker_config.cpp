@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 
 namespace glovebench {
 namespace {
@@ -71,7 +72,7 @@ void visit_fields(Config& c, Visit&& visit) {
 
 [[noreturn]] void wrong_type(const std::string& where, const std::string& field, const json& found,
                              const std::string& expected) {
-  throw Error(where, field, found.dump(), expected);
+  throw Error(where, field, excerpt(found), expected);
 }
 
 void read(double& value, const json& j, const std::string& where, const std::string& field) {
@@ -164,12 +165,12 @@ void refuse_unknown_keys(const json& j, const std::string& where) {
     return fmt::format("one of {}", fmt::join(names, ", "));
   };
   for (const auto& [section, content] : j.items()) {
-    if (!sections.contains(section)) throw Error(where, section, "an unknown key", listed(sections));
+    if (!sections.contains(section)) throw Error(where, printable(section), "an unknown key", listed(sections));
     if (section == "profile" || section == "method") continue;
     if (!content.is_object()) wrong_type(where, section, content, "an object");
     for (const auto& [key, value] : content.items()) {
       const std::string field = section + "." + key;
-      if (!keys.contains(field)) throw Error(where, field, "an unknown key", listed(keys));
+      if (!keys.contains(field)) throw Error(where, printable(field), "an unknown key", listed(keys));
     }
   }
 }

@@ -98,9 +98,7 @@ void add_calibrate_cameras(CLI::App& calibrate) {
   command->add_option("--rgb", state->rgb, "pictures of the RGB camera: a folder, or fakenect:FOLDER")->required();
   command->add_option("--board", state->board, "inner corners of the chessboard, COLUMNSxROWS")
       ->capture_default_str();
-  command->add_option("--square-mm", state->square_mm, "side of a square, mm")
-      ->check(number_within(1, 1000))
-      ->capture_default_str();
+  command->add_option("--square-mm", state->square_mm, "side of a square, mm")->capture_default_str();
   command->add_option("--lens", state->lens, "distortion to fit: none, radial (k1, k2, k3), full (also p1, p2)")
       ->capture_default_str();
   command

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
 #include "core/base/parse_json.h"
 #include "core/methods/method.h"
@@ -119,7 +120,7 @@ CLI::Validator number_within(double min, double max) {
   return {[=](const std::string& text) -> std::string {
             double value = 0;
             if (CLI::detail::lexical_cast(text, value) && value >= min && value <= max) return {};
-            return fmt::format("found {}, expected a number from {} to {}", text, min, max);
+            return fmt::format("found {}, expected a number from {} to {}", printable(text), min, max);
           },
           fmt::format("FLOAT in [{} - {}]", min, max)};
 }

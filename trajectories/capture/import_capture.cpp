@@ -96,7 +96,7 @@ MarkerSequence parse_capture(std::string_view text, const std::string& format, S
   if (format == "trc") return parse_trc_markers(text, where);
   if (format == "webxr") return parse_webxr_joints(text, where);
   if (format == "handpose") return parse_handpose(text, side, where);
-  throw Error("--format", "name", printable(in_quotes(format)), "csv, trc, webxr or handpose");
+  throw Error("--format", "name", quoted_excerpt(format), "csv, trc, webxr or handpose");
 }
 
 HandFit import_capture(const std::vector<std::string>& paths, const std::string& format, Side side,

@@ -149,7 +149,7 @@ std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, c
                                         const HandModel& model, const std::string& where) {
   for (const auto& [name, place] : layout) {
     if (std::ranges::find(names, name) == names.end()) {
-      throw Error(where, "points", "none named " + printable(in_quotes(name)), "all points of the layout");
+      throw Error(where, "points", "none named " + quoted_excerpt(name), "all points of the layout");
     }
   }
   std::vector<PlacedMarker> markers;
@@ -158,7 +158,7 @@ std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, c
     const auto named = layout.find(name);
     std::optional<PlacedMarker> marker = place_marker(named == layout.end() ? name : named->second, model);
     if (!marker) {
-      throw Error(where, "point", printable(in_quotes(name)),
+      throw Error(where, "point", quoted_excerpt(name),
                   "a place on the hand (trajectories/README.md) or a layout that says it");
     }
     marker->name = name;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "trajectories/capture/marker_cells.h"
 #include "trajectories/json_field.h"
 #include "trajectories/text_cells.h"

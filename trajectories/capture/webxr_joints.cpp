@@ -41,8 +41,7 @@ MarkerFrame frame_from(const JsonField& field) {
   const JsonField joints = field.member("joints_m");
   joints.expect_object();
   for (const auto& [name, value] : joints.value().items()) {
-    if (!is_webxr_joint(name))
-      joints.member(name).fail(printable(in_quotes(name)), "the name of a WebXR hand joint");
+    if (!is_webxr_joint(name)) joints.member(name).fail(quoted_excerpt(name), "the name of a WebXR hand joint");
     frame.points[static_cast<size_t>(joint_index(name))] = position_from(joints.member(name));
   }
   return frame;

@@ -18,6 +18,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/parse_json.h"
 
 namespace glovebench {
 namespace {
@@ -38,8 +39,10 @@ nlohmann::json last_state_line(std::string_view log) {
     const size_t begin = before == std::string_view::npos ? 0 : before + 1;
     const std::string_view line = log.substr(begin, end - begin);
     if (line.starts_with(kState)) {
-      nlohmann::json state = nlohmann::json::parse(line, nullptr, false);
-      if (!state.is_discarded()) return state;
+      try {
+        return parse_json(line, "log");
+      } catch (const Error&) {  // a kill may have cut it
+      }
     }
     end = before;
   }
