@@ -15,7 +15,6 @@
 #include "bench/bench_data.h"
 #include "bench/scale/process_memory.h"
 #include "bench/scale/random_postures.h"
-#include "bench/scale/repeated_database.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/quantile.h"
@@ -32,7 +31,6 @@ constexpr int kMostEntriesChecked = 80'000;  ///< of a database whose matches ar
 
 struct Options {
   std::vector<int> postures;
-  int repeat = 0;  ///< times; 0: not
   bool normal_memory = false, keep = false;
   std::string folder = std::filesystem::temp_directory_path(), cache, output;
   std::string cascade = "exact:3";
@@ -153,30 +151,18 @@ ordered_json use(const std::string& path, const Options& options) {
   return result;
 }
 
-/// One database, and if asked for the same one repeated.
-std::vector<ordered_json> measure(int count, const Options& options) {
+/// One database.
+ordered_json measure(int count, const Options& options) {
   const DatabaseMemory memory = options.normal_memory ? DatabaseMemory::normal : DatabaseMemory::low;
   const std::string path = fmt::format("{}/scale-{}-{}.glovedb", options.folder, count, to_string(memory));
-  std::vector<ordered_json> results;
-  const auto note = [&](int postures, const char* views, const ordered_json& building, const ordered_json& used) {
-    results.push_back({{"postures", postures},
-                       {"views", views},
-                       {"memory", to_string(memory)},
-                       {"cascade", options.cascade},
-                       {"build", building}});
-    results.back().update(used);
-  };
-  const ordered_json building =
-      std::filesystem::exists(path) ? ordered_json() : build(path, count, options, memory);
-  note(count, "rendered", building, use(path, options));
-  if (options.repeat > 1) {
-    const std::string repeated = path + "-repeated";
-    repeat_database(path, options.repeat, repeated);
-    note(count * options.repeat, "repeated", nullptr, use(repeated, options));
-    std::filesystem::remove(repeated);
-  }
+  ordered_json result = {
+      {"postures", count},
+      {"memory", to_string(memory)},
+      {"cascade", options.cascade},
+      {"build", std::filesystem::exists(path) ? ordered_json() : build(path, count, options, memory)}};
+  result.update(use(path, options));
   if (!options.keep) std::filesystem::remove(path);
-  return results;
+  return result;
 }
 
 /// A row of the table, and what each column is headed.
@@ -190,7 +176,6 @@ std::vector<std::pair<const char*, std::string>> row_of(const ordered_json& r) {
   };
   return {{"postures", r["postures"].dump()},
           {"million entries", fmt::format("{:.3f}", r["entries"].get<double>() / 1e6)},
-          {"views", r["views"]},
           {"memory", r["memory"]},
           {"bytes an entry", fmt::format("{:.0f}", r["entry_bytes"].get<double>())},
           {"file GB", fmt::format("{:.2f}", r["file_bytes"].get<double>() / 1e9)},
@@ -227,7 +212,7 @@ void run(const Options& options) {
   prepare({.cache_folder = options.cache, .database = "DB_open_pinch"});
   ordered_json results = ordered_json::array();
   for (const int count : options.postures) {
-    for (const ordered_json& result : measure(count, options)) results.push_back(result);
+    results.push_back(measure(count, options));
     if (!options.output.empty()) write_file(options.output, results.dump(1) + "\n");
   }
   fmt::print("{}", table_of(results));
@@ -245,8 +230,6 @@ int main(int argc, char** argv) {
   program.add_option("postures", options.postures, "how many, for each database")
       ->required()
       ->check(CLI::Range(1, 200'000));
-  program.add_option("--repeat", options.repeat,
-                     "measures each database also with its postures so many times over");
   program.add_flag("--normal-memory", options.normal_memory, "databases that store their distance fields");
   program.add_flag("--keep", options.keep, "keeps the databases, and takes what an earlier run kept");
   program.add_option("--cascade", options.cascade, "stages of 64 px")->capture_default_str();
