@@ -25,22 +25,6 @@ std::string place_of(std::string_view text, size_t byte) {
   return fmt::format("line {}, {}", std::ranges::count(before, '\n') + 1, column);
 }
 
-/// Before anything is parsed: what holds each level would take memory for as many levels as there are bytes.
-void check_nesting(std::string_view text, const std::string& where) {
-  int depth = 0;
-  bool in_text = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_text && c == '\\') ++i;
-    if (c == '"') in_text = !in_text;
-    if (in_text) continue;
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') --depth;
-    if (depth > kDeepestNesting)
-      throw Error(where, place_of(text, i + 1), "deeper nesting", fmt::format("{} levels", kDeepestNesting));
-  }
-}
-
 /// Follows the library through a text and throws Error for what is no JSON, and for a key that comes twice, of
 /// which the library would keep the last: who wrote the file by hand deserves to hear of it.
 class StrictText : public json::json_sax_t {
@@ -84,6 +68,8 @@ class StrictText : public json::json_sax_t {
   }
   bool begin(bool is_object) {
     value();
+    if (levels_.size() == kDeepestNesting)
+      throw Error(where_, "nesting", "deeper nesting", fmt::format("{} levels", kDeepestNesting));
     levels_.push_back({.is_object = is_object, .key = {}, .keys = {}});
     return true;
   }
@@ -113,7 +99,6 @@ json parse_json(std::string_view text, const std::string& where) {
   // The library would take it for the end.
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
     throw Error(where, place_of(text, zero + 1), "a zero byte", "JSON");
-  check_nesting(text, where);
   StrictText strict(text, where);
   json::sax_parse(text, &strict);
   return json::parse(text);

@@ -112,7 +112,7 @@ TEST(SpeedRatios, refuse_what_is_no_benchmark_file) {
   EXPECT_THAT(error_of("[]"), HasSubstr("expected an object"));
   EXPECT_THAT(error_of("{}"), HasSubstr("benchmarks: found nothing"));
   EXPECT_THAT(error_of("{\"benchmarks\": []}"), HasSubstr("found no pair"));
-  EXPECT_THAT(error_of(std::string(100'000, '[')), HasSubstr("bench.json: column"));
+  EXPECT_THAT(error_of(std::string(100'000, '[')), HasSubstr("bench.json: nesting"));
   EXPECT_THAT(error_of_change([](json& runs) { runs[0]["time_unit"] = "h"; }),
               HasSubstr("benchmarks[0].time_unit: found \"h\""));
   EXPECT_THAT(error_of_change([](json& runs) { runs[0]["run_type"] = "guess"; }), HasSubstr("run_type"));
