@@ -135,7 +135,8 @@ TEST(HostileResults, FramesThatDoNotFollowEachOther) {
 }
 
 TEST(HostileResults, NamesThatLeadOutOfTheFolder) {
-  for (const char* name : {"../../Tr4", "/Tr4", "..", "", "Tr4\n", "a\x7f"}) {
+  for (const char* name :
+       {"../../Tr4", "/Tr4", "..", "", "Tr4\n", "a\x7f", "=Tr4", "x/../../../escaped/evil", ".hidden"}) {
     EXPECT_THAT(error_of_change([&](json& r) { r["experiments"][0]["trajectory"] = name; }),
                 HasSubstr("trajectory"));
     EXPECT_THAT(error_of_change([&](json& r) { r["experiments"][0]["database"] = name; }), HasSubstr("database"));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/file.h"
+#include "core/base/name.h"
 #include "core/base/parse_json.h"
 #include "reports/commands_json.h"
 #include "reports/json_reader.h"
@@ -32,12 +33,10 @@ TrackStatus read_status(const JsonReader& json) {
   return *status;
 }
 
-/// Names of experiments become names of files: nothing that leads out of a folder.
+/// Names of experiments become names of files, that of a suite the name of its baseline's folder.
 std::string read_name(const JsonReader& json) {
   const std::string name = json.text();
-  const bool is_safe = !name.empty() && name.size() <= 200 && name.front() != '.' &&
-                       std::ranges::none_of(name, [](unsigned char c) { return c == '/' || c < ' ' || c == 127; });
-  if (!is_safe) json.fail("a name that can be a file's");
+  if (!is_name(name)) json.fail(kNameExpected);
   return name;
 }
 
@@ -222,7 +221,7 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   RunResult result;
   result.protocol = read_protocol(json["protocol"]);
   result.inputs = read_inputs(json["inputs"]);
-  if (!json["suite"].is_null()) result.suite = json["suite"].text();
+  if (!json["suite"].is_null()) result.suite = read_name(json["suite"]);
   result.program_version = json["program"]["version"].text();
   result.commit = json["program"]["commit"].text();
   result.configuration = json["configuration"].object();

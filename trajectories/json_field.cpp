@@ -104,16 +104,6 @@ void JsonField::fail(const std::string& found, const std::string& expected) cons
   throw Error(where_, path_.empty() ? "document" : path_, found, expected);
 }
 
-bool is_name(std::string_view text) {
-  constexpr size_t longest = 64;
-  const auto is_alphanumeric = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
-  if (text.empty() || text.size() > longest || !is_alphanumeric(text.front())) return false;
-  return std::ranges::all_of(
-      text, [&](char c) { return is_alphanumeric(c) || c == '_' || c == '-' || c == '.' || c == ' '; });
-}
-
 std::string fixed(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
   // Adding zero turns a negative zero into a positive one.

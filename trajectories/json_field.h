@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/name.h"
+
 namespace glovebench::trajectories {
 
 /// A value of a JSON document that knows where it stands, so that every complaint names file and field
@@ -34,7 +36,7 @@ class JsonField {
   void expect_text(std::string_view expected) const;
   /// Of an object: its "format" and "version".
   void expect_format(std::string_view format, int64_t version) const;
-  /// A name fit for a file or a table cell (see is_name).
+  /// A name fit for a file or a table cell (core/base/name.h).
   std::string name() const;
 
   const nlohmann::json& value() const { return *value_; }
@@ -50,11 +52,6 @@ class JsonField {
   std::string where_;
   std::string path_;
 };
-
-/// 1 to 64 letters, digits, '_', '-', '.' or spaces, beginning with a letter or digit.
-bool is_name(std::string_view text);
-inline constexpr const char* kNameExpected =
-    "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
 
 /// `value` with a fixed number of decimals; the same on every machine, never "-0.000".
 std::string fixed(double value, int decimals);

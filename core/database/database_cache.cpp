@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/name.h"
 
 namespace glovebench {
 namespace {
@@ -63,8 +64,8 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
 
 std::string DatabaseCache::path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const {
   const std::string hash = Database::input_hash(postures, model, views);
-  return fmt::format("{}/{}-{}{}.glovedb", folder, postures.name, hash.substr(0, 16),
-                     memory == DatabaseMemory::low ? "-low" : "");
+  return path_within(folder, fmt::format("{}-{}{}.glovedb", postures.name, hash.substr(0, 16),
+                                         memory == DatabaseMemory::low ? "-low" : ""));
 }
 
 }  // namespace glovebench

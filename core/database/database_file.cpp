@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
 #include "core/base/hash.h"
+#include "core/base/name.h"
 #include "core/base/parse_json.h"
 #include "core/database/field_rows.h"
 #include "core/database/packed_labels.h"
@@ -49,7 +50,7 @@ json postures_to_json(const PostureSet& set) {
 /// `seal` does not write is for the caller to find.
 DatabaseHeader header_from_json(const json& text, const std::string& path) {
   DatabaseHeader header;
-  header.postures.name = text.at("name");
+  header.postures.name = checked_name(text.at("name"), path, "name");
   header.hash = text.at("hash");
   header.side = text.at("side") == "right" ? Side::right : Side::left;
   const std::string memory = text.at("memory");
@@ -61,7 +62,7 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
     throw Error(path, "field_cap_share", fmt::format("{}", header.field_cap_share), "(0, 1]");
   }
   for (const json& posture : text.at("postures")) {
-    header.postures.posture_names.push_back(posture.at("name"));
+    header.postures.posture_names.push_back(checked_name(posture.at("name"), path, "name of a posture"));
     const std::vector<double> angles = posture.at("angles_rad");
     if (angles.size() != kAngleCount) {
       throw Error(path, "angles_rad", fmt::format("{} angles", angles.size()), fmt::format("{}", kAngleCount));

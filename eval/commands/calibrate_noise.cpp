@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/name.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
 #include "eval/program_info.h"
@@ -34,7 +35,7 @@ struct CalibrateNoise {
       for (const std::string& suite : suites) floors.push_back(measure_suite(load_suite(suite)));
     }
     for (const reports::NoiseFloor& floor : floors) {
-      const std::string path = fmt::format("{}/{}/noise_floor.json", common.output, floor.suite);
+      const std::string path = path_within(common.output, floor.suite + "/noise_floor.json");
       write_file(path, reports::noise_floor_json(floor));
       fmt::print("{}: {} seeds, for results of {} seeds\n", path, floor.seeds, floor.seeds_per_result);
     }

@@ -35,7 +35,7 @@ struct ImportMarkers {
     }
     if (!output.ends_with(".json")) throw Error("--output", "file name", output, "the ending .json");
     const std::string name = std::filesystem::path(output).stem().string();
-    if (!trajectories::is_name(name)) throw Error("--output", "file name", name, trajectories::kNameExpected);
+    if (!is_name(name)) throw Error("--output", "file name", name, kNameExpected);
     const trajectories::CapturePlacement placement{side, T_capture_camera()};
     const trajectories::MarkerLayout markers = layout.empty()
                                                    ? trajectories::MarkerLayout{}

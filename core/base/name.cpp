@@ -1,0 +1,43 @@
+#include "core/base/name.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "core/base/excerpt.h"
+
+namespace glovebench {
+namespace {
+
+bool is_part_of_path(std::string_view part) {
+  const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
+  return !part.empty() && part.front() != '.' && std::ranges::none_of(part, is_control);
+}
+
+}  // namespace
+
+bool is_name(std::string_view text) {
+  constexpr size_t longest = 64;
+  const auto is_alphanumeric = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  if (text.empty() || text.size() > longest || !is_alphanumeric(text.front())) return false;
+  return std::ranges::all_of(
+      text, [&](char c) { return is_alphanumeric(c) || c == '_' || c == '-' || c == '.' || c == ' '; });
+}
+
+std::string checked_name(std::string name, const std::string& where, const std::string& field) {
+  if (!is_name(name)) throw Error(where, field, quoted_excerpt(name), kNameExpected);
+  return name;
+}
+
+std::string path_within(const std::string& folder, std::string_view name) {
+  for (size_t begin = 0; begin <= name.size();) {
+    const size_t end = std::min(name.find('/', begin), name.size());
+    if (!is_part_of_path(name.substr(begin, end - begin)))
+      throw Error(folder, "file name", quoted_excerpt(name), "a name that stays in the folder");
+    begin = end + 1;
+  }
+  return folder + "/" + std::string(name);
+}
+
+}  // namespace glovebench

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace glovebench {
+
+/// The rule for every name that comes from a file and may become part of a path: 1 to 64 letters, digits, '_', '-',
+/// '.' or spaces, beginning with a letter or digit. Such a name leads out of no folder and is not hidden in it.
+bool is_name(std::string_view text);
+inline constexpr const char* kNameExpected =
+    "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
+
+/// The name itself. Throws Error naming `where` and `field` unless it is one.
+std::string checked_name(std::string name, const std::string& where, const std::string& field);
+
+/// "FOLDER/NAME", for writers: whatever a name is made of, the path stays in the folder. The name may have folders
+/// of its own ("tables/figure4.csv"). Throws Error if it is absolute, or a part of it is empty, begins with a dot
+/// or holds a control character.
+std::string path_within(const std::string& folder, std::string_view name);
+
+}  // namespace glovebench
