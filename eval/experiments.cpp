@@ -11,6 +11,7 @@
 #include "core/base/check.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/name.h"
 #include "core/robot/json_lines_sink.h"
 #include "eval/page_material.h"
 #include "eval/program_info.h"
@@ -148,9 +149,9 @@ class Robot {
   }
 
   void write(const CommandStream& stream, const std::string& name) const {
-    JsonLinesSink sink(output_.folder + "/" + name);
-    for (const RobotCommand& command : stream.commands) sink.send(command);
-    sink.finish();
+    std::string lines;
+    for (const RobotCommand& command : stream.commands) lines += to_json_line(command) + "\n";
+    write_file(path_within(output_.folder, name), lines);
   }
 
   /// Databases, noises and seeds share a truth.

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/base/file.h"
@@ -67,12 +69,79 @@ TEST_F(TrackLong, FullDiskKeepsTheOlderCommands) {
   expect_fine(track("dump", "DB_open_power", "whole.jsonl", {"--robot-out", path("whole_robot.jsonl")}));
   ProgramSetting full;
   full.max_file_bytes = fs::file_size(path("whole_robot.jsonl")) - 100;
-  EXPECT_THAT(
-      refusal(run_glovebench({"track", "--source", "fakenect:" + path("dump"), "--database", "DB_open_power", "-o",
-                              path("estimates.jsonl"), "--robot-out", path("robot.jsonl")},
-                             full)),
-      HasSubstr("room"));
+  const std::vector<std::string> command = {"track",
+                                            "--source",
+                                            "fakenect:" + path("dump"),
+                                            "--database",
+                                            "DB_open_power",
+                                            "-o",
+                                            path("estimates.jsonl"),
+                                            "--robot-out",
+                                            path("robot.jsonl")};
+  EXPECT_THAT(refusal(run_glovebench(command, full)),
+              AllOf(HasSubstr("robot.jsonl: file: found File too large, expected room"),
+                    HasSubstr("kept: 3 lines in " + path("robot.jsonl.partial")),
+                    HasSubstr("kept: 3 lines in " + path("estimates.jsonl.partial"))));
   EXPECT_EQ(read_file(path("robot.jsonl")), "older") << "not the first half of the new ones";
+  EXPECT_FALSE(fs::exists(path("estimates.jsonl")));
+  const std::string commands = read_file(path("robot.jsonl.partial")), whole = read_file(path("whole_robot.jsonl"));
+  EXPECT_EQ(commands, whole.substr(0, commands.size()));
+  EXPECT_TRUE(commands.ends_with("\n"));
+
+  full.max_file_bytes = fs::file_size(path("whole.jsonl")) - 100;  // the estimates are the shorter lines
+  std::vector<std::string> estimates_only = command;
+  estimates_only.resize(7);
+  EXPECT_THAT(refusal(run_glovebench(estimates_only, full)),
+              AllOf(HasSubstr("estimates.jsonl: file: found File too large"),
+                    HasSubstr("kept: 3 lines in " + path("estimates.jsonl.partial-2"))));
+  const std::string estimates = read_file(path("estimates.jsonl.partial-2"));
+  EXPECT_EQ(estimates, read_file(path("estimates.jsonl.partial")));
+  EXPECT_EQ(estimates, read_file(path("whole.jsonl")).substr(0, estimates.size()));
+}
+
+TEST_F(TrackLong, WritesThroughDevicesAndPipesAndToStandardOutput) {
+  render_recording("good.json", "dump");
+  expect_fine(track("dump", "DB_open_power", "whole.jsonl"));
+  const std::string whole = read_file(path("whole.jsonl"));
+  const auto track_to = [&](const std::string& output) {
+    return run_glovebench(
+        {"track", "--source", "fakenect:" + path("dump"), "--database", "DB_open_power", "-o", output});
+  };
+  for (const char* output : {"-", "/dev/stdout"}) {
+    const ProgramRun piped = track_to(output);
+    EXPECT_EQ(piped.exit_code, 0);
+    EXPECT_EQ(piped.out, whole) << "the estimates and nothing else";
+    EXPECT_THAT(piped.err, HasSubstr("4 of 4 frames tracked"));
+  }
+  expect_fine(track_to("/dev/null"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_THAT(refusal(track_to("/dev/full")), HasSubstr("/dev/full: file: found No space left on device"));
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+
+  write_file(path("target.jsonl"), "older");
+  fs::permissions(path("target.jsonl"), fs::perms(0600));
+  fs::create_symlink("target.jsonl", path("link.jsonl"));
+  expect_fine(track_to(path("link.jsonl")));
+  EXPECT_TRUE(fs::is_symlink(path("link.jsonl")));
+  EXPECT_EQ(read_file(path("target.jsonl")), whole);
+  EXPECT_EQ(fs::status(path("target.jsonl")).permissions(), fs::perms(0600));
+}
+
+TEST_F(TrackLong, KilledKeepsItsLines) {
+  write_file(path("long.json"), make_trajectory_json("long", 40).dump());
+  render_recording("long.json", "dump");
+  const StartedProgram started = start_glovebench({"track", "--source", "fakenect:" + path("dump"), "--database",
+                                                   "DB_open_power", "-o", path("estimates.jsonl")});
+  const std::string partial = path("estimates.jsonl.partial");
+  std::error_code none_yet;
+  while (fs::file_size(partial, none_yet) < 100 || none_yet)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ::kill(started.process, SIGKILL);
+  EXPECT_EQ(finish_program(started).exit_code, -1);
+  const std::string lines = read_file(partial);
+  EXPECT_EQ(json::parse(lines.substr(0, lines.find('\n'))).at("frame"), 0);
+  EXPECT_TRUE(lines.ends_with("\n"));
+  EXPECT_FALSE(fs::exists(path("estimates.jsonl")));
 }
 
 TEST_F(TrackLong, TakesACalibrationOfItsOwn) {

@@ -80,11 +80,7 @@ std::string to_json_line(const RobotCommand& command) {
 }
 
 void JsonLinesSink::send(const RobotCommand& command) {
-  file_.append(to_json_line(command) + "\n");
-}
-
-void JsonLinesSink::finish() {
-  file_.commit();
+  file_.append(to_json_line(command));
 }
 
 }  // namespace glovebench

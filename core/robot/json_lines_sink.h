@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/base/file.h"
+#include "core/base/line_file.h"
 #include "core/robot/robot_command.h"
 
 namespace glovebench {
@@ -11,16 +11,18 @@ namespace glovebench {
 /// Numbers are rounded to 1e-6 of their unit, so equal commands are equal bytes. Throws Error if one is not finite.
 std::string to_json_line(const RobotCommand& command);
 
-/// Writes commands as JSON Lines, each as it comes, to a temporary file: the file itself appears whole at `finish`,
-/// or not at all. Every function throws Error if the disk has no room.
+/// Writes commands as JSON Lines, each as it comes, as LineFile does: `finish` gives the file its name, and without
+/// it the lines stay in PATH.partial. Every function throws Error if the disk has no room.
 class JsonLinesSink : public RobotCommandSink {
  public:
   explicit JsonLinesSink(const std::string& path) : file_(path) {}
   void send(const RobotCommand& command) override;
-  void finish() override;
+  void finish() override { file_.finish(); }
+  /// Lines that are not under the file's own name, and where they are; empty if there are none.
+  std::string kept() const { return file_.kept(); }
 
  private:
-  WholeFile file_;
+  LineFile file_;
 };
 
 }  // namespace glovebench

@@ -3,7 +3,6 @@
 #include <charconv>
 
 #include "core/base/error.h"
-#include "core/robot/json_lines_sink.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/robot/dds/dds_sink.h"
 #endif
@@ -56,9 +55,9 @@ void RobotOutputs::send(const RobotCommand& command, int64_t arrived_us) {
   if (file_) file_->send(command);
 }
 
-void RobotOutputs::finish() {
+void RobotOutputs::finish(bool whole) {
   if (stream_) stream_->finish();
-  if (file_) file_->finish();
+  if (file_ && whole) file_->finish();
 }
 
 }  // namespace glovebench::eval

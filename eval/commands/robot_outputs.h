@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "core/robot/robot_command.h"
+#include "core/robot/json_lines_sink.h"
 
 namespace glovebench::eval {
 
@@ -22,12 +22,15 @@ class RobotOutputs {
   bool any() const { return file_ || stream_; }
   /// `arrived_us`: when the frame was there, microseconds since 1970. Throws Error.
   void send(const RobotCommand& command, int64_t arrived_us);
-  /// Throws Error.
-  void finish();
+  /// No more commands follow. The file gets its name if the session is `whole`; else its lines stay where `kept`
+  /// says, and an older file stays. Throws Error.
+  void finish(bool whole = true);
+  /// Lines that are not under the file's own name, and where they are; empty if there are none.
+  std::string kept() const { return file_ ? file_->kept() : ""; }
 
  private:
   class Stream;
-  std::unique_ptr<RobotCommandSink> file_;
+  std::unique_ptr<JsonLinesSink> file_;
   std::unique_ptr<Stream> stream_;
 };
 

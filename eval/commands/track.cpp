@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/line_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_guard.h"
 #include "core/tracker/estimate_line.h"
@@ -60,7 +60,7 @@ struct Track {
   // Of the run.
   int frames = 0, unusable = 0, tracked = 0;
   std::optional<Error> failure;  ///< of the device, or of a command
-  bool all_sent = true;          ///< no command failed
+  bool is_whole = true;          ///< no command failed, and every line was written
 
   void run() {
     const std::shared_ptr<const ColorTable> own_colors =
@@ -75,22 +75,21 @@ struct Track {
         find_method(config.method)
             .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
-    WholeFile output(common.output);
+    LineFile output(common.output);
     const Interruption interruption;
     RobotCommander commander(robot.setup(workbench));
     track_all(source, *method, output, [&](const TrackResult& result) {
       if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
     });
     if (frames == unusable) refuse();
-    output.commit();
-    if (all_sent) outputs.finish();
-    fmt::print("{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames, counted(unusable, "unusable"),
-               counted(source.dropped(), "dropped"));
+    finish(output, outputs);
+    fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
+               counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) fmt::print(stderr, "glovebench: {}\n", source.ended_by());
   }
 
-  void track_all(TrackSource& source, Method& method, WholeFile& output,
+  void track_all(TrackSource& source, Method& method, LineFile& output,
                  const std::function<void(const TrackResult&)>& command_robot) {
     Progress progress("tracking", common.quiet);
     StatusLine status(common.quiet || source.frame_count > 0);
@@ -101,7 +100,7 @@ struct Track {
       if (frame) {
         const TrackResult result = method.track(*frame);
         command_robot(result);
-        output.append(estimate_line(number, result) + "\n");
+        if_it_fails([&] { output.append(estimate_line(number, result)); });
         tracked += result.status == TrackStatus::tracked;
         status.show(result, source.dropped());
       }
@@ -111,13 +110,39 @@ struct Track {
 
   void command(const TrackResult& result, RobotCommander& commander, CommandGuard& guard, int64_t arrived_us,
                RobotOutputs& outputs) {
-    try {
+    if_it_fails([&] {
       if (const std::optional<RobotCommand> safe = guard.guard(commander.command(result)))
         outputs.send(*safe, arrived_us);
+    });
+  }
+
+  /// A session whose device failed is as long as it is, and its files get their names. One that lost a line
+  /// replaces no older file: what there is of it stays beside, and the message says where.
+  void finish(LineFile& output, RobotOutputs& outputs) {
+    if_it_fails([&] { outputs.finish(is_whole); });
+    if (is_whole) if_it_fails([&] { output.finish(); });
+    if (is_whole) return;
+    std::string message = failure->what();
+    for (const std::string& lines : {output.kept(), outputs.kept()})
+      if (message.find(lines) == std::string::npos) message += "; kept: " + lines;
+    throw Error(message);
+  }
+
+  /// Notes an error of an output, which ends the session.
+  void if_it_fails(const std::function<void()>& write) {
+    try {
+      write();
     } catch (const Error& e) {
-      failure = e;
-      all_sent = false;
+      if (is_whole) failure = e;
+      is_whole = false;
     }
+  }
+
+  /// Where the summary goes: not among the lines.
+  std::FILE* messages() const {
+    for (const std::string& path : {common.output, robot.output})
+      if (!path.empty() && find_output(path).descriptor == STDOUT_FILENO) return stderr;
+    return stdout;
   }
 
   /// Counts the frame, if there is one, also if it is unusable: then there is nothing to return.
@@ -169,7 +194,8 @@ void add_track(CLI::App& program) {
       ->required();
   command->add_option("--colors", state->colors,
                       "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
-  state->common.add_output(*command, "estimates to write, one line of JSON a frame (*.jsonl)", true);
+  state->common.add_output(*command,
+                           "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)", true);
   state->robot.add(*command, "robot commands to write (*.jsonl)");
   command->add_option("--robot", state->middleware, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
   command->add_flag("--left", state->common.left, "a left hand");

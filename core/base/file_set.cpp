@@ -1,0 +1,163 @@
+#include "core/base/file_set.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+#include "core/base/check.h"
+#include "core/base/file.h"
+#include "core/base/hash.h"
+#include "core/base/name.h"
+#include "core/base/output_target.h"
+#include "core/base/staged_files.h"
+
+namespace glovebench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The manifest that is replaced, in the staging folder: it names what has to be removed.
+constexpr const char* kOlder = ".older-manifest";
+
+bool is_file(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(fs::symlink_status(path, ignored));
+}
+bool is_content(const std::string& path, const ManifestEntry& file) {
+  std::error_code error;
+  return is_file(path) && fs::file_size(path, error) == file.bytes && !error && hash_file(path) == file.hash;
+}
+
+/// Throws Error if something is in the place of a new file that the file could not replace.
+std::optional<struct stat> file_in_place(const std::string& path) {
+  struct stat found {};
+  if (::lstat(path.c_str(), &found) != 0) return std::nullopt;
+  if (!S_ISREG(found.st_mode)) {
+    throw Error(path, "file",
+                S_ISDIR(found.st_mode)   ? "a folder"
+                : S_ISLNK(found.st_mode) ? "a link"
+                                         : "a device",
+                "a regular file, or nothing");
+  }
+  return found;
+}
+
+std::set<std::string> folders_of(const std::string& folder, const std::vector<ManifestEntry>& files) {
+  std::set<std::string> folders = {folder};
+  for (const ManifestEntry& file : files) folders.insert(folder_above(folder + "/" + file.name));
+  return folders;
+}
+
+/// The files of a manifest; none if there is none, or it is damaged: a new set takes the place of that one.
+std::vector<ManifestEntry> files_of(const std::string& manifest) {
+  try {
+    if (is_file(manifest)) return parse_manifest(read_file(manifest), manifest);
+  } catch (const Error&) {
+  }
+  return {};
+}
+
+}  // namespace
+
+void put_in_place(const std::string& folder) {
+  const std::string staged = staged_folder(folder);
+  std::error_code error;
+  if (!fs::exists(staged, error)) return;
+  const std::vector<ManifestEntry> files = files_of(folder + "/" + kManifest);
+  for (const ManifestEntry& file : files) {
+    const std::string place = path_within(folder, file.name), from = staged_path(folder, file.name);
+    if (!is_content(from, file) || is_content(place, file)) continue;
+    make_folders(folder_above(place));
+    if (std::rename(from.c_str(), place.c_str()) != 0)
+      throw Error(place, "file", std::strerror(errno), "a file that can be replaced");
+  }
+  for (const ManifestEntry& old : files_of(staged + "/" + kOlder)) {
+    const bool is_kept = std::ranges::find(files, old.name, &ManifestEntry::name) != files.end();
+    if (!is_kept && is_content(path_within(folder, old.name), old)) fs::remove(folder + "/" + old.name, error);
+  }
+  for (const std::string& changed : folders_of(folder, files)) sync_folder(changed);
+  fs::remove_all(staged, error);
+  if (error) throw Error(staged, "folder", error.message(), "one that can be removed");
+}
+
+FolderLock::FolderLock(const std::string& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+WholeFiles::WholeFiles(const std::string& folder) : folder_((make_folders(folder), folder)), lock_(folder) {
+  put_in_place(folder_);
+  remove_leftovers(folder_, [](const std::string& name) { return name == kManifest; });
+}
+
+WholeFiles::~WholeFiles() {
+  std::error_code ignored;
+  if (!is_committed_) fs::remove_all(staged_folder(folder_), ignored);
+}
+
+void WholeFiles::add(const std::string& name, std::string_view content) {
+  check(name != kManifest && std::ranges::find(files_, name, &ManifestEntry::name) == files_.end(),
+        "a set holds each name once, beside the manifest");
+  const std::optional<struct stat> older = file_in_place(path_within(folder_, name));
+  const std::string path = staged_path(folder_, name);
+  make_folders(folder_above(path));
+  const int descriptor = create_like(older, path);
+  int error = descriptor < 0 ? errno : write_all(descriptor, content);
+  if (error == 0 && ::fsync(descriptor) != 0) error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (error != 0) throw Error(folder_ + "/" + name, "file", std::strerror(error), "room to write it whole");
+  files_.push_back({name, content.size(), hash_text(std::string(content))});
+}
+
+void WholeFiles::keep(const std::string& name) {
+  if (is_file(path_within(folder_, name))) kept_.push_back(name);
+}
+
+std::vector<std::string> WholeFiles::names() const {
+  std::vector<std::string> names;
+  for (const ManifestEntry& file : files_) names.push_back(file.name);
+  return names;
+}
+
+void WholeFiles::commit() {
+  std::vector<ManifestEntry> files = files_;
+  for (const std::string& name : kept_) {
+    const std::string path = path_within(folder_, name);
+    files.push_back({name, fs::file_size(path), hash_file(path)});
+  }
+  const std::string staged = staged_folder(folder_), manifest = folder_ + "/" + kManifest;
+  make_folders(staged);
+  // Before the manifest: afterwards an error could only be reported.
+  for (const std::string& needed : folders_of(folder_, files)) make_folders(needed);
+  write_file(staged + "/" + kOlder, manifest_json(files_of(manifest)));
+  for (const std::string& made : folders_of(staged, files_)) sync_folder(made);
+  sync_folder(folder_);
+  WholeFile file(manifest);
+  file.append(manifest_json(files));
+  is_committed_ = true;  // whatever fails from here on, the staged files may be the set
+  file.commit();
+  put_in_place(folder_);
+}
+
+void remove_set(const std::string& folder) {
+  std::error_code ignored;
+  const FolderLock lock(folder);
+  const std::string manifest = folder + "/" + kManifest;
+  const std::vector<ManifestEntry> files = files_of(manifest);
+  fs::remove(manifest, ignored);
+  for (const ManifestEntry& file : files) fs::remove(path_within(folder, file.name), ignored);
+  fs::remove_all(staged_folder(folder), ignored);
+}
+
+}  // namespace glovebench

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+
+// Files of one folder that belong together: a run's report, a comparison, a baseline. `manifest.json` in the folder
+// names each file, its size and its hash, and says which set is the current one:
+//
+//   1. The new files are written and synced in FOLDER/.staged/. The manifest is the old one: the set is the old
+//   one.
+//   2. The new manifest replaces the old one, by a rename. From here on the set is the new one.
+//   3. The files move from .staged to their places; files of the old set that the new one lacks are removed.
+//
+// A reader takes a file from its place if its hash is the manifest's, else from .staged. So it reads all of the old
+// set or all of the new one, wherever a kill or a power failure ended the writer; the next writer first finishes
+// step 3. A folder without a manifest is older than manifests or was made by hand: its files are read as they are.
+
+inline constexpr const char* kManifest = "manifest.json";
+
+/// A file is missing or has another content than the manifest says: it was changed, or it is damaged.
+class BrokenSet : public Error {
+ public:
+  using Error::Error;
+};
+
+struct ManifestEntry {
+  std::string name;  ///< its path in the folder
+  uint64_t bytes = 0;
+  std::string hash;  ///< core/base/hash.h
+};
+std::string manifest_json(const std::vector<ManifestEntry>& files);
+/// Throws Error. A name that leads out of the folder is one.
+std::vector<ManifestEntry> parse_manifest(const std::string& text, const std::string& where);
+/// None if the folder has no manifest. Throws Error if it cannot be read.
+std::optional<std::vector<ManifestEntry>> read_manifest(const std::string& folder);
+
+/// A set to read. All reads through one object are of one set.
+class FileSet {
+ public:
+  /// Throws Error if there is a manifest that cannot be read.
+  explicit FileSet(std::string folder) : folder_(std::move(folder)), files_(read_manifest(folder_)) {}
+
+  /// The manifest names the file; without a manifest: it is there.
+  bool has(const std::string& name) const;
+  /// What messages call the file.
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  /// Throws BrokenSet if the manifest does not name the file or the file is not what the manifest says; Error if it
+  /// cannot be read or is larger.
+  std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
+
+ private:
+  std::string folder_;
+  std::optional<std::vector<ManifestEntry>> files_;
+};
+
+/// Held while a set is written. Waits for another holder. A file system that cannot lock folders does without.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+/// A set to write. Creates the folder, and waits while another process writes a set into it. A full disk, an error
+/// or a missing `commit` leaves the older set. Files that no set names stay as they are, unless one of them has the
+/// name of a new file; so do files of the older set that somebody changed. Every function throws Error.
+class WholeFiles {
+ public:
+  explicit WholeFiles(const std::string& folder);
+  ~WholeFiles();
+  WholeFiles(const WholeFiles&) = delete;
+  WholeFiles& operator=(const WholeFiles&) = delete;
+
+  /// `name` may have folders of its own, but stays in the folder (core/base/name.h). In its place may be a regular
+  /// file, whose mode the new one takes, or nothing; a link is an error.
+  void add(const std::string& name, std::string_view content);
+  /// A file of the folder, if it is there, belongs to the new set as it is.
+  void keep(const std::string& name);
+  /// What `add` was given, in its order.
+  std::vector<std::string> names() const;
+  void commit();
+
+ private:
+  std::string folder_;
+  FolderLock lock_;
+  std::vector<ManifestEntry> files_;
+  std::vector<std::string> kept_;
+  bool is_committed_ = false;
+};
+
+/// Removes a set, its manifest first. Without a manifest nothing. What cannot be removed stays.
+void remove_set(const std::string& folder);
+
+}  // namespace glovebench

@@ -1,0 +1,195 @@
+#include "core/base/file_set.h"
+
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <thread>
+
+#include "core/base/file.h"
+#include "core/test_folder.h"
+
+namespace glovebench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+void write_set(const std::string& folder, const std::vector<std::string>& names, const std::string& content) {
+  WholeFiles files(folder);
+  for (const std::string& name : names) files.add(name, content + name);
+  EXPECT_EQ(files.names(), names);
+  files.commit();
+}
+
+TEST(WholeFiles, are_in_their_places_with_a_manifest_that_names_them) {
+  const TestFolder folder;
+  write_set(folder / "set", {"tables/a.csv", "b.json"}, "content of ");
+  EXPECT_EQ(read_file(folder / "set/tables/a.csv"), "content of tables/a.csv");
+  const auto manifest = read_manifest(folder / "set");
+  ASSERT_TRUE(manifest && manifest->size() == 2);
+  EXPECT_EQ(manifest->front().name, "tables/a.csv");
+  EXPECT_EQ(manifest->front().bytes, 23U);
+  EXPECT_EQ(manifest->front().hash.size(), 32U);
+  EXPECT_FALSE(fs::exists(folder / "set/.staged"));
+}
+
+TEST(WholeFiles, without_commit_leave_the_older_set) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a"}, "old ");
+  {
+    WholeFiles files(folder.path());
+    files.add("a", "new");
+    files.add("b", "new");
+  }
+  EXPECT_EQ(FileSet(folder.path()).read("a"), "old a");
+  EXPECT_EQ(folder.file_count(), 2) << "a and the manifest";
+}
+
+TEST(WholeFiles, refuse_names_that_leave_the_folder) {
+  const TestFolder folder;
+  for (const char* name : {"../evil", "/evil", "x/../../evil", ".staged/a", ".unfinished", ""}) {
+    WholeFiles files(folder / "set");
+    EXPECT_THAT([&] { files.add(name, "x"); }, ThrowsMessage<Error>(HasSubstr("stays in the folder"))) << name;
+  }
+  EXPECT_EQ(folder.file_count(), 1);
+  EXPECT_TRUE(fs::is_empty(folder / "set"));
+}
+
+TEST(WholeFiles, refuse_what_they_would_destroy_before_they_write) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a"}, "old ");
+  write_file(folder / "target", "the user's");
+  fs::create_symlink("target", folder / "link");
+  fs::create_directories(folder / "folder");
+  WholeFiles files(folder.path());
+  files.add("a", "new");
+  EXPECT_THAT([&] { files.add("link", "x"); }, ThrowsMessage<Error>(HasSubstr("a link")));
+  EXPECT_THAT([&] { files.add("folder", "x"); }, ThrowsMessage<Error>(HasSubstr("a folder")));
+  files.add("target/below", "x");
+  EXPECT_THAT([&] { files.commit(); }, ThrowsMessage<Error>(HasSubstr("target")));
+  EXPECT_EQ(FileSet(folder.path()).read("a"), "old a");
+}
+
+TEST(WholeFiles, keep_modes_and_files_that_are_kept) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a", "kept", "other"}, "old ");
+  ASSERT_EQ(::chmod((folder / "a").c_str(), 0600), 0);
+  WholeFiles files(folder.path());
+  files.add("a", "new");
+  files.keep("kept");
+  files.keep("missing");
+  files.commit();
+  EXPECT_EQ(fs::status(folder / "a").permissions(), fs::perms(0600));
+  const FileSet set(folder.path());
+  EXPECT_EQ(set.read("kept"), "old kept");
+  EXPECT_FALSE(set.has("missing") || set.has("other"));
+  EXPECT_FALSE(fs::exists(folder / "other"));
+}
+
+TEST(WholeFiles, leave_a_file_of_the_older_set_that_was_changed) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a", "mine", "theirs"}, "old ");
+  write_file(folder / "mine", "changed by hand");
+  write_set(folder.path(), {"a"}, "new ");
+  EXPECT_EQ(read_file(folder / "mine"), "changed by hand");
+  EXPECT_FALSE(fs::exists(folder / "theirs"));
+}
+
+TEST(WholeFiles, of_two_writers_do_not_mix) {
+  const TestFolder folder;
+  const auto write = [&](const std::string& content) {
+    for (int i = 0; i < 20; ++i) {
+      WholeFiles files(folder.path());
+      for (const char* name : {"a", "b", "c"}) files.add(name, content);
+      files.commit();
+    }
+  };
+  std::thread one(write, "one"), two(write, "two");
+  one.join();
+  two.join();
+  const FileSet set(folder.path());
+  EXPECT_TRUE(set.read("a") == set.read("b") && set.read("b") == set.read("c"));
+  EXPECT_EQ(folder.file_count(), 4);
+}
+
+TEST(WholeFiles, take_the_place_of_a_set_whose_manifest_is_damaged) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a"}, "old ");
+  write_file(folder / kManifest, "{");
+  EXPECT_THROW(FileSet(folder.path()), Error);
+  write_set(folder.path(), {"a"}, "new ");
+  EXPECT_EQ(FileSet(folder.path()).read("a"), "new a");
+}
+
+TEST(FileSet, takes_only_what_the_manifest_names_and_as_it_says) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a", "b", "c"}, "");
+  write_file(folder / "b", "d");  // as long
+  write_file(folder / "other", "x");
+  fs::remove(folder / "c");
+  const FileSet set(folder.path());
+  EXPECT_EQ(set.read("a"), "a");
+  for (const char* name : {"b", "c"})
+    EXPECT_THAT([&] { set.read(name); },
+                ThrowsMessage<BrokenSet>(AllOf(HasSubstr(folder / name), HasSubstr("as manifest.json says"))));
+  EXPECT_FALSE(set.has("other"));
+  EXPECT_THAT([&] { set.read("other"); }, ThrowsMessage<BrokenSet>(HasSubstr("none that manifest.json names")));
+  EXPECT_THAT([&] { set.read("a", 0); }, ThrowsMessage<Error>(HasSubstr("more than 0 bytes")));
+}
+
+TEST(FileSet, without_a_manifest_is_read_as_it_is) {
+  const TestFolder folder;
+  write_file(folder / "a", "by hand");
+  const FileSet set(folder.path());
+  EXPECT_EQ(set.read("a"), "by hand");
+  EXPECT_FALSE(set.has("b"));
+  EXPECT_THROW(set.read("b"), Error);
+}
+
+TEST(FileSet, that_is_replaced_while_it_is_read_does_not_mix) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a", "b"}, "old ");
+  const FileSet set(folder.path());
+  EXPECT_EQ(set.read("a"), "old a");
+  write_set(folder.path(), {"a", "b"}, "new ");
+  EXPECT_THROW(set.read("b"), BrokenSet);
+}
+
+TEST(FileSet, removed_is_gone_but_for_others_files) {
+  const TestFolder folder;
+  write_set(folder.path(), {"tables/a", "b"}, "");
+  write_file(folder / "notes", "the user's");
+  remove_set(folder.path());
+  EXPECT_FALSE(fs::exists(folder / kManifest) || fs::exists(folder / "b") || fs::exists(folder / "tables/a"));
+  EXPECT_TRUE(fs::exists(folder / "notes"));
+  remove_set(folder / "none");
+}
+
+TEST(Manifest, is_read_as_it_was_written_and_nothing_else) {
+  const std::vector<ManifestEntry> files = {{"tables/a.csv", 7, std::string(32, '0')}, {"b", 0, "x"}};
+  const std::vector<ManifestEntry> read = parse_manifest(manifest_json(files), "manifest.json");
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].name, "tables/a.csv");
+  EXPECT_EQ(read[0].bytes, 7U);
+  const auto entry = [](const std::string& file) {
+    return R"({"format": "glovebench-manifest", "version": 1, "files": [)" + file + "]}";
+  };
+  const std::string good = R"({"name": "a", "bytes": 1, "hash": "h"})";
+  EXPECT_EQ(parse_manifest(entry(good), "m").size(), 1U);
+  for (const std::string& bad :
+       {std::string("{}"), std::string("[]"), std::string("1"), entry("1"), entry(good + "," + good),
+        entry(R"({"name": "../a", "bytes": 1, "hash": "h"})"), entry(R"({"name": "/a", "bytes": 1, "hash": "h"})"),
+        entry(R"({"name": "a", "bytes": -1, "hash": "h"})"), entry(R"({"name": "a", "bytes": 1.5, "hash": "h"})"),
+        entry(R"({"name": "a", "bytes": 1, "hash": 2})"), entry(R"({"name": "a", "bytes": 1})"),
+        entry(R"({"name": "a", "bytes": 1, "hash": "h", "more": 1})"),
+        std::string(R"({"format": "another", "version": 1, "files": []})"),
+        std::string(R"({"format": "glovebench-manifest", "version": 2, "files": []})")})
+    EXPECT_THAT([&] { parse_manifest(bad, "m"); }, ThrowsMessage<Error>(HasSubstr("m"))) << bad;
+}
+
+}  // namespace
+}  // namespace glovebench
