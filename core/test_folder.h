@@ -3,19 +3,39 @@
 // Folders for the tests of this module.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "core/base/hash.h"
 
 namespace glovebench {
 
+/// A new folder whose name nobody could foresee, only for this user.
+inline std::string new_test_folder(const std::string& name) {
+  std::string path = testing::TempDir() + name + "-XXXXXX";
+  if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
+  return path;
+}
+
+/// A folder of a known name that test processes share. Throws if it is somebody else's, who could put files in it.
+inline std::string shared_folder(const std::string& path) {
+  ::mkdir(path.c_str(), 0700);
+  struct stat found {};
+  const bool is_own = ::lstat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == ::geteuid() &&
+                      (found.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+  if (!is_own) throw std::runtime_error(path + ": is no folder of this user alone");
+  return path;
+}
+
 /// A folder of one test's own: empty at first, gone at the end.
 class TestFolder {
  public:
-  TestFolder() { std::filesystem::create_directories(path_); }
+  TestFolder() = default;
   ~TestFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
@@ -31,7 +51,7 @@ class TestFolder {
   }
 
  private:
-  std::string path_ = testing::TempDir() + "glovebench-test-" + std::to_string(getpid());
+  std::string path_ = new_test_folder("glovebench-test");
 };
 
 /// A folder that all test processes of this executable share, for what is expensive to make. Another build gets
@@ -39,7 +59,8 @@ class TestFolder {
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path home = testing::TempDir() + "glovebench-shared-" + hash_text(program.string()).substr(0, 16);
+  const fs::path home =
+      shared_folder(testing::TempDir() + "glovebench-shared-" + hash_text(program.string()).substr(0, 16));
   const fs::path folder = home / std::to_string(fs::last_write_time(program).time_since_epoch().count());
   fs::create_directories(folder);
   for (const fs::directory_entry& entry : fs::directory_iterator(home)) {

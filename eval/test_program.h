@@ -19,6 +19,7 @@
 
 #include "core/base/file.h"
 #include "core/hand/posture.h"
+#include "core/test_folder.h"
 #include "eval/workbench.h"
 
 namespace glovebench::eval {
@@ -26,17 +27,14 @@ namespace glovebench::eval {
 /// A folder of the running test, empty at its start.
 inline std::string make_test_folder() {
   const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-  const std::string folder = testing::TempDir() + "glovebench-eval-" + test.test_suite_name() + "." + test.name() +
-                             "-" + std::to_string(getpid());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
+  return new_test_folder(fmt::format("glovebench-eval-{}.{}", test.test_suite_name(), test.name()));
 }
 
 /// Databases and color tables, kept from test to test: their names hold the hashes of what they are made of. Those
 /// of another version would be rebuilt with a message.
 inline std::string test_cache_folder() {
-  return fmt::format("{}glovebench-test-cache-{}-{}", testing::TempDir(), kDatabaseVersion, getuid());
+  return shared_folder(
+      fmt::format("{}glovebench-test-cache-{}-{}", testing::TempDir(), kDatabaseVersion, getuid()));
 }
 
 /// For a workbench of this process.
@@ -82,9 +80,9 @@ struct StartedProgram {
 };
 /// `command` begins with the program's path.
 inline StartedProgram start_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
+  static const TestFolder folder;
   static int count = 0;
-  const std::string base =
-      testing::TempDir() + "glovebench-program-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+  const std::string base = folder / std::to_string(count++);
   StartedProgram started{fork(), base + ".out", base + ".err"};
   if (started.process == 0) become(command, setting, started.out, started.err);
   return started;
@@ -128,11 +126,11 @@ inline std::map<std::string, std::string> read_folder(const std::string& folder)
   return files;
 }
 
-/// The same for a report's, without what differs from run to run: timings.json and, on the page, the time from
-/// frame to command.
+/// The same for a report's, without what differs from run to run: timings.json, its hash in the manifest and, on
+/// the page, the time from frame to command.
 inline std::map<std::string, std::string> read_timeless(const std::string& folder) {
   std::map<std::string, std::string> files = read_folder(folder);
-  EXPECT_EQ(files.erase("timings.json"), 1U);
+  EXPECT_EQ(files.erase("timings.json") + files.erase("manifest.json"), 2U);
   std::string& page = files["index.html"];
   const size_t begin = page.find("<h3>From frame to command"), end = page.find("</table>", begin);
   EXPECT_NE(end, std::string::npos);

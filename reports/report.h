@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// Writes a run's folder, each file whole, and returns their names:
+/// Writes a run's folder and returns the names of its files:
 ///   results.json   everything (reports/schema/results.schema.json)
 ///   config.json    the effective configuration
 ///   summary.md     the tables, to read
@@ -23,9 +23,9 @@ namespace glovebench::reports {
 ///   estimates/     what the tracker said, one file an experiment
 /// Without studies all but timings.json and the latencies in index.html depend on the results alone; with them, so
 /// does results.json, but their tables and what the claims say hold times as well.
-/// The older report's files of experiments and studies that are no longer there go, and no others. results.json
-/// comes last: while it is an older one, so may be any file beside it. No other run may be writing there. Throws
-/// Error if the folder cannot be written; an older report then stays as it was.
+/// The files are one set (core/base/file_set.h), which manifest.json names: a reader gets the older report or the
+/// new one, and files that only the older one had go, but no others. Throws Error if the folder cannot be written;
+/// an older report then stays as it was.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const PageMaterial& material = {},
                                       const std::vector<ExperimentEstimates>& estimates = {});

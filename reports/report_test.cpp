@@ -100,13 +100,11 @@ TEST(Report, RemovesTablesOfAnOlderReportsStudies) {
   const std::string folder = fresh_folder("stale_studies");
   write_report(folder, full_result(), {});
   write_file(folder + "/tables/mine.csv", "the user's");
-  write_file(folder + "/tables/figure8.csv.tmp-1-0", "half");
   RunResult fewer = full_result();
   fewer.studies.pop_back();
   fewer.experiments.clear();
   write_report(folder, fewer, {});
   EXPECT_FALSE(fs::exists(folder + "/tables/figure8.csv"));
-  EXPECT_FALSE(fs::exists(folder + "/tables/figure8.csv.tmp-1-0"));
   EXPECT_TRUE(fs::exists(folder + "/tables/figure7.csv"));
   EXPECT_TRUE(fs::exists(folder + "/tables/mine.csv"));
   EXPECT_TRUE(fs::exists(folder + "/claims.json"));
@@ -150,8 +148,7 @@ TEST(Report, RemovesWhatAnOlderReportLeftAndNothingElse) {
                                                 "estimates/filtered.csv",
                                                 experiment};
   for (const std::string& name : of_the_user) write_file(folder + "/" + name, "the user's");
-  const std::vector<std::string> interrupted = {"results.json.tmp-1-0", "tables/frames_" + experiment + ".tmp-1-7"};
-  for (const std::string& name : interrupted) write_file(folder + "/" + name, "half");
+  write_file(folder + "/.staged/tables/frames_" + experiment, "half");  // of a writer that was killed
 
   RunResult fewer = all;
   fewer.experiments.erase(fewer.experiments.begin() + 1, fewer.experiments.end());
@@ -159,6 +156,7 @@ TEST(Report, RemovesWhatAnOlderReportLeftAndNothingElse) {
   const std::vector<std::string> names =
       write_report(folder, fewer, example_timings(), {}, example_estimates(fewer));
   std::vector<std::string> expected = names, found;
+  expected.emplace_back("manifest.json");
   expected.insert(expected.end(), of_the_user.begin(), of_the_user.end());
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) found.push_back(fs::relative(entry.path(), folder).string());

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/hash.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording_files.h"
 #include "core/kinect/recording_index.h"
@@ -26,7 +27,7 @@ RecordingDevice::RecordingDevice(const std::string& folder)
     : RecordingDevice(folder, load_calibration(path_in_recording(folder, "calibration.json"))) {}
 
 RecordingDevice::RecordingDevice(const std::string& folder, const RgbdCalibration& calibration)
-    : calibration_(calibration) {
+    : calibration_(calibration), files_(folder) {
   const std::string index = path_in_recording(folder, "INDEX.txt");
   FramePairer<std::string, std::string> pairer;
   int depths = 0, colors = 0;
@@ -50,13 +51,17 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
   const Pair& pair = pairs_[next_++];
   const PinholeCamera &ir = calibration_.ir, &rgb = calibration_.rgb;
   try {
-    return DeviceFrame{.raw_disparity = decode_pgm(read_file(pair.depth), ir.width, ir.height, pair.depth),
-                       .color = decode_ppm(read_file(pair.color), rgb.width, rgb.height, pair.color),
+    return DeviceFrame{.raw_disparity = decode_pgm(read_image(pair.depth), ir.width, ir.height, pair.depth),
+                       .color = decode_ppm(read_image(pair.color), rgb.width, rgb.height, pair.color),
                        .depth_timestamp_us = pair.depth_us,
                        .color_timestamp_us = pair.color_us};
   } catch (const Error& e) {
     throw FrameError(e.what());
   }
+}
+
+std::string RecordingDevice::read_image(const std::string& path) const {
+  return files_.read(fs::path(path).filename());
 }
 
 RecordingWriter::RecordingWriter(const std::string& folder, const RgbdCalibration& calibration)
@@ -80,14 +85,22 @@ void RecordingWriter::write(const DeviceFrame& frame) {
   require_time("color_timestamp_us", frame.color_timestamp_us, std::max<int64_t>(last_color_us_, 0));
 
   const std::string depth = recorded_name({RecordedKind::depth, frame.depth_timestamp_us});
-  write_file(path_in_recording(folder_, depth), encode_pgm(frame.raw_disparity));
+  write_image(depth, encode_pgm(frame.raw_disparity));
   index_.emplace_back(frame.depth_timestamp_us, depth);
   last_depth_us_ = frame.depth_timestamp_us;
   if (frame.color_timestamp_us == last_color_us_) return;
   const std::string color = recorded_name({RecordedKind::color, frame.color_timestamp_us});
-  write_file(path_in_recording(folder_, color), encode_ppm(frame.color));
+  write_image(color, encode_ppm(frame.color));
   index_.emplace_back(frame.color_timestamp_us, color);
   last_color_us_ = frame.color_timestamp_us;
+}
+
+/// The folder is synced once, before the index: syncing it for each image would take as long as the images.
+void RecordingWriter::write_image(const std::string& name, const std::string& content) {
+  WholeFile file(path_in_recording(folder_, name));
+  file.append(content);
+  file.commit(false);
+  images_.push_back({name, content.size(), hash_text(content)});
 }
 
 void RecordingWriter::finish() {
@@ -95,7 +108,9 @@ void RecordingWriter::finish() {
   std::sort(index_.begin(), index_.end());
   std::string content;
   for (const auto& [timestamp_us, name] : index_) content += name + "\n";
+  sync_folder(folder_);
   write_file(path_in_recording(folder_, "INDEX.txt"), content);
+  write_file(path_in_recording(folder_, kManifest), manifest_json(images_));
 }
 
 }  // namespace glovebench

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/file_set.h"
 #include "core/kinect/device.h"
 #include "core/kinect/frame_pairer.h"
 
@@ -15,6 +16,7 @@ namespace glovebench {
 ///     r-SECONDS.MICROS-TICKS.ppm        "P6 640 480 255", RGB
 ///     a-SECONDS.MICROS-TICKS.dump       accelerometer, ignored
 ///     calibration.json                  see rgbd_calibration.h
+///     manifest.json                     the hash of each image (core/base/file_set.h), if glovebench recorded it
 ///
 /// SECONDS.MICROS is when an image arrived, by the computer's clock, with six digits of microseconds. TICKS is when
 /// it was taken, by the device's own clock (60 MHz, 32 bits), which comes around every 71.6 s. The time stamp of an
@@ -32,7 +34,8 @@ class RecordingDevice : public Device {
   RecordingDevice(const std::string& folder, const RgbdCalibration& calibration);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
-  /// Throws FrameError naming the image file and what is wrong with it.
+  /// Throws FrameError naming the image file and what is wrong with it: also if the manifest does not name the
+  /// image, or with another hash.
   std::optional<DeviceFrame> next_frame() override;
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
@@ -43,7 +46,10 @@ class RecordingDevice : public Device {
  private:
   using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file paths
 
+  std::string read_image(const std::string& path) const;
+
   RgbdCalibration calibration_;
+  FileSet files_;
   std::vector<Pair> pairs_;
   size_t next_ = 0;
   int unpaired_depth_count_ = 0;
@@ -60,13 +66,17 @@ class RecordingWriter {
   /// Depth time stamps increase; a color time stamp equal to the one before means the same image again. Throws
   /// Error on time stamps that go back or are negative, and on images that no Kinect could give.
   void write(const DeviceFrame& frame);
-  /// Writes the index: until then the folder is no recording. Throws Error if no frame was written.
+  /// Writes the index: until then the folder is no recording. Then the manifest. Throws Error if no frame was
+  /// written.
   void finish();
 
  private:
+  void write_image(const std::string& name, const std::string& content);
+
   std::string folder_;
   RgbdCalibration calibration_;
   std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp and file name
+  std::vector<ManifestEntry> images_;
   int64_t last_depth_us_ = -1;
   int64_t last_color_us_ = -1;
 };

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "eval/commands/command.h"
+#include "eval/regression/baseline.h"
 #include "eval/truths.h"
 #include "render/pictures.h"
 #include "reports/results_json.h"
@@ -25,8 +26,7 @@ struct Explain {
 
   void run() {
     const std::string results_path = run_folder + "/results.json";
-    require_finished(run_folder);
-    const reports::RunResult results = reports::read_results(results_path);
+    const reports::RunResult results = load_run(run_folder).result;
     const ExperimentResult& experiment = find(results, results_path);
     const auto truth = std::make_shared<const Trajectory>(load_truth(experiment.key));
     check_truth(results, experiment.key, *truth, results_path);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/base/file.h"
+#include "core/base/file_set.h"
 #include "core/base/hash.h"
 #include "core/base/parse_json.h"
 #include "eval/program_info.h"
@@ -47,9 +47,19 @@ std::string provenance_json(const reports::NamedResult& run, const std::string& 
                                {"replaced", replaced}});
 }
 
+/// Throws Incomparable unless the file is what the set's manifest says.
+std::string read_of(const FileSet& set, const std::string& name) {
+  try {
+    return set.read(name, reports::kLargestFile);
+  } catch (const BrokenSet& e) {
+    throw Incomparable(e.what());
+  }
+}
+
 template <typename Read>
-auto read_provenance(const std::string& path, const Read& read) {
-  const nlohmann::json document = parse_json(read_file(path), path);
+auto read_provenance(const FileSet& set, const Read& read) {
+  const std::string path = set.path(kProvenance);
+  const nlohmann::json document = parse_json(read_of(set, kProvenance), path);
   const reports::JsonReader json(document, path);
   json["format"].expect_text(kProvenanceFormat);
   json["version"].integer(1, 1);
@@ -58,9 +68,10 @@ auto read_provenance(const std::string& path, const Read& read) {
 
 /// The replaced baseline in a few words; null if there was none.
 Json describe_replaced(const std::string& folder) {
-  if (!fs::exists(in(folder, kResults))) return nullptr;
-  const reports::RunResult old = reports::read_results(in(folder, kResults));
-  return {{"commit", old.commit}, {"results_hash", hash_file(in(folder, kResults))}};
+  const FileSet set(folder);
+  if (!set.has(kResults)) return nullptr;
+  const std::string text = read_of(set, kResults);
+  return {{"commit", reports::parse_results(text, set.path(kResults)).commit}, {"results_hash", hash_text(text)}};
 }
 
 void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
@@ -80,8 +91,9 @@ void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
 }
 
 void require_same_truths(const std::string& folder, const reports::NamedResult& run) {
-  if (!fs::exists(in(folder, kResults))) return;
-  const reports::RunResult old = reports::read_results(in(folder, kResults));
+  const FileSet set(folder);
+  if (!set.has(kResults)) return;
+  const reports::RunResult old = reports::parse_results(read_of(set, kResults), set.path(kResults));
   for (const auto& [name, hash] : run.result.inputs.truths) {
     const auto found = old.inputs.truths.find(name);
     if (found == old.inputs.truths.end() || found->second == hash) continue;
@@ -93,11 +105,11 @@ void require_same_truths(const std::string& folder, const reports::NamedResult& 
 
 /// The results are those that the provenance speaks of: an update that was killed, or a change by hand, is found.
 void require_same_bytes(const std::string& folder) {
-  const std::string path = in(folder, kProvenance);
-  if (!fs::exists(path)) return;
+  const FileSet set(folder);
+  if (!set.has(kProvenance)) return;
   const std::string expected =
-      read_provenance(path, [](const reports::JsonReader& json) { return json["results_hash"].text(); });
-  const std::string found = hash_file(in(folder, kResults));
+      read_provenance(set, [](const reports::JsonReader& json) { return json["results_hash"].text(); });
+  const std::string found = hash_text(read_of(set, kResults));
   if (found != expected) {
     throw Incomparable(in(folder, kResults), "hash", found,
                        expected + ", as provenance.json says (update it again)");
@@ -121,7 +133,11 @@ reports::NamedResult load_run(const std::string& folder_or_file) {
   require_finished(folder_of(folder_or_file));
   std::error_code error;
   const std::string path = fs::is_directory(folder_or_file, error) ? in(folder_or_file, kResults) : folder_or_file;
-  return {path, reports::read_results(path)};
+  const std::string folder = folder_of(path), name = fs::path(path).filename().string();
+  const FileSet set(folder);
+  // Another file that somebody put there is no part of the run, and is read as it is.
+  if (path == folder_or_file && !set.has(name)) return {path, reports::read_results(path)};
+  return {path, reports::parse_results(read_of(set, name), path)};
 }
 
 void require_own_folder(const std::string& output, const std::string& run) {
@@ -133,31 +149,29 @@ void require_own_folder(const std::string& output, const std::string& run) {
 }
 
 std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& folder_or_file) {
-  const std::string path = in(folder_of(folder_or_file), kNoiseFloor);
+  const std::string path = in(folder_of(folder_or_file), kNoiseFloor);  // is written by itself, and in no set
   if (!fs::exists(path)) return std::nullopt;
   return reports::read_noise_floor(path);
 }
 
 reports::StageTimes load_stage_times_beside(const std::string& folder_or_file) {
-  const std::string folder = folder_of(folder_or_file);
-  if (fs::exists(in(folder, kTimings))) return reports::read_stage_times(in(folder, kTimings));
-  if (fs::exists(in(folder, kProvenance))) {
-    return read_provenance(in(folder, kProvenance), [](const reports::JsonReader& json) {
-      return reports::stage_times_from(json["times"]);
-    });
-  }
-  return {};
+  const FileSet set(folder_of(folder_or_file));
+  if (set.has(kTimings)) return reports::parse_stage_times(read_of(set, kTimings), set.path(kTimings));
+  if (!set.has(kProvenance)) return {};
+  return read_provenance(set,
+                         [](const reports::JsonReader& json) { return reports::stage_times_from(json["times"]); });
 }
 
 Baseline load_baseline(const std::string& folder) {
   const std::string path = in(folder, kResults);
-  if (!fs::exists(path)) {
+  if (!FileSet(folder).has(kResults)) {
     throw Incomparable(path, "baseline", "none",
                        "the results of an earlier run (glovebench gate --update makes it)");
   }
   require_same_bytes(folder);
   Baseline baseline{load_run(folder), load_noise_floor_beside(folder), {}, load_stage_times_beside(folder)};
-  if (fs::exists(in(folder, kSpeed))) baseline.speed = reports::read_speed_ratios(in(folder, kSpeed));
+  if (const FileSet set(folder); set.has(kSpeed))
+    baseline.speed = reports::parse_speed_ratios(read_of(set, kSpeed), set.path(kSpeed));
   return baseline;
 }
 
@@ -182,6 +196,7 @@ void update_baseline(const std::string& folder, const reports::NamedResult& run,
   const std::string results = reports::results_json(run.result);
   WholeFiles files(folder);
   files.add(kProvenance, provenance_json(run, hash_text(results), times, replaced));
+  if (speed.empty()) files.keep(kSpeed);
   if (!speed.empty()) files.add(kSpeed, reports::speed_json(speed));
   files.add(kResults, results);
   files.commit();

@@ -18,6 +18,9 @@ namespace glovebench::eval {
 ///   speed.json        ratios to the plain implementations; may be missing
 ///   provenance.json   what made it: commit, date, compiler, processor with the times of the tracker's stages; and
 ///                     what it replaced
+///   manifest.json     of results, speed and provenance, which are one set (core/base/file_set.h); may be missing
+///   in
+///                     baselines of before
 struct Baseline {
   reports::NamedResult results;
   std::optional<reports::NoiseFloor> noise_floor;

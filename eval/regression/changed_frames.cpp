@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <map>
 
+#include "core/base/file_set.h"
 #include "core/camera/registration.h"
 #include "core/kinect/disparity.h"
 #include "eval/replay.h"
@@ -28,15 +28,17 @@ constexpr int kPanelSize = 300;  // px
 /// The estimates of a run's folder, read when they are asked for.
 class EstimateFolder {
  public:
-  explicit EstimateFolder(std::string folder) : folder_(std::move(folder)) {}
+  explicit EstimateFolder(const std::string& folder) : set_(folder) {}
 
   /// Empty if the folder has none of that experiment, or the frame was lost.
   std::optional<Estimate> find(const reports::ExperimentKey& key, uint64_t seed, int frame) {
-    const std::string path = folder_ + "/" + reports::estimates_file(key);
-    if (!files_.contains(path)) {
-      files_[path] = std::filesystem::exists(path) ? reports::read_estimates(path) : std::vector<Estimate>{};
+    const std::string name = reports::estimates_file(key);
+    if (!files_.contains(name)) {
+      files_[name] = set_.has(name)
+                         ? reports::parse_estimates(set_.read(name, reports::kLargestFile), set_.path(name))
+                         : std::vector<Estimate>{};
     }
-    for (const Estimate& estimate : files_[path]) {
+    for (const Estimate& estimate : files_[name]) {
       if (estimate.seed != seed || estimate.frame != frame) continue;
       if (estimate.status == TrackStatus::tracked) return estimate;
     }
@@ -44,7 +46,7 @@ class EstimateFolder {
   }
 
  private:
-  std::string folder_;
+  FileSet set_;
   std::map<std::string, std::vector<Estimate>> files_;
 };
 

@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "core/base/file.h"
+#include "core/base/file_set.h"
 #include "reports/comparison/comparison_report.h"
 
 namespace glovebench::reports {
@@ -24,15 +24,18 @@ std::vector<std::string> write_comparison(const std::string& folder, const Compa
 }
 
 void remove_comparison(const std::string& folder) {
-  for (const char* name : {kJson, kMarkdown, kCsv, kLatex, kJunit, kPage}) {
+  remove_set(folder);
+  for (const char* name : {kJson, kMarkdown, kCsv, kLatex, kJunit, kPage}) {  // of before there were manifests
     std::error_code ignored;  // what cannot be removed cannot be replaced either, and that is an Error
     std::filesystem::remove(folder + "/" + name, ignored);
   }
 }
 
 void write_refusal(const std::string& folder, const std::string& message) {
-  write_file(folder + "/" + kMarkdown, incomparable_markdown(message));
-  write_file(folder + "/" + kJunit, incomparable_junit(message));
+  WholeFiles files(folder);
+  files.add(kMarkdown, incomparable_markdown(message));
+  files.add(kJunit, incomparable_junit(message));
+  files.commit();
 }
 
 }  // namespace glovebench::reports

@@ -1,0 +1,79 @@
+// What the commands write where: names that come from files, and folders of files that belong together.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/file_set.h"
+#include "eval/command_test.h"
+#include "eval/test_program.h"
+#include "render/label_renderer.h"
+#include "reports/results_json.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class OutputsLong : public CommandTest {
+ protected:
+  /// A whole database, right in all but its set's name.
+  void build_database(const std::string& set_name, const std::string& file) const {
+    Workbench workbench(test_workbench());
+    const PostureSet postures{set_name, {"open"}, {Posture::Zero()}};
+    Database::build_file(path(file), postures, *workbench.model(), workbench.config().views,
+                         render::label_renderer_factory(), 2, {}, kTinySizes);
+  }
+  ProgramRun run_with(const std::string& database, const std::string& output) const {
+    return run_glovebench({"run", "--trajectory", path("good.json"), "--database", path(database), "-o",
+                           path(output), "--robot-out", path(output) + "/robot"});
+  }
+};
+
+TEST_F(OutputsLong, TheNameOfADatabaseLeadsOutOfNoFolder) {
+  build_database("own", "own.glovedb");
+  expect_fine(run_with("own.glovedb", "out"));
+  build_database("x/../../../escaped/evil", "evil.glovedb");
+  for (const std::string& refused : {refusal(run_with("evil.glovedb", "a/b/c/out")),
+                                     refusal(run_glovebench({"db", "info", path("evil.glovedb")}))})
+    EXPECT_THAT(refused, HasSubstr("evil.glovedb: name: found \"x/../../../escaped/evil\""));
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_))
+    EXPECT_THAT(entry.path().string(), testing::Not(HasSubstr("escaped")));
+}
+
+TEST_F(OutputsLong, TheNameOfASuiteLeadsOutOfNoFolder) {
+  run_trajectory("good.json", "out");
+  json results = json::parse(read_file(path("out/results.json")));
+  results["suite"] = "../../evil";
+  write_file(path("evil/results.json"), results.dump());
+  EXPECT_THAT(refusal(run_glovebench({"gate", path("evil"), "--update"})),
+              HasSubstr("suite: found \"../../evil\""));
+}
+
+TEST_F(OutputsLong, ARunThatIsNotWhatItsManifestSaysIsIncomplete) {
+  run_trajectory("good.json", "out");
+  const auto compare = [&] { return run_glovebench({"compare", path("out"), path("out/results.json")}); };
+  EXPECT_EQ(compare().exit_code, 0);
+  const std::string results = read_file(path("out/results.json"));
+  std::string changed = results;
+  changed.replace(changed.find("gradient"), 8, "kinect\"  ");
+  for (const std::string& other : {changed, results.substr(0, results.size() / 2)}) {
+    write_file(path("out/results.json"), other);
+    const ProgramRun run = compare();
+    EXPECT_EQ(run.exit_code, 3);
+    EXPECT_THAT(run.err, AllOf(HasSubstr("out/results.json: content"), HasSubstr("manifest.json says")));
+  }
+  // As after a kill between the manifest and the last of its files.
+  write_file(path("out/.staged/results.json"), results);
+  EXPECT_EQ(compare().exit_code, 0);
+  fs::remove(path("out/manifest.json"));
+  EXPECT_EQ(refusal(compare()), refusal(compare())) << "without a manifest it is read as it is: half a file";
+  write_file(path("out/results.json"), results);
+  EXPECT_EQ(compare().exit_code, 0) << "a run of before there were manifests";
+}
+
+}  // namespace
+}  // namespace glovebench::eval
