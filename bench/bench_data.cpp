@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <optional>
 #include <thread>
 
@@ -74,7 +78,26 @@ std::vector<BenchFrame> track_frames(const BenchData& data, const std::string& n
   return frames;
 }
 
+/// Empty if it is not set.
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
 }  // namespace
+
+std::string default_cache_folder() {
+  if (const std::string chosen = environment("GLOVEBENCH_CACHE"); !chosen.empty()) return chosen;
+  if (const std::string cache = environment("XDG_CACHE_HOME"); !cache.empty()) return cache + "/glovebench";
+  if (const std::string home = environment("HOME"); !home.empty()) return home + "/.cache/glovebench";
+  return new_temporary_folder();
+}
+
+std::string new_temporary_folder() {
+  std::string path = (std::filesystem::temp_directory_path() / "glovebench-bench-XXXXXX").string();
+  if (::mkdtemp(path.data()) == nullptr) throw Error(path, "folder", std::strerror(errno), "one that can be made");
+  return path;
+}
 
 DatabaseCache BenchData::cache() const {
   DatabaseCache result;

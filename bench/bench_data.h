@@ -14,6 +14,12 @@
 
 namespace glovebench::bench {
 
+/// GLOVEBENCH_CACHE, else the user's cache folder, else a new folder in the temporary directory: none that somebody
+/// else could have filled. Throws Error.
+std::string default_cache_folder();
+/// A new folder in the temporary directory, only for this user. Throws Error.
+std::string new_temporary_folder();
+
 struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <hwy/targets.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 
 #include "bench/bench_data.h"
@@ -14,11 +12,6 @@
 
 namespace glovebench::bench {
 namespace {
-
-std::string default_cache_folder() {
-  const char* chosen = std::getenv("GLOVEBENCH_CACHE");
-  return chosen != nullptr ? chosen : (std::filesystem::temp_directory_path() / "glovebench-bench").string();
-}
 
 struct Options {
   Settings settings{.cache_folder = default_cache_folder()};

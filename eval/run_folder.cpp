@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/name.h"
 #include "reports/comparison/pairing.h"
 
 namespace glovebench::eval {
@@ -52,7 +53,7 @@ std::string heading(const std::string& key, std::string_view content) {
 }
 
 std::string path_of(const std::string& mark, const std::string& key) {
-  return fmt::format("{}/{}.stored", mark, key);
+  return path_within(mark, key + ".stored");
 }
 
 }  // namespace
@@ -68,8 +69,7 @@ void RunFolder::lock() {
   const std::string path = mark_ + "/lock";
   while (lock_ < 0) {
     std::error_code error;
-    if (fs::create_directories(folder_, error); error)
-      throw Error(folder_, "folder", error.message(), "a folder that can be written");
+    make_folders(folder_);
     keep_mark_ = !fs::create_directory(mark_, error);
     if (error) throw Error(mark_, "folder", error.message(), "a folder that can be written");
     lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -91,6 +91,11 @@ RunFolder::~RunFolder() {
   if (lock_ < 0) return;
   if (!keep_mark_) put_mark_away();
   ::close(lock_);
+}
+
+void RunFolder::begin() {
+  keep_mark_ = true;
+  sync_folder(folder_);
 }
 
 std::optional<std::string> RunFolder::load(const std::string& key) const {
@@ -121,6 +126,7 @@ bool RunFolder::put_mark_away() {
   // In one step: nobody can come in between and lock what is about to go.
   const std::string done = fmt::format("{}/{}{}", folder_, kDone, getpid());
   if (::rename(mark_.c_str(), done.c_str()) != 0) return false;
+  sync_folder(folder_);
   std::error_code ignored;  // the next run removes what stays
   fs::remove_all(done, ignored);
   return true;
@@ -157,8 +163,10 @@ std::string replay_key(Workbench& workbench, const Replay& replay) {
 }
 
 void require_finished(const std::string& folder) {
-  std::error_code ignored;
-  if (!fs::exists(folder + kMark, ignored)) return;
+  std::error_code error;
+  const bool is_marked = fs::exists(folder + kMark, error);
+  if (error) throw Error(folder + kMark, "mark", error.message(), "a folder that can be looked into");
+  if (!is_marked) return;
   throw reports::Incomparable(folder, "run", "an unfinished one (.unfinished)",
                               "a finished one: the same command again resumes it where it stopped");
 }

@@ -25,7 +25,7 @@ class RunFolder {
   RunFolder& operator=(const RunFolder&) = delete;
 
   /// What was asked for can be done, and the work begins: from here on the mark stays until `finish`.
-  void begin() { keep_mark_ = true; }
+  void begin();
 
   /// What an earlier, interrupted run of this program stored under this key; empty if there is nothing, or nothing
   /// whole: then it is removed, and standard error says so once. Thread-safe.
@@ -51,7 +51,7 @@ class RunFolder {
 /// seed, subject, the hashes of databases, hand models and color table.
 std::string replay_key(Workbench& workbench, const Replay& replay);
 
-/// Throws reports::Incomparable if the folder of results is one of an unfinished run.
+/// Throws reports::Incomparable if the folder of results is one of an unfinished run, Error if that cannot be told.
 void require_finished(const std::string& folder);
 
 }  // namespace glovebench::eval

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/base/error.h"
@@ -101,6 +102,25 @@ TEST(StoredReplay, HalfOfOneIsNone) {
     EXPECT_FALSE(replay_from_bytes(bytes.substr(0, at)).has_value()) << at;
 }
 
+TEST(StoredReplay, WithAStatusThatNobodyKnowsIsNone) {
+  const std::string bytes = to_bytes(example_replay());
+  for (const std::string status : {"tracked", "poor_match"}) {
+    std::string other = bytes;
+    const size_t at = other.find(status);
+    ASSERT_NE(at, std::string::npos);
+    other.replace(at, 1, "x");
+    EXPECT_FALSE(replay_from_bytes(other).has_value()) << status;
+  }
+  nlohmann::json passes = nlohmann::json::from_cbor(bytes);
+  for (const nlohmann::json& status :
+       {nlohmann::json(99), nlohmann::json(-1), nlohmann::json(0), nlohmann::json()}) {
+    passes[0]["errors"][0][2] = status;
+    std::string other;
+    nlohmann::json::to_cbor(passes, other);
+    EXPECT_FALSE(replay_from_bytes(other).has_value()) << status;
+  }
+}
+
 class RunFolderTest : public testing::Test {
  protected:
   RunFolderTest() : folder_(make_test_folder() + "/out") {}
@@ -134,6 +154,20 @@ TEST_F(RunFolderTest, IsMarkedFromBeginToFinish) {
   again.finish();
   EXPECT_FALSE(is_marked());
   EXPECT_TRUE(fs::is_empty(folder_)) << "what was kept is gone";
+}
+
+TEST_F(RunFolderTest, ThatCannotBeLookedIntoIsNoFinishedOne) {
+  fs::create_directories(folder_);
+  fs::create_symlink(".unfinished", folder_ + "/.unfinished");  // a link to itself
+  EXPECT_THAT(
+      [&] { require_finished(folder_); },
+      testing::ThrowsMessage<Error>(AllOf(HasSubstr(folder_ + "/.unfinished"), HasSubstr("symbolic links"))));
+}
+
+TEST_F(RunFolderTest, KeysDoNotLeaveTheFolder) {
+  const RunFolder run(folder_);
+  EXPECT_THROW(run.store("../../evil", "content"), Error);
+  EXPECT_THROW(run.load("../../evil"), Error);
 }
 
 TEST_F(RunFolderTest, RefusalBeforeTheWorkLeavesTheMarkAsItWas) {

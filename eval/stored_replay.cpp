@@ -33,7 +33,7 @@ json row_of(const TrackResult& r) {
   json matches = json::array();
   for (const Match& match : r.matches) matches.push_back({match.entry, match.error});
   return {r.timestamp_us,
-          static_cast<int>(r.status),
+          to_string(r.status),
           row_of(r.posture),
           row_of(r.T_camera_hand),
           row_of(r.posture_unfiltered),
@@ -48,10 +48,16 @@ json row_of(const TrackResult& r) {
           r.icp_residual};
 }
 
+TrackStatus status_of(const json& value) {
+  const std::optional<TrackStatus> status = status_from_string(value.get<std::string>());
+  if (!status) throw json::other_error::create(501, "no status", &value);
+  return *status;
+}
+
 TrackResult result_of(const json& row) {
   TrackResult r;
   r.timestamp_us = row.at(0);
-  r.status = static_cast<TrackStatus>(row.at(1).get<int>());
+  r.status = status_of(row.at(1));
   r.posture = posture_of(row.at(2));
   r.T_camera_hand = pose_of(row.at(3));
   r.posture_unfiltered = posture_of(row.at(4));
@@ -72,10 +78,8 @@ json row_of(const FrameErrors& errors) {
   json values = json::array();
   for (const reports::Metric& metric : reports::metrics())
     values.push_back(r.*metric.value ? json(*(r.*metric.value)) : json());
-  return {r.frame,           r.timestamp_us,        static_cast<int>(r.status),
-          r.covered,         r.false_tracked,       r.false_lost,
-          r.ambiguous,       r.converged,           r.icp_iterations,
-          std::move(values), errors.joint_errors_mm};
+  return {r.frame,     r.timestamp_us, to_string(r.status), r.covered,         r.false_tracked,       r.false_lost,
+          r.ambiguous, r.converged,    r.icp_iterations,    std::move(values), errors.joint_errors_mm};
 }
 
 FrameErrors errors_of(const json& row) {
@@ -83,7 +87,7 @@ FrameErrors errors_of(const json& row) {
   reports::FrameRecord& r = errors.record;
   r.frame = row.at(0);
   r.timestamp_us = row.at(1);
-  r.status = static_cast<TrackStatus>(row.at(2).get<int>());
+  r.status = status_of(row.at(2));
   r.covered = row.at(3);
   r.false_tracked = row.at(4);
   r.false_lost = row.at(5);

@@ -38,5 +38,16 @@ TEST(Csv, TextsThatWouldBreakALineAreQuoted) {
   EXPECT_EQ(csv_line({"a", 1, nullptr, true, "b,c", "d\"e", "f\ng"}), "a,1,,true,\"b,c\",\"d\"\"e\",\"f\ng\"\n");
 }
 
+TEST(Csv, TextsAreNoFormulas) {
+  for (const std::string text : {"=1+1", "+1+1", "-1+1", "@SUM(A1)", "-", "=", "--", "-nan", "+inf", "- 5"})
+    EXPECT_EQ(csv_line({text}), "'" + text + "\n");
+  EXPECT_EQ(csv_line({"=HYPERLINK(\"a\",1)"}), "\"'=HYPERLINK(\"\"a\"\",1)\"\n");
+  EXPECT_EQ(csv_line({"\t=1"}), "'\t=1\n");
+  EXPECT_EQ(csv_line({"\r=1"}), "\"'\r=1\"\n");
+  EXPECT_EQ(csv_line({"\n=1"}), "\"'\n=1\"\n");
+  EXPECT_EQ(csv_line({-1.5, -3, "-1.5", "-2e-3", "a=b", "", " -"}), "-1.5,-3,-1.5,-2e-3,a=b,, -\n")
+      << "numbers and others";
+}
+
 }  // namespace
 }  // namespace glovebench::reports

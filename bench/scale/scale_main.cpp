@@ -32,7 +32,7 @@ constexpr int kMostEntriesChecked = 80'000;  ///< of a database whose matches ar
 struct Options {
   std::vector<int> postures;
   bool normal_memory = false, keep = false;
-  std::string folder = std::filesystem::temp_directory_path(), cache, output;
+  std::string folder, cache, output;
   std::string cascade = "exact:3";
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 };
@@ -224,23 +224,27 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace glovebench::bench;
   Options options;
-  const char* cache = std::getenv("GLOVEBENCH_CACHE");
-  options.cache = cache != nullptr ? cache : (std::filesystem::temp_directory_path() / "glovebench-bench").string();
   CLI::App program("What databases of many postures cost: building, loading, look-ups, memory.");
   program.add_option("postures", options.postures, "how many, for each database")
       ->required()
       ->check(CLI::Range(1, 200'000));
   program.add_flag("--normal-memory", options.normal_memory, "databases that store their distance fields");
-  program.add_flag("--keep", options.keep, "keeps the databases, and takes what an earlier run kept");
   program.add_option("--cascade", options.cascade, "stages of 64 px")->capture_default_str();
-  program.add_option("--folder", options.folder, "where the databases are built")->capture_default_str();
+  CLI::Option* folder = program.add_option("--folder", options.folder,
+                                           "where the databases are built [a new one in the temporary directory]");
+  program.add_flag("--keep", options.keep, "keeps the databases in --folder, and takes what an earlier run kept")
+      ->needs(folder);
   program.add_option("--cache", options.cache,
-                     "of the database that the frames are tracked with [GLOVEBENCH_CACHE]");
+                     "of the database that the frames are tracked with [GLOVEBENCH_CACHE or ~/.cache/glovebench]");
   program.add_option("--threads", options.threads, "that build and load")->capture_default_str();
   program.add_option("-o,--output", options.output, "results as JSON");
   CLI11_PARSE(program, argc, argv);
   try {
+    if (options.cache.empty()) options.cache = default_cache_folder();
+    const bool is_new = options.folder.empty();
+    if (is_new) options.folder = new_temporary_folder();
     run(options);
+    if (is_new) std::filesystem::remove(options.folder);
     return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "glovebench_scale: {}\n", error.what());
