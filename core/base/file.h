@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,8 +11,12 @@
 
 namespace glovebench {
 
-/// The whole content of a file. Throws Error if it is missing, cannot be read or is larger than that.
-std::string read_file(const std::string& path, uint64_t max_bytes = std::numeric_limits<uint64_t>::max());
+/// Files are refused from this size on where nobody says what they may hold.
+inline constexpr uint64_t kLargestUnknownFile = uint64_t{64} << 20;
+
+/// The whole content of a regular file or a pipe (InputFile). Throws Error if it is missing, cannot be read or is
+/// larger than `max_bytes`, of which a reader says how many its files may have (core/README.md).
+std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 /// A file that is written whole: to a temporary name beside the target, flushed, then renamed by `commit`, so that
 /// a reader sees the old content or the new one and a full disk leaves the old one. Creates missing folders.

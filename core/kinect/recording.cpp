@@ -20,24 +20,34 @@ void require_size(int width, int height, const PinholeCamera& camera, const std:
                 std::to_string(camera.width) + "x" + std::to_string(camera.height) + " as calibrated");
 }
 
+/// What a file of such an image holds. A little more is told when it is decoded, and much more is not read.
+std::string read_image(const std::string& path, const PinholeCamera& camera) {
+  constexpr uint64_t kBytesPerPixel = 4, kOthers = 4096;
+  return read_file(path, kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers);
+}
+
 }  // namespace
 
 RecordingDevice::RecordingDevice(const std::string& folder)
     : RecordingDevice(folder, load_calibration(path_in_recording(folder, "calibration.json"))) {}
 
 RecordingDevice::RecordingDevice(const std::string& folder, const RgbdCalibration& calibration)
-    : calibration_(calibration) {
+    : folder_(folder), calibration_(calibration) {
   const std::string index = path_in_recording(folder, "INDEX.txt");
   FramePairer<std::string, std::string> pairer;
   int depths = 0, colors = 0;
-  for (const RecordingEntry& entry : read_recording_index(folder)) {
+  const auto take_pairs = [&] {
+    while (std::optional<Pair> pair = pairer.pop()) pairs_.push_back(std::move(*pair));
+  };
+  for (RecordingEntry& entry : read_recording_index(folder)) {
     const bool is_depth = entry.kind == RecordedKind::depth;
     ++(is_depth ? depths : colors);
-    if (is_depth) pairer.push_depth(entry.timestamp_us, entry.path);
-    if (!is_depth) pairer.push_color(entry.timestamp_us, entry.path);
+    if (is_depth) pairer.push_depth(entry.timestamp_us, std::move(entry.name));
+    if (!is_depth) pairer.push_color(entry.timestamp_us, std::move(entry.name));
+    take_pairs();
   }
   pairer.finish();
-  while (std::optional<Pair> pair = pairer.pop()) pairs_.push_back(std::move(*pair));
+  take_pairs();
   unpaired_depth_count_ = pairer.unpaired();
   repeated_count_ = pairer.went_back();
   if (pairs_.empty())
@@ -49,9 +59,10 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
   if (next_ == pairs_.size()) return std::nullopt;
   const Pair& pair = pairs_[next_++];
   const PinholeCamera &ir = calibration_.ir, &rgb = calibration_.rgb;
+  const std::string depth = path_in_recording(folder_, pair.depth), color = path_in_recording(folder_, pair.color);
   try {
-    return DeviceFrame{.raw_disparity = decode_pgm(read_file(pair.depth), ir.width, ir.height, pair.depth),
-                       .color = decode_ppm(read_file(pair.color), rgb.width, rgb.height, pair.color),
+    return DeviceFrame{.raw_disparity = decode_pgm(read_image(depth, ir), ir.width, ir.height, depth),
+                       .color = decode_ppm(read_image(color, rgb), rgb.width, rgb.height, color),
                        .depth_timestamp_us = pair.depth_us,
                        .color_timestamp_us = pair.color_us};
   } catch (const Error& e) {

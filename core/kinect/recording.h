@@ -41,8 +41,9 @@ class RecordingDevice : public Device {
   int repeated_count() const { return repeated_count_; }
 
  private:
-  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file paths
+  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of names of files
 
+  std::string folder_;
   RgbdCalibration calibration_;
   std::vector<Pair> pairs_;
   size_t next_ = 0;

@@ -49,7 +49,7 @@ std::string provenance_json(const reports::NamedResult& run, const std::string& 
 
 template <typename Read>
 auto read_provenance(const std::string& path, const Read& read) {
-  const nlohmann::json document = parse_json(read_file(path), path);
+  const nlohmann::json document = parse_json(read_file(path, reports::kLargestSmallFile), path);
   const reports::JsonReader json(document, path);
   json["format"].expect_text(kProvenanceFormat);
   json["version"].integer(1, 1);

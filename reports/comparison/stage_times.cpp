@@ -23,12 +23,12 @@ StageTimes::Stage* find_stage(std::vector<StageTimes::Stage>& stages, const std:
 }  // namespace
 
 StageTimes read_stage_times(const std::string& timings_path) {
-  const nlohmann::json document = parse_json(read_file(timings_path), timings_path);
+  const nlohmann::json document = parse_json(read_file(timings_path, kLargestSmallFile), timings_path);
   const JsonReader json(document, timings_path);
   json["format"].expect_text("glovebench-timings");
   json["version"].integer(1, 1);
   StageTimes times{json["processor"].text(), json["threads"].count(), {}};
-  const std::vector<JsonReader> experiments = json["experiments"].items();
+  const JsonItems experiments = json["experiments"].items();
   std::vector<int> counts;
   for (const JsonReader& experiment : experiments) {
     for (const auto& [name, stage] : experiment["stages"].members()) {
