@@ -131,9 +131,8 @@ Image<uint8_t> decode_gray(std::string_view content, const std::string& path) {
 
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked) {
   const bool is_recording = source.starts_with(kRecording);
-  const std::vector<Picture> pictures = is_recording
-                                            ? pictures_of_recording(source.substr(kRecording.size()), most)
-                                            : pictures_in_folder(source);
+  const std::vector<Picture> pictures =
+      is_recording ? pictures_of_recording(source.substr(kRecording.size()), most) : pictures_in_folder(source);
   if (pictures.empty()) throw Error(source, "pictures", "none", "pictures of a chessboard");
   BoardViews views;
   for (size_t i = 0; i < pictures.size(); ++i) {

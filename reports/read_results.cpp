@@ -78,8 +78,8 @@ InputHashes read_inputs(const JsonReader& json) {
 
 constexpr size_t kFirstMetric = 9;
 
-/// Rows that are as long as a frame's, so that there can be room for as many frames: they are larger than what a row
-/// must hold.
+/// Rows that are as long as a frame's, so that there can be room for as many frames: they are larger than what a
+/// row must hold.
 JsonItems read_rows(const JsonReader& json) {
   JsonItems rows = json.items();
   for (const JsonReader& row : rows)

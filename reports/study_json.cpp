@@ -1,5 +1,7 @@
 #include "reports/study_json.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 

@@ -101,7 +101,8 @@ PostureSet parse_postures_csv(std::string_view text, const std::string& set_name
     set.posture_names.emplace_back(cells[0]);
     expect_new_name(set.posture_names.back(), names, where, line + ", name");
     Posture& posture = set.postures.emplace_back();
-    for (int a = 0; a < kAngleCount; ++a) posture[a] = angle_from(cells[a + 1], angle_infos()[a], where, lines.number());
+    for (int a = 0; a < kAngleCount; ++a)
+      posture[a] = angle_from(cells[a + 1], angle_infos()[a], where, lines.number());
   }
   if (set.postures.empty()) throw Error(where, "postures", "none", "at least one line below the headings");
   return set;
@@ -110,7 +111,8 @@ PostureSet parse_postures_csv(std::string_view text, const std::string& set_name
 PostureSet load_posture_set(const std::string& path) {
   const std::filesystem::path file(path);
   if (file.extension() == ".json") return parse_postures_json(read_file(path, kLargestFile), path);
-  if (file.extension() == ".csv") return parse_postures_csv(read_file(path, kLargestFile), file.stem().string(), path);
+  if (file.extension() == ".csv")
+    return parse_postures_csv(read_file(path, kLargestFile), file.stem().string(), path);
   throw Error(path, "file name", quoted_excerpt(file.extension().string()), "the ending .json or .csv");
 }
 

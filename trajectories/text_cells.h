@@ -14,8 +14,8 @@ inline constexpr size_t kMostCells = 1000;
 /// The parts of `text` between the separators, trimmed. Beyond kMostCells the rest of the text is one part.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// The lines of a text file, one after the other, trimmed of spaces and carriage returns at their ends, without a byte
-/// order mark before them (spreadsheets begin a UTF-8 file with one). An empty text is an empty line.
+/// The lines of a text file, one after the other, trimmed of spaces and carriage returns at their ends, without a
+/// byte order mark before them (spreadsheets begin a UTF-8 file with one). An empty text is an empty line.
 class Lines {
  public:
   explicit Lines(std::string_view text);

@@ -7,8 +7,8 @@
 
 namespace glovebench {
 
-/// A file that is open for reading: a regular file or a pipe. Devices, sockets and folders are refused, since they may
-/// never end. What is read is what was checked, even if the name means another file meanwhile.
+/// A file that is open for reading: a regular file or a pipe. Devices, sockets and folders are refused, since they
+/// may never end. What is read is what was checked, even if the name means another file meanwhile.
 class InputFile {
  public:
   /// Waits for the writer of a named pipe. Throws Error.

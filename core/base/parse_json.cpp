@@ -26,7 +26,8 @@ std::string place_of(std::string_view text, size_t byte) {
 
 /// Memory that the parts of a document take from the heap, with what the heap adds to each.
 constexpr uint64_t kArrayBytes = 32, kObjectBytes = 64, kMemberBytes = 96, kTextBytes = 48;
-/// While a document is thrown away, the library keeps a list of values that still are to be. It doubles when it is full.
+/// While a document is thrown away, the library keeps a list of values that still are to be. It doubles when it is
+/// full.
 constexpr uint64_t kWaitingBytes = 3 * sizeof(json);
 
 uint64_t text_bytes(const std::string& text) {
@@ -34,8 +35,9 @@ uint64_t text_bytes(const std::string& text) {
   return text.size() > kWithin ? text.size() + 24 : 0;
 }
 
-/// Builds the document of a text and throws Error for what is no JSON, for a key that comes twice (the library would
-/// keep the last: who wrote the file by hand deserves to hear of it), and for more memory than the text may take.
+/// Builds the document of a text and throws Error for what is no JSON, for a key that comes twice (the library
+/// would keep the last: who wrote the file by hand deserves to hear of it), and for more memory than the text may
+/// take.
 class StrictDocument : public json::json_sax_t {
  public:
   StrictDocument(std::string_view text, const std::string& where) : text_(text), where_(where) {}

@@ -10,8 +10,8 @@ namespace glovebench {
 /// What is nested deeper is refused before it takes the stack.
 inline constexpr size_t kDeepestNesting = 64;
 
-/// Memory that a document may take, while it is built, kept and thrown away: so much for any text, and so much for each
-/// byte of a text. Our files take 3 to 10 bytes for a byte; `[[],[],[]]` would take 30.
+/// Memory that a document may take, while it is built, kept and thrown away: so much for any text, and so much for
+/// each byte of a text. Our files take 3 to 10 bytes for a byte; `[[],[],[]]` would take 30.
 inline constexpr uint64_t kJsonBytes = uint64_t{8} << 20;
 inline constexpr uint64_t kJsonBytesPerByte = 12;
 

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kVersion = 1;
-constexpr double kOrthonormalTolerance = 1e-6;  // calibration tools print at least seven digits
+constexpr double kOrthonormalTolerance = 1e-6;        // calibration tools print at least seven digits
 constexpr uint64_t kLargestFile = uint64_t{1} << 16;  // bytes: fifty times ours
 
 /// A place in a file, for error messages: "calibration.json: ir.fx_px: found ..., expected ...".

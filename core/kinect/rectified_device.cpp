@@ -3,8 +3,7 @@
 namespace glovebench {
 
 RectifiedDevice::RectifiedDevice(std::unique_ptr<Device> device)
-    : device_(std::move(device)),
-      calibration_(device_->calibration().rectified()) {
+    : device_(std::move(device)), calibration_(device_->calibration().rectified()) {
   require_unfolded(calibration_.ir, device_->calibration().ir_lens);
   require_unfolded(calibration_.rgb, device_->calibration().rgb_lens);
 }

@@ -23,8 +23,12 @@ StageTimes::Stage* find_stage(std::vector<StageTimes::Stage>& stages, const std:
 }  // namespace
 
 StageTimes read_stage_times(const std::string& timings_path) {
-  const nlohmann::json document = parse_json(read_file(timings_path, kLargestSmallFile), timings_path);
-  const JsonReader json(document, timings_path);
+  return parse_stage_times(read_file(timings_path, kLargestSmallFile), timings_path);
+}
+
+StageTimes parse_stage_times(const std::string& text, const std::string& where) {
+  const nlohmann::json document = parse_json(text, where);
+  const JsonReader json(document, where);
   json["format"].expect_text("glovebench-timings");
   json["version"].integer(1, 1);
   StageTimes times{json["processor"].text(), json["threads"].count(), {}};

@@ -54,8 +54,8 @@ void add_name(std::string_view name, MarkerSequence& sequence, const std::string
   sequence.names.emplace_back(name);
 }
 
-void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence, const std::string& where,
-               const std::string& field) {
+void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence,
+               const std::string& where, const std::string& field) {
   frame.timestamp_us -= first_us;
   if (!sequence.frames.empty() && frame.timestamp_us <= sequence.frames.back().timestamp_us) {
     throw Error(where, field, fmt::format("{} s", static_cast<double>(frame.timestamp_us + first_us) / 1e6),

@@ -120,7 +120,8 @@ MarkerSequence parse_trc_markers(std::string_view text, const std::string& where
   for (std::string_view& line : header) {
     const std::optional<std::string_view> next = lines.next();
     if (!next) {
-      throw Error(where, "lines", fmt::format("{}", lines.number()), fmt::format("{} and the frames", kHeaderLines));
+      throw Error(where, "lines", fmt::format("{}", lines.number()),
+                  fmt::format("{} and the frames", kHeaderLines));
     }
     line = *next;
   }
