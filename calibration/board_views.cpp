@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/camera/pinhole_camera.h"
 #include "core/kinect/recording_index.h"
 
 namespace glovebench::calibration {

@@ -174,7 +174,7 @@ std::string with_value_at(json document, const json::json_pointer& place, const 
   return text.replace(text.find("\"HERE\""), 6, value);
 }
 
-motion::PostureSet gestures() {
+PostureSet gestures() {
   return {.name = "gestures", .posture_names = {"open"}, .postures = {Posture::Zero()}};
 }
 
@@ -220,7 +220,8 @@ std::vector<Reader> json_readers() {
        to_json(nominal_kinect_calibration()).dump()},
       {"glove colors", [=](auto& text) { calibration::parse_glove_colors(text, w); }, kColors},
       {"trajectory", [=](auto& text) { motion::parse_trajectory(text, w); }, canonical_text(small_trajectory())},
-      {"posture set", [=](auto& text) { motion::parse_postures_json(text, w); }, canonical_text(gestures())},
+      {"posture set", [=](auto& text) { motion::parse_postures_json(text, w); },
+       motion::canonical_text(gestures())},
       {"marker layout", [=](auto& text) { motion::parse_marker_layout(text, w); },
        R"({"format": "glovebench-marker-layout", "version": 1, "markers": {"a": "wrist"}})"},
       {"webxr", [=](auto& text) { motion::parse_capture(text, "webxr", Side::right, w); }, kWebxr},
@@ -392,7 +393,7 @@ TEST(ReaderMemory, of_pictures_is_bounded_whatever_they_claim) {
     EXPECT_NE(reading(reader, picture).error, "");
   }
   for (const char* ending : {".png", ".jpg", ".tif", ".bmp", ".pgm"}) {
-    for (const auto [width, height] : {std::pair(1920, 1080), std::pair(2100, 1000)}) {
+    for (const auto& [width, height] : {std::pair(1920, 1080), std::pair(2100, 1000)}) {
       std::vector<uint8_t> bytes;
       ASSERT_TRUE(cv::imencode(ending, cv::Mat(height, width, CV_8UC1, cv::Scalar(7)), bytes));
       const std::string picture(bytes.begin(), bytes.end());
