@@ -93,7 +93,8 @@ void LimitsFlag::add(CLI::App& command) {
 }
 
 CommandLimits LimitsFlag::limits() const {
-  return file.empty() ? CommandLimits() : command_limits_from_json(parse_json(read_file(file, kLargestConfig), file), file);
+  return file.empty() ? CommandLimits()
+                      : command_limits_from_json(parse_json(read_file(file, kLargestConfig), file), file);
 }
 
 void RobotFlags::add(CLI::App& command, const std::string& what) {
