@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <thread>
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/camera/pinhole_camera.h"
 #include "core/kinect/recording_index.h"
 
 namespace glovebench::calibration {
@@ -17,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kRecording = "fakenect:";
-constexpr uint64_t kLargestFile = uint64_t{256} << 20;
+constexpr uint64_t kLargestFile = uint64_t{16} << 20;
 
 struct Picture {
   std::string name, path;
@@ -46,19 +49,17 @@ std::vector<Picture> pictures_in_folder(const std::string& folder) {
   return pictures;
 }
 
-std::vector<Picture> pictures_of_recording(const std::string& folder) {
+/// Of the color images, `most` evenly over the recording.
+std::vector<Picture> pictures_of_recording(const std::string& folder, size_t most) {
+  std::vector<RecordingEntry> colors = read_recording_index(folder);
+  std::erase_if(colors, [](const RecordingEntry& entry) { return entry.kind != RecordedKind::color; });
   std::vector<Picture> pictures;
-  for (const RecordingEntry& entry : read_recording_index(folder)) {
-    if (entry.kind == RecordedKind::color) pictures.push_back({fmt::format("{}", pictures.size()), entry.path});
+  const size_t count = std::min(most, colors.size());
+  for (size_t i = 0; i < count; ++i) {
+    const size_t number = i * colors.size() / count;
+    pictures.push_back({fmt::format("{}", number), path_in_recording(folder, colors[number].name)});
   }
   return pictures;
-}
-
-std::vector<Picture> evenly(std::vector<Picture> pictures, size_t most) {
-  if (pictures.size() <= most) return pictures;
-  std::vector<Picture> chosen;
-  for (size_t i = 0; i < most; ++i) chosen.push_back(std::move(pictures[i * pictures.size() / most]));
-  return chosen;
 }
 
 /// Sixteen bits, of which a sensor uses a part, are stretched to eight.
@@ -69,21 +70,33 @@ cv::Mat to_eight_bits(const cv::Mat& image) {
   return stretched;
 }
 
+/// Gives OpenCV no room for an image that is too large: the header of a small file may claim one. As OpenCV has one
+/// allocator for a whole program, it looks at its own thread only.
+class SmallImages : public cv::MatAllocator {
+ public:
+  SmallImages() { cv::Mat::setDefaultAllocator(this); }
+  ~SmallImages() override { cv::Mat::setDefaultAllocator(standard_); }
+
+  cv::UMatData* allocate(int dimensions, const int* sizes, int type, void* data, size_t* step, cv::AccessFlag flags,
+                         cv::UMatUsageFlags usage) const override {
+    const int64_t pixels = std::accumulate(sizes, sizes + dimensions, int64_t{1}, std::multiplies<>());
+    if (std::this_thread::get_id() == thread_ && data == nullptr && pixels > kMostPixels)
+      throw Error(fmt::format("an image of {} pixels", pixels));
+    return standard_->allocate(dimensions, sizes, type, data, step, flags, usage);
+  }
+  bool allocate(cv::UMatData* data, cv::AccessFlag flags, cv::UMatUsageFlags usage) const override {
+    return standard_->allocate(data, flags, usage);
+  }
+  void deallocate(cv::UMatData* data) const override { standard_->deallocate(data); }
+
+ private:
+  cv::MatAllocator* standard_ = cv::Mat::getDefaultAllocator();
+  std::thread::id thread_ = std::this_thread::get_id();
+};
+
 /// Throws Error if it is no image.
 Image<uint8_t> read_gray(const std::string& path) {
-  const std::string content = read_file(path, kLargestFile);
-  const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
-  cv::Mat image;
-  try {
-    if (!content.empty()) image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
-  } catch (const cv::Exception&) {
-    // Larger than OpenCV takes: no picture of a camera.
-  }
-  if (image.empty()) throw Error(path, "content", "no image", "an image");
-  image = to_eight_bits(image);
-  Image<uint8_t> gray(image.cols, image.rows);
-  for (int v = 0; v < image.rows; ++v) std::copy_n(image.ptr(v), image.cols, &gray(0, v));
-  return gray;
+  return decode_gray(read_file(path, kLargestFile), path);
 }
 
 /// The first picture that can be read says the size of all.
@@ -99,11 +112,28 @@ void require_size(BoardViews& views, const Image<uint8_t>& gray, const std::stri
 
 }  // namespace
 
+Image<uint8_t> decode_gray(std::string_view content, const std::string& path) {
+  const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
+  cv::Mat image;
+  try {
+    const SmallImages small;
+    if (!content.empty()) image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  } catch (const Error& error) {
+    throw Error(path, "size", error.what(), fmt::format("at most {} pixels", kMostPixels));
+  } catch (const cv::Exception&) {
+    // Larger than OpenCV takes: no picture of a camera.
+  }
+  if (image.empty()) throw Error(path, "content", "no image", "an image");
+  image = to_eight_bits(image);
+  Image<uint8_t> gray(image.cols, image.rows);
+  for (int v = 0; v < image.rows; ++v) std::copy_n(image.ptr(v), image.cols, &gray(0, v));
+  return gray;
+}
+
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked) {
   const bool is_recording = source.starts_with(kRecording);
-  const std::vector<Picture> pictures = is_recording
-                                            ? evenly(pictures_of_recording(source.substr(kRecording.size())), most)
-                                            : pictures_in_folder(source);
+  const std::vector<Picture> pictures =
+      is_recording ? pictures_of_recording(source.substr(kRecording.size()), most) : pictures_in_folder(source);
   if (pictures.empty()) throw Error(source, "pictures", "none", "pictures of a chessboard");
   BoardViews views;
   for (size_t i = 0; i < pictures.size(); ++i) {

@@ -22,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr uint64_t kLargestReplay = uint64_t{256} << 20;  // bytes: a million frames
 constexpr const char* kMark = "/.unfinished";
 constexpr const char* kDone = ".finished-";  // a mark that no longer is one, on its way out
 
@@ -104,7 +105,7 @@ std::optional<std::string> RunFolder::load(const std::string& key) const {
   if (!fs::exists(fs::symlink_status(path, ignored))) return std::nullopt;
   std::string bytes;
   try {
-    if (fs::is_regular_file(path)) bytes = read_file(path);
+    if (fs::is_regular_file(path)) bytes = read_file(path, kLargestReplay);
   } catch (const Error&) {  // what cannot be read is made anew, like what is damaged
   }
   const size_t content = bytes.find('\n') + 1;

@@ -11,6 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr uint64_t kLargestScript = uint64_t{16} << 20;  // bytes
+
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
@@ -47,8 +49,8 @@ std::vector<std::string> page_scripts() {
   const std::string folder = share_folder() + "/page/";
   std::vector<std::string> scripts;
   for (const std::string name : {"vega", "vega-lite", "vega-embed"}) {
-    scripts.push_back("/*! " + name + "\n" + read_file(folder + name + ".license.txt") + "*/\n" +
-                      read_file(folder + name + ".min.js"));
+    scripts.push_back("/*! " + name + "\n" + read_file(folder + name + ".license.txt", kLargestScript) + "*/\n" +
+                      read_file(folder + name + ".min.js", kLargestScript));
   }
   return scripts;
 }

@@ -23,6 +23,7 @@ using trajectories::JsonField;
 using trajectories::Trajectory;
 using trajectories::TrajectoryKind;
 
+constexpr uint64_t kLargestSuite = uint64_t{1} << 20;  // bytes
 constexpr int64_t kMaxSeed = 4'294'967'295;
 constexpr int kMaxFrame = 1'000'000;
 constexpr double kMaxNoiseFactor = 100;
@@ -225,14 +226,14 @@ Suite parse_suite(std::string_view text, const std::string& path) {
 }
 
 Suite load_suite(const std::string& name_or_file) {
-  if (name_or_file.ends_with(".json")) return parse_suite(read_file(name_or_file), name_or_file);
+  if (name_or_file.ends_with(".json")) return parse_suite(read_file(name_or_file, kLargestSuite), name_or_file);
   const std::vector<std::string> known = suite_names();
   if (std::ranges::count(known, name_or_file) == 0) {
     throw Error("suites", "name", name_or_file,
                 fmt::format("a file (*.json) or one of {}", fmt::join(known, ", ")));
   }
   const std::string path = fmt::format("{}/{}.json", suite_folder(), name_or_file);
-  Suite suite = parse_suite(read_file(path), path);
+  Suite suite = parse_suite(read_file(path, kLargestSuite), path);
   if (suite.name != name_or_file) throw Error(path, "name", suite.name, name_or_file);
   return suite;
 }

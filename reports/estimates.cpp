@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <set>
 
@@ -57,20 +59,21 @@ class Line {
   Line(std::string_view text, const std::string& where, int number) : where_(where), number_(number) {
     for (size_t begin = 0; begin <= text.size();) {
       const size_t end = std::min(text.find(',', begin), text.size());
-      cells_.emplace_back(text.substr(begin, end - begin));
+      if (count_ < kColumnCount) cells_[count_] = text.substr(begin, end - begin);
+      ++count_;
       begin = end + 1;
     }
-    if (cells_.size() != kColumnCount) {
-      throw Error(where_, fmt::format("line {}", number_), fmt::format("{} columns", cells_.size()),
+    if (count_ != kColumnCount) {
+      throw Error(where_, fmt::format("line {}", number_), fmt::format("{} columns", count_),
                   std::to_string(kColumnCount));
     }
   }
 
-  const std::string& operator[](size_t column) const { return cells_[column]; }
+  std::string_view operator[](size_t column) const { return cells_[column]; }
 
   template <typename Number>
   Number whole(size_t column) const {
-    const std::string& cell = cells_[column];
+    const std::string_view cell = cells_[column];
     Number value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size() || std::to_string(value) != cell) {
@@ -81,7 +84,7 @@ class Line {
 
   /// As estimates_csv writes it, and no larger than `largest`.
   double number(size_t column, double largest) const {
-    const std::string& cell = cells_[column];
+    const std::string_view cell = cells_[column];
     double value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     const bool is_number = error == std::errc() && end == cell.data() + cell.size() && std::abs(value) <= largest;
@@ -101,7 +104,8 @@ class Line {
  private:
   const std::string& where_;
   int number_;
-  std::vector<std::string> cells_;
+  size_t count_ = 0;
+  std::array<std::string_view, kColumnCount> cells_;
 };
 
 Eigen::Quaterniond read_rotation(const Line& line) {
@@ -166,6 +170,9 @@ std::vector<Estimate> read_estimates(const std::string& path) {
 
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where) {
   std::vector<Estimate> estimates;
+  // An estimate is larger than its line may be: no more room than lines that could be read.
+  const auto lines = static_cast<size_t>(std::ranges::count(text, '\n'));
+  estimates.reserve(std::min(lines, text.size() / kColumnCount));
   std::set<uint64_t> seeds;
   int number = 0;
   for (size_t begin = 0; begin < text.size() || number == 0;) {

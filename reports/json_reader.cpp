@@ -27,18 +27,18 @@ JsonReader JsonReader::operator[](std::string_view key) const {
   return {*member, where_, field};
 }
 
-std::vector<JsonReader> JsonReader::items() const {
+JsonItems JsonReader::items() const {
   if (!value_.is_array()) fail("an array");
-  std::vector<JsonReader> items;
-  items.reserve(value_.size());
-  for (size_t i = 0; i < value_.size(); ++i) items.push_back({value_[i], where_, fmt::format("{}[{}]", field_, i)});
-  return items;
+  return JsonItems(*this);
 }
 
-std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
-  std::vector<std::pair<std::string, JsonReader>> members;
-  for (const auto& member : object().items()) members.emplace_back(member.key(), (*this)[member.key()]);
-  return members;
+JsonMembers JsonReader::members() const {
+  object();
+  return JsonMembers(*this);
+}
+
+JsonReader JsonItems::operator[](size_t index) const {
+  return {array_.value_.at(index), array_.where_, fmt::format("{}[{}]", array_.field_, index)};
 }
 
 const json& JsonReader::object() const {

@@ -11,8 +11,13 @@
 
 namespace glovebench::reports {
 
-/// Larger files are refused before they take memory: 256 MB is the report of some million frames.
+/// Larger results and estimates are refused before they take memory: 256 MB is the report of some million frames.
 inline constexpr uint64_t kLargestFile = 256'000'000;
+/// The same of what does not grow with the frames: times, ratios, noise floors.
+inline constexpr uint64_t kLargestSmallFile = 16'000'000;
+
+class JsonItems;
+class JsonMembers;
 
 /// A value in a JSON document and the way to it, for reading strictly: whatever is missing, superfluous or of
 /// another kind throws Error(where, field, found, expected). Refers to the document and to `where`, which must
@@ -25,8 +30,10 @@ class JsonReader {
   /// The value is an object with these keys and no others.
   void expect_keys(std::initializer_list<std::string_view> keys) const;
   JsonReader operator[](std::string_view key) const;
-  std::vector<JsonReader> items() const;
-  std::vector<std::pair<std::string, JsonReader>> members() const;
+  /// Of an array.
+  JsonItems items() const;
+  /// Of an object.
+  JsonMembers members() const;
 
   bool is_null() const { return value_.is_null(); }
   bool is_text() const { return value_.is_string(); }
@@ -51,6 +58,66 @@ class JsonReader {
   const nlohmann::json& value_;
   const std::string& where_;
   std::string field_;
+
+  friend class JsonItems;
+};
+
+/// The values of an array, each made when it is looked at: a reader is larger than a value.
+class JsonItems {
+ public:
+  explicit JsonItems(const JsonReader& array) : array_(array) {}
+
+  class Iterator {
+   public:
+    Iterator(const JsonItems& items, size_t index) : items_(&items), index_(index) {}
+    JsonReader operator*() const { return (*items_)[index_]; }
+    Iterator& operator++() {
+      ++index_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return index_ == other.index_; }
+
+   private:
+    const JsonItems* items_;
+    size_t index_;
+  };
+
+  size_t size() const { return array_.value_.size(); }
+  JsonReader operator[](size_t index) const;
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size()}; }
+
+ private:
+  JsonReader array_;
+};
+
+/// The names and values of an object, made like those of JsonItems.
+class JsonMembers {
+ public:
+  explicit JsonMembers(const JsonReader& object) : object_(object) {}
+
+  class Iterator {
+   public:
+    Iterator(const JsonReader& object, nlohmann::json::const_iterator member) : object_(&object), member_(member) {}
+    std::pair<std::string, JsonReader> operator*() const { return {member_.key(), (*object_)[member_.key()]}; }
+    Iterator& operator++() {
+      ++member_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return member_ == other.member_; }
+
+   private:
+    const JsonReader* object_;
+    nlohmann::json::const_iterator member_;
+  };
+
+  size_t size() const { return object_.object().size(); }
+  std::pair<std::string, JsonReader> front() const { return *begin(); }
+  Iterator begin() const { return {object_, object_.object().begin()}; }
+  Iterator end() const { return {object_, object_.object().end()}; }
+
+ private:
+  JsonReader object_;
 };
 
 }  // namespace glovebench::reports

@@ -8,7 +8,7 @@ namespace glovebench::reports {
 namespace {
 
 PaperErrors read_errors(const JsonReader& json) {
-  const std::vector<JsonReader> row = json.items();
+  const JsonItems row = json.items();
   if (row.size() != 3) json.fail("position, posture and rotation error");
   const PaperErrors errors = {row[0].number(), row[1].number(), row[2].number()};
   if (errors.position_mm < 0 || errors.posture_deg < 0 || errors.rotation_deg < 0) json.fail("errors of 0 or more");
@@ -19,7 +19,7 @@ PaperCurve read_curve(const JsonReader& json) {
   json.expect_keys({"trajectory", "database", "columns", "mean", "frames"});
   constexpr std::array<std::string_view, 3> kColumns = {"position_error_mm", "posture_error_deg",
                                                         "rotation_error_deg"};
-  const std::vector<JsonReader> columns = json["columns"].items();
+  const JsonItems columns = json["columns"].items();
   if (columns.size() != kColumns.size()) json["columns"].fail("three columns");
   for (size_t i = 0; i < kColumns.size(); ++i) columns[i].expect_text(kColumns[i]);
   PaperCurve curve{json["trajectory"].text(), json["database"].text(), read_errors(json["mean"]), {}};
@@ -31,7 +31,7 @@ PaperCascade read_cascade(const JsonReader& json) {
   json.expect_keys({"database", "cascade", "posture_error_deg", "time_ms"});
   PaperCascade row{json["database"].text(), {}, json["posture_error_deg"].number(), json["time_ms"].number()};
   for (const JsonReader& stage : json["cascade"].items()) {
-    const std::vector<JsonReader> values = stage.items();
+    const JsonItems values = stage.items();
     if (values.size() != 2) stage.fail("size and number kept");
     row.cascade.push_back({values[0].count(), values[1].count()});
   }

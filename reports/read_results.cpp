@@ -75,10 +75,19 @@ InputHashes read_inputs(const JsonReader& json) {
           json["color_table"].text()};
 }
 
+constexpr size_t kFirstMetric = 9;
+
+/// Rows that are as long as a frame's, so that there can be room for as many frames: they are larger than what a
+/// row must hold.
+JsonItems read_rows(const JsonReader& json) {
+  JsonItems rows = json.items();
+  for (const JsonReader& row : rows)
+    if (row.items().size() != kFirstMetric + kMetricCount) row.fail("one value for each of frame_columns");
+  return rows;
+}
+
 FrameRecord read_frame(const JsonReader& json) {
-  const std::vector<JsonReader> row = json.items();
-  constexpr size_t kFirstMetric = 9;
-  if (row.size() != kFirstMetric + kMetricCount) json.fail("one value for each of frame_columns");
+  const JsonItems row = json.items();
   FrameRecord frame;
   frame.frame = row[0].count();
   frame.timestamp_us = row[1].integer(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max());
@@ -115,7 +124,9 @@ std::vector<SeedRun> read_runs(const JsonReader& json) {
     run.seed = item["seed"].unsigned_integer();
     if (std::ranges::find(runs, run.seed, &SeedRun::seed) != runs.end())
       item["seed"].fail("a seed that has not been before");
-    for (const JsonReader& row : item["frames"].items()) {
+    const JsonItems rows = read_rows(item["frames"]);
+    run.frames.reserve(rows.size());
+    for (const JsonReader& row : rows) {
       const FrameRecord frame = read_frame(row);
       check_frame(row, run.frames, frame, runs);
       run.frames.push_back(frame);
@@ -208,7 +219,7 @@ RunResult read_results(const std::string& path) {
 }
 
 RunResult parse_results(const std::string& text, const std::string& where) {
-  const nlohmann::json document = parse_json(text, where);
+  nlohmann::json document = parse_json(text, where);
   const JsonReader json(document, where);
   json["format"].expect_text(kResultsFormat);
   json["version"].integer(kResultsVersion, kResultsVersion);
@@ -224,13 +235,14 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   if (!json["suite"].is_null()) result.suite = read_name(json["suite"]);
   result.program_version = json["program"]["version"].text();
   result.commit = json["program"]["commit"].text();
-  result.configuration = json["configuration"].object();
+  json["configuration"].object();
   for (const JsonReader& item : json["experiments"].items()) {
     ExperimentResult experiment = read_experiment(item);
     if (find_experiment(result, experiment.key)) item.fail("an experiment that has not been before");
     result.experiments.push_back(std::move(experiment));
   }
   if (has_studies) result.studies = read_studies(json["studies"]);
+  result.configuration = std::move(document["configuration"]);  // anything may be in it: not twice
   return result;
 }
 

@@ -1,5 +1,7 @@
 #include "reports/study_json.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
@@ -14,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 /// Cells hold counts and times beside errors, and changes that may be negative: far from where a sum overflows.
 constexpr double kLargestCell = 1e12;
+constexpr size_t kMostCells = 250'000;  // a cell is larger than its text may be
 constexpr int64_t kLargestCount = 1'000'000'000'000;
 /// Numbers are written to 1e-6.
 constexpr int kMostDigits = 6;
@@ -105,6 +108,13 @@ std::vector<Column> read_columns(const JsonReader& json) {
   return columns;
 }
 
+size_t cell_count(const std::vector<StudyResult>& studies) {
+  size_t cells = 0;
+  for (const StudyResult& study : studies)
+    for (const Table& table : study.tables) cells += table.rows.size() * table.columns.size();
+  return cells;
+}
+
 /// `studies`: those before, and the one that the table belongs to.
 Table read_table(const JsonReader& json, const std::vector<StudyResult>& studies) {
   json.expect_keys({"name", "title", "explanation", "columns", "name_columns", "rows"});
@@ -116,10 +126,13 @@ Table read_table(const JsonReader& json, const std::vector<StudyResult>& studies
   table.explanation = json["explanation"].text();
   table.columns = read_columns(json["columns"]);
   table.name_columns = static_cast<int>(json["name_columns"].integer(1, std::ssize(table.columns)));
-  for (const JsonReader& row : json["rows"].items()) {
-    const std::vector<JsonReader> cells = row.items();
+  const JsonItems rows = json["rows"].items();
+  if (cell_count(studies) + rows.size() * table.columns.size() > kMostCells)
+    json["rows"].fail(fmt::format("at most {} cells in all tables", kMostCells));
+  for (const JsonReader& row : rows) {
+    const JsonItems cells = row.items();
     if (cells.size() != table.columns.size()) row.fail("one cell for each of columns");
-    table.rows.emplace_back();
+    table.rows.emplace_back().reserve(cells.size());
     for (const JsonReader& cell : cells) table.rows.back().push_back(read_cell(cell));
   }
   return table;

@@ -48,6 +48,12 @@ size_t JsonField::array_size() const {
   return value_->size();
 }
 
+size_t JsonField::array_size(std::initializer_list<std::string_view> members) const {
+  const size_t size = array_size();
+  for (size_t i = 0; i < size; ++i) element(i).expect_members(members);
+  return size;
+}
+
 void JsonField::expect_array(size_t size) const {
   expect_array();
   if (value_->size() != size) fail(fmt::format("{} elements", value_->size()), fmt::format("{}", size));

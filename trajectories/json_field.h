@@ -10,6 +10,9 @@
 
 namespace glovebench::trajectories {
 
+/// Trajectories and posture sets are no larger (bytes).
+inline constexpr uint64_t kLargestFile = uint64_t{64} << 20;
+
 /// A value of a JSON document that knows where it stands, so that every complaint names file and field
 /// ("frames[17].angles_deg[3]"). All members throw Error. Refers to the document: must not outlive it.
 class JsonField {
@@ -25,6 +28,8 @@ class JsonField {
 
   /// Number of elements of the array, which must have at least one.
   size_t array_size() const;
+  /// The same if each element is an object with these members and no others: for so many there can be room.
+  size_t array_size(std::initializer_list<std::string_view> members) const;
   /// The value must be an array of exactly this many elements.
   void expect_array(size_t size) const;
   JsonField element(size_t index) const;

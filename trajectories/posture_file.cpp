@@ -71,9 +71,11 @@ PostureSet parse_postures_json(std::string_view text, const std::string& where) 
   PostureSet set{.name = root.member("name").name(), .posture_names = {}, .postures = {}};
   std::set<std::string> names;
   const JsonField postures = root.member("postures");
-  for (size_t i = 0; i < postures.array_size(); ++i) {
+  const size_t count = postures.array_size({"name", "angles_deg"});
+  set.posture_names.reserve(count);
+  set.postures.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
     const JsonField posture = postures.element(i);
-    posture.expect_members({"name", "angles_deg"});
     set.posture_names.push_back(posture.member("name").name());
     expect_new_name(set.posture_names.back(), names, where, fmt::format("postures[{}].name", i));
     set.postures.push_back(angles_from(posture.member("angles_deg")));
@@ -84,14 +86,14 @@ PostureSet parse_postures_json(std::string_view text, const std::string& where) 
 PostureSet parse_postures_csv(std::string_view text, const std::string& set_name, const std::string& where) {
   if (!is_name(set_name)) throw Error(where, "file name", quoted_excerpt(set_name), kNameExpected);
 
-  const std::vector<std::string_view> lines = lines_of(text);
-  expect_headings(split(lines.front(), ','), where);
+  Lines lines(text);
+  expect_headings(split(*lines.next(), ','), where);
   PostureSet set{.name = set_name, .posture_names = {}, .postures = {}};
   std::set<std::string> names;
-  for (size_t l = 1; l < lines.size(); ++l) {
-    if (trimmed(lines[l]).empty()) continue;
-    const std::vector<std::string_view> cells = split(lines[l], ',');
-    const std::string line = fmt::format("line {}", l + 1);
+  while (const std::optional<std::string_view> text_line = lines.next()) {
+    if (trimmed(*text_line).empty()) continue;
+    const std::vector<std::string_view> cells = split(*text_line, ',');
+    const std::string line = fmt::format("line {}", lines.number());
     if (cells.size() != kAngleCount + 1) {
       throw Error(where, line, fmt::format("{} cells", cells.size()), fmt::format("{}", kAngleCount + 1));
     }
@@ -99,7 +101,8 @@ PostureSet parse_postures_csv(std::string_view text, const std::string& set_name
     set.posture_names.emplace_back(cells[0]);
     expect_new_name(set.posture_names.back(), names, where, line + ", name");
     Posture& posture = set.postures.emplace_back();
-    for (int a = 0; a < kAngleCount; ++a) posture[a] = angle_from(cells[a + 1], angle_infos()[a], where, l + 1);
+    for (int a = 0; a < kAngleCount; ++a)
+      posture[a] = angle_from(cells[a + 1], angle_infos()[a], where, lines.number());
   }
   if (set.postures.empty()) throw Error(where, "postures", "none", "at least one line below the headings");
   return set;
@@ -107,8 +110,9 @@ PostureSet parse_postures_csv(std::string_view text, const std::string& set_name
 
 PostureSet load_posture_set(const std::string& path) {
   const std::filesystem::path file(path);
-  if (file.extension() == ".json") return parse_postures_json(read_file(path), path);
-  if (file.extension() == ".csv") return parse_postures_csv(read_file(path), file.stem().string(), path);
+  if (file.extension() == ".json") return parse_postures_json(read_file(path, kLargestFile), path);
+  if (file.extension() == ".csv")
+    return parse_postures_csv(read_file(path, kLargestFile), file.stem().string(), path);
   throw Error(path, "file name", quoted_excerpt(file.extension().string()), "the ending .json or .csv");
 }
 

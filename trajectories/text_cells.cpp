@@ -19,26 +19,32 @@ std::string_view trimmed(std::string_view text) {
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
-    const size_t end = text.find(separator);
+    const size_t end = parts.size() < kMostCells ? text.find(separator) : std::string_view::npos;
     parts.push_back(trimmed(text.substr(0, end)));
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
 }
 
-std::vector<std::string_view> lines_of(std::string_view text) {
+Lines::Lines(std::string_view text) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  std::vector<std::string_view> lines;
-  while (true) {
-    const size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    // Tabs stay: empty cells at the end of a line lie between them.
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
-    lines.push_back(line);
-    if (end == std::string_view::npos) return lines;
-    text.remove_prefix(end + 1);
+  rest_ = text;
+}
+
+std::optional<std::string_view> Lines::next() {
+  if (!rest_) return std::nullopt;
+  ++number_;
+  const size_t end = rest_->find('\n');
+  std::string_view line = rest_->substr(0, end);
+  if (end == std::string_view::npos) {
+    rest_.reset();
+  } else {
+    rest_->remove_prefix(end + 1);
   }
+  // Tabs stay: empty cells at the end of a line lie between them.
+  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+  return line;
 }
 
 std::optional<double> number_in(std::string_view cell) {

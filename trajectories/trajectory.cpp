@@ -54,7 +54,6 @@ Eigen::Vector4d canonical_wxyz(const Eigen::Matrix3d& rotation) {
 }
 
 TrajectoryFrame frame_from(const JsonField& field) {
-  field.expect_members({"timestamp_us", "angles_deg", "position_mm", "quaternion_wxyz"});
   TrajectoryFrame frame;
   frame.timestamp_us = field.member("timestamp_us").integer(0, kMaxTimestampUs);
   frame.posture = angles_from(field.member("angles_deg"));
@@ -69,8 +68,9 @@ TrajectoryFrame frame_from(const JsonField& field) {
 
 std::vector<TrajectoryFrame> frames_from(const JsonField& field) {
   std::vector<TrajectoryFrame> frames;
-  frames.reserve(field.array_size());
-  for (size_t i = 0; i < field.array_size(); ++i) {
+  const size_t count = field.array_size({"timestamp_us", "angles_deg", "position_mm", "quaternion_wxyz"});
+  frames.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
     const JsonField element = field.element(i);
     frames.push_back(frame_from(element));
     if (i > 0 && frames[i].timestamp_us <= frames[i - 1].timestamp_us) {
@@ -166,7 +166,7 @@ Trajectory parse_trajectory(std::string_view text, const std::string& where) {
 }
 
 Trajectory load_trajectory(const std::string& path) {
-  return parse_trajectory(read_file(path), path);
+  return parse_trajectory(read_file(path, kLargestFile), path);
 }
 
 std::string canonical_text(const Trajectory& trajectory) {

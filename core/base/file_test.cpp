@@ -1,10 +1,19 @@
 #include "core/base/file.h"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <thread>
 
 #include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/base/mapped_memory.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -51,7 +60,37 @@ TEST(File, larger_than_its_limit_is_refused_before_it_is_read) {
   EXPECT_THAT([&] { read_file(path, 4); }, ThrowsMessage<Error>(HasSubstr("more than 4 bytes")));
   std::filesystem::resize_file(path, uintmax_t{1} << 40);  // a hole: it takes no room
   EXPECT_THAT([&] { read_file(path, 1'000'000); }, ThrowsMessage<Error>(HasSubstr("more than 1000000 bytes")));
-  EXPECT_THAT([] { read_file("/dev/zero", 1'000'000); }, ThrowsMessage<Error>(HasSubstr("more than 1000000")));
+}
+
+TEST(File, what_may_never_end_is_refused) {
+  const TestFolder folder;
+  std::filesystem::create_symlink("/dev/zero", folder / "endless");
+  EXPECT_THAT([&] { read_file(folder / "endless"); }, ThrowsMessage<Error>(HasSubstr("a device")));
+  EXPECT_THAT([] { read_file("/dev/null"); }, ThrowsMessage<Error>(HasSubstr("a device")));
+  std::filesystem::create_symlink(folder / "itself", folder / "itself");
+  EXPECT_THROW(read_file(folder / "itself"), Error);
+  EXPECT_THROW(hash_file(folder / "endless"), Error);
+  EXPECT_THROW(MappedMemory::of_file(folder / "endless"), Error);
+}
+
+TEST(File, of_a_pipe_is_read_to_its_end_and_bounded) {
+  const TestFolder folder;
+  const std::string pipe = folder / "pipe", content = bytes(300'000);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto write_later = [&] {
+    return std::thread([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the reader waits for its writer
+      std::ofstream(pipe, std::ios::binary) << content;
+    });
+  };
+  std::signal(SIGPIPE, SIG_IGN);
+  std::thread writer = write_later();
+  EXPECT_EQ(read_file(pipe, content.size()), content);
+  writer.join();
+  writer = write_later();
+  EXPECT_THAT([&] { read_file(pipe, 1000); }, ThrowsMessage<Error>(HasSubstr("more than 1000 bytes")));
+  writer.join();
+  std::signal(SIGPIPE, SIG_DFL);
 }
 
 TEST(MappedMemory, of_a_file_is_its_content_and_outlives_its_name) {

@@ -3,13 +3,22 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include "core/base/file.h"
+#include <memory>
+#include <vector>
+
+#include "core/base/input_file.h"
 
 namespace glovebench {
+namespace {
+
+std::string to_text(const XXH128_hash_t& hash) {
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+}  // namespace
 
 std::string hash_bytes(std::span<const std::byte> bytes) {
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  return to_text(XXH3_128bits(bytes.data(), bytes.size()));
 }
 
 std::string hash_text(std::string_view text) {
@@ -17,7 +26,12 @@ std::string hash_text(std::string_view text) {
 }
 
 std::string hash_file(const std::string& path) {
-  return hash_text(read_file(path));
+  InputFile file(path);
+  const std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  std::vector<char> chunk(1 << 20);
+  while (const size_t bytes = file.read(chunk)) XXH3_128bits_update(state.get(), chunk.data(), bytes);
+  return to_text(XXH3_128bits_digest(state.get()));
 }
 
 }  // namespace glovebench

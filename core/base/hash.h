@@ -11,7 +11,7 @@ namespace glovebench {
 /// signature: it guards against damage and mix-ups, not against an attacker.
 std::string hash_bytes(std::span<const std::byte> bytes);
 std::string hash_text(std::string_view text);
-/// Hash of a file's content. Throws Error if it cannot be read.
+/// Hash of a file's content, however large. Throws Error if it cannot be read.
 std::string hash_file(const std::string& path);
 
 }  // namespace glovebench

@@ -1,8 +1,6 @@
 #include "core/base/mapped_memory.h"
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 
 namespace glovebench {
 
@@ -24,18 +23,13 @@ MappedMemory MappedMemory::zeros(size_t bytes) {
 }
 
 MappedMemory MappedMemory::of_file(const std::string& path) {
-  constexpr const char* kExpected = "a readable file";
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) throw Error(path, "file", std::strerror(errno), kExpected);
-  struct stat status = {};
-  const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
-  const auto bytes = static_cast<size_t>(status.st_size);
-  void* const data = is_file && bytes > 0 ? ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, descriptor, 0) : nullptr;
-  const int error = errno;
-  ::close(descriptor);
-  if (!is_file) throw Error(path, "file", S_ISDIR(status.st_mode) ? "a folder" : "no file", kExpected);
-  if (data == MAP_FAILED) throw Error(path, "file", std::strerror(error), kExpected);
-  return data ? MappedMemory(data, bytes, true) : MappedMemory();
+  const InputFile file(path);
+  if (!file.size()) throw Error(path, "file", "a pipe", "a file that can be mapped");
+  const auto bytes = static_cast<size_t>(*file.size());
+  if (bytes == 0) return {};
+  void* const data = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file.descriptor(), 0);
+  if (data == MAP_FAILED) throw Error(path, "file", std::strerror(errno), "a file that can be mapped");
+  return {data, bytes, true};
 }
 
 MappedMemory MappedMemory::of_descriptor(int descriptor, size_t bytes, const std::string& path) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -25,26 +24,45 @@ std::string place_of(std::string_view text, size_t byte) {
   return fmt::format("line {}, {}", std::ranges::count(before, '\n') + 1, column);
 }
 
-/// Follows the library through a text and throws Error for what is no JSON, and for a key that comes twice, of
-/// which the library would keep the last: who wrote the file by hand deserves to hear of it.
-class StrictText : public json::json_sax_t {
- public:
-  StrictText(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+/// Memory that the parts of a document take from the heap, with what the heap adds to each.
+constexpr uint64_t kArrayBytes = 32, kObjectBytes = 64, kMemberBytes = 96, kTextBytes = 48;
+/// While a document is thrown away, the library keeps a list of values that still are to be. It doubles when it is
+/// full.
+constexpr uint64_t kWaitingBytes = 3 * sizeof(json);
 
-  bool null() override { return value(); }
-  bool boolean(bool /*value*/) override { return value(); }
-  bool number_integer(json::number_integer_t /*value*/) override { return value(); }
-  bool number_unsigned(json::number_unsigned_t /*value*/) override { return value(); }
-  bool number_float(json::number_float_t /*value*/, const std::string& /*text*/) override { return value(); }
-  bool string(std::string& /*value*/) override { return value(); }
-  bool binary(json::binary_t& /*value*/) override { return value(); }
-  bool start_object(size_t /*size*/) override { return begin(true); }
-  bool start_array(size_t /*size*/) override { return begin(false); }
+uint64_t text_bytes(const std::string& text) {
+  constexpr size_t kWithin = 15;  // longer texts lie on the heap
+  return text.size() > kWithin ? text.size() + 24 : 0;
+}
+
+/// Builds the document of a text and throws Error for what is no JSON, for a key that comes twice (the library
+/// would keep the last: who wrote the file by hand deserves to hear of it), and for more memory than the text may
+/// take.
+class StrictDocument : public json::json_sax_t {
+ public:
+  StrictDocument(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(json::number_integer_t value) override { return add(value); }
+  bool number_unsigned(json::number_unsigned_t value) override { return add(value); }
+  bool number_float(json::number_float_t value, const std::string& /*text*/) override { return add(value); }
+  bool string(std::string& value) override {
+    charge(kTextBytes + text_bytes(value));
+    return add(value);
+  }
+  bool binary(json::binary_t& /*value*/) override { return false; }  // not in a text
+  bool start_object(size_t /*size*/) override { return begin(json::object(), kObjectBytes); }
+  bool start_array(size_t /*size*/) override { return begin(json::array(), kArrayBytes); }
   bool end_object() override { return end(); }
   bool end_array() override { return end(); }
   bool key(std::string& key) override {
-    levels_.back().key = key;
-    if (!levels_.back().keys.insert(key).second) throw Error(where_, path(), "the key twice", "each key once");
+    Level& level = levels_.back();
+    charge(kMemberBytes + text_bytes(key));
+    const auto [member, is_new] = level.container->get_ref<json::object_t&>().try_emplace(key);
+    level.key = &member->first;
+    level.member = &member->second;
+    if (!is_new) throw Error(where_, path(), "the key twice", "each key once");
     return true;
   }
   bool parse_error(size_t byte, const std::string& /*token*/, const json::exception& error) override {
@@ -54,43 +72,75 @@ class StrictText : public json::json_sax_t {
     throw Error(where_, place_of(text_, byte), byte > text_.size() ? "the end" : "something else", "JSON");
   }
 
+  json take() { return std::move(document_); }
+
  private:
+  /// An array or object that is not closed yet.
   struct Level {
-    bool is_object = false;
-    std::string key;
-    std::set<std::string> keys;
-    size_t items = 0;
+    json* container = nullptr;
+    const std::string* key = nullptr;  ///< of an object: of its last member
+    json* member = nullptr;            ///< that member's value
   };
 
-  bool value() {
-    if (!levels_.empty()) ++levels_.back().items;
+  bool add(json value) {
+    put(std::move(value));
     return true;
   }
-  bool begin(bool is_object) {
-    value();
+  json& put(json value) {
+    if (levels_.empty()) return document_ = std::move(value);
+    if (++waiting_ > most_waiting_) {
+      charge(kWaitingBytes);
+      most_waiting_ = waiting_;
+    }
+    if (levels_.back().member) return *levels_.back().member = std::move(value);
+    auto& items = levels_.back().container->get_ref<json::array_t&>();
+    if (items.size() == items.capacity()) grow(items);
+    return items.emplace_back(std::move(value));
+  }
+  void grow(json::array_t& items) {
+    const uint64_t before = items.capacity() * sizeof(json), after = std::max<uint64_t>(2 * before, sizeof(json));
+    charge(after);  // both are there while the values move
+    items.reserve(after / sizeof(json));
+    bytes_ -= before;
+  }
+  bool begin(json container, uint64_t bytes) {
     if (levels_.size() == kDeepestNesting)
       throw Error(where_, "nesting", "deeper nesting", fmt::format("{} levels", kDeepestNesting));
-    levels_.push_back({.is_object = is_object, .key = {}, .keys = {}});
+    charge(bytes);
+    levels_.push_back({.container = &put(std::move(container)), .key = nullptr, .member = nullptr});
     return true;
   }
   bool end() {
+    waiting_ -= levels_.back().container->size();
     levels_.pop_back();
     return true;
+  }
+  void charge(uint64_t bytes) {
+    bytes_ += bytes;
+    if (bytes_ > kJsonBytes + kJsonBytesPerByte * text_.size())
+      throw Error(where_, path(), fmt::format("too many small values for a text of {} bytes", text_.size()),
+                  fmt::format("at most {} bytes of memory for each byte of text", kJsonBytesPerByte));
   }
   /// As in frames[17].position_mm.
   std::string path() const {
     std::string path;
     for (const Level& level : levels_) {
-      if (!level.is_object) path += fmt::format("[{}]", level.items - 1);
-      if (level.is_object && !path.empty()) path += '.';
-      if (level.is_object) path += level.key.empty() ? "\"\"" : printable(level.key);
+      if (level.container->is_array()) {
+        path += fmt::format("[{}]", std::max<size_t>(level.container->size(), 1) - 1);
+      } else if (level.key) {
+        if (!path.empty()) path += '.';
+        path += level.key->empty() ? "\"\"" : printable(*level.key);
+      }
     }
-    return path;
+    return path.empty() ? "top level" : path;
   }
 
   std::string_view text_;
   const std::string& where_;
+  json document_;
   std::vector<Level> levels_;
+  uint64_t bytes_ = 0;
+  uint64_t waiting_ = 0, most_waiting_ = 0;  ///< values that may wait when the document is thrown away
 };
 
 }  // namespace
@@ -99,9 +149,9 @@ json parse_json(std::string_view text, const std::string& where) {
   // The library would take it for the end.
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
     throw Error(where, place_of(text, zero + 1), "a zero byte", "JSON");
-  StrictText strict(text, where);
-  json::sax_parse(text, &strict);
-  return json::parse(text);
+  StrictDocument document(text, where);
+  json::sax_parse(text, &document);
+  return document.take();
 }
 
 }  // namespace glovebench

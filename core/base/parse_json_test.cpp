@@ -64,6 +64,23 @@ TEST(ParseJson, RefusesWhatIsNestedTooDeep) {
   EXPECT_EQ(refusal(in_text), in_text) << "brackets in a text are no nesting";
 }
 
+TEST(ParseJson, RefusesValuesThatTakeFarMoreMemoryThanTheirText) {
+  const auto array_of = [](const std::string& value, size_t count) {
+    std::string text = "[";
+    for (size_t i = 0; i < count; ++i) text += value + ",";
+    text.back() = ']';
+    return text;
+  };
+  EXPECT_EQ(parse_json(array_of("0", 100'000), "x.json").size(), 100'000U);
+  EXPECT_EQ(parse_json(array_of("0.123456789", 1'000'000), "x.json").size(), 1'000'000U) << "not the count matters";
+  for (const char* value : {"0", "[]", "{}", "\"\"", R"({"":{"":0}})"}) {
+    const std::string error = refusal(array_of(value, 1'000'000));
+    EXPECT_TRUE(error.ends_with("expected at most 12 bytes of memory for each byte of text"))
+        << error.substr(0, 200);
+    EXPECT_TRUE(error.starts_with("x.json: [")) << error.substr(0, 200);
+  }
+}
+
 TEST(Excerpt, IsShortAndOnOneLine) {
   EXPECT_EQ(printable("a name"), "a name");
   EXPECT_EQ(printable("a\nb\x7f\xc3\xa9"), "a?b???");

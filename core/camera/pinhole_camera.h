@@ -4,6 +4,10 @@
 
 namespace glovebench {
 
+/// Images of larger cameras are not read: what a small file says of them would take memory.
+inline constexpr int kMostSide_px = 4096;
+inline constexpr int kMostPixels = 1 << 21;  // 1920x1080 and a little more
+
 /// A camera without distortion. Axes: x right, y down, z forward. A pixel's center has integer coordinates
 /// (OpenCV's convention), so the image spans [-0.5, width - 0.5).
 struct PinholeCamera {

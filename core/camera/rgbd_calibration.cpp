@@ -17,8 +17,8 @@ namespace {
 using nlohmann::json;
 
 constexpr int kVersion = 1;
-constexpr double kOrthonormalTolerance = 1e-6;  // calibration tools print at least seven digits
-constexpr int kMaxSide_px = 16384;
+constexpr double kOrthonormalTolerance = 1e-6;        // calibration tools print at least seven digits
+constexpr uint64_t kLargestFile = uint64_t{1} << 16;  // bytes: fifty times ours
 
 /// A place in a file, for error messages: "calibration.json: ir.fx_px: found ..., expected ...".
 struct Place {
@@ -57,8 +57,8 @@ double read_positive(const json& value, const Place& place) {
 }
 
 int read_side(const json& value, const Place& place) {
-  const bool in_range = value.is_number_integer() && value >= 1 && value <= kMaxSide_px;
-  if (!in_range) throw place.error(excerpt(value), "a whole number of 1.." + std::to_string(kMaxSide_px));
+  const bool in_range = value.is_number_integer() && value >= 1 && value <= kMostSide_px;
+  if (!in_range) throw place.error(excerpt(value), "a whole number of 1.." + std::to_string(kMostSide_px));
   return value.get<int>();
 }
 
@@ -82,8 +82,13 @@ Eigen::Matrix3d read_rotation(const json& value, const Place& place) {
 
 PinholeCamera read_camera(const json& value, const Place& place) {
   require_keys(value, place, {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}, "distortion");
-  return {.width = read_side(value["width_px"], place / "width_px"),
-          .height = read_side(value["height_px"], place / "height_px"),
+  const int width = read_side(value["width_px"], place / "width_px"),
+            height = read_side(value["height_px"], place / "height_px");
+  if (width * height > kMostPixels)
+    throw place.error(std::to_string(width) + "x" + std::to_string(height) + " pixels",
+                      "at most " + std::to_string(kMostPixels) + " pixels, such as 1920x1080");
+  return {.width = width,
+          .height = height,
           .fx = read_positive(value["fx_px"], place / "fx_px"),
           .fy = read_positive(value["fy_px"], place / "fy_px"),
           .cx = read_number(value["cx_px"], place / "cx_px"),
@@ -180,7 +185,7 @@ RgbdCalibration calibration_from_text(std::string_view text, const std::string& 
 }
 
 RgbdCalibration load_calibration(const std::string& path) {
-  return calibration_from_text(read_file(path), path);
+  return calibration_from_text(read_file(path, kLargestFile), path);
 }
 
 void save_calibration(const RgbdCalibration& calibration, const std::string& path) {

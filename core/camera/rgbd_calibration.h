@@ -51,7 +51,8 @@ RgbdCalibration nominal_kinect_calibration();
 /// with CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}, and where there is one
 /// "disparity": {"a_per_m", "b_per_m"} and in a CAMERA "distortion": {"k1", "k2", "p1", "p2", "k3"}. Every other
 /// key is required and no more are allowed. Throws Error naming `where` and the field; numbers must be finite,
-/// focal lengths positive, the rotation orthonormal (1e-6) and right-handed, a below and b above 0.
+/// focal lengths positive, images no larger than kMostSide_px and kMostPixels, the rotation orthonormal (1e-6) and
+/// right-handed, a below and b above 0.
 RgbdCalibration calibration_from_json(const nlohmann::json& json, const std::string& where);
 /// The same from what a file holds.
 RgbdCalibration calibration_from_text(std::string_view text, const std::string& where);

@@ -113,6 +113,13 @@ TEST(Calibration, NamesTheWrongField) {
                           "here.json: rgb.cx_px: found a number that is not finite"));
   EXPECT_TRUE(starts_with(error_with("/rgb/width_px", 640.5), "here.json: rgb.width_px: found 640.5"));
   EXPECT_TRUE(starts_with(error_with("/rgb/width_px", 0), "here.json: rgb.width_px: found 0"));
+  EXPECT_TRUE(starts_with(error_with("/ir/width_px", 4097), "here.json: ir.width_px: found 4097"));
+  EXPECT_EQ(error_with("/ir/width_px", 4096), "") << "4096x480";
+  EXPECT_TRUE(starts_with(
+      error_with(
+          "/ir",
+          {{"width_px", 4096}, {"height_px", 4096}, {"fx_px", 500}, {"fy_px", 500}, {"cx_px", 0}, {"cy_px", 0}}),
+      "here.json: ir: found 4096x4096 pixels, expected at most 2097152"));
   EXPECT_TRUE(starts_with(error_with("/T_rgb_ir/translation_m", {0.1, 0.2}), "here.json: T_rgb_ir.translation_m"));
   EXPECT_TRUE(starts_with(error_with("/T_rgb_ir/rotation/1/1", 0.9), "here.json: T_rgb_ir.rotation"));
   const json mirrored = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -15,6 +15,7 @@
 namespace glovebench {
 namespace {
 
+constexpr uint64_t kLargestMesh = uint64_t{16} << 20;  // bytes
 constexpr const char* kMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
 Eigen::Isometry3d isometry(const aiMatrix4x4& m) {
@@ -94,7 +95,7 @@ float Influence::weight_of(int j) const {
 }
 
 RiggedMesh load_rigged_mesh(const std::string& path) {
-  const std::string content = read_file(path);
+  const std::string content = read_file(path, kLargestMesh);
   const std::string hash = hash_text(content);
   if (hash != kMeshHash) {
     throw Error(path, "checksum", hash, std::string(kMeshHash) + " (generic-hand/right.glb; run ci/setup)");

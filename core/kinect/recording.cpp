@@ -31,14 +31,18 @@ RecordingDevice::RecordingDevice(const std::string& folder, const RgbdCalibratio
   const std::string index = path_in_recording(folder, "INDEX.txt");
   FramePairer<std::string, std::string> pairer;
   int depths = 0, colors = 0;
-  for (const RecordingEntry& entry : read_recording_index(folder)) {
+  const auto take_pairs = [&] {
+    while (std::optional<Pair> pair = pairer.pop()) pairs_.push_back(std::move(*pair));
+  };
+  for (RecordingEntry& entry : read_recording_index(folder)) {
     const bool is_depth = entry.kind == RecordedKind::depth;
     ++(is_depth ? depths : colors);
-    if (is_depth) pairer.push_depth(entry.timestamp_us, entry.path);
-    if (!is_depth) pairer.push_color(entry.timestamp_us, entry.path);
+    if (is_depth) pairer.push_depth(entry.timestamp_us, std::move(entry.name));
+    if (!is_depth) pairer.push_color(entry.timestamp_us, std::move(entry.name));
+    take_pairs();
   }
   pairer.finish();
-  while (std::optional<Pair> pair = pairer.pop()) pairs_.push_back(std::move(*pair));
+  take_pairs();
   unpaired_depth_count_ = pairer.unpaired();
   repeated_count_ = pairer.went_back();
   if (pairs_.empty())
@@ -50,9 +54,10 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
   if (next_ == pairs_.size()) return std::nullopt;
   const Pair& pair = pairs_[next_++];
   const PinholeCamera &ir = calibration_.ir, &rgb = calibration_.rgb;
+  const std::string depth = files_.path(pair.depth), color = files_.path(pair.color);
   try {
-    return DeviceFrame{.raw_disparity = decode_pgm(read_image(pair.depth), ir.width, ir.height, pair.depth),
-                       .color = decode_ppm(read_image(pair.color), rgb.width, rgb.height, pair.color),
+    return DeviceFrame{.raw_disparity = decode_pgm(read_image(pair.depth, ir), ir.width, ir.height, depth),
+                       .color = decode_ppm(read_image(pair.color, rgb), rgb.width, rgb.height, color),
                        .depth_timestamp_us = pair.depth_us,
                        .color_timestamp_us = pair.color_us};
   } catch (const Error& e) {
@@ -60,8 +65,10 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
   }
 }
 
-std::string RecordingDevice::read_image(const std::string& path) const {
-  return files_.read(fs::path(path).filename());
+std::string RecordingDevice::read_image(const std::string& name, const PinholeCamera& camera) const {
+  // The most that the file of such an image holds, and a little: decoding tells of that, and no more is read.
+  constexpr uint64_t kBytesPerPixel = 4, kOthers = 4096;
+  return files_.read(name, kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers);
 }
 
 RecordingWriter::RecordingWriter(const std::string& folder, const RgbdCalibration& calibration)

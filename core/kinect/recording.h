@@ -44,9 +44,9 @@ class RecordingDevice : public Device {
   int repeated_count() const { return repeated_count_; }
 
  private:
-  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file paths
+  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of names of files
 
-  std::string read_image(const std::string& path) const;
+  std::string read_image(const std::string& name, const PinholeCamera& camera) const;
 
   RgbdCalibration calibration_;
   FileSet files_;

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -57,22 +56,29 @@ std::string path_in_recording(const std::string& folder, const std::string& name
 }
 
 std::vector<RecordingEntry> read_recording_index(const std::string& folder) {
-  return parse_recording_index(read_file(path_in_recording(folder, "INDEX.txt")), folder);
+  return parse_recording_index(read_file(path_in_recording(folder, "INDEX.txt"), kLargestIndex), folder);
 }
 
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder) {
   const std::string index = path_in_recording(folder, "INDEX.txt");
   std::vector<RecordingEntry> entries;
-  std::set<std::string> listed;
+  std::vector<std::string_view> listed;
+  // An entry is larger than its line: no more room than lines that could be read.
+  constexpr size_t kShortestLine = std::string_view("d-0.000000-0.pgm\n").size();
+  entries.reserve(content.size() / kShortestLine + 1);
+  listed.reserve(entries.capacity());
   TakenTimes times;
-  int number = 0;
-  std::istringstream lines{std::string(content)};
-  for (std::string line; std::getline(lines, line);) {
-    const RecordedName name = parse_recorded_name(line, index + ", line " + std::to_string(++number));
+  for (int number = 1; !content.empty(); ++number) {
+    const std::string_view line = content.substr(0, content.find('\n'));
+    content.remove_prefix(std::min(line.size() + 1, content.size()));
+    const RecordedName name = parse_recorded_name(line, index + ", line " + std::to_string(number));
     if (name.kind == RecordedKind::accelerometer) continue;
-    if (!listed.insert(line).second) throw Error(index, "file name", line + " twice", "each once");
-    entries.push_back({name.kind, times.microseconds(name), path_in_recording(folder, line)});
+    listed.push_back(line);
+    entries.push_back({name.kind, times.microseconds(name), std::string(line)});
   }
+  std::ranges::sort(listed);
+  if (const auto twice = std::ranges::adjacent_find(listed); twice != listed.end())
+    throw Error(index, "file name", std::string(*twice) + " twice", "each once");
   const auto key = [](const RecordingEntry& entry) { return std::pair(entry.timestamp_us, entry.kind); };
   std::stable_sort(entries.begin(), entries.end(),
                    [&](const RecordingEntry& a, const RecordingEntry& b) { return key(a) < key(b); });
@@ -82,7 +88,7 @@ std::vector<RecordingEntry> parse_recording_index(std::string_view content, cons
 void check_fakenect_dump(const std::string& folder) {
   constexpr size_t kPixels = 640 * 480;
   const std::string index = path_in_recording(folder, "INDEX.txt");
-  std::istringstream lines(read_file(index));
+  std::istringstream lines(read_file(index, kLargestIndex));
   int depths = 0;
   for (std::string line; std::getline(lines, line);) {
     const RecordedKind kind = parse_recorded_name(line, index).kind;

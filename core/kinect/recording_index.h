@@ -9,11 +9,14 @@
 
 namespace glovebench {
 
-/// One file of a recording (see recording.h).
+/// Hours of frames at 30 Hz.
+inline constexpr uint64_t kLargestIndex = uint64_t{64} << 20;  // bytes
+
+/// One image of a recording (see recording.h).
 struct RecordingEntry {
   RecordedKind kind = RecordedKind::depth;
   int64_t timestamp_us = 0;  ///< by the device's clock
-  std::string path;
+  std::string name;          ///< of its file in the folder
 };
 
 std::string path_in_recording(const std::string& folder, const std::string& name);

@@ -165,7 +165,7 @@ TEST_F(Recording, KeepsItsTimeAcrossLongPauses) {
     ASSERT_EQ(entries.size(), 2 * times.size());
     const int64_t first_us = entries[0].timestamp_us;
     for (size_t i = 0; i < entries.size(); ++i)
-      EXPECT_EQ(entries[i].timestamp_us - first_us, times[i / 2] - times[0]) << entries[i].path;
+      EXPECT_EQ(entries[i].timestamp_us - first_us, times[i / 2] - times[0]) << entries[i].name;
   }
 }
 

@@ -17,7 +17,8 @@ cv::Mat as_mat(const Image<T>& image, int type) {
   return cv::Mat(image.height(), image.width(), type, const_cast<T*>(image.data()));
 }
 
-/// A lens that puts what lies farther out nearer to the center has two answers for a pixel.
+}  // namespace
+
 void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens) {
   constexpr int kStep_px = 8;
   const auto distorted = [&](int u, int v) {
@@ -33,8 +34,6 @@ void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens) {
     }
   }
 }
-
-}  // namespace
 
 Rectification::Rectification(const PinholeCamera& camera, const LensDistortion& lens)
     : nearest_(camera.width, camera.height),

@@ -9,11 +9,14 @@
 
 namespace glovebench {
 
+/// Throws Error if a lens cannot be undone within the image: it puts what lies farther out nearer to the center.
+void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens);
+
 /// Takes the distortion of a lens out of a camera's images: what the same camera with a pinhole would have given.
 /// Pixels that lie outside of the image get nothing.
 class Rectification {
  public:
-  /// Throws Error if the lens is not to be undone within the image: it folds it over.
+  /// Throws Error like require_unfolded.
   Rectification(const PinholeCamera& camera, const LensDistortion& lens);
 
   /// Disparity, pixel by pixel: values of two surfaces are never mixed. Nothing is 2047. Like the next, of an image

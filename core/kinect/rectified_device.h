@@ -20,7 +20,7 @@ class RectifiedDevice : public Device {
  private:
   std::unique_ptr<Device> device_;
   RgbdCalibration calibration_;
-  Rectification ir_, rgb_;
+  std::optional<Rectification> ir_, rgb_;  ///< made with the first frame
 };
 
 /// The device, rectified if its calibration knows a lens.

@@ -189,7 +189,7 @@ RobotCommand parse_command_line(std::string_view line, const std::string& where)
 
 std::vector<RobotCommand> read_command_lines(const std::string& path) {
   std::vector<RobotCommand> commands;
-  const std::string text = read_file(path);
+  const std::string text = read_file(path, kLargestCommandFile);
   for (size_t begin = 0, number = 1; begin < text.size(); ++number) {
     const size_t end = std::min(text.find('\n', begin), text.size());
     const std::string where = fmt::format("{}:{}", path, number);

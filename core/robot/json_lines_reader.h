@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,8 @@ namespace glovebench {
 
 /// No line of ours is a third as long.
 inline constexpr size_t kLongestCommandLine = 16'384;  // bytes
+/// An hour of commands at 30 Hz.
+inline constexpr uint64_t kLargestCommandFile = uint64_t{256} << 20;  // bytes
 
 /// One command from its line of JSON (core/robot/README.md), with or without the line end. Strict: every key once
 /// and no others, no number over 1e9, names known, a unit quaternion, what contradicts itself refused. Throws Error

@@ -58,7 +58,7 @@ TrackerConfig CommonFlags::tracker_config() const {
   TrackerConfig config = glovebench::profile(profile);
   if (!config_json.is_null()) config = config_from_json(config_json, config, "configuration of the run");
   if (!config_file.empty())
-    config = config_from_json(parse_json(read_file(config_file), config_file), config, config_file);
+    config = config_from_json(parse_json(read_file(config_file, kLargestConfig), config_file), config, config_file);
   if (!method.empty()) config.method = find_method(method).name;
   if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
   return config;
@@ -93,7 +93,8 @@ void LimitsFlag::add(CLI::App& command) {
 }
 
 CommandLimits LimitsFlag::limits() const {
-  return file.empty() ? CommandLimits() : command_limits_from_json(parse_json(read_file(file), file), file);
+  return file.empty() ? CommandLimits()
+                      : command_limits_from_json(parse_json(read_file(file, kLargestConfig), file), file);
 }
 
 void RobotFlags::add(CLI::App& command, const std::string& what) {
@@ -126,6 +127,8 @@ CLI::Validator number_within(double min, double max) {
 }
 
 namespace {
+
+constexpr uint64_t kLargestConfig = uint64_t{1} << 20;  // bytes
 
 Eigen::Isometry3d rigid_transform(const char* flag, const std::vector<double>& values) {
   for (const double value : values)

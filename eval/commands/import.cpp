@@ -37,9 +37,10 @@ struct ImportMarkers {
     const std::string name = std::filesystem::path(output).stem().string();
     if (!is_name(name)) throw Error("--output", "file name", name, kNameExpected);
     const trajectories::CapturePlacement placement{side, T_capture_camera()};
-    const trajectories::MarkerLayout markers = layout.empty()
-                                                   ? trajectories::MarkerLayout{}
-                                                   : trajectories::parse_marker_layout(read_file(layout), layout);
+    const trajectories::MarkerLayout markers =
+        layout.empty()
+            ? trajectories::MarkerLayout{}
+            : trajectories::parse_marker_layout(read_file(layout, trajectories::kLargestMarkerLayout), layout);
     const HandModel model = HandModel::load(hand_mesh_path());
     const trajectories::HandFit fit = trajectories::import_capture(files, format, side, markers, model);
     if (is_poses || postures > 0) {

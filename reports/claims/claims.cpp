@@ -35,7 +35,7 @@ Rule read_rule(const JsonReader& json) {
   Rule rule;
   rule.kind = read_rule_kind(json, name);
   if (rule.kind == Rule::Kind::within) {
-    const std::vector<JsonReader> bounds = bound.items();
+    const JsonItems bounds = bound.items();
     if (bounds.size() != 2) bound.fail("the lower and the upper bound");
     rule.low = bounds[0].number(-kLargestBound, kLargestBound);
     rule.high = bounds[1].number(rule.low, kLargestBound);

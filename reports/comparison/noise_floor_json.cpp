@@ -70,7 +70,7 @@ std::string noise_floor_json(const NoiseFloor& floor) {
 }
 
 NoiseFloor read_noise_floor(const std::string& path) {
-  return parse_noise_floor(read_file(path), path);
+  return parse_noise_floor(read_file(path, kLargestSmallFile), path);
 }
 
 NoiseFloor parse_noise_floor(const std::string& text, const std::string& where) {

@@ -141,7 +141,7 @@ std::vector<SpeedRatio> read_own(const JsonReader& json) {
 }  // namespace
 
 std::vector<SpeedRatio> read_speed_ratios(const std::string& path) {
-  return parse_speed_ratios(read_file(path), path);
+  return parse_speed_ratios(read_file(path, kLargestSmallFile), path);
 }
 
 std::vector<SpeedRatio> parse_speed_ratios(const std::string& text, const std::string& where) {

@@ -23,7 +23,7 @@ StageTimes::Stage* find_stage(std::vector<StageTimes::Stage>& stages, const std:
 }  // namespace
 
 StageTimes read_stage_times(const std::string& timings_path) {
-  return parse_stage_times(read_file(timings_path), timings_path);
+  return parse_stage_times(read_file(timings_path, kLargestSmallFile), timings_path);
 }
 
 StageTimes parse_stage_times(const std::string& text, const std::string& where) {
@@ -32,7 +32,7 @@ StageTimes parse_stage_times(const std::string& text, const std::string& where) 
   json["format"].expect_text("glovebench-timings");
   json["version"].integer(1, 1);
   StageTimes times{json["processor"].text(), json["threads"].count(), {}};
-  const std::vector<JsonReader> experiments = json["experiments"].items();
+  const JsonItems experiments = json["experiments"].items();
   std::vector<int> counts;
   for (const JsonReader& experiment : experiments) {
     for (const auto& [name, stage] : experiment["stages"].members()) {

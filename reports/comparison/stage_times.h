@@ -23,6 +23,7 @@ struct StageTimes {
 
 /// From a run's timings.json. Throws Error.
 StageTimes read_stage_times(const std::string& timings_path);
+/// The same for the file's text; `where` names it in errors.
 StageTimes parse_stage_times(const std::string& text, const std::string& where);
 
 /// As part of another file (a baseline's provenance).

@@ -52,26 +52,27 @@ double read_headings(const std::vector<std::string_view>& headings, MarkerSequen
 }  // namespace
 
 MarkerSequence parse_csv_markers(std::string_view text, const std::string& where) {
-  const std::vector<std::string_view> lines = lines_of(text);
+  Lines lines(text);
   MarkerSequence sequence;
-  const double unit = read_headings(split(lines.front(), ','), sequence, where);
+  const double unit = read_headings(split(*lines.next(), ','), sequence, where);
   int64_t first_us = 0;
-  for (size_t l = 1; l < lines.size(); ++l) {
-    if (trimmed(lines[l]).empty()) continue;
-    const std::vector<std::string_view> cells = split(lines[l], ',');
-    const std::string line = fmt::format("line {}", l + 1);
+  while (const std::optional<std::string_view> text_line = lines.next()) {
+    if (trimmed(*text_line).empty()) continue;
+    const std::vector<std::string_view> cells = split(*text_line, ',');
+    const std::string line = fmt::format("line {}", lines.number());
     if (cells.size() != 3 * sequence.names.size() + 1) {
       throw Error(where, line, fmt::format("{} cells", cells.size()),
                   fmt::format("{}", 3 * sequence.names.size() + 1));
     }
     MarkerFrame frame;
+    frame.points.reserve(sequence.names.size());
     frame.timestamp_us = timestamp_from(cells[0], where, fmt::format("{}, {}", line, kTime));
     for (size_t m = 0; m < sequence.names.size(); ++m) {
       frame.points.push_back(point_from(std::span(cells).subspan(1 + 3 * m, 3), unit, where,
                                         fmt::format("{}, {}", line, sequence.names[m])));
     }
     if (sequence.frames.empty()) first_us = frame.timestamp_us;
-    add_frame(std::move(frame), first_us, sequence, where, fmt::format("{}, {}", line, kTime));
+    add_frame(std::move(frame), first_us, text.size(), sequence, where, fmt::format("{}, {}", line, kTime));
   }
   if (sequence.frames.empty()) throw Error(where, "frames", "none", "at least one line below the headings");
   return sequence;

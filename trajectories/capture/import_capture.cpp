@@ -20,6 +20,8 @@
 namespace glovebench::trajectories {
 namespace {
 
+constexpr uint64_t kLargestCapture = uint64_t{256} << 20;  // an hour of a hand's markers at 120 Hz
+
 MarkerSequence mirrored(MarkerSequence sequence) {
   for (MarkerFrame& frame : sequence.frames) {
     for (Eigen::Vector3d& p : frame.points) p.x() = -p.x();
@@ -40,16 +42,19 @@ MarkerSequence load_captures(const std::vector<std::string>& paths, const std::s
   constexpr int64_t step_us = 1'000'000;
   MarkerSequence all;
   for (const std::string& path : paths) {
-    MarkerSequence sequence = parse_capture(read_file(path), format, side, path);
-    if (!all.frames.empty() && sequence.names != all.names) {
+    MarkerSequence sequence = parse_capture(read_file(path, kLargestCapture), format, side, path);
+    if (all.frames.empty()) {
+      all = std::move(sequence);
+      continue;
+    }
+    if (sequence.names != all.names) {
       throw Error(path, "points", "other names", "those of " + paths.front());
     }
-    const int64_t begin = all.frames.empty() ? 0 : all.frames.back().timestamp_us + step_us;
+    const int64_t begin = all.frames.back().timestamp_us + step_us;
     for (MarkerFrame& frame : sequence.frames) {
       frame.timestamp_us += begin;
       all.frames.push_back(std::move(frame));
     }
-    all.names = std::move(sequence.names);
   }
   return all;
 }

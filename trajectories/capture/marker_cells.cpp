@@ -54,12 +54,17 @@ void add_name(std::string_view name, MarkerSequence& sequence, const std::string
   sequence.names.emplace_back(name);
 }
 
-void add_frame(MarkerFrame frame, int64_t first_us, MarkerSequence& sequence, const std::string& where,
-               const std::string& field) {
+void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence,
+               const std::string& where, const std::string& field) {
   frame.timestamp_us -= first_us;
   if (!sequence.frames.empty() && frame.timestamp_us <= sequence.frames.back().timestamp_us) {
     throw Error(where, field, fmt::format("{} s", static_cast<double>(frame.timestamp_us + first_us) / 1e6),
                 "a time after that of the frame before");
+  }
+  constexpr size_t any = 300'000, bytes_of_a_point = 3;  // the commas between its cells
+  if ((sequence.frames.size() + 1) * frame.points.size() > any + text_bytes / bytes_of_a_point) {
+    throw Error(where, field, fmt::format("most points of {} frames left out", sequence.frames.size() + 1),
+                "more points, or fewer frames");
   }
   sequence.frames.push_back(std::move(frame));
 }

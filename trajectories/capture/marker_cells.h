@@ -19,8 +19,10 @@ Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale
 /// Adds a name. Throws Error if it is no name (is_name, or '*' and a number), was there before, or is one too many.
 void add_name(std::string_view name, MarkerSequence& sequence, const std::string& where, const std::string& field);
 
-/// Adds a frame; times count from the first frame's. Throws Error if its time is not after that of the one before.
-void add_frame(MarkerFrame frame, int64_t first_us, MarkerSequence& sequence, const std::string& where,
-               const std::string& field);
+/// Adds a frame; times count from the first frame's. Throws Error if its time is not after that of the one before,
+/// or if most points of a long capture are left out: `text_bytes`, the capture's size, does not say then how many
+/// there are.
+void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence,
+               const std::string& where, const std::string& field);
 
 }  // namespace glovebench::trajectories

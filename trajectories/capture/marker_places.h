@@ -24,6 +24,8 @@ struct PlacedMarker {
   bool is_joint_center() const { return deviation.isZero(); }
 };
 
+inline constexpr uint64_t kLargestMarkerLayout = uint64_t{1} << 20;  // bytes
+
 /// A layout: the place of each marker whose name is none.
 using MarkerLayout = std::map<std::string, std::string>;
 /// Reads the format "glovebench-marker-layout" (README.md). Throws Error.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/error.h"
@@ -45,7 +46,7 @@ std::string_view value_of(std::string_view name, const Cells& names, const Cells
   return values[column];
 }
 
-About about_file(const std::vector<std::string_view>& lines, const std::string& where) {
+About about_file(std::span<const std::string_view> lines, const std::string& where) {
   expect_cell(split(lines[0], '\t'), 0, "PathFileType", where, 1);
   const Cells names = split(lines[1], '\t'), values = split(lines[2], '\t');
   const auto count = [&](std::string_view name, double max) {
@@ -66,7 +67,7 @@ void without_empty_end(Cells& cells) {
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
 }
 
-void read_names(const std::vector<std::string_view>& lines, size_t count, MarkerSequence& sequence,
+void read_names(std::span<const std::string_view> lines, size_t count, MarkerSequence& sequence,
                 const std::string& where) {
   Cells names = split(lines[3], '\t'), axes = split(lines[4], '\t');
   expect_cell(names, 0, "Frame#", where, 4);
@@ -102,6 +103,7 @@ MarkerFrame frame_from(Cells cells, const About& about, const MarkerSequence& se
   cells.resize(columns);  // the last points of a line may be missing
   number_from(cells[0], 0, 1e9, where, line + ", Frame#");
   MarkerFrame frame;
+  frame.points.reserve(about.markers);
   frame.timestamp_us = timestamp_from(cells[1], where, line + ", Time");
   for (size_t m = 0; m < about.markers; ++m) {
     frame.points.push_back(point_or_gap(std::span(cells).subspan(kLeading + 3 * m, 3), about.unit, where,
@@ -113,20 +115,26 @@ MarkerFrame frame_from(Cells cells, const About& about, const MarkerSequence& se
 }  // namespace
 
 MarkerSequence parse_trc_markers(std::string_view text, const std::string& where) {
-  const std::vector<std::string_view> lines = lines_of(text);
-  if (lines.size() < kHeaderLines) {
-    throw Error(where, "lines", fmt::format("{}", lines.size()), fmt::format("{} and the frames", kHeaderLines));
+  Lines lines(text);
+  std::array<std::string_view, kHeaderLines> header;
+  for (std::string_view& line : header) {
+    const std::optional<std::string_view> next = lines.next();
+    if (!next) {
+      throw Error(where, "lines", fmt::format("{}", lines.number()),
+                  fmt::format("{} and the frames", kHeaderLines));
+    }
+    line = *next;
   }
-  const About about = about_file(lines, where);
+  const About about = about_file(header, where);
   MarkerSequence sequence;
-  read_names(lines, about.markers, sequence, where);
+  read_names(header, about.markers, sequence, where);
   int64_t first_us = 0;
-  for (size_t l = kHeaderLines; l < lines.size(); ++l) {
-    if (split(lines[l], '\t').size() == 1 && trimmed(lines[l]).empty()) continue;
-    const std::string line = fmt::format("line {}", l + 1);
-    MarkerFrame frame = frame_from(split(lines[l], '\t'), about, sequence, where, line);
+  while (const std::optional<std::string_view> text_line = lines.next()) {
+    if (split(*text_line, '\t').size() == 1 && trimmed(*text_line).empty()) continue;
+    const std::string line = fmt::format("line {}", lines.number());
+    MarkerFrame frame = frame_from(split(*text_line, '\t'), about, sequence, where, line);
     if (sequence.frames.empty()) first_us = frame.timestamp_us;
-    add_frame(std::move(frame), first_us, sequence, where, line + ", Time");
+    add_frame(std::move(frame), first_us, text.size(), sequence, where, line + ", Time");
   }
   if (sequence.frames.size() != about.frames) {
     throw Error(where, "frames", fmt::format("{}", sequence.frames.size()),

@@ -81,7 +81,7 @@ MarkerSequence parse_webxr_joints(std::string_view text, const std::string& wher
   for (size_t i = 0; i < frames.array_size(); ++i) {
     MarkerFrame frame = frame_from(frames.element(i));
     if (i == 0) first_us = frame.timestamp_us;
-    add_frame(std::move(frame), first_us, sequence, where, fmt::format("frames[{}].timestamp_us", i));
+    add_frame(std::move(frame), first_us, text.size(), sequence, where, fmt::format("frames[{}].timestamp_us", i));
   }
   return sequence;
 }

@@ -20,7 +20,7 @@ std::map<std::string, std::string> generate_data_files(const std::string& data_f
   }
   for (const std::string& name : script_names(data_folder)) {
     const std::string path = data_folder + "/scripts/" + name + ".json";
-    const MotionScript script = parse_motion_script(read_file(path), gestures, path);
+    const MotionScript script = parse_motion_script(read_file(path, kLargestMotionScript), gestures, path);
     if (script.name != name) throw Error(path, "name", script.name, name);
     files["sources/" + name + ".json"] = canonical_text(perform(script));
   }

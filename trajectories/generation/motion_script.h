@@ -44,6 +44,8 @@ struct MotionScript {
   std::vector<Keyframe<HandPose>> poses;
 };
 
+inline constexpr uint64_t kLargestMotionScript = uint64_t{1} << 18;  // bytes: ten times ours
+
 /// Reads the format "glovebench-motion-script" (README.md); postures are blends of `gestures`. Throws Error.
 MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where);
 

@@ -1,0 +1,62 @@
+#include "core/base/input_file.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+namespace {
+
+constexpr const char* kExpected = "a readable file";
+
+const char* kind_name(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
+  return S_ISSOCK(mode) ? "a socket" : "no file";
+}
+
+/// Lets reads of a pipe wait, as they do unless it was opened otherwise, and waits for its first writer: a pipe
+/// without one reads like an empty file.
+void wait_for_writer(int descriptor) {
+  const int flags = ::fcntl(descriptor, F_GETFL);
+  ::fcntl(descriptor, F_SETFL, flags & ~O_NONBLOCK);
+  pollfd ready = {descriptor, POLLIN, 0};
+  while (::poll(&ready, 1, -1) < 0 && errno == EINTR) continue;
+}
+
+}  // namespace
+
+InputFile::InputFile(const std::string& path) : path_(path) {
+  // Without waiting: a device may do so for as long as it likes before it can be refused.
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), kExpected);
+  struct stat status = {};
+  const int error = ::fstat(descriptor_, &status) == 0 ? 0 : errno;
+  const bool is_file = S_ISREG(status.st_mode), is_pipe = S_ISFIFO(status.st_mode);
+  if (error != 0 || (!is_file && !is_pipe)) {
+    ::close(descriptor_);
+    throw Error(path, "file", error != 0 ? std::strerror(error) : kind_name(status.st_mode), kExpected);
+  }
+  if (is_file) size_ = static_cast<uint64_t>(status.st_size);
+  if (is_pipe) wait_for_writer(descriptor_);
+}
+
+InputFile::~InputFile() {
+  ::close(descriptor_);
+}
+
+size_t InputFile::read(std::span<char> room) {
+  while (true) {
+    const ssize_t bytes = ::read(descriptor_, room.data(), room.size());
+    if (bytes >= 0) return static_cast<size_t>(bytes);
+    if (errno != EINTR) throw Error(path_, "file", std::strerror(errno), kExpected);
+  }
+}
+
+}  // namespace glovebench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace glovebench {
+
+/// A file that is open for reading: a regular file or a pipe. Devices, sockets and folders are refused, since they
+/// may never end. What is read is what was checked, even if the name means another file meanwhile.
+class InputFile {
+ public:
+  /// Waits for the writer of a named pipe. Throws Error.
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// Bytes of a regular file; none for a pipe. The files of /proc say 0.
+  std::optional<uint64_t> size() const { return size_; }
+  int descriptor() const { return descriptor_; }
+  /// Reads bytes into the front of `room`; 0 at the end of the file. Throws Error.
+  size_t read(std::span<char> room);
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+  std::optional<uint64_t> size_;
+};
+
+}  // namespace glovebench
