@@ -103,6 +103,7 @@ DatabaseCache BenchData::cache() const {
   DatabaseCache result;
   result.folder = settings.cache_folder;
   result.renderers = render::label_renderer_factory();
+  result.source_hash = render::database_source_hash();
   result.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   result.message = [](const std::string& text) { fmt::print(stderr, "glovebench_bench: {}\n", text); };
   return result;

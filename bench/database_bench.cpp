@@ -150,7 +150,8 @@ void load(benchmark::State& state) {
   const DatabaseCache cache = data().cache();
   for (auto _ : state) {
     const Database database = cache.get(data().postures, *data().model, data().config.views, kTinySizes);
-    if (database.hash() != data().database->hash()) return state.SkipWithError("another database was loaded");
+    if (database.content_hash() != data().database->content_hash())
+      return state.SkipWithError("another database was loaded");
   }
   const auto bytes = static_cast<double>(
       std::filesystem::file_size(cache.path(data().postures, *data().model, data().config.views)));

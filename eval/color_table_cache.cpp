@@ -14,8 +14,6 @@
 namespace glovebench::eval {
 namespace {
 
-/// Changes whenever the same inputs would give another table.
-constexpr int kVersion = 4;
 constexpr int kViewsPerLighting = 12;
 
 /// The hand somewhere in the working volume, seen from a random side.
@@ -30,8 +28,8 @@ Eigen::Isometry3d random_pose(RandomStream& random) {
 
 std::string input_hash(const HandModel& model, const RgbdCalibration& calibration,
                        const std::vector<Posture>& postures, ColorSpace space) {
-  std::string text = fmt::format("{}/{}/{}/{}/{}", kVersion, to_string(space), kViewsPerLighting, model.hash(),
-                                 calibration.rgb.fx);
+  std::string text = fmt::format("{}/{}/{}/{}/{}", color_table_source_hash(), to_string(space), kViewsPerLighting,
+                                 model.hash(), calibration.rgb.fx);
   for (const Posture& posture : postures) text += fmt::format("/{}", fmt::join(posture, ","));
   for (const render::Lighting& l : calibration_lightings()) {
     text += fmt::format("/{},{},{}", l.strength, l.temperature_k, fmt::join(l.direction_to_light, ","));

@@ -28,8 +28,11 @@ ColorTableConfig one_lighting(ColorSpace space);
 ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config = {});
 
-/// The table with all lightings, kept in `folder` under a name that holds the hash of all inputs. A damaged file,
-/// or one of an older version, is calibrated anew.
+/// Hash of the sources that decide which table calibrate_colors makes of its inputs (ci/source_hash.cmake).
+std::string color_table_source_hash();
+
+/// The table with all lightings, kept in `folder` under a name that holds the hash of all inputs and of the
+/// sources. A damaged file, or one of an older version, is calibrated anew.
 ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space = ColorSpace::yuv);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/file.h"
+#include "core/database/test_damaged_database.h"
 #include "eval/command_test.h"
 #include "eval/test_program.h"
 #include "render/exr.h"
@@ -83,6 +84,18 @@ TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
   EXPECT_EQ(read_file(path("own-mine.csv/results.json")), read_file(path("own-mine.glovedb/results.json")));
   write_file(path("views.json"), R"({"database": {"view_distance_m": 1.5}})");
   EXPECT_THAT(refusal(run_with("mine.glovedb", {"--config", path("views.json")})), HasSubstr("mine.glovedb: hash"));
+
+  // A database with the same inputs and another content, as another builder makes it, is no other run of the same.
+  std::string other = read_file(path("mine.glovedb"));
+  const std::vector<Section> sections = sections_of(other);
+  const auto labels = std::ranges::find(sections, "labels_64", &Section::name);
+  other[labels->offset + 1000] = static_cast<char>(other[labels->offset + 1000] == 0x11 ? 0x22 : 0x11);
+  write_file(path("other.glovedb"), with_right_hashes(other, sections));
+  expect_fine(run_with("other.glovedb"));
+  const ProgramRun compared = run_glovebench({"compare", path("own-mine.glovedb"), path("own-other.glovedb")});
+  EXPECT_EQ(compared.exit_code, 3);
+  EXPECT_THAT(compared.err, HasSubstr("inputs.databases.mine: found "));
+  EXPECT_THAT(refusal(run_glovebench({"db", "info", path("other.glovedb")})), HasSubstr("those of its labels"));
 
   std::string damaged = read_file(path("mine.glovedb"));
   damaged[damaged.size() / 2] ^= 1;

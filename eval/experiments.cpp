@@ -184,7 +184,7 @@ reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& exper
   for (const Replay& replay : plan.replays) {
     for (const std::string& name : replay.databases) {
       result.inputs.truths[truth_name(key_of(replay, name))] = trajectories::hash(*replay.truth);
-      result.inputs.databases[name] = workbench.database(name)->hash();
+      result.inputs.databases[name] = workbench.database(name)->content_hash();
     }
   }
   result.inputs.hand_model = workbench.model()->hash();

@@ -29,7 +29,7 @@ trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::
   recorded.description =
       fmt::format("{} as the {} profile tracked it with {}", source.name, config.profile, database);
   recorded.provenance = trajectories::Provenance{source.name,    trajectories::hash(source),
-                                                 database,       workbench.database(database)->hash(),
+                                                 database,       workbench.database(database)->input_hash(),
                                                  config.profile, hash_text(to_json(config).dump())};
   for (size_t f = 0; f < recorded.frames.size(); ++f) {
     const TrackResult& result = tracked.results[f];

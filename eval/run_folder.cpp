@@ -141,7 +141,8 @@ void RunFolder::finish() {
 
 std::string replay_key(Workbench& workbench, const Replay& replay) {
   nlohmann::json databases = nlohmann::json::array();
-  for (const std::string& name : replay.databases) databases.push_back({name, workbench.database(name)->hash()});
+  for (const std::string& name : replay.databases)
+    databases.push_back({name, workbench.database(name)->content_hash()});
   const auto frames = frames_of(replay);
   const auto color_table = workbench.color_table(replay.tracker.segmentation.color_space);
   const nlohmann::json content = {

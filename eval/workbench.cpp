@@ -71,8 +71,9 @@ std::string Workbench::add_database(const std::string& name_or_file) {
     postures = built->posture_set();
     // A database of the other side is for the tracker to refuse.
     const std::string expected = Database::input_hash(postures, *model(), config_.views);
-    if (built->side() == config_.side && built->hash() != expected) {
-      throw Error(name_or_file, "hash of its inputs", built->hash(), expected + " (this hand and these views)");
+    if (built->side() == config_.side && built->input_hash() != expected) {
+      throw Error(name_or_file, "hash of its inputs", built->input_hash(),
+                  expected + " (this hand and these views)");
     }
   } else {
     postures = trajectories::load_posture_set(name_or_file);
@@ -99,6 +100,7 @@ DatabaseCache Workbench::database_cache() const {
   DatabaseCache cache;
   cache.folder = config_.cache_folder;
   cache.renderers = render::label_renderer_factory();
+  cache.source_hash = render::database_source_hash();
   cache.threads = config_.threads;
   cache.memory = config_.memory;
   cache.message = [](const std::string& text) { fmt::print(stderr, "glovebench: {}\n", text); };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "core/base/image.h"
 #include "core/database/view_renderer.h"
@@ -35,5 +36,7 @@ class LabelRenderer : public ViewRenderer {
 
 /// For `Database::build`.
 ViewRendererFactory label_renderer_factory();
+/// For `DatabaseCache`: hash of the sources that decide what a database holds of its inputs (ci/source_hash.cmake).
+std::string database_source_hash();
 
 }  // namespace glovebench::render

@@ -150,7 +150,7 @@ Protocol make_protocol(std::string association);
 /// same.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
-  std::map<std::string, std::string> databases;  ///< by the database's name
+  std::map<std::string, std::string> databases;  ///< Database::content_hash, by the database's name
   std::string hand_model;                        ///< the tracker's
   std::string color_table;
 

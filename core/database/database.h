@@ -37,27 +37,32 @@ class Database {
  public:
   /// Renders all views; the renderer factory is called once a thread. The result does not depend on `threads`.
   /// `progress`, if given, hears the share done (0..1). `sizes` are the tiny images' edge lengths, 4..64 px; what
-  /// is stored of one does not depend on the others, nor does `hash()`. Throws Error for another size, a size named
-  /// twice or no postures.
+  /// is stored of one does not depend on the others, nor does `input_hash()`. Throws Error for another size, a size
+  /// named twice or no postures.
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes,
                         DatabaseMemory memory = DatabaseMemory::normal);
   /// The same into a file, which may be larger than memory: what was written of a posture does not stay resident.
-  /// Throws Error also for want of room on the disk.
-  static void build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
-                         const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
-                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes,
-                         DatabaseMemory memory = DatabaseMemory::normal);
+  /// Returns its `content_hash()`. Throws Error also for want of room on the disk.
+  static std::string build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
+                                const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
+                                const std::function<void(double)>& progress = {},
+                                std::span<const int> sizes = kTinySizes,
+                                DatabaseMemory memory = DatabaseMemory::normal);
 
   /// A versioned, checksummed file (database_file.h).
   void save(const std::string& path) const;
   /// `sizes` are the tiny-image sizes that are wanted, of those that the file has. All bytes of these are read and
-  /// checked. Labels and fields stay in the file (MappedMemory::of_file says what that asks of it) and take memory
-  /// that the system can take back; the rows are copied. Uses the threads of the caller's TBB arena. Throws Error
-  /// naming the file and what is wrong with it.
+  /// checked, so that no look-up reads elsewhere or returns an entry that does not exist. `check` finds more.
+  /// Labels and fields stay in the file (MappedMemory::of_file says what that asks of it) and take memory that the
+  /// system can take back; the rows are copied. Uses the threads of the caller's TBB arena. Throws Error naming the
+  /// file and what is wrong with it.
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
-  /// What a database made of these inputs would have as `hash()`.
+  /// Throws Error naming the database unless its fields are those of its labels, and its rows those of its fields,
+  /// in all sizes that were loaded. Takes about as long as making them. Uses the threads of the caller's TBB arena.
+  void check() const;
+  /// What a database made of these inputs would have as `input_hash()`.
   static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);
 
   int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
@@ -68,7 +73,9 @@ class Database {
   const Eigen::Vector3d& box_ray(int entry) const { return box_rays_[entry]; }
   Side side() const { return header_.side; }
   /// Hash of all inputs, the same however much memory it takes.
-  const std::string& hash() const { return header_.hash; }
+  const std::string& input_hash() const { return header_.input_hash; }
+  /// Hash of what it holds (DatabaseLayout::content_hash), the same however much memory it takes.
+  const std::string& content_hash() const { return content_hash_; }
   DatabaseMemory memory() const { return header_.memory; }
 
   /// Labels of one entry, size*size. Throws Error if that size was not loaded.
@@ -94,9 +101,11 @@ class Database {
   /// Of the sizes that are wanted.
   Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout, std::span<const int> sizes);
   const SizeData& data(int size) const;
+  void check_block(int size, int block) const;
 
   std::shared_ptr<const MappedMemory> bytes_;  ///< as in the file
   DatabaseHeader header_;
+  std::string content_hash_;
   const Eigen::Vector3d* box_rays_ = nullptr;
   std::map<int, SizeData> sizes_;
 };

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/hash.h"
 #include "core/base/name.h"
 
 namespace glovebench {
@@ -33,39 +34,61 @@ class FileLock {
   int descriptor_;
 };
 
+/// Begin of the names of all files of these inputs.
+std::string stem(const DatabaseCache& cache, const PostureSet& postures, const std::string& input_hash) {
+  return fmt::format("{}-{}{}", postures.name, input_hash.substr(0, 16),
+                     cache.memory == DatabaseMemory::low ? "-low" : "");
+}
+
+/// Removes what other code built of the same inputs: each change of the code would leave another large file.
+void remove_outdated(const DatabaseCache& cache, const std::string& stem, const std::string& file) {
+  constexpr std::string_view kEnding = ".glovedb";
+  constexpr size_t kSourceHash = 17;  // with its hyphen
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(cache.folder, ignored)) {
+    const std::string name = entry.path().filename();
+    const bool is_of_inputs = name.starts_with(stem) && name.ends_with(kEnding) &&
+                              (name.size() == stem.size() + kEnding.size() ||  // before there was a source hash
+                               name.size() == stem.size() + kSourceHash + kEnding.size());
+    if (is_of_inputs && entry.path() != file && entry.is_regular_file(ignored))
+      std::filesystem::remove(entry.path(), ignored);
+  }
+}
+
 }  // namespace
 
 Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                             std::span<const int> sizes) const {
   const std::string hash = Database::input_hash(postures, model, views);
-  const std::string file = path(postures, model, views);
+  const std::string file = path(postures, model, views), begin = stem(*this, postures, hash);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(folder, "cache folder", error.message(), "a folder that can be written");
 
-  const FileLock lock(file + ".lock");
+  const FileLock lock(folder + "/" + begin + ".lock");
   const auto load = [&] { return tbb::task_arena(threads).execute([&] { return Database::load(file, sizes); }); };
   if (std::filesystem::exists(file)) {
     try {
       Database database = load();
-      if (database.hash() == hash && database.memory() == memory) return database;
-      message(database.hash() == hash ? fmt::format("{}: memory: found {}, expected {}; rebuilding it", file,
-                                                    to_string(database.memory()), to_string(memory))
-                                      : file + ": made of other inputs; rebuilding it");
+      if (database.input_hash() == hash && database.memory() == memory) return database;
+      message(database.input_hash() == hash ? fmt::format("{}: memory: found {}, expected {}; rebuilding it", file,
+                                                          to_string(database.memory()), to_string(memory))
+                                            : file + ": made of other inputs; rebuilding it");
     } catch (const Error& e) {
       message(fmt::format("{}; rebuilding it", e.what()));
     }
   }
   // What a killed build left, as large as a database; no other process builds this one.
   remove_leftovers(folder, [&](const std::string& name) { return folder + "/" + name == file; });
+  remove_outdated(*this, begin, file);
   Database::build_file(file, postures, model, views, renderers, threads, progress, kTinySizes, memory);
   return load();
 }
 
 std::string DatabaseCache::path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const {
-  const std::string hash = Database::input_hash(postures, model, views);
-  return path_within(folder, fmt::format("{}-{}{}.glovedb", postures.name, hash.substr(0, 16),
-                                         memory == DatabaseMemory::low ? "-low" : ""));
+  return path_within(folder, fmt::format("{}-{}.glovedb",
+                                         stem(*this, postures, Database::input_hash(postures, model, views)),
+                                         hash_text(source_hash).substr(0, 16)));
 }
 
 }  // namespace glovebench

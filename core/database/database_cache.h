@@ -8,11 +8,13 @@
 namespace glovebench {
 
 /// Loads the database of these inputs from `folder`, or builds and stores it there. The file's name holds the hash
-/// of all inputs, so a changed input makes another file; so does low memory. Two processes that want the same one
-/// wait for each other; a damaged file is named through `message` and rebuilt.
+/// of all inputs and that of the code that builds: a change of either makes another file, as does low memory. Two
+/// processes that want the same one wait for each other; a damaged file is named through `message` and rebuilt. A
+/// build removes what other code built of the same inputs.
 struct DatabaseCache {
   std::string folder;
   ViewRendererFactory renderers;
+  std::string source_hash;  ///< of the code that builds, `renderers` included (render::database_source_hash)
   int threads = 1;
   DatabaseMemory memory = DatabaseMemory::normal;
   std::function<void(const std::string&)> message = [](const std::string&) {};

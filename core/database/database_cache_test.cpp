@@ -75,7 +75,7 @@ TEST_F(DatabaseCacheTest, builds_once_and_loads_afterwards) {
   const std::string hash = hash_file(file());
   const Database loaded = get();
   EXPECT_EQ(renderers_made_, 1);
-  EXPECT_EQ(loaded.hash(), built.hash());
+  EXPECT_EQ(loaded.content_hash(), built.content_hash());
   EXPECT_TRUE(
       std::equal(built.fields(16, 0), built.fields(16, 0) + 756 * 16 * 16 * kColorCount, loaded.fields(16, 0)));
   EXPECT_EQ(hash_file(file()), hash);
@@ -132,6 +132,45 @@ TEST_F(DatabaseCacheTest, a_changed_input_makes_another_file) {
   EXPECT_EQ(renderers_made_, 3);
 }
 
+TEST_F(DatabaseCacheTest, other_sources_build_anew_and_leave_no_old_file) {
+  cache_.source_hash = "before";
+  const std::string content = get().content_hash(), before = file();
+  const std::string without = before.substr(0, before.size() - 25) + ".glovedb";  // as it was without a source hash
+  write_file(without, "old");
+  const std::string low = without.substr(0, without.size() - 8) + "-low-0123456789abcdef.glovedb",
+                    other = cache_.folder + "/DB_cache_2-0123456789abcdef-0123456789abcdef.glovedb";
+  write_file(low, "of low memory");
+  write_file(other, "of other postures");
+  cache_.source_hash = "after";
+  EXPECT_EQ(get().content_hash(), content);
+  EXPECT_EQ(renderers_made_, 2);
+  EXPECT_FALSE(std::filesystem::exists(before));
+  EXPECT_FALSE(std::filesystem::exists(without));
+  EXPECT_TRUE(std::filesystem::exists(low));
+  EXPECT_TRUE(std::filesystem::exists(other));
+  get();
+  EXPECT_EQ(renderers_made_, 2);
+  EXPECT_THAT(messages_, IsEmpty());
+}
+
+TEST_F(DatabaseCacheTest, another_builder_makes_another_content_of_the_same_inputs) {
+  const Database first = get();
+  struct Shifted : SquareRenderer {
+    LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
+                             const Eigen::Isometry3d& T_camera_hand) override {
+      LabelImage image = SquareRenderer::render_labels(model, hand, camera, T_camera_hand);
+      image(20, 20) = image(20, 20) % kColorCount + 1;
+      for (int u = 10; u < 40; ++u) image(u, 25) = 9;
+      return image;
+    }
+  };
+  cache_.renderers = [] { return std::make_unique<Shifted>(); };
+  cache_.source_hash = "of Shifted";
+  const Database second = get();
+  EXPECT_EQ(second.input_hash(), first.input_hash());
+  EXPECT_NE(second.content_hash(), first.content_hash());
+}
+
 TEST_F(DatabaseCacheTest, one_of_low_memory_is_another_file) {
   const Database normal = get();
   const std::string content = read_file(file());
@@ -139,7 +178,7 @@ TEST_F(DatabaseCacheTest, one_of_low_memory_is_another_file) {
   const Database low = get();
   EXPECT_EQ(database_count(), 2);
   EXPECT_EQ(low.memory(), DatabaseMemory::low);
-  EXPECT_EQ(low.hash(), normal.hash());
+  EXPECT_EQ(low.content_hash(), normal.content_hash());
   EXPECT_THAT(messages_, IsEmpty());
   // Under the other's name it is named and rebuilt.
   const std::string path = cache_.path(postures_, render::test_hand(), views_);
@@ -183,7 +222,7 @@ TEST_F(DatabaseCacheTest, two_processes_that_want_the_same_one_build_it_once) {
   }
   EXPECT_EQ(built, 1);
   const Database a = Database::load(folder_ / "got_by_0", sizes_), b = Database::load(folder_ / "got_by_1", sizes_);
-  EXPECT_EQ(a.hash(), b.hash());
+  EXPECT_EQ(a.content_hash(), b.content_hash());
   for (const int size : sizes_) {
     const size_t bytes = size_t{756} * size * size;
     for (int entry = 0; entry < kViewCount; ++entry) ASSERT_EQ(a.labels(size, entry), b.labels(size, entry));

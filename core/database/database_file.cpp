@@ -1,7 +1,7 @@
 #include "core/database/database_file.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/base/angles.h"
+#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
 #include "core/base/hash.h"
@@ -16,6 +18,7 @@
 #include "core/base/parse_json.h"
 #include "core/database/field_rows.h"
 #include "core/database/packed_labels.h"
+#include "core/database/section_check.h"
 #include "core/database/tiny_image.h"
 #include "core/database/view_sphere.h"
 
@@ -24,16 +27,19 @@ namespace {
 
 using nlohmann::json;
 
-static_assert(kDatabaseVersion == 3);
-constexpr std::string_view kMagic = "glovebench-database-3\n";
+static_assert(kDatabaseVersion == 4);
+constexpr std::string_view kMagic = "glovebench-database-4\n", kAnyMagic = "glovebench-database-";
 constexpr size_t kHashLength = 32;
 constexpr size_t kHeaderBegin = kMagic.size() + sizeof(uint64_t) + kHashLength;
 constexpr uint64_t kMaxHeader = 256 << 20;  // of 100 million entries: 70 MB
 constexpr uint64_t kPage = 4096;
-constexpr uint64_t kChunk = 16 << 20;
 
 uint64_t whole_pages(uint64_t bytes) {
   return (bytes + kPage - 1) / kPage * kPage;
+}
+
+std::string side_name(Side side) {
+  return side == Side::right ? "right" : "left";
 }
 
 json postures_to_json(const PostureSet& set) {
@@ -46,13 +52,26 @@ json postures_to_json(const PostureSet& set) {
   return postures;
 }
 
+/// The angles of one posture. Throws as header_from_json.
+Posture posture_from_json(const json& angles_rad, const std::string& path) {
+  const std::vector<double> angles = angles_rad;
+  if (angles.size() != kAngleCount) {
+    throw Error(path, "angles_rad", fmt::format("{} angles", angles.size()), fmt::format("{}", kAngleCount));
+  }
+  const Posture posture = Eigen::Map<const Posture>(angles.data());
+  // Rounding between degrees and radians may move an angle across its limit.
+  if (constexpr double kRounding = 1e-9; !(posture - clamp_to_limits(posture)).isZero(kRounding))
+    throw Error(path, "angles_rad", "an angle that no hand has", "angles within the limits of a hand");
+  return posture;
+}
+
 /// Throws json::exception for what has another shape, Error naming `path` for what no database has. What else
 /// `seal` does not write is for the caller to find.
 DatabaseHeader header_from_json(const json& text, const std::string& path) {
   DatabaseHeader header;
   header.postures.name = checked_name(text.at("name"), path, "name");
-  header.hash = text.at("hash");
-  header.side = text.at("side") == "right" ? Side::right : Side::left;
+  header.input_hash = text.at("input_hash");
+  header.side = text.at("side") == side_name(Side::right) ? Side::right : Side::left;
   const std::string memory = text.at("memory");
   const auto known = database_memory_from_string(memory);
   if (!known) throw Error(path, "memory", quoted_excerpt(memory), "\"normal\" or \"low\"");
@@ -63,11 +82,7 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
   }
   for (const json& posture : text.at("postures")) {
     header.postures.posture_names.push_back(checked_name(posture.at("name"), path, "name of a posture"));
-    const std::vector<double> angles = posture.at("angles_rad");
-    if (angles.size() != kAngleCount) {
-      throw Error(path, "angles_rad", fmt::format("{} angles", angles.size()), fmt::format("{}", kAngleCount));
-    }
-    header.postures.postures.push_back(Eigen::Map<const Posture>(angles.data()));
+    header.postures.postures.push_back(posture_from_json(posture.at("angles_rad"), path));
   }
   for (const int px : text.at("sizes_px")) {
     if (px < kSmallestTinySize || px > kLargestTinySize) {
@@ -80,17 +95,32 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
   return header;
 }
 
-std::string hash_of(std::span<const uint8_t> bytes) {
-  return hash_bytes(std::as_bytes(bytes));
+/// All bytes behind a section up to the next one.
+std::span<const uint8_t> behind(const MappedMemory& file, const Section& section) {
+  const uint64_t end = section.offset + section.bytes;
+  return file.bytes().subspan(end, whole_pages(end + DatabaseLayout::kBehind) - end);
 }
 
 }  // namespace
 
+std::string Section::name() const {
+  switch (kind) {
+    case Kind::box_rays:
+      return "box_rays";
+    case Kind::labels:
+      return fmt::format("labels_{}", size_px);
+    case Kind::fields:
+      return fmt::format("fields_{}", size_px);
+    case Kind::rows:
+      break;
+  }
+  return fmt::format("rows_{}", size_px);
+}
+
 DatabaseLayout::DatabaseLayout(DatabaseHeader header) : header_(std::move(header)) {
-  place(0);  // the number of checksums, and with it the header's length, does not depend on the place
-  const uint64_t length =
-      header_text(std::vector<std::string>(chunks().size(), std::string(kHashLength, '0'))).size();
-  place(kHeaderBegin + length);
+  place(0);  // the hashes' number, and with it the header's length, does not depend on the place
+  for (const Section& section : sections()) hashes_[section.name()] = std::string(kHashLength, '0');
+  place(kHeaderBegin + header_text().size());
 }
 
 DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string& path) {
@@ -101,8 +131,10 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
     return std::string(reinterpret_cast<const char*>(file.data()) + offset, count);
   };
   const std::string magic = text_at(0, std::min(kMagic.size(), file.size()), "magic");
-  if (magic != kMagic)
-    throw Error(path, "magic", "another format", std::string(kMagic.substr(0, kMagic.size() - 1)));
+  if (magic != kMagic) {
+    throw Error(path, "magic", magic.starts_with(kAnyMagic) ? "a database of another version" : "another format",
+                fmt::format("{} (glovebench db build makes one)", kMagic.substr(0, kMagic.size() - 1)));
+  }
   uint64_t length = 0;
   std::memcpy(&length, text_at(kMagic.size(), sizeof(length), "header length").data(), sizeof(length));
   if (length > kMaxHeader) throw Error(path, "header length", fmt::format("{} bytes", length), "at most 256 MiB");
@@ -113,7 +145,7 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
   try {
     const json parsed = parse_json(text, path);
     header_ = header_from_json(parsed, path);
-    checksums_ = parsed.at("checksums").get<std::vector<std::string>>();
+    hashes_ = parsed.at("hashes").get<std::map<std::string, std::string>>();
   } catch (const json::exception& e) {
     throw Error(path, "header", e.what(), "what a database of this version says");
   }
@@ -121,11 +153,11 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
   if (bytes_ != file.size()) {
     throw Error(path, "length", fmt::format("{} bytes", file.size()), fmt::format("{} bytes", bytes_));
   }
-  if (checksums_.size() != chunks().size()) {
-    throw Error(path, "checksums", fmt::format("{}", checksums_.size()), fmt::format("{}", chunks().size()));
-  }
-  if (header_text(checksums_) != text)
-    throw Error(path, "header", "another text", header_text(checksums_).substr(0, 60));
+  std::set<std::string> names;
+  for (const Section& section : sections()) names.insert(section.name());
+  if (!std::ranges::equal(names, hashes_, {}, {}, [](const auto& hash) { return hash.first; }))
+    throw Error(path, "hashes", "those of other sections", fmt::format("{}", fmt::join(names, ", ")));
+  if (header_text() != text) throw Error(path, "header", "another text", header_text().substr(0, 60));
 }
 
 void DatabaseLayout::place(uint64_t header_bytes) {
@@ -134,62 +166,65 @@ void DatabaseLayout::place(uint64_t header_bytes) {
     throw Error(header_.postures.name, "views", fmt::format("{}", entries), "at most 2147483647");
   }
   uint64_t end = whole_pages(header_bytes);
-  const auto next = [&](uint64_t bytes) {
-    const Section section{end, bytes};
-    end = whole_pages(end + bytes + kBehind);
+  const auto next = [&](Section::Kind kind, int size, uint64_t pieces, uint64_t piece_bytes) {
+    const Section section{kind, size, end, pieces * piece_bytes, piece_bytes};
+    if (section.bytes > 0) end = whole_pages(end + section.bytes + kBehind);
     return section;
   };
-  box_rays_ = next(entries * sizeof(Eigen::Vector3d));
+  static_assert(kViewCount % kPieceEntries == 0);
+  const uint64_t pieces = entries / kPieceEntries;
+  box_rays_ = next(Section::Kind::box_rays, 0, pieces, kPieceEntries * sizeof(Eigen::Vector3d));
   for (const int size : header_.sizes_px) {
     const uint64_t pixels = static_cast<uint64_t>(size) * size;
+    const uint64_t stored = header_.memory == DatabaseMemory::normal ? pieces : 0;
+    const FieldRows rows(size, header_.memory, static_cast<int>(entries));
     SizeSections& sections = sizes_[size];
-    sections.labels = next(entries * packed_bytes(pixels));
-    if (header_.memory == DatabaseMemory::normal) sections.fields = next(entries * pixels * kColorCount);
-    sections.rows = next(FieldRows(size, header_.memory, static_cast<int>(entries)).bytes());
+    sections.labels = next(Section::Kind::labels, size, pieces, kPieceEntries * packed_bytes(pixels));
+    sections.fields = next(Section::Kind::fields, size, stored, kPieceEntries * pixels * kColorCount);
+    sections.rows = next(Section::Kind::rows, size, rows.block_count(), rows.block_bytes());
   }
   bytes_ = end;
 }
 
-std::vector<DatabaseLayout::Chunk> DatabaseLayout::chunks() const {
-  std::vector<Chunk> chunks;
-  // With the zeros behind it: every byte of the file is in a checksum.
-  const auto add = [&](const std::string& name, int size, const Section& section) {
-    const uint64_t end = whole_pages(section.offset + section.bytes + kBehind);
-    for (uint64_t offset = section.offset; offset < end; offset += kChunk)
-      chunks.push_back({name, size, offset, std::min(kChunk, end - offset)});
-  };
-  add("box_rays", 0, box_rays_);
-  for (const auto& [size, sections] : sizes_) {
-    add(fmt::format("labels_{}", size), size, sections.labels);
-    if (sections.fields.bytes > 0) add(fmt::format("fields_{}", size), size, sections.fields);
-    add(fmt::format("rows_{}", size), size, sections.rows);
-  }
-  return chunks;
+std::vector<Section> DatabaseLayout::sections() const {
+  std::vector<Section> sections = {box_rays_};
+  for (const auto& [size, of_size] : sizes_)
+    sections.insert(sections.end(), {of_size.labels, of_size.fields, of_size.rows});
+  return sections;
 }
 
-std::string DatabaseLayout::header_text(const std::vector<std::string>& checksums) const {
+std::string DatabaseLayout::header_text() const {
   std::string text = json{
       {"name", header_.postures.name},
-      {"hash", header_.hash},
-      {"side", header_.side == Side::right ? "right" : "left"},
+      {"input_hash", header_.input_hash},
+      {"side", side_name(header_.side)},
       {"memory", to_string(header_.memory)},
       {"field_cap_share", header_.field_cap_share},
       {"postures", postures_to_json(header_.postures)},
       {"sizes_px", header_.sizes_px},
-      {"checksums",
-       checksums}}.dump();
+      {"hashes",
+       hashes_}}.dump();
   text.resize(whole_pages(kHeaderBegin + text.size()) - kHeaderBegin, ' ');
   return text;
 }
 
-void DatabaseLayout::seal(MappedMemory& file) const {
-  const std::vector<Chunk> all = chunks();
-  std::vector<std::string> checksums(all.size());
-  tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
-    checksums[i] = hash_of(file.bytes().subspan(all[i].offset, all[i].bytes));
-    file.release(all[i].offset, all[i].bytes);
-  });
-  const std::string text = header_text(checksums);
+std::string DatabaseLayout::content_hash() const {
+  json content = {{"side", side_name(header_.side)}, {"field_cap_share", header_.field_cap_share}};
+  for (const Posture& angles : header_.postures.postures)
+    content["angles_rad"].push_back(std::vector<double>(angles.begin(), angles.end()));
+  for (const Section& section : sections())
+    if (section.kind != Section::Kind::rows) content[section.name()] = hashes_.at(section.name());
+  return hash_text(content.dump());
+}
+
+void DatabaseLayout::seal(MappedMemory& file, const std::map<int, std::vector<std::string>>& made_fields) {
+  const std::vector<Section> all = sections();
+  const auto contents = look_at_sections(file, all, header_.field_cap_share, true);
+  for (size_t s = 0; s < all.size(); ++s) {
+    check(!contents[s].fault, "a database holds what its sections are for");
+    hashes_[all[s].name()] = all[s].bytes > 0 ? contents[s].hash : section_hash(made_fields.at(all[s].size_px));
+  }
+  const std::string text = header_text();
   const uint64_t length = text.size();
   std::string header(kMagic);
   header.append(reinterpret_cast<const char*>(&length), sizeof(length));
@@ -199,14 +234,20 @@ void DatabaseLayout::seal(MappedMemory& file) const {
 
 void DatabaseLayout::check_sections(const MappedMemory& file, const std::string& path,
                                     std::span<const int> sizes_px) const {
-  const std::vector<Chunk> all = chunks();
-  tbb::parallel_for(size_t{0}, all.size(), [&](size_t i) {
-    const int size = all[i].size_px;
-    if (size != 0 && std::ranges::find(sizes_px, size) == sizes_px.end()) return;
-    const std::string found = hash_of(file.bytes().subspan(all[i].offset, all[i].bytes));
-    if (header_.memory == DatabaseMemory::low) file.release(all[i].offset, all[i].bytes);
-    if (found != checksums_[i]) throw Error(path, all[i].section + " checksum", found, checksums_[i]);
+  std::vector<Section> wanted = sections();
+  std::erase_if(wanted, [&](const Section& section) {
+    const bool is_wanted = section.size_px == 0 || std::ranges::count(sizes_px, section.size_px) > 0;
+    return !is_wanted || section.bytes == 0;
   });
+  const auto contents =
+      look_at_sections(file, wanted, header_.field_cap_share, header_.memory == DatabaseMemory::low);
+  for (size_t s = 0; s < wanted.size(); ++s) {
+    const std::string name = wanted[s].name(), &expected = hashes_.at(name);
+    if (contents[s].hash != expected) throw Error(path, name + " checksum", contents[s].hash, expected);
+    if (contents[s].fault) throw Error(path, name, contents[s].fault->first, contents[s].fault->second);
+    if (std::ranges::any_of(behind(file, wanted[s]), [](uint8_t byte) { return byte != 0; }))
+      throw Error(path, "bytes behind " + name, "another value", "0");
+  }
 }
 
 }  // namespace glovebench

@@ -14,27 +14,35 @@
 namespace glovebench {
 
 /// Of the file. A database of another version is refused.
-inline constexpr int kDatabaseVersion = 3;
+inline constexpr int kDatabaseVersion = 4;
 
 /// What the header of a database's file says.
 struct DatabaseHeader {
   PostureSet postures;
   Side side = Side::right;
-  std::string hash;  ///< of all inputs
+  std::string input_hash;  ///< of all inputs
   DatabaseMemory memory = DatabaseMemory::normal;
   double field_cap_share = 0;  ///< as in the view configuration: what made fields are capped at
   std::set<int> sizes_px;      ///< the tiny images'
 };
 
-/// A part of the file.
+/// A part of the file. Its hash is that of the hashes of its pieces, so that threads share the work.
 struct Section {
-  uint64_t offset = 0, bytes = 0;
+  enum class Kind { box_rays, labels, fields, rows };
+
+  Kind kind = Kind::box_rays;
+  int size_px = 0;  ///< of the tiny images; 0: of all
+  uint64_t offset = 0;
+  uint64_t bytes = 0;        ///< 0: the fields of a low-memory database, of which the file holds the hash alone
+  uint64_t piece_bytes = 0;  ///< `bytes` is a multiple of it
+
+  std::string name() const;  ///< "fields_16"
 };
 /// Of the tiny images of one size.
 struct SizeSections {
   Section labels;  ///< [entry][packed_bytes(pixels)], as pack_labels
   Section fields;  ///< [entry][color][pixel]; none in a low-memory database
-  Section rows;    ///< as FieldRows
+  Section rows;    ///< as FieldRows; what lies behind the last entry means nothing
 };
 
 /// The bytes of a database, in its file and in memory: magic, length and checksum of a JSON header, the header,
@@ -44,6 +52,8 @@ class DatabaseLayout {
  public:
   /// What may be read behind the last value of a section, bytes.
   static constexpr uint64_t kBehind = 64;
+  /// Entries in a piece of a section other than rows, whose pieces are their blocks.
+  static constexpr int kPieceEntries = 54;
 
   /// Of a database that is to be made.
   explicit DatabaseLayout(DatabaseHeader header);
@@ -54,30 +64,29 @@ class DatabaseLayout {
   uint64_t bytes() const { return bytes_; }
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
+  /// Hash of the postures' angles, box rays, labels and fields: equal for databases that give the same matches,
+  /// whoever built them, and for normal and low memory. Once sealed.
+  std::string content_hash() const;
 
-  /// Writes the header with the checksums of the sections, which are complete. Keeps no page of a file resident.
-  void seal(MappedMemory& file) const;
+  /// Writes the header with the hashes of the sections, which are complete. `made_fields`: by size, the hash of
+  /// each piece of the fields that a low-memory database does not store. Keeps no page of a file resident.
+  void seal(MappedMemory& file, const std::map<int, std::vector<std::string>>& made_fields);
   /// Throws Error naming `path` if a section that all databases have, or one of these sizes, is not what was
-  /// sealed. Keeps no page of a low-memory database resident.
+  /// sealed, or holds a value that no database has. Keeps no page of a low-memory database resident.
   void check_sections(const MappedMemory& file, const std::string& path, std::span<const int> sizes_px) const;
 
  private:
-  struct Chunk {
-    std::string section;
-    int size_px = 0;  ///< of the tiny images; 0: of all
-    uint64_t offset = 0, bytes = 0;
-  };
   /// Places the sections behind a header of that many bytes.
   void place(uint64_t header_bytes);
-  /// What each checksum is of: so much of a section that threads share the work.
-  std::vector<Chunk> chunks() const;
-  std::string header_text(const std::vector<std::string>& checksums) const;
+  /// In the order in which they lie.
+  std::vector<Section> sections() const;
+  std::string header_text() const;
 
   DatabaseHeader header_;
   Section box_rays_;
   std::map<int, SizeSections> sizes_;
   uint64_t bytes_ = 0;
-  std::vector<std::string> checksums_;  ///< of `chunks`; empty until sealed
+  std::map<std::string, std::string> hashes_;  ///< by the section's name
 };
 
 }  // namespace glovebench

@@ -68,11 +68,12 @@ TEST_F(DatabaseFile, a_flipped_bit_anywhere_is_an_error) {
 TEST_F(DatabaseFile, another_format_and_trailing_bytes_are_errors_that_say_so) {
   expect_refused(good_ + '\0', "one byte more");
   expect_refused("PNG\n" + good_, "something in front");
-  std::string newer = good_;
-  newer[newer.find("-3\n") + 1] = '4';
-  write_file(path_, newer);
+  std::string older = good_;
+  older[older.find("-4\n") + 1] = '3';
+  write_file(path_, older);
   EXPECT_THAT([&] { Database::load(path_); },
-              ThrowsMessage<Error>(AllOf(HasSubstr("magic"), HasSubstr("glovebench-database-3"))));
+              ThrowsMessage<Error>(AllOf(HasSubstr("magic: found a database of another version"),
+                                         HasSubstr("glovebench-database-4 (glovebench db build makes one)"))));
 }
 
 /// The file with another header of the same length, whose checksum is right.
@@ -105,7 +106,9 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
                                  {"\"side\":", "\"more\":1,\"side\":"},
                                  {"\"angles_rad\":[0.0,", "\"angles_rad\":["},
                                  {"\"angles_rad\":[", "\"angles_rad\":[{},"},
-                                 {"\"checksums\":[", "\"checksums\":[\"\","},
+                                 {"\"hashes\":{", "\"hashes\":{\"fields_9\":\"\","},
+                                 {"\"hashes\":{", "\"hashes\":[],\"h\":{"},
+                                 {"\"rows_8\":", "\"rows_9\":"},
                                  {"\"postures\":[", "\"postures\":[{},"},
                                  {"\"postures\":[", "\"postures\":3,\"p\":["},
                                  {"\"name\":", "\"nome\":"},

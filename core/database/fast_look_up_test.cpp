@@ -187,6 +187,7 @@ TEST_P(FastLookUpMemory, sums_at_the_cap_do_not_overflow) {
     const FieldRows shape(size, GetParam(), kEntries);
     MappedMemory values = MappedMemory::zeros(shape.bytes());
     for (int entry = 0; entry < kEntries; ++entry) shape.put(entry, fields.data(), values.writable());
+    shape.repeat_last_entry(values.writable());
     const FieldRows rows(size, GetParam(), kEntries, values.bytes());
     const LabelImage query(size, size, 7);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());

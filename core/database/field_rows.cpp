@@ -51,12 +51,14 @@ void FieldRows::put(int entry, const uint8_t* fields, std::span<uint8_t> values)
     pool_entry(fields, size_, pool_, cells_, pooled.data());
     fields = pooled.data();
   }
-  const int place = entry % kBlock;
-  uint8_t* const target = values.data() + entry / kBlock * block_bytes();
-  // The last entry fills its block.
-  const int end = entry + 1 == entry_count_ ? kBlock : place + 1;
-  for (size_t row = 0; row < row_count(); ++row)
-    std::fill(target + row * kBlock + place, target + row * kBlock + end, fields[row]);
+  uint8_t* const target = values.data() + entry / kBlock * block_bytes() + entry % kBlock;
+  for (size_t row = 0; row < row_count(); ++row) target[row * kBlock] = fields[row];
+}
+
+void FieldRows::repeat_last_entry(std::span<uint8_t> values) const {
+  const int last = (entry_count_ - 1) % kBlock;
+  for (size_t row = block_count_ * row_count() - row_count(); row < block_count_ * row_count(); ++row)
+    std::fill(&values[row * kBlock + last], &values[row * kBlock] + kBlock, values[row * kBlock + last]);
 }
 
 uint32_t FieldRows::sum(int entry, std::span<const WeightedRow> rows) const {

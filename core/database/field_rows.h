@@ -27,14 +27,16 @@ class FieldRows {
   static constexpr int kLargestFinePool = 32;  ///< px
 
   FieldRows() = default;
-  /// Rows of tiny images of that size, px, as `put` made them in `values`, whose lifetime is the caller's concern;
-  /// without values just their shape.
+  /// Rows of tiny images of that size, px, as `put` and `repeat_last_entry` made them in `values`, whose lifetime
+  /// is the caller's concern; without values just their shape.
   FieldRows(int size, DatabaseMemory memory, int entry_count, std::span<const uint8_t> values = {});
   /// What the rows take.
   size_t bytes() const { return block_count() * block_bytes(); }
   /// Writes what the rows hold of one entry, whose kColorCount fields of size * size these are, into `values`.
   /// Entries may be put in any order, and at once.
   void put(int entry, const uint8_t* fields, std::span<uint8_t> values) const;
+  /// Fills what lies behind the last entry in its block, so that nothing there is nearer than every entry.
+  void repeat_last_entry(std::span<uint8_t> values) const;
 
   /// Sums over rows are the distances, not just bounds.
   bool exact() const { return pool_ == 1; }

@@ -45,7 +45,7 @@ inline Database small_database(DatabaseMemory memory = DatabaseMemory::normal,
 }
 
 inline void expect_equal(const Database& a, const Database& b, std::span<const int> sizes = kTinySizes) {
-  EXPECT_EQ(a.hash(), b.hash());
+  EXPECT_EQ(a.input_hash(), b.input_hash());
   EXPECT_EQ(a.side(), b.side());
   EXPECT_EQ(a.posture_set().name, b.posture_set().name);
   EXPECT_EQ(a.posture_set().posture_names, b.posture_set().posture_names);

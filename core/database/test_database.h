@@ -31,6 +31,7 @@ inline const Database& test_database(DatabaseMemory memory = DatabaseMemory::nor
     DatabaseCache cache;
     cache.folder = shared_test_folder();
     cache.renderers = render::label_renderer_factory();
+    cache.source_hash = render::database_source_hash();
     cache.threads = 2;
     cache.memory = which;
     return cache.get(test_postures(), render::test_hand(), ViewConfig{}, kTinySizes);

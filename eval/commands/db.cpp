@@ -25,20 +25,21 @@ struct Build {
     Progress progress("building " + set.name, common.quiet);
     const HandModel& model = *workbench.model();
     const WorkbenchConfig& config = workbench.config();
-    Database::build_file(
+    const std::string content = Database::build_file(
         common.output, set, model, config.views, render::label_renderer_factory(), config.threads,
         [&](double share) { progress.show(share); }, kTinySizes, config.memory);
-    fmt::print("{}: {} postures x {} views = {} entries, hash {}\n", common.output, set.postures.size(), kViewCount,
-               set.postures.size() * kViewCount, Database::input_hash(set, model, config.views));
+    fmt::print("{}: {} postures x {} views = {} entries, content {}\n", common.output, set.postures.size(),
+               kViewCount, set.postures.size() * kViewCount, content);
   }
 };
 
 void show(const std::string& path) {
   const Database database = Database::load(path);  // all of it, so that damage is found
+  database.check();
   const double bytes = static_cast<double>(std::filesystem::file_size(path));
-  fmt::print("{}: {}, {} hand, {} entries of {:.0f} bytes, {} memory, hash {}\n", path, database.posture_set().name,
-             database.side() == Side::right ? "right" : "left", database.entry_count(),
-             bytes / database.entry_count(), to_string(database.memory()), database.hash());
+  fmt::print("{}: {}, {} hand, {} entries of {:.0f} bytes, {} memory, content {}\n", path,
+             database.posture_set().name, database.side() == Side::right ? "right" : "left", database.entry_count(),
+             bytes / database.entry_count(), to_string(database.memory()), database.content_hash());
   for (const std::string& name : database.posture_set().posture_names) fmt::print("  {}\n", name);
 }
 

@@ -89,8 +89,8 @@ struct Explain {
                              const Database& database, const std::string& path) {
     const auto it = results.inputs.databases.find(key.database);
     const std::string expected = it == results.inputs.databases.end() ? "nothing" : it->second;
-    if (database.hash() != expected)
-      throw Error(path, "hash of " + key.database, database.hash(), expected + " (the database of the run)");
+    if (database.content_hash() != expected)
+      throw Error(path, "hash of " + key.database, database.content_hash(), expected + " (the database of the run)");
   }
 };
 
