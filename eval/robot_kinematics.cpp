@@ -37,9 +37,11 @@ std::string row(const std::string& name, const char* mapping, const MappingError
   return text + fmt::format(" {:>5.1f}\n", degrees_from_radians(errors.largest_step));
 }
 
-std::string rows(const std::string& name, const Skeleton& skeleton, const std::vector<Posture>& postures) {
-  FingertipMapping fingertips(skeleton);
-  return row(name, "direct", mapping_errors(skeleton, postures, map_to_shadow_hand)) +
+std::string rows(const std::string& name, const Skeleton& skeleton, const std::vector<Posture>& postures,
+                 ShadowCoupling coupling) {
+  FingertipMapping fingertips(skeleton, coupling);
+  const Mapping direct = [&](const Posture& posture) { return map_to_shadow_hand(posture, coupling); };
+  return row(name, "direct", mapping_errors(skeleton, postures, direct)) +
          row(name, "fingertip",
              mapping_errors(skeleton, postures, [&](const Posture& posture) { return fingertips.map(posture); }));
 }
@@ -62,24 +64,25 @@ MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture
   return errors;
 }
 
-std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder) {
+std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling) {
   std::string table = fmt::format(
       "Fingertips of the robot against the hand's, mean and largest distance; gap: of fingertips that the hand has "
       "within\n"
       "{:.0f} mm of the thumb's, how much nearer or farther the robot's are. Step: the largest of a joint between "
-      "frames.\n\n{:<36}{:>12}{:>12}{:>12}{:>12}{:>12}{:>18} step\n{:<20} {:<9} {:>5}",
-      1000 * kPinch, "", "thumb mm", "index mm", "middle mm", "ring mm", "little mm", "gap mm", "", "mapping",
-      "count");
+      "frames.\nJ1 and J2 of the robot's fingers: {}.\n\n{:<36}{:>12}{:>12}{:>12}{:>12}{:>12}{:>18} step\n{:<20} "
+      "{:<9} {:>5}",
+      1000 * kPinch, to_string(coupling), "", "thumb mm", "index mm", "middle mm", "ring mm", "little mm", "gap mm",
+      "", "mapping", "count");
   for (int f = 0; f < 5; ++f) table += "  mean   max";
   table += " pairs  mean   max   deg\n";
   for (const std::string& name : trajectories::posture_set_names())
-    table += rows(name, skeleton, trajectories::posture_set(data_folder, name).postures);
-  table += rows("gestures", skeleton, trajectories::load_gestures(data_folder).postures);
+    table += rows(name, skeleton, trajectories::posture_set(data_folder, name).postures, coupling);
+  table += rows("gestures", skeleton, trajectories::load_gestures(data_folder).postures, coupling);
   for (const std::string& name : trajectories::script_names(data_folder)) {
     std::vector<Posture> postures;
     for (const auto& frame : trajectories::source_trajectory(data_folder, name).frames)
       postures.push_back(frame.posture);
-    table += rows(name, skeleton, postures);
+    table += rows(name, skeleton, postures, coupling);
   }
   return table;
 }

@@ -22,8 +22,8 @@ using Mapping = std::function<ShadowHandTargets(const Posture&)>;
 /// Of a right hand. At least one posture.
 MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture>& postures, const Mapping& map);
 
-/// For every posture set and source trajectory of the program, by the direct mapping and by fingertips: the table
-/// of `glovebench list mapping`.
-std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder);
+/// For every posture set and source trajectory of the program, by the direct mapping and by fingertips, for a robot
+/// with that coupling: the table of `glovebench list mapping`.
+std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling);
 
 }  // namespace glovebench::eval

@@ -28,6 +28,10 @@ std::vector<Posture> between(const Posture& a, const Posture& b, int steps) {
   return postures;
 }
 
+MappingErrors direct_errors(const std::vector<Posture>& postures) {
+  return mapping_errors(skeleton(), postures, [](const Posture& posture) { return map_to_shadow_hand(posture); });
+}
+
 MappingErrors fingertip_errors(const std::vector<Posture>& postures) {
   FingertipMapping mapping(skeleton());
   return mapping_errors(skeleton(), postures, [&](const Posture& posture) { return mapping.map(posture); });
@@ -43,7 +47,7 @@ std::vector<Posture> postures_of(const std::string& trajectory, int between_fram
 }
 
 TEST(MappingErrors, CountsByHand) {
-  const MappingErrors errors = mapping_errors(skeleton(), {gesture("open"), gesture("pinch")}, map_to_shadow_hand);
+  const MappingErrors errors = direct_errors({gesture("open"), gesture("pinch")});
   EXPECT_EQ(errors.postures, 2);
   EXPECT_EQ(errors.pinches, 1);
   EXPECT_EQ(errors.gap_mean, errors.gap_max);
@@ -53,7 +57,7 @@ TEST(MappingErrors, CountsByHand) {
 
 TEST(MappingErrors, EqualAnglesLeaveAPinchOpen) {
   // The kinematic difference that the README states: nobody pinches with the direct mapping.
-  const MappingErrors errors = mapping_errors(skeleton(), {gesture("pinch")}, map_to_shadow_hand);
+  const MappingErrors errors = direct_errors({gesture("pinch")});
   EXPECT_GT(errors.gap_max, 0.04);
   EXPECT_GT(errors.tip_max[0], 0.06);
 }
@@ -78,7 +82,7 @@ TEST(FingertipMapping, DoesNotJump) {
   // A jump is as large however small the steps between postures are; a slope is not.
   for (const std::string& name : trajectories::ground_truth_names()) {
     const MappingErrors fit = fingertip_errors(postures_of(name, 16)),
-                        direct = mapping_errors(skeleton(), postures_of(name, 16), map_to_shadow_hand);
+                        direct = direct_errors(postures_of(name, 16));
     EXPECT_LT(fit.largest_step, 8 * direct.largest_step) << name;
   }
 }

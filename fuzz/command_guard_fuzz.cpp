@@ -57,11 +57,22 @@ void change(RobotCommand& command, Bytes& bytes) {
 /// A stream: each record changes the last command in a few places, and gives it to a guard.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Bytes bytes(data, size);
-  CommandGuard guard;
-  StreamChecker checker{CommandLimits()};
+  const uint8_t kind_of_stream = bytes.next<uint8_t>();
+  const bool has_clock = (kind_of_stream & 1) != 0;
+  CommandLimits limits;
+  if ((kind_of_stream & 2) != 0) limits.coupling = ShadowCoupling::even;
+  CommandGuard guard(limits);
+  StreamChecker checker(limits);
   RobotCommand command = good_command(0);
   int64_t now_us = 0;
-  const bool has_clock = (bytes.next<uint8_t>() & 1) != 0;
+  if ((kind_of_stream & 4) != 0) {  // a finger that touches something
+    RobotTargets start = *command.targets;
+    const double proximal = bytes.next<uint8_t>() / 256.0, distal = proximal * bytes.next<uint8_t>() / 256.0;
+    set_joint(start, kFFJ2, proximal);
+    set_joint(start, kFFJ1, distal);
+    guard.start_from(start);
+    checker.start(start);
+  }
   while (!bytes.empty()) {
     const uint8_t kind = bytes.next<uint8_t>();
     const int64_t step_us = (kind & 1) != 0 ? bytes.next<int64_t>() : bytes.next<uint16_t>();

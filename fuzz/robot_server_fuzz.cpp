@@ -4,6 +4,7 @@
 
 #include "core/base/angles.h"
 #include "core/robot/server/hand_server.h"
+#include "core/robot/test_fingertips.h"
 #include "fuzz/fuzz_target.h"
 
 using namespace glovebench;
@@ -48,7 +49,8 @@ ros::JointTrajectory message_from(Input& input, const std::vector<std::string>& 
 
 }  // namespace
 
-/// A hand's server with any messages at any times: it never moves faster or farther than its limits.
+/// A hand's server with any messages at any times: it never moves faster or farther than its limits, nor J1 without
+/// J2.
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const CommandLimits limits;
   std::vector<double> last(kShadowJointCount, 0.0);
@@ -74,6 +76,15 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
             "a joint keeps its limits");
       check(std::abs(position - last[j]) <= limits.hand_joint_speed * seconds + 1e-12, "a joint keeps its speed");
     }
+    std::array<double, kShadowJointCount> before, after;
+    std::ranges::copy(last, before.begin());
+    std::ranges::copy(state.position, after.begin());
+    const TestFingertips::Tips way = TestFingertips(after).in_forearm() - TestFingertips(before).in_forearm();
+    check(way.colwise().norm().maxCoeff() <= limits.fingertip_speed * seconds * (1 + 1e-9) + 1e-9,
+          "a fingertip keeps its speed");
+    for (const int j1 : {kFFJ1, kMFJ1, kRFJ1, kLFJ1})
+      check(std::abs(after[j1] - std::max(0.0, after[j1] + after[j1 + 1] - radians_from_degrees(90))) < 1e-12,
+            "J1 and J2 are as their motor moves them");
     last = state.position;
   }
   return 0;

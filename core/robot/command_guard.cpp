@@ -7,6 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/robot/guarded_motion.h"
+#include "core/robot/guarded_place.h"
+#include "core/robot/shadow_kinematics.h"
 
 namespace glovebench {
 namespace {
@@ -22,6 +24,27 @@ bool is_lost(const RobotCommand& command) {
          command.state != CommandState::following;
 }
 
+/// The workspace of a wrist whose fingertips cannot leave that of the limits.
+void shrink_workspace(CommandLimits& limits) {
+  limits.workspace_min.array() += kShadowWristReach;
+  limits.workspace_max.array() -= kShadowWristReach;
+  if ((limits.workspace_min.array() <= limits.workspace_max.array()).all()) return;
+  throw Error(
+      fmt::format("command limits: a side of the workspace is shorter than {} m, twice the reach of fingertips "
+                  "about the wrist",
+                  2 * kShadowWristReach));
+}
+
+/// The kinds that keep targets from being a start.
+std::vector<std::string_view> problems_of_start(Interventions needed) {
+  std::vector<std::string_view> problems;
+  for (int i = 0; i < kInterventionCount; ++i) {
+    const auto kind = static_cast<Intervention>(i);
+    if (kind != Intervention::coupling && needed[kind] > 0) problems.push_back(to_string(kind));
+  }
+  return problems;
+}
+
 }  // namespace
 
 std::vector<std::string> CommandLimits::problems() const {
@@ -33,10 +56,13 @@ std::vector<std::string> CommandLimits::problems() const {
   require(is_positive(hand_joint_speed), "hand_joint_speed is not above 0");
   require(is_positive(hand_speed), "hand_speed is not above 0");
   require(is_positive(hand_turn_speed), "hand_turn_speed is not above 0");
+  require(is_positive(fingertip_speed), "fingertip_speed is not above 0");
   require(arm_speed_share > 0 && arm_speed_share <= 1, "arm_speed_share is not above 0 and at most 1");
   require(workspace_min.allFinite() && workspace_max.allFinite() &&
               (workspace_min.array() <= workspace_max.array()).all(),
           "the workspace is empty");
+  require(!((workspace_max - workspace_min).minCoeff() < 2 * kShadowHandReach),
+          "a side of the workspace is shorter than 0.3 m, twice the reach of fingertips about the hand's origin");
   constexpr double kLongestStep = 2, kLongestWait = 60;
   require(longest_step_s > 0 && longest_step_s <= kLongestStep, "longest_step_s is not above 0 and at most 2");
   require(silence_s > 0 && silence_s <= kLongestWait, "silence_s is not above 0 and at most 60");
@@ -44,18 +70,20 @@ std::vector<std::string> CommandLimits::problems() const {
   return problems;
 }
 
-CommandGuard::CommandGuard(const CommandLimits& limits) : limits_(limits) {
+CommandGuard::CommandGuard(const CommandLimits& limits, GuardedPart part) : limits_(limits), part_(part) {
   const std::vector<std::string> problems = limits.problems();
   if (!problems.empty()) throw Error(fmt::format("command limits: {}", fmt::join(problems, "; ")));
+  if (part == GuardedPart::arm) shrink_workspace(limits_);
 }
 
 void CommandGuard::start_from(const RobotTargets& measured) {
   Interventions needed;
   if (const std::optional<Intervention> reason = refusal(measured))
     throw Error("robot", "measured state", std::string(to_string(*reason)), "finite values and a rotation");
-  within_limits(measured, limits_, needed);
-  if (!needed.none())
-    throw Error("robot", "measured state", "values outside the limits or the workspace", "values within them");
+  within_limits(measured, limits_, part_, needed);
+  if (const std::vector<std::string_view> problems = problems_of_start(needed); !problems.empty())
+    throw Error("robot", "measured state", fmt::format("outside the limits ({})", fmt::join(problems, ", ")),
+                "joints within theirs, hand and fingertips in the workspace");
   sent_ = measured;
 }
 
@@ -90,7 +118,7 @@ void CommandGuard::take(const RobotCommand& command, int64_t now_us) {
   if (is_lost(command)) return;
   if (const std::optional<Intervention> reason = refusal(*command.targets)) return note(*reason);
   Interventions done;
-  goal_ = within_limits(*command.targets, limits_, done);
+  goal_ = within_limits(*command.targets, limits_, part_, done);
   pending_.add(done);
   total_.add(done);
   good_us_ = now_us;
@@ -123,7 +151,7 @@ RobotCommand CommandGuard::send(int64_t now_us) {
     const double seconds =
         now_us_ ? std::min(seconds_between(*now_us_, now_us), limits_.longest_step_s) : limits_.longest_step_s;
     Interventions done;
-    sent_ = sent_ ? moved_towards(*sent_, *goal_, seconds, limits_, done) : *goal_;
+    sent_ = sent_ ? moved_towards(*sent_, *goal_, seconds, limits_, part_, done) : *goal_;
     pending_.add(done);
     total_.add(done);
   }

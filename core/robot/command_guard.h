@@ -12,24 +12,39 @@ struct CommandLimits {
   double hand_joint_speed = 2;   ///< of each joint of the hand, rad/s: a choice, within what Shadow's hands can do
   double hand_speed = 0.25;      ///< of the hand's origin, m/s: the number of ISO 10218-1's reduced speed
   double hand_turn_speed = 1.5;  ///< of its turning, rad/s
+  double fingertip_speed = 0.5;  ///< of each fingertip, m/s: a choice, twice the hand's
   double arm_speed_share = 1;    ///< of the speeds in `arm_joint_infos`, 0..1
-  Eigen::Vector3d workspace_min{-1.5, -1.5, 0};  ///< where the hand may be in the arm's base frame, m
+  /// Where the hand's origin and its fingertips may be in the arm's base frame, m. Each side is at least 0.3 m,
+  /// twice `kShadowHandReach`.
+  Eigen::Vector3d workspace_min{-1.5, -1.5, 0};
   Eigen::Vector3d workspace_max{1.5, 1.5, 2};
   double longest_step_s =
       0.1;                  ///< however long ago the last command was sent, nothing moves farther than in this time
   double silence_s = 0.15;  ///< without a command for longer than this: as if the hand was lost
   double stop_after_s = 0.5;  ///< lost or silent for longer than this: stopped. At least silence_s
+  ShadowCoupling coupling = ShadowCoupling::series;  ///< of J1 and J2; not in the file of limits
 
   /// All that is wrong, one entry each; empty if nothing is.
   std::vector<std::string> problems() const;
 };
 
+/// What a guard knows of the robot, and so which fingertips it can look after.
+enum class GuardedPart {
+  robot,  ///< `T_base_hand` and all joints: fingertips in the base frame
+  hand,   ///< the joints of hand and wrist alone: the speed of fingertips in the forearm's frame; `T_base_hand`
+          ///< stays
+  arm,    ///< the wrist (WRJ2) alone, as `T_base_hand`: fingertips may be anywhere within kShadowWristReach of it
+};
+
 /// Stands in front of every sink and changes what is not safe. What it returns holds, whatever it is given:
-/// - all values are finite, joints of hand and arm within their limits, J1 not above J2, each motor's target that
-///   of its joints, rotations are rotations, the hand is in the workspace;
+/// - all values are finite, joints of hand and arm within their limits, J1 and J2 of a finger as its motor moves
+/// them
+///   (ShadowCoupling), each motor's target that of its joints, rotations are rotations, the hand's origin and its
+///   fingertips are in the workspace;
 /// - time stamps rise; frame stamps do not go back, unless the stream had stopped;
-/// - from one command to the next, joints, hand and arm move no farther than their speeds allow in the time between
-///   the two stamps, or in `longest_step_s` if that is shorter: so also after a stop;
+/// - from one command to the next, joints, hand, fingertips and arm move no farther than their speeds allow in the
+///   time between the two stamps, or in `longest_step_s` if that is shorter: so also after a stop. What would be
+///   too fast is slowed down as a whole: hand, fingers and arm go the same share of their ways;
 /// - while the state is not `following`, nothing moves.
 /// What already is like that passes unchanged, bit for bit.
 ///
@@ -37,15 +52,15 @@ struct CommandLimits {
 /// own time stamps. A command is `hold` or lost, or one that is refused: the last targets are sent again, as
 /// `holding`, and after `stop_after_s` as `stopped`. Another good command makes it follow again, from where it
 /// stands. The first targets pass at whatever place they are, since where the robot stands is not known, unless
-/// `start_from` has said it. The joints move each by itself, and hand and arm do: slowed down, they are not on the
-/// path any more.
+/// `start_from` has said it.
 class CommandGuard {
  public:
-  /// Throws Error if the limits have problems.
-  explicit CommandGuard(const CommandLimits& limits = {});
+  /// Throws Error if the limits have problems, or leave an arm no place within the reach of its fingertips.
+  explicit CommandGuard(const CommandLimits& limits = {}, GuardedPart part = GuardedPart::robot);
 
   /// Where the robot stands: the first command starts from there. Throws Error unless it is finite and within the
-  /// limits.
+  /// limits. J1 and J2 may be off their model, as of a finger that touches something, but J1 not above J2: they
+  /// come to obey it while the finger moves.
   void start_from(const RobotTargets& measured);
 
   /// What may be sent for a command; its own stamp is the time. Nothing if time did not go on.
@@ -59,6 +74,7 @@ class CommandGuard {
 
   /// Of all that was given so far. Those of a command that is sent are in it, with those since the last one.
   const Interventions& interventions() const { return total_; }
+  /// Those of the guarded part: an arm's workspace is that of the wrist, smaller by kShadowWristReach on all sides.
   const CommandLimits& limits() const { return limits_; }
 
  private:
@@ -71,6 +87,7 @@ class CommandGuard {
   RobotCommand send(int64_t now_us);
 
   CommandLimits limits_;
+  GuardedPart part_;
   Interventions total_, pending_;
   CommandState state_ = CommandState::stopped;
   std::optional<RobotTargets> goal_;  ///< of the last good command, within the limits

@@ -149,15 +149,31 @@ class HostileSender {
 
 CommandLimits limits_of(uint64_t seed) {
   CommandLimits limits;
+  if (seed % 4 == 1) limits.coupling = ShadowCoupling::even;
   if (seed % 3 != 0) return limits;
   limits.hand_joint_speed = 0.3;
   limits.hand_speed = 0.05;
   limits.hand_turn_speed = 4;  // past half a turn in a second
+  limits.fingertip_speed = 0.15;
   limits.arm_speed_share = 0.1;
   limits.longest_step_s = 1.5;
   limits.workspace_min = {0.3, -0.2, 0.1};
   limits.workspace_max = {0.8, 0.2, 0.5};
   return limits;
+}
+
+/// A robot whose fingers touch something: J1 and J2 stand anywhere that they can.
+RobotTargets start_of(uint64_t seed, const CommandLimits& limits) {
+  RandomStream random(1, "hostile", static_cast<int64_t>(seed), "start");
+  RobotTargets targets;
+  for (const ShadowActuatorInfo& info : shadow_actuator_infos()) {
+    if (!info.coupled_joint) continue;
+    targets.hand.joints[info.joint] = random.uniform(0, 1.57);
+    targets.hand.joints[*info.coupled_joint] = random.uniform(0, targets.hand.joints[info.joint]);
+  }
+  make_actuators(targets.hand);
+  targets.T_base_hand.translation() = (limits.workspace_min + limits.workspace_max) / 2;
+  return targets;
 }
 
 struct Tally {
@@ -171,6 +187,10 @@ void run_stream(uint64_t seed, Tally& tally) {
   const CommandLimits limits = limits_of(seed);
   CommandGuard guard(limits);
   StreamChecker checker(limits);
+  if (seed % 5 == 0) {
+    guard.start_from(start_of(seed, limits));
+    checker.start(start_of(seed, limits));
+  }
   Interventions told;
   const bool has_clock = seed % 2 == 0;
   for (int i = 0; i < kInputsPerStream; ++i, ++tally.inputs) {
@@ -250,6 +270,21 @@ TEST(StreamChecker, SeesEachViolationByItself) {
             "a hand too fast");
   EXPECT_EQ(problem_after([](Command& c) { c.targets->T_base_hand.translation().z() = -0.1; }),
             "a hand outside the workspace");
+  EXPECT_EQ(problem_after([](Command& c) { c.targets->T_base_hand.translation().z() = 0.14; }),
+            "a fingertip outside the workspace")
+      << "its fingers point down";
+  EXPECT_EQ(problem_after([](Command& c) {
+              c.targets->T_base_hand.translation().y() -= 0.0025;
+              set_joint(*c.targets, kFFJ3, 0.02);
+              set_joint(*c.targets, kFFJ2, 0.02);
+            }),
+            "a fingertip too fast")
+      << "hand and joints are not";
+  EXPECT_EQ(problem_after([](Command& c) {
+              set_joint(*c.targets, kFFJ2, 0.02);
+              set_joint(*c.targets, kFFJ1, 0.01);
+            }),
+            "J1 and J2 apart");
   EXPECT_EQ(problem_after([](Command& c) {
               c.targets->T_base_hand.rotate(Eigen::AngleAxisd(0.016, Eigen::Vector3d::UnitX()));
             }),

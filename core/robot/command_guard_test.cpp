@@ -85,19 +85,12 @@ TEST(CommandGuard, AJumpBecomesASlope) {
   guard.guard(good_command(kFrame_us));
   RobotCommand jump = good_command(2 * kFrame_us);
   set_joint(*jump.targets, kFFJ3, 1.5);
-  jump.targets->T_base_hand.translation().x() += 1;
-  jump.targets->T_base_hand.linear() = Eigen::AngleAxisd(2, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const std::optional<RobotCommand> sent = guard.guard(jump);
-  const CommandLimits limits;
-  EXPECT_NEAR(joint(sent, kFFJ3), limits.hand_joint_speed * kFrame, kRounding);
+  const double way = CommandLimits().hand_joint_speed * kFrame;
+  EXPECT_NEAR(joint(sent, kFFJ3), way, kRounding);
   EXPECT_TRUE(sent->targets->hand.joint_clamped[kFFJ3]);
-  EXPECT_NEAR(sent->targets->T_base_hand.translation().x(), 0.5 + limits.hand_speed * kFrame, kRounding);
-  EXPECT_NEAR(Eigen::AngleAxisd(sent->targets->T_base_hand.linear()).angle(), limits.hand_turn_speed * kFrame,
-              1e-9);
-  for (const Intervention kind : {joint_speed, hand_speed, hand_turn_speed}) {
-    EXPECT_EQ(sent->interventions[kind], 1) << to_string(kind);
-    EXPECT_EQ(guard.interventions()[kind], 1) << to_string(kind);
-  }
+  EXPECT_EQ(sent->interventions[joint_speed], 1);
+  EXPECT_EQ(guard.interventions()[joint_speed], 1);
   EXPECT_EQ(guard.interventions()[joint_limit], 0);
 
   // The sender is silent; ticks go on towards what it asked for until it has been silent for too long.
@@ -106,7 +99,7 @@ TEST(CommandGuard, AJumpBecomesASlope) {
   for (; now_us < 2 * kFrame_us + 140'000; now_us += 4'000) {
     const auto next = guard.tick(now_us + 4'000);
     EXPECT_EQ(next->state, CommandState::following);
-    EXPECT_NEAR(joint(next, kFFJ3) - last, limits.hand_joint_speed * 0.004, kRounding);
+    EXPECT_NEAR(joint(next, kFFJ3) - last, CommandLimits().hand_joint_speed * 0.004, kRounding);
     last = joint(next, kFFJ3);
   }
 }
@@ -165,26 +158,10 @@ TEST(CommandGuard, ValuesOutsideTheLimitsAreMovedIntoThem) {
   const auto sent = guard.guard(command);
   EXPECT_EQ(joint(sent, kFFJ4), radians_from_degrees(-20));
   EXPECT_EQ(joint(sent, kTHJ4), radians_from_degrees(70));
-  EXPECT_EQ(sent->targets->T_base_hand.translation(), Eigen::Vector3d(-1.5, 0, 0));
+  // The thumb is 60 mm ahead in x, the middle finger points 145.5 mm down.
+  EXPECT_NEAR((sent->targets->T_base_hand.translation() - Eigen::Vector3d(-1.43967, 0, 0.1455)).norm(), 0, 1e-5);
   EXPECT_EQ(sent->targets->arm->at(0), radians_from_degrees(177));
   for (const Intervention kind : {joint_limit, workspace, arm_limit}) EXPECT_EQ(sent->interventions[kind], 1);
-}
-
-TEST(CommandGuard, MotorsFollowTheirJoints) {
-  CommandGuard guard;
-  RobotCommand command = good_command(0);
-  set_joint(*command.targets, kLFJ2, 0.2);
-  command.targets->hand.joints[kLFJ1] = 0.6;  // above J2, and without its motor
-  const auto sent = guard.guard(command);
-  EXPECT_EQ(joint(sent, kLFJ1), 0.4);
-  EXPECT_EQ(joint(sent, kLFJ2), 0.4);
-  EXPECT_EQ(sent->targets->hand.actuators[9], 0.8) << shadow_actuator_infos()[9].name;
-  EXPECT_EQ(sent->interventions[joint_limit], 1);
-  command = good_command(1'000);
-  command.targets->hand.actuators[0] = 3;
-  const auto other = guard.guard(command);
-  EXPECT_EQ(other->targets->hand.actuators[0], 0);
-  EXPECT_EQ(other->interventions[actuator_mismatch], 1);
 }
 
 TEST(CommandGuard, RefusesWhatIsNoCommandAndHolds) {
@@ -267,6 +244,14 @@ TEST(CommandGuard, StartsFromWhereTheRobotStands) {
   EXPECT_NEAR(joint(guard.guard(good_command(10'005)), kFFJ3), 1 - 2 * 0.01, kRounding);
   measured.hand.joints[kFFJ3] = 2;
   EXPECT_THROW(guard.start_from(measured), Error);
+  set_joint(measured, kFFJ3, 1);
+  measured.T_base_hand.translation().z() = 0.1;
+  try {
+    guard.start_from(measured);
+    ADD_FAILURE() << "fingertips under the table";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("measured state: found outside the limits (workspace)"));
+  }
   measured.hand.joints[kFFJ3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(guard.start_from(measured), Error);
 }
@@ -291,7 +276,8 @@ TEST(CommandGuard, NamesAllThatIsWrongWithItsLimits) {
   limits.stop_after_s = 0.1;
   limits.workspace_min.x() = 5;
   limits.longest_step_s = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(limits.problems().size(), 5U);
+  limits.fingertip_speed = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(limits.problems().size(), 7U) << "the workspace is empty and too small";
   try {
     CommandGuard guard(limits);
     FAIL() << "limits without meaning were taken";

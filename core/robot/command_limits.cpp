@@ -20,6 +20,7 @@ void visit_fields(Limits& limits, Visit&& visit) {
   visit("hand_joint_speed_rad_s", limits.hand_joint_speed);
   visit("hand_speed_m_s", limits.hand_speed);
   visit("hand_turn_speed_rad_s", limits.hand_turn_speed);
+  visit("fingertip_speed_m_s", limits.fingertip_speed);
   visit("arm_speed_share", limits.arm_speed_share);
   visit("workspace_min_m", limits.workspace_min);
   visit("workspace_max_m", limits.workspace_max);

@@ -28,6 +28,7 @@ TEST(CommandLimitsJson, ReturnsWithEveryField) {
   limits.hand_joint_speed = 1.25;
   limits.hand_speed = 0.5;
   limits.hand_turn_speed = 0.75;
+  limits.fingertip_speed = 0.375;
   limits.arm_speed_share = 0.125;
   limits.workspace_min = {-1, -0.5, 0.25};
   limits.workspace_max = {1, 0.5, 1.5};
@@ -63,6 +64,9 @@ TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
               HasSubstr("workspace_min_m: found an array of 2, expected x, y and z"));
   EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, nullptr}}}), HasSubstr("workspace_min_m[2]: found null"));
   EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, 3}}}), HasSubstr("the workspace is empty"));
+  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, 1.8}}}),
+              HasSubstr("a side of the workspace is shorter than 0.3 m"));
+  EXPECT_THAT(error_of({{"fingertip_speed_m_s", -0.5}}), HasSubstr("fingertip_speed is not above 0"));
   EXPECT_THAT(error_of({{"stop_after_s", 1e99}}), HasSubstr("stop_after_s is not silence_s to 60"));
   EXPECT_THAT(error_of({{"longest_step_s", 3}}), HasSubstr("longest_step_s"));
   EXPECT_THAT(error_of({{"silence_s", 2}}), HasSubstr("stop_after_s is not silence_s to 60"));

@@ -11,9 +11,22 @@ std::string_view to_string(CommandState state) {
 }
 
 std::string_view to_string(Intervention intervention) {
-  static constexpr std::array<std::string_view, kInterventionCount> names = {
-      "stale",      "not_finite",      "not_rigid", "joint_limit", "actuator_mismatch", "joint_speed", "workspace",
-      "hand_speed", "hand_turn_speed", "arm_limit", "arm_speed",   "arm_unreachable",   "hold",        "stop"};
+  static constexpr std::array<std::string_view, kInterventionCount> names = {"stale",
+                                                                             "not_finite",
+                                                                             "not_rigid",
+                                                                             "joint_limit",
+                                                                             "coupling",
+                                                                             "actuator_mismatch",
+                                                                             "joint_speed",
+                                                                             "workspace",
+                                                                             "hand_speed",
+                                                                             "hand_turn_speed",
+                                                                             "fingertip_speed",
+                                                                             "arm_limit",
+                                                                             "arm_speed",
+                                                                             "arm_unreachable",
+                                                                             "hold",
+                                                                             "stop"};
   return names.at(static_cast<size_t>(intervention));
 }
 

@@ -21,18 +21,20 @@ enum class Intervention {
   not_finite,         ///< refused: a value is not finite
   not_rigid,          ///< refused: the pose's rotation is none
   joint_limit,        ///< a joint of the hand was moved into its limits, or J1 under J2
+  coupling,           ///< J1 and J2 of a finger were not as their motor moves them, and were made anew
   actuator_mismatch,  ///< the targets of the motors were not those of the joints, and were made anew
   joint_speed,        ///< a joint of the hand was slowed down
-  workspace,          ///< the hand was moved into the workspace
+  workspace,          ///< the hand was moved into the workspace, with its fingertips
   hand_speed,         ///< the hand's motion was slowed down
   hand_turn_speed,    ///< the hand's turning was slowed down
+  fingertip_speed,    ///< a fingertip was slowed down
   arm_limit,          ///< a joint of the arm was moved into its limits
   arm_speed,          ///< a joint of the arm was slowed down
   arm_unreachable,    ///< the arm has no joint angles for the pose, or none near the last ones: they are kept
   hold,               ///< the targets were held
   stop,               ///< the stream came to a stop
 };
-inline constexpr int kInterventionCount = 14;
+inline constexpr int kInterventionCount = 16;
 std::string_view to_string(Intervention intervention);
 
 /// How often each kind happened. A kind counts once a command, however many joints it concerns.

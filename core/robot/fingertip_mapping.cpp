@@ -11,6 +11,7 @@ constexpr int kMotors = kShadowActuatorCount;
 using Joints = std::array<double, kShadowJointCount>;
 using Vector = Eigen::Matrix<double, kMotors, 1>;
 using Matrix = Eigen::Matrix<double, kMotors, kMotors>;
+using JointsFromMotors = Eigen::Matrix<double, kShadowJointCount, kMotors>;
 
 // Human thumb and finger: closer than the first they count as pinching, farther than the second as apart.
 constexpr double kPinched = 0.025, kApart = 0.09;  // m
@@ -37,49 +38,55 @@ bool moves_wrist(const ShadowActuatorInfo& info) {
   return info.joint == kWRJ1 || info.joint == kWRJ2;
 }
 
-/// How joints follow when the motors leave the direct mapping, and how far they may.
+/// What the motors may add to their targets of the direct mapping.
 struct Motion {
-  Joints direct;
-  Eigen::Matrix<double, kShadowJointCount, kMotors> joints_from_motors =
-      Eigen::Matrix<double, kShadowJointCount, kMotors>::Zero();
+  ShadowHandTargets direct;
+  ShadowCoupling coupling;
   Vector lowest = Vector::Zero(), highest = Vector::Zero();
 };
 
-/// The share of the last joint in the motion of a motor that turns two: its share in the angle, which is at most a
-/// half; a half where there is no angle.
-double distal_share(double proximal, double distal) {
-  constexpr double kNoAngle = 0.01;  // rad
-  return (distal + kNoAngle) / (proximal + distal + 2 * kNoAngle);
-}
-
-Motion make_motion(const Joints& direct) {
-  Motion motion{.direct = direct};
+Motion make_motion(const ShadowHandTargets& direct, ShadowCoupling coupling) {
+  Motion motion{.direct = direct, .coupling = coupling};
   for (int m = 0; m < kMotors; ++m) {
     const ShadowActuatorInfo& info = shadow_actuator_infos()[m];
     if (moves_wrist(info)) continue;
-    const double proximal = direct[info.joint];
-    const double share = info.coupled_joint ? distal_share(proximal, direct[*info.coupled_joint]) : 0;
-    motion.joints_from_motors(info.joint, m) = 1 - share;
-    motion.lowest[m] = (limit(info.joint, false) - proximal) / (1 - share);
-    motion.highest[m] = (limit(info.joint, true) - proximal) / (1 - share);
-    if (!info.coupled_joint) continue;
-    motion.joints_from_motors(*info.coupled_joint, m) = share;
-    motion.lowest[m] = std::max(motion.lowest[m], -direct[*info.coupled_joint] / share);
+    motion.lowest[m] = limit(info.joint, false) - direct.actuators[m];
+    motion.highest[m] = limit(info.joint, true) - direct.actuators[m];
+    if (info.coupled_joint) motion.highest[m] += limit(*info.coupled_joint, true);
   }
   return motion;
 }
 
 /// Within the limits also where rounding would leave them.
 Joints joints_at(const Motion& motion, const Vector& motors) {
-  const Eigen::Matrix<double, kShadowJointCount, 1> moved = motion.joints_from_motors * motors;
   Joints joints;
-  for (int j = 0; j < kShadowJointCount; ++j) {
-    const auto joint = static_cast<ShadowJoint>(j);
-    joints[j] = std::clamp(motion.direct[j] + moved[j], limit(joint, false), limit(joint, true));
+  for (int m = 0; m < kMotors; ++m) {
+    const ShadowActuatorInfo& info = shadow_actuator_infos()[m];
+    const double target = motion.direct.actuators[m] + motors[m];
+    if (info.coupled_joint) {
+      const CoupledJoints split =
+          split_motor(std::clamp(target, 0.0, 2 * limit(info.joint, true)), motion.coupling);
+      joints[info.joint] = split.proximal;
+      joints[*info.coupled_joint] = split.distal;
+    } else {
+      joints[info.joint] = std::clamp(target, limit(info.joint, false), limit(info.joint, true));
+    }
   }
-  for (const ShadowActuatorInfo& info : shadow_actuator_infos())
-    if (info.coupled_joint) joints[*info.coupled_joint] = std::min(joints[*info.coupled_joint], joints[info.joint]);
   return joints;
+}
+
+/// How the joints follow small motions of the motors from there.
+JointsFromMotors joints_from_motors(const Motion& motion, const Vector& motors) {
+  JointsFromMotors slope = JointsFromMotors::Zero();
+  for (int m = 0; m < kMotors; ++m) {
+    const ShadowActuatorInfo& info = shadow_actuator_infos()[m];
+    if (moves_wrist(info)) continue;
+    const double share =
+        info.coupled_joint ? distal_share(motion.direct.actuators[m] + motors[m], motion.coupling) : 0;
+    slope(info.joint, m) = 1 - share;
+    if (info.coupled_joint) slope(*info.coupled_joint, m) = share;
+  }
+  return slope;
 }
 
 /// The vectors from the four fingertips to the thumb's that the robot shall have, with their weights.
@@ -127,7 +134,8 @@ struct Fit {
 Fit evaluate(const Goal& goal, const Motion& motion, const Vector& motors) {
   const Joints joints = joints_at(motion, motors);
   const Eigen::Matrix<double, 3, 4> off = thumb_from_finger(shadow_fingertips(joints)) - goal.thumb_from_finger;
-  const Eigen::Matrix<double, 15, kMotors> tips = shadow_fingertip_jacobian(joints) * motion.joints_from_motors;
+  const Eigen::Matrix<double, 15, kMotors> tips =
+      shadow_fingertip_jacobian(joints) * joints_from_motors(motion, motors);
   Fit fit{motors.cwiseProduct(stiffness()).dot(motors), stiffness().asDiagonal(), stiffness().cwiseProduct(motors)};
   for (int f = 0; f < 4; ++f) {
     const Eigen::Matrix<double, 3, kMotors> J = tips.topRows<3>() - tips.middleRows<3>(3 * (f + 1));
@@ -171,19 +179,18 @@ Vector fitted(const Goal& goal, const Motion& motion, const Vector& start) {
   return motors;
 }
 
-/// The targets with the joints moved there.
+/// The targets with the joints moved there. A motor that was moved to a limit is flagged, with its joints.
 ShadowHandTargets moved(ShadowHandTargets targets, const Joints& joints) {
-  for (int j = 0; j < kShadowJointCount; ++j) {
-    const auto joint = static_cast<ShadowJoint>(j);
-    const bool at_limit = joints[j] == limit(joint, false) || joints[j] == limit(joint, true);
-    targets.joint_clamped[j] |= at_limit && joints[j] != targets.joints[j];
-    targets.joints[j] = joints[j];
-  }
+  const auto before = targets.actuators;
+  targets.joints = joints;
+  make_actuators(targets);
   for (int m = 0; m < kMotors; ++m) {
     const ShadowActuatorInfo& info = shadow_actuator_infos()[m];
-    targets.actuators[m] = joints[info.joint];
-    targets.actuator_clamped[m] |= !info.coupled_joint && targets.joint_clamped[info.joint];
-    if (info.coupled_joint) targets.actuators[m] += joints[*info.coupled_joint];
+    const double highest = limit(info.joint, true) + (info.coupled_joint ? limit(*info.coupled_joint, true) : 0);
+    const double target = targets.actuators[m];
+    if (target == before[m] || (target != limit(info.joint, false) && target != highest)) continue;
+    targets.actuator_clamped[m] = targets.joint_clamped[info.joint] = true;
+    if (info.coupled_joint) targets.joint_clamped[*info.coupled_joint] = true;
   }
   return targets;
 }
@@ -198,13 +205,13 @@ Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture) {
 }
 
 ShadowHandTargets FingertipMapping::map(const Posture& posture) {
-  const ShadowHandTargets direct = map_to_shadow_hand(posture);
+  const ShadowHandTargets direct = map_to_shadow_hand(posture, coupling_);
   const Goal goal = make_goal(human_fingertips(skeleton_, posture), direct.joints);
   if (std::ranges::all_of(goal.weights, [](double weight) { return weight == 0; })) {
     reset();
     return direct;
   }
-  const Motion motion = make_motion(direct.joints);
+  const Motion motion = make_motion(direct, coupling_);
   last_ = fitted(goal, motion, last_);
   return moved(direct, joints_at(motion, last_));
 }

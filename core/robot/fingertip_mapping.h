@@ -13,11 +13,13 @@ Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 ///
 /// Where thumb and finger of the human hand are close, the robot's thumb-to-finger vector is fitted to the human
 /// one; far apart they are as `map_to_shadow_hand` leaves them; between, the vector goes from one to the other. The
-/// joints move as little from the direct mapping as that needs: damped Gauss-Newton (Levenberg-Marquardt) over all
-/// joints but the wrist, steps projected into the limits and J1 under J2, started from the last posture's result.
+/// motors move as little from the direct mapping as that needs: damped Gauss-Newton (Levenberg-Marquardt) over all
+/// motors but the wrist's, whose joints follow by the coupling; steps are projected into the limits; it starts from
+/// the last posture's result.
 class FingertipMapping {
  public:
-  explicit FingertipMapping(Skeleton skeleton) : skeleton_(std::move(skeleton)) {}
+  explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)
+      : skeleton_(std::move(skeleton)), coupling_(coupling) {}
 
   /// Throws Error if an angle is not finite. A joint is flagged where the direct mapping flags it and the fit
   /// leaves it so, and where the fit moved it to a limit.
@@ -27,6 +29,7 @@ class FingertipMapping {
 
  private:
   Skeleton skeleton_;
+  ShadowCoupling coupling_;
   /// How far the motors were from the direct mapping, rad.
   Eigen::Matrix<double, kShadowActuatorCount, 1> last_ = Eigen::Matrix<double, kShadowActuatorCount, 1>::Zero();
 };

@@ -1,153 +1,158 @@
 #include "core/robot/guarded_motion.h"
 
 #include "core/base/angles.h"
+#include "core/robot/guarded_place.h"
+#include "core/robot/shadow_kinematics.h"
 
 namespace glovebench {
 namespace {
 
-/// A motor's target may differ by what rounding to 1e-6 degrees of two joints and of itself makes, and no more.
-constexpr double kActuatorTolerance = 1e-6;  // rad
-/// As `RobotCommander` admits it of a transform.
-constexpr double kRotationTolerance = 1e-6;
+constexpr double kRounding = 1e-10;  // relative, of a way
+constexpr double kPrecision = 1e-3;  // of the largest share
+constexpr int kMostAttempts = 60;    // each halves what is left at least every other time
 
-template <typename Range>
-bool all_finite(const Range& values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
-}
+/// Ways as multiples of the farthest that they may be: above 1 is too fast.
+struct Excess {
+  std::array<double, kInterventionCount> by_kind{};
 
-void flag_actuators(ShadowHandTargets& hand, const std::array<bool, kShadowJointCount>& changed) {
-  for (int a = 0; a < kShadowActuatorCount; ++a) {
-    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
-    hand.actuator_clamped[a] |= changed[info.joint] || (info.coupled_joint && changed[*info.coupled_joint]);
+  void add(Intervention kind, double way, double farthest) {
+    double& excess = by_kind[static_cast<size_t>(kind)];
+    if (way > 0) excess = std::max(excess, way / farthest);
   }
+  double largest() const { return std::ranges::max(by_kind); }
+};
+
+/// Both ends are met to the last bit, and nothing is beyond them.
+double between(double from, double to, double share) {
+  const auto [lowest, highest] = std::minmax(from, to);
+  return share < 1 ? std::clamp(from + share * (to - from), lowest, highest) : to;
 }
 
-void note_changes(ShadowHandTargets& hand, const std::array<double, kShadowJointCount>& wanted, Intervention kind,
-                  Interventions& done) {
-  std::array<bool, kShadowJointCount> changed{};
-  for (int j = 0; j < kShadowJointCount; ++j) {
-    changed[j] = hand.joints[j] != wanted[j];
-    hand.joint_clamped[j] |= changed[j];
-  }
-  flag_actuators(hand, changed);
-  if (std::ranges::count(changed, true) > 0) done.add(kind);
+double angle_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
+  if (from == to) return 0;
+  return Eigen::Quaterniond(from).normalized().angularDistance(Eigen::Quaterniond(to).normalized());
 }
 
-ShadowHandTargets within_limits(const ShadowHandTargets& targets, Interventions& done) {
-  ShadowHandTargets hand = targets;
-  for (int j = 0; j < kShadowJointCount; ++j) {
-    const ShadowJointInfo& info = shadow_joint_infos()[j];
-    hand.joints[j] =
-        std::clamp(hand.joints[j], radians_from_degrees(info.min_deg), radians_from_degrees(info.max_deg));
-  }
-  for (const ShadowActuatorInfo& info : shadow_actuator_infos()) {
-    if (!info.coupled_joint) continue;
-    double& proximal = hand.joints[info.joint];
-    double& distal = hand.joints[*info.coupled_joint];
-    if (distal > proximal) proximal = distal = (proximal + distal) / 2;
-  }
-  note_changes(hand, targets.joints, Intervention::joint_limit, done);
-  make_actuators(hand);
-  bool matches = true;
-  for (int a = 0; a < kShadowActuatorCount; ++a)
-    matches &= std::abs(hand.actuators[a] - targets.actuators[a]) <= kActuatorTolerance;
-  const bool joints_kept = hand.joints == targets.joints;
-  if (joints_kept && !matches) done.add(Intervention::actuator_mismatch);
-  return hand;
-}
-
-ArmJoints within_limits(const ArmJoints& targets, Interventions& done) {
-  ArmJoints arm = targets;
-  for (int j = 0; j < kArmJointCount; ++j) {
-    const ArmJointInfo& info = arm_joint_infos()[j];
-    arm[j] = std::clamp(arm[j], radians_from_degrees(info.min_deg), radians_from_degrees(info.max_deg));
-  }
-  if (arm != targets) done.add(Intervention::arm_limit);
-  return arm;
-}
-
-/// Keeps the order of two values: what was not above the other stays so if both may move as far.
-double moved(double from, double to, double farthest) {
-  return std::clamp(to, from - farthest, from + farthest);
-}
-
-ShadowHandTargets moved_towards(const ShadowHandTargets& from, const ShadowHandTargets& to, double farthest,
-                                Interventions& done) {
-  ShadowHandTargets hand = to;
-  for (int j = 0; j < kShadowJointCount; ++j) hand.joints[j] = moved(from.joints[j], to.joints[j], farthest);
-  note_changes(hand, to.joints, Intervention::joint_speed, done);
-  make_actuators(hand);
-  return hand;
-}
-
-ArmJoints moved_towards(const ArmJoints& from, const ArmJoints& to, double seconds, double share,
-                        Interventions& done) {
-  ArmJoints arm;
-  for (int j = 0; j < kArmJointCount; ++j)
-    arm[j] = moved(from[j], to[j], share * radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds);
-  if (arm != to) done.add(Intervention::arm_speed);
-  return arm;
-}
-
-Eigen::Vector3d moved_towards(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double farthest,
-                              const CommandLimits& limits, Interventions& done) {
-  const double distance = (to - from).norm();
-  if (distance <= farthest) return to;
-  done.add(Intervention::hand_speed);
-  const Eigen::Vector3d p = from + (to - from) * (farthest / distance);
-  return p.cwiseMax(limits.workspace_min).cwiseMin(limits.workspace_max);
-}
-
-Eigen::Matrix3d turned_towards(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, double farthest,
-                               Interventions& done) {
+Eigen::Matrix3d turned(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, double share) {
+  if (from == to) return to;
   const Eigen::Quaterniond q_from = Eigen::Quaterniond(from).normalized(),
                            q_to = Eigen::Quaterniond(to).normalized();
-  const double angle = q_from.angularDistance(q_to);
-  if (angle <= farthest) return to;
-  done.add(Intervention::hand_turn_speed);
-  return q_from.slerp(farthest / angle, q_to).normalized().toRotationMatrix();
+  return q_from.slerp(share, q_to).normalized().toRotationMatrix();
+}
+
+/// The fingertips in a frame in which they may not be too fast: the base's, or for the hand alone the forearm's.
+Fingertips guarded_fingertips(const RobotTargets& targets, GuardedPart part) {
+  const std::array<double, kShadowJointCount>& joints = targets.hand.joints;
+  return (part == GuardedPart::hand ? shadow_T_wrist_hand(joints) : targets.T_base_hand) *
+         shadow_fingertips(joints);
+}
+
+/// The way from one pair of targets to another.
+class Way {
+ public:
+  Way(const RobotTargets& from, const RobotTargets& to, double seconds, const CommandLimits& limits,
+      GuardedPart part)
+      : from_(from), to_(to), seconds_(seconds), limits_(limits), part_(part) {
+    if (part != GuardedPart::arm) fingertips_ = guarded_fingertips(from, part);
+  }
+
+  RobotTargets at(double share) const {
+    RobotTargets targets = to_;
+    targets.hand.joints = joints_at(share);
+    Eigen::Isometry3d& T = targets.T_base_hand;
+    T.linear() = turned(from_.T_base_hand.linear(), to_.T_base_hand.linear(), share);
+    for (int i = 0; i < 3; ++i)
+      T.translation()[i] = between(from_.T_base_hand.translation()[i], to_.T_base_hand.translation()[i], share);
+    T.translation() = place_in_workspace(targets, limits_, part_);
+    for (int j = 0; from_.arm && to_.arm && j < kArmJointCount; ++j)
+      (*targets.arm)[j] = between((*from_.arm)[j], (*to_.arm)[j], share);
+    if (!to_.arm) targets.arm = from_.arm;
+    return targets;
+  }
+
+  /// Of what lies on the way, from its beginning.
+  Excess excess(const RobotTargets& next) const {
+    Excess excess;
+    const double joint = limits_.hand_joint_speed * seconds_;
+    for (int j = 0; j < kShadowJointCount; ++j)
+      excess.add(Intervention::joint_speed, std::abs(next.hand.joints[j] - from_.hand.joints[j]), joint);
+    for (int j = 0; from_.arm && next.arm && j < kArmJointCount; ++j)
+      excess.add(Intervention::arm_speed, std::abs((*next.arm)[j] - (*from_.arm)[j]),
+                 limits_.arm_speed_share * radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds_);
+    const double way = (next.T_base_hand.translation() - from_.T_base_hand.translation()).norm();
+    const double turn = angle_between(from_.T_base_hand.linear(), next.T_base_hand.linear());
+    excess.add(Intervention::hand_speed, way, limits_.hand_speed * seconds_);
+    excess.add(Intervention::hand_turn_speed, turn, limits_.hand_turn_speed * seconds_);
+    excess.add(Intervention::fingertip_speed, fingertip_way(next, way, turn), limits_.fingertip_speed * seconds_);
+    return excess;
+  }
+
+ private:
+  std::array<double, kShadowJointCount> joints_at(double share) const {
+    std::array<double, kShadowJointCount> joints;
+    for (const ShadowActuatorInfo& info : shadow_actuator_infos()) {
+      const auto joint_of = [&](const RobotTargets& t) { return t.hand.joints[info.joint]; };
+      if (info.coupled_joint) {
+        const ShadowJoint distal = *info.coupled_joint;
+        const CoupledJoints both =
+            glovebench::between({from_.hand.joints[distal], joint_of(from_)},
+                                {to_.hand.joints[distal], joint_of(to_)}, share, limits_.coupling);
+        joints[info.joint] = both.proximal;
+        joints[distal] = both.distal;
+      } else {
+        joints[info.joint] = between(joint_of(from_), joint_of(to_), share);
+      }
+    }
+    return joints;
+  }
+
+  /// The longest of any fingertip; where the fingers are not known, of any place that a fingertip could be at.
+  double fingertip_way(const RobotTargets& next, double way, double turn) const {
+    if (part_ == GuardedPart::arm) return way + kShadowWristReach * turn;
+    return (guarded_fingertips(next, part_) - fingertips_).colwise().norm().maxCoeff();
+  }
+
+  const RobotTargets& from_;
+  const RobotTargets& to_;
+  double seconds_;
+  const CommandLimits& limits_;
+  GuardedPart part_;
+  Fingertips fingertips_ = Fingertips::Zero();
+};
+
+/// The largest share of a way at which nothing is too fast. Ways are nearly proportional to the share, and none is
+/// too long at a small one: a secant finds it in a few steps, and halving is there for the rest.
+double largest_share(const Way& way, double excess_at_end) {
+  double share = 1 / excess_at_end, fine = 0, too_large = 1;
+  for (int i = 0; i < kMostAttempts; ++i) {
+    const double excess = way.excess(way.at(share)).largest();
+    if (excess <= 1 + kRounding && excess >= 1 - kPrecision) return share;
+    (excess <= 1 + kRounding ? fine : too_large) = share;
+    if (fine > 0 && too_large - fine <= kPrecision * fine) break;
+    const double secant = share * (1 - kPrecision / 2) / excess;
+    const bool is_inside = secant > fine && secant < too_large && i % 2 == 0;
+    share = is_inside ? secant : (fine + too_large) / 2;
+  }
+  return fine;
 }
 
 }  // namespace
 
-void make_actuators(ShadowHandTargets& hand) {
-  for (int a = 0; a < kShadowActuatorCount; ++a) {
-    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
-    hand.actuators[a] = hand.joints[info.joint];
-    if (info.coupled_joint) hand.actuators[a] += hand.joints[*info.coupled_joint];
-  }
-}
-
-std::optional<Intervention> refusal(const RobotTargets& targets) {
-  const Eigen::Matrix3d R = targets.T_base_hand.linear();
-  const bool finite = all_finite(targets.hand.joints) && all_finite(targets.hand.actuators) && R.allFinite() &&
-                      targets.T_base_hand.translation().allFinite() && (!targets.arm || all_finite(*targets.arm));
-  if (!finite) return Intervention::not_finite;
-  if (!(R.isUnitary(kRotationTolerance) && R.determinant() > 0)) return Intervention::not_rigid;
-  return std::nullopt;
-}
-
-RobotTargets within_limits(const RobotTargets& targets, const CommandLimits& limits, Interventions& done) {
-  RobotTargets result = targets;
-  result.hand = within_limits(targets.hand, done);
-  const Eigen::Vector3d p = targets.T_base_hand.translation();
-  const Eigen::Vector3d inside = p.cwiseMax(limits.workspace_min).cwiseMin(limits.workspace_max);
-  if (inside != p) done.add(Intervention::workspace);
-  result.T_base_hand.translation() = inside;
-  if (targets.arm) result.arm = within_limits(*targets.arm, done);
-  return result;
-}
-
 RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
-                           const CommandLimits& limits, Interventions& done) {
+                           const CommandLimits& limits, GuardedPart part, Interventions& done) {
+  const Way way(from, to, seconds, limits, part);
   RobotTargets result = to;
-  result.hand = moved_towards(from.hand, to.hand, limits.hand_joint_speed * seconds, done);
-  result.T_base_hand.translation() = moved_towards(from.T_base_hand.translation(), to.T_base_hand.translation(),
-                                                   limits.hand_speed * seconds, limits, done);
-  result.T_base_hand.linear() =
-      turned_towards(from.T_base_hand.linear(), to.T_base_hand.linear(), limits.hand_turn_speed * seconds, done);
-  if (from.arm && to.arm) result.arm = moved_towards(*from.arm, *to.arm, seconds, limits.arm_speed_share, done);
   if (!to.arm) result.arm = from.arm;
+  const Excess excess = way.excess(result);
+  if (excess.largest() <= 1 + kRounding) return result;
+  for (int i = 0; i < kInterventionCount; ++i)
+    if (excess.by_kind[static_cast<size_t>(i)] > 1 + kRounding) done.add(static_cast<Intervention>(i));
+  const double share = largest_share(way, excess.largest());
+  result = share > 0 ? way.at(share) : from;
+  result.hand.joint_clamped = to.hand.joint_clamped;
+  result.hand.actuator_clamped = to.hand.actuator_clamped;
+  flag_changes(result.hand, to.hand.joints);
+  make_actuators(result.hand);
   return result;
 }
 

@@ -35,10 +35,12 @@ Eigen::Isometry3d default_T_flange_wrist() {
 }
 
 RobotCommander::RobotCommander(const RobotSetup& setup)
-    : T_base_camera_(setup.T_base_camera), T_wrist_flange_(setup.T_flange_wrist.inverse()) {
+    : T_base_camera_(setup.T_base_camera),
+      T_wrist_flange_(setup.T_flange_wrist.inverse()),
+      coupling_(setup.coupling) {
   require_rigid(setup.T_base_camera, "T_base_camera");
   require_rigid(setup.T_flange_wrist, "T_flange_wrist");
-  if (setup.skeleton) fingertips_.emplace(*setup.skeleton);
+  if (setup.skeleton) fingertips_.emplace(*setup.skeleton, setup.coupling);
   if (setup.arm) arm_.emplace(setup.arm, setup.arm_start);
 }
 
@@ -58,8 +60,9 @@ RobotCommand RobotCommander::command(const TrackResult& result) {
   if (!command.hold) {
     if (!result.T_camera_hand.matrix().allFinite())
       throw Error("robot command", "T_camera_hand", "a value that is not finite", "a finite pose");
-    RobotTargets targets{fingertips_ ? fingertips_->map(result.posture) : map_to_shadow_hand(result.posture),
-                         T_base_camera_ * result.T_camera_hand, std::nullopt};
+    RobotTargets targets{
+        fingertips_ ? fingertips_->map(result.posture) : map_to_shadow_hand(result.posture, coupling_),
+        T_base_camera_ * result.T_camera_hand, std::nullopt};
     targets.arm = arm_joints(targets, command.interventions);
     last_ = targets;
   }

@@ -41,9 +41,10 @@ Eigen::Isometry3d default_T_flange_wrist();
 /// How a tracked hand becomes targets.
 struct RobotSetup {
   Eigen::Isometry3d T_base_camera = default_T_base_camera();  ///< the tracker's frame in the arm's base frame
-  std::optional<Skeleton> skeleton = {};      ///< of the tracked hand: fingertips are mapped; without it, angles
-  std::shared_ptr<const ArmSolver> arm = {};  ///< without it there are no joint angles of the arm
-  ArmJoints arm_start = kArmAtRest;           ///< where it stands before the first frame, rad
+  std::optional<Skeleton> skeleton = {};  ///< of the tracked hand: fingertips are mapped; without it, angles
+  ShadowCoupling coupling = ShadowCoupling::series;  ///< of J1 and J2 of the robot's fingers
+  std::shared_ptr<const ArmSolver> arm = {};         ///< without it there are no joint angles of the arm
+  ArmJoints arm_start = kArmAtRest;                  ///< where it stands before the first frame, rad
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
 };
 
@@ -63,6 +64,7 @@ class RobotCommander {
   std::optional<ArmJoints> arm_joints(const RobotTargets& targets, Interventions& interventions);
 
   Eigen::Isometry3d T_base_camera_, T_wrist_flange_;
+  ShadowCoupling coupling_;
   std::optional<FingertipMapping> fingertips_;
   std::optional<ArmFollower> arm_;
   std::optional<RobotTargets> last_;

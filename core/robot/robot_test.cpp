@@ -88,8 +88,8 @@ TEST(ShadowHand, MapsAGraspByHand) {
                                                                      {kWristAbduction, 5}}));
   EXPECT_NEAR(actuator_deg(targets, "FFJ3"), 40, kRounding);
   EXPECT_NEAR(actuator_deg(targets, "FFJ0"), 90, kRounding);
-  EXPECT_NEAR(joint_deg(targets, kFFJ2), 60, kRounding);
-  EXPECT_NEAR(joint_deg(targets, kFFJ1), 30, kRounding);
+  EXPECT_NEAR(joint_deg(targets, kFFJ2), 90, kRounding) << "J2 bends first";
+  EXPECT_NEAR(joint_deg(targets, kFFJ1), 0, kRounding);
   EXPECT_NEAR(actuator_deg(targets, "THJ4"), 50, kRounding);
   EXPECT_NEAR(actuator_deg(targets, "THJ5"), 20, kRounding);
   EXPECT_NEAR(actuator_deg(targets, "THJ2"), 10, kRounding);
@@ -112,25 +112,39 @@ TEST(ShadowHand, SpreadFingersAreNegativeJ4) {
 }
 
 TEST(ShadowHand, ClampsToTheLimitsAndSaysWhichJoint) {
-  const ShadowHandTargets targets =
-      map_to_shadow_hand(posture_with({{kWristFlexion, 45}, {kMiddlePipFlexion, 110}, {kRingMcpFlexion, -30}}));
+  const ShadowHandTargets targets = map_to_shadow_hand(posture_with(
+      {{kWristFlexion, 45}, {kMiddlePipFlexion, 110}, {kMiddleDipFlexion, 75}, {kRingMcpFlexion, -30}}));
   EXPECT_NEAR(joint_deg(targets, kWRJ1), 28, kRounding);
   EXPECT_NEAR(joint_deg(targets, kMFJ2), 90, kRounding);
+  EXPECT_NEAR(joint_deg(targets, kMFJ1), 90, kRounding);
   EXPECT_NEAR(joint_deg(targets, kRFJ3), -15, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "MFJ0"), 90, kRounding);
-  EXPECT_EQ(std::ranges::count(targets.joint_clamped, true), 3);
-  EXPECT_TRUE(targets.joint_clamped[kWRJ1] && targets.joint_clamped[kMFJ2] && targets.joint_clamped[kRFJ3]);
+  EXPECT_NEAR(actuator_deg(targets, "MFJ0"), 180, kRounding);
+  EXPECT_EQ(std::ranges::count(targets.joint_clamped, true), 4);
+  EXPECT_TRUE(targets.joint_clamped[kWRJ1] && targets.joint_clamped[kMFJ1] && targets.joint_clamped[kMFJ2] &&
+              targets.joint_clamped[kRFJ3]);
   EXPECT_EQ(std::ranges::count(targets.actuator_clamped, true), 3);
 }
 
-TEST(ShadowHand, DistalJointNeverExceedsTheMiddleOne) {
-  const ShadowHandTargets targets =
-      map_to_shadow_hand(posture_with({{kLittlePipFlexion, 20}, {kLittleDipFlexion, 50}}));
-  EXPECT_NEAR(joint_deg(targets, kLFJ1), 35, kRounding);
-  EXPECT_NEAR(joint_deg(targets, kLFJ2), 35, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "LFJ0"), 70, kRounding);
-  EXPECT_TRUE(targets.joint_clamped[kLFJ1] && targets.joint_clamped[kLFJ2]);
-  EXPECT_THAT(targets.actuator_clamped, testing::Each(false)) << "the motor gets what the posture asked for";
+TEST(ShadowHand, TheMotorKeepsItsSumAndTheCouplingSplitsIt) {
+  // PIP, DIP, and J2, J1 by each model, degrees.
+  struct Case {
+    double pip, dip, series_j2, series_j1, even;
+  };
+  for (const Case& c : {Case{20, 50, 70, 0, 35}, Case{70, 20, 90, 0, 45}, Case{100, 50, 90, 60, 75},
+                        Case{-5, 10, 5, 0, 2.5}, Case{0, 0, 0, 0, 0}}) {
+    const Posture posture = posture_with({{kLittlePipFlexion, c.pip}, {kLittleDipFlexion, c.dip}});
+    const ShadowHandTargets series = map_to_shadow_hand(posture, ShadowCoupling::series),
+                            even = map_to_shadow_hand(posture, ShadowCoupling::even);
+    EXPECT_NEAR(joint_deg(series, kLFJ2), c.series_j2, kRounding);
+    EXPECT_NEAR(joint_deg(series, kLFJ1), c.series_j1, kRounding);
+    EXPECT_NEAR(joint_deg(even, kLFJ2), c.even, kRounding);
+    EXPECT_NEAR(joint_deg(even, kLFJ1), c.even, kRounding);
+    for (const ShadowHandTargets& targets : {series, even}) {
+      EXPECT_NEAR(actuator_deg(targets, "LFJ0"), c.pip + c.dip, kRounding) << "what the posture asked for";
+      EXPECT_THAT(targets.joint_clamped, testing::Each(false));
+      EXPECT_THAT(targets.actuator_clamped, testing::Each(false));
+    }
+  }
 }
 
 TEST(RobotCommander, TurnsThePoseIntoTheBaseFrame) {

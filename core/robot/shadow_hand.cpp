@@ -2,12 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
 
 namespace glovebench {
+namespace {
+
+double lower_limit(ShadowJoint joint) {
+  return radians_from_degrees(shadow_joint_infos()[joint].min_deg);
+}
+double upper_limit(ShadowJoint joint) {
+  return radians_from_degrees(shadow_joint_infos()[joint].max_deg);
+}
+
+/// What the posture asks of a joint, rad; zero without a source.
+double wanted_angle(const Posture& posture, ShadowJoint joint) {
+  const ShadowJointInfo& info = shadow_joint_infos()[joint];
+  if (!info.source) return 0;
+  const double wanted = info.sign * posture[*info.source];
+  if (!std::isfinite(wanted))
+    throw Error("robot command", std::string(angle_infos()[*info.source].name), fmt::format("{}", wanted),
+                "a finite angle");
+  return wanted;
+}
+
+}  // namespace
 
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos() {
   static constexpr std::array<ShadowJointInfo, kShadowJointCount> infos = {{
@@ -41,32 +63,35 @@ const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_info
   return infos;
 }
 
-ShadowHandTargets map_to_shadow_hand(const Posture& posture) {
-  ShadowHandTargets targets;
-  for (int j = 0; j < kShadowJointCount; ++j) {
-    const ShadowJointInfo& info = shadow_joint_infos()[j];
-    if (!info.source) continue;
-    const double wanted = info.sign * posture[*info.source];
-    if (!std::isfinite(wanted))
-      throw Error("robot command", std::string(angle_infos()[*info.source].name), fmt::format("{}", wanted),
-                  "a finite angle");
-    targets.joints[j] = std::clamp(wanted, radians_from_degrees(info.min_deg), radians_from_degrees(info.max_deg));
-    targets.joint_clamped[j] = targets.joints[j] != wanted;
-  }
+void make_actuators(ShadowHandTargets& hand) {
   for (int a = 0; a < kShadowActuatorCount; ++a) {
     const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
-    targets.actuators[a] = targets.joints[info.joint];
-    targets.actuator_clamped[a] = targets.joint_clamped[info.joint];
-    if (!info.coupled_joint) continue;
-    double& proximal = targets.joints[info.joint];
-    double& distal = targets.joints[*info.coupled_joint];
-    targets.actuators[a] = proximal + distal;
-    targets.actuator_clamped[a] |= targets.joint_clamped[*info.coupled_joint];
-    if (distal > proximal) {
-      proximal = distal = targets.actuators[a] / 2;
-      targets.joint_clamped[info.joint] = targets.joint_clamped[*info.coupled_joint] = true;
-    }
+    hand.actuators[a] = hand.joints[info.joint];
+    if (info.coupled_joint) hand.actuators[a] += hand.joints[*info.coupled_joint];
   }
+}
+
+ShadowHandTargets map_to_shadow_hand(const Posture& posture, ShadowCoupling coupling) {
+  ShadowHandTargets targets;
+  for (int a = 0; a < kShadowActuatorCount; ++a) {
+    const ShadowActuatorInfo& info = shadow_actuator_infos()[a];
+    double wanted = wanted_angle(posture, info.joint);
+    double lowest = lower_limit(info.joint), highest = upper_limit(info.joint);
+    if (info.coupled_joint) {
+      wanted += wanted_angle(posture, *info.coupled_joint);
+      lowest += lower_limit(*info.coupled_joint);
+      highest += upper_limit(*info.coupled_joint);
+    }
+    const double motor = std::clamp(wanted, lowest, highest);
+    const bool clamped = targets.actuator_clamped[a] = targets.joint_clamped[info.joint] = motor != wanted;
+    targets.joints[info.joint] = motor;
+    if (!info.coupled_joint) continue;
+    targets.joint_clamped[*info.coupled_joint] = clamped;
+    const CoupledJoints joints = split_motor(motor, coupling);
+    targets.joints[info.joint] = joints.proximal;
+    targets.joints[*info.coupled_joint] = joints.distal;
+  }
+  make_actuators(targets);
   return targets;
 }
 

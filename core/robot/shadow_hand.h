@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/hand/posture.h"
+#include "core/robot/shadow_coupling.h"
 
 namespace glovebench {
 
@@ -53,11 +54,11 @@ struct ShadowJointInfo {
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// A motor of the robot. J0 of a finger drives two joints by one tendon: its target is their sum.
+/// A motor of the robot. J0 of a finger drives two joints by one tendon: its target is their sum (ShadowCoupling).
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;
-  std::optional<ShadowJoint> coupled_joint;
+  std::optional<ShadowJoint> coupled_joint;  ///< J1 of the finger whose J2 is `joint`
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
@@ -69,9 +70,12 @@ struct ShadowHandTargets {
   std::array<bool, kShadowActuatorCount> actuator_clamped{};
 };
 
-/// The direct mapping of section V. Each joint takes the angle of its source, clamped to its limits; then, in the
-/// coupled fingers, J1 may not exceed J2: where it would, both take their mean, which keeps their sum J0.
-/// Throws Error if an angle is not finite.
-ShadowHandTargets map_to_shadow_hand(const Posture& posture);
+/// Gives each motor the target that follows from its joints'.
+void make_actuators(ShadowHandTargets& hand);
+
+/// The direct mapping of section V. Each joint takes the angle of its source, clamped to its limits. J1 and J2 of a
+/// finger are what the coupling makes of their motor's target, the sum of their sources' angles clamped to its
+/// limits; they count as clamped where the motor does. Throws Error if an angle is not finite.
+ShadowHandTargets map_to_shadow_hand(const Posture& posture, ShadowCoupling coupling = ShadowCoupling::series);
 
 }  // namespace glovebench

@@ -12,6 +12,9 @@ using Fingertips = Eigen::Matrix<double, 3, 5>;
 /// How each fingertip's x, y, z (rows 3 f to 3 f + 2) changes with each joint, m/rad.
 using FingertipJacobian = Eigen::Matrix<double, 15, kShadowJointCount>;
 
+/// No fingertip is ever farther than this from the hand frame's origin, and from the wrist's first joint (WRJ2); m.
+inline constexpr double kShadowHandReach = 0.15, kShadowWristReach = 0.23;
+
 /// The robot's palm in its hand frame. Shadow's palm frame has x to the thumb, y dorsal, z to the fingers and its
 /// origin at WRJ1. The hand frame is that of core/README.md, on the robot: axes along those, origin midway between
 /// WRJ1 and the middle finger's knuckle. So the pose of a human hand is a pose for the robot's.

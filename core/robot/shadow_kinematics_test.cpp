@@ -6,6 +6,7 @@
 #include "core/base/random.h"
 #include "core/hand/hand_model.h"
 #include "core/robot/fingertip_mapping.h"
+#include "core/robot/test_fingertips.h"
 
 namespace glovebench {
 namespace {
@@ -63,14 +64,53 @@ TEST(ShadowKinematics, TheWristCarriesTheHand) {
   EXPECT_GT(tip.x(), 0.03) << "turned to the thumb";
 }
 
+Joints random_joints(RandomStream& random) {
+  Joints joints;
+  for (int j = 0; j < kShadowJointCount; ++j) {
+    const ShadowJointInfo& info = shadow_joint_infos()[j];
+    joints[j] = radians_from_degrees(random.uniform(info.min_deg, info.max_deg));
+  }
+  return joints;
+}
+
+TEST(ShadowKinematics, AgreesWithAnotherComputation) {
+  RandomStream random(1, "shadow", 0, "fingertips");
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Joints joints = random_joints(random);
+    const Fingertips tips = shadow_fingertips(joints);
+    EXPECT_LT((tips - TestFingertips(joints).in_hand()).norm(), 1e-9);
+    EXPECT_LT((shadow_T_wrist_hand(joints) * tips - TestFingertips(joints).in_forearm()).norm(), 1e-9);
+  }
+}
+
+TEST(ShadowKinematics, NoFingertipIsOutOfReach) {
+  // Joints at their limits, and stretched fingers: a random posture gets nowhere near.
+  RandomStream random(1, "shadow", 0, "reach");
+  double from_origin = 0, from_wrist = 0;
+  for (int trial = 0; trial < 100'000; ++trial) {
+    Joints joints{};
+    for (int j = 0; j < kShadowJointCount; ++j) {
+      const ShadowJointInfo& info = shadow_joint_infos()[j];
+      const double u = random.uniform(-1, 2);  // a third of them at each limit, if they are not straight
+      joints[j] = random.uniform() < 0.5
+                      ? 0
+                      : radians_from_degrees(std::clamp(u * (info.max_deg - info.min_deg) + info.min_deg,
+                                                        info.min_deg, info.max_deg));
+    }
+    const Fingertips tips = shadow_fingertips(joints);
+    from_origin = std::max(from_origin, tips.colwise().norm().maxCoeff());
+    from_wrist = std::max(from_wrist, (shadow_T_wrist_hand(joints) * tips).colwise().norm().maxCoeff());
+  }
+  EXPECT_LT(from_origin, kShadowHandReach);
+  EXPECT_GT(from_origin, 0.98 * kShadowHandReach);
+  EXPECT_LT(from_wrist, kShadowWristReach);
+  EXPECT_GT(from_wrist, 0.98 * kShadowWristReach);
+}
+
 TEST(ShadowKinematics, JacobianIsTheSlopeOfTheFingertips) {
   RandomStream random(1, "shadow", 0, "jacobian");
   for (int trial = 0; trial < 20; ++trial) {
-    Joints joints;
-    for (int j = 0; j < kShadowJointCount; ++j) {
-      const ShadowJointInfo& info = shadow_joint_infos()[j];
-      joints[j] = radians_from_degrees(random.uniform(info.min_deg, info.max_deg));
-    }
+    const Joints joints = random_joints(random);
     const FingertipJacobian J = shadow_fingertip_jacobian(joints);
     for (int j = 0; j < kShadowJointCount; ++j) {
       constexpr double kStep = 1e-6;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/robot/command_guard.h"
+#include "core/robot/test_fingertips.h"
 
 namespace glovebench {
 
@@ -14,14 +15,18 @@ class StreamChecker {
  public:
   explicit StreamChecker(const CommandLimits& limits) : limits_(limits) {}
 
+  /// The stream starts where the robot stands; its J1 and J2 may be off their model.
+  void start(const RobotTargets& targets) { targets_ = targets; }
+
   /// What is wrong with the next command of the stream; empty if nothing is.
   std::string problem(const RobotCommand& command) {
     std::string found = stamps(command);
     if (found.empty()) found = states(command);
     if (found.empty() && command.targets) found = places(*command.targets);
-    if (found.empty() && command.targets && last_ && last_->targets)
-      found = motion(*last_->targets, *command.targets, command);
+    if (found.empty() && command.targets) found = coupling(command.targets->hand.joints);
+    if (found.empty() && command.targets && targets_) found = motion(*targets_, *command.targets, command);
     last_ = command;
+    if (command.targets) targets_ = command.targets;
     if (command.state == CommandState::following) followed_us_ = command.timestamp_us;
     return found;
   }
@@ -29,6 +34,7 @@ class StreamChecker {
  private:
   static constexpr double kDegree = 3.14159265358979323846 / 180;
   static constexpr double kTiny = 1e-12;     // rad and m: rounding of sums
+  static constexpr double kTip = 1e-9;       // m: rounding of the numbers of the two computations
   static constexpr double kRotation = 5e-6;  // rad: rotations are only such to 1e-6
 
   std::string stamps(const RobotCommand& command) const {
@@ -75,14 +81,38 @@ class StreamChecker {
     for (int i = 0; i < 3; ++i)
       if (!(p[i] >= limits_.workspace_min[i] && p[i] <= limits_.workspace_max[i]))
         return "a hand outside the workspace";
+    const TestFingertips::Tips tips = base_tips(targets);
+    for (int i = 0; i < 3; ++i)
+      if (!(tips.row(i).minCoeff() >= limits_.workspace_min[i] - kTip &&
+            tips.row(i).maxCoeff() <= limits_.workspace_max[i] + kTip))
+        return "a fingertip outside the workspace";
     static constexpr std::array<double, kArmJointCount> ends = {177, 94, 174, 137, 255, 165, 255};
     for (int j = 0; targets.arm && j < kArmJointCount; ++j)
       if (!(std::abs((*targets.arm)[j]) <= ends[j] * kDegree + kTiny)) return "an arm joint outside its limits";
     return "";
   }
 
+  /// How far J1 of a finger is from where its motor would have it if nothing was in the way.
+  double off_model(const std::array<double, kShadowJointCount>& q, int finger) const {
+    const double motor = q[finger] + q[finger + 1];
+    const double alone = limits_.coupling == ShadowCoupling::even ? motor / 2 : std::max(0.0, motor - 90 * kDegree);
+    return std::abs(q[finger] - alone);
+  }
+  std::string coupling(const std::array<double, kShadowJointCount>& q) const {
+    for (const int finger : {0, 4, 8, 12})
+      if (!(off_model(q, finger) <= (targets_ ? off_model(targets_->hand.joints, finger) : 0) + kTiny))
+        return "J1 and J2 apart";
+    return "";
+  }
+
+  static TestFingertips::Tips base_tips(const RobotTargets& targets) {
+    return (targets.T_base_hand.linear() * TestFingertips(targets.hand.joints).in_hand()).colwise() +
+           Eigen::Vector3d(targets.T_base_hand.translation());
+  }
+
   std::string motion(const RobotTargets& from, const RobotTargets& to, const RobotCommand& command) const {
-    double time = std::min(seconds(last_->timestamp_us, command.timestamp_us), limits_.longest_step_s);
+    double time = limits_.longest_step_s;
+    if (last_) time = std::min(time, seconds(last_->timestamp_us, command.timestamp_us));
     if (command.state != CommandState::following) time = 0;
     const auto farther = [&](double way, double speed) {
       return !(std::abs(way) <= speed * time * (1 + 1e-9) + kTiny);
@@ -93,6 +123,10 @@ class StreamChecker {
       return "a hand too fast";
     if (angle(from.T_base_hand.linear(), to.T_base_hand.linear()) > limits_.hand_turn_speed * time + kRotation)
       return "a hand that turns too fast";
+    for (int f = 0; f < 5; ++f) {
+      const double way = (base_tips(to).col(f) - base_tips(from).col(f)).norm();
+      if (!(way <= limits_.fingertip_speed * time * (1 + 1e-9) + kTip)) return "a fingertip too fast";
+    }
     if (from.arm && !to.arm) return "an arm that vanishes";
     static constexpr std::array<double, kArmJointCount> speeds = {57, 57, 114, 114, 360, 360, 360};
     for (int j = 0; from.arm && j < kArmJointCount; ++j)
@@ -112,6 +146,7 @@ class StreamChecker {
 
   CommandLimits limits_;
   std::optional<RobotCommand> last_;
+  std::optional<RobotTargets> targets_;  ///< where the robot is
   int64_t followed_us_ = INT64_MIN;
 };
 

@@ -92,9 +92,20 @@ void LimitsFlag::add(CLI::App& command) {
       "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
 }
 
+void LimitsFlag::add_coupling(CLI::App& command) {
+  command
+      .add_option(
+          "--robot-coupling", coupling,
+          "how one motor moves J1 and J2 of a finger: series, J2 to 90 degrees and then J1; even, both alike")
+      ->check(CLI::IsMember(shadow_coupling_names()))
+      ->capture_default_str();
+}
+
 CommandLimits LimitsFlag::limits() const {
-  return file.empty() ? CommandLimits()
-                      : command_limits_from_json(parse_json(read_file(file, kLargestConfig), file), file);
+  CommandLimits limits;
+  if (!file.empty()) limits = command_limits_from_json(parse_json(read_file(file, kLargestConfig), file), file);
+  limits.coupling = shadow_coupling_from_string(coupling).value();
+  return limits;
 }
 
 void RobotFlags::add(CLI::App& command, const std::string& what) {
@@ -114,6 +125,7 @@ void RobotFlags::add(CLI::App& command, const std::string& what) {
                   "the camera in the arm's base frame: X Y Z (m) QW QX QY QZ [above the work, looking down]")
       ->expected(7);
   mounting.add(command);
+  limits.add_coupling(command);
   limits.add(command);
 }
 
@@ -173,6 +185,7 @@ RobotSetup RobotFlags::setup(Workbench& workbench) const {
   if (!base_camera.empty()) setup.T_base_camera = rigid_transform("--base-camera", base_camera);
   setup.T_flange_wrist = mounting.T_flange_wrist();
   if (arm != "none") setup.arm = arm_solver(arm == "pa10");
+  setup.coupling = limits.limits().coupling;
   if (mapping == "fingertip") setup.skeleton = workbench.model()->skeleton();
   return setup;
 }
@@ -180,6 +193,7 @@ RobotSetup RobotFlags::setup(Workbench& workbench) const {
 RobotOutput RobotFlags::output_of(Workbench& workbench) const {
   RobotOutput robot{output, setup(workbench), limits.limits()};
   robot.configuration = {{"mapping", mapping},
+                         {"coupling", std::string(to_string(robot.limits.coupling))},
                          {"arm", robot.setup.arm ? "pa10" : "none"},
                          {"base_camera", transform_json(robot.setup.T_base_camera)},
                          {"flange_wrist", transform_json(robot.setup.T_flange_wrist)},

@@ -53,11 +53,14 @@ struct MountingFlag {
   Eigen::Isometry3d T_flange_wrist() const;
 };
 
-/// What robot commands may do.
+/// What robot commands may do, and how J1 and J2 of its fingers hang together.
 struct LimitsFlag {
   std::string file;  ///< JSON (`glovebench list limits`); empty: CommandLimits' own
 
+  std::string coupling{to_string(CommandLimits().coupling)};
+
   void add(CLI::App& command);
+  void add_coupling(CLI::App& command);
   /// Throws Error.
   CommandLimits limits() const;
 };

@@ -47,8 +47,8 @@ void list_angles() {
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
 }
 
-void list_mapping() {
-  fmt::print("{}", mapping_table(HandModel::load(hand_mesh_path()).skeleton(), trajectory_folder()));
+void list_mapping(ShadowCoupling coupling) {
+  fmt::print("{}", mapping_table(HandModel::load(hand_mesh_path()).skeleton(), trajectory_folder(), coupling));
 }
 
 }  // namespace
@@ -65,8 +65,11 @@ void add_list(CLI::App& program) {
       ->callback(list_studies);
   list->add_subcommand("methods", "Ways to track, for --method.")->callback(list_methods);
   list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
-  list->add_subcommand("mapping", "How far the robot hand's fingertips are from the human's, by way of mapping.")
-      ->callback(list_mapping);
+  const auto limits = std::make_shared<LimitsFlag>();
+  CLI::App* mapping = list->add_subcommand(
+      "mapping", "How far the robot hand's fingertips are from the human's, by way of mapping.");
+  limits->add_coupling(*mapping);
+  mapping->callback([limits] { list_mapping(limits->limits().coupling); });
   list->add_subcommand("limits", "What robot commands may do, as JSON, as --robot-limits takes it.")->callback([] {
     fmt::print("{}\n", to_json(CommandLimits()).dump(2));
   });

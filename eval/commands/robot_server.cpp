@@ -88,6 +88,7 @@ void add_robot_server(CLI::App& program, int& exit_code) {
     state->limits.add(*side);
   }
   state->mounting.add(*arm);
+  state->limits.add_coupling(*hand);
   hand->callback([state, &exit_code] { exit_code = state->serve_hand(); });
   arm->callback([state, &exit_code] { exit_code = state->serve_arm(); });
 }

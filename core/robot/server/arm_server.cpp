@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/robot/server/start_place.h"
+#include "core/robot/shadow_kinematics.h"
 
 namespace glovebench {
 namespace {
@@ -44,15 +46,15 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 ArmServer::ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
                      const std::vector<double>& start, const std::string& source)
-    : limits_(limits),
-      solver_(solver),
+    : solver_(solver),
       T_flange_wrist_(T_flange_wrist),
-      guard_(limits),
+      guard_(limits, GuardedPart::arm),
+      limits_(guard_.limits()),
       gate_(limits.stop_after_s),
       joints_(arm_joints(start, source)) {
   RobotTargets standing;
   standing.T_base_hand = wrist_pose(joints_);
-  standing.T_base_hand.translation() = start_in_workspace(standing.T_base_hand.translation(), limits, source);
+  standing.T_base_hand.translation() = start_in_workspace(standing.T_base_hand.translation(), limits_, source);
   guard_.start_from(standing);
 }
 
@@ -72,7 +74,7 @@ Receipt ArmServer::receive(uint64_t sender, const ros::PoseStamped& message, int
   return receipt;
 }
 
-/// How far the wrist is outside the workspace, m.
+/// How far the wrist is outside its workspace, m.
 double ArmServer::outside(const ArmJoints& joints) const {
   const Eigen::Vector3d p = wrist_pose(joints).translation();
   return (p.cwiseMax(limits_.workspace_min).cwiseMin(limits_.workspace_max) - p).norm();
@@ -95,8 +97,9 @@ ArmJoints ArmServer::step_towards(const Eigen::Isometry3d& T_base_wrist, double 
   const Eigen::Isometry3d T_base_now = wrist_pose(joints_);
   const Eigen::Quaterniond q_now(T_base_now.linear()), q_to(T_base_wrist.linear());
   const Eigen::Vector3d way = T_base_wrist.translation() - T_base_now.translation();
-  double share = std::min({1.0, limits_.hand_speed * seconds / way.norm(),
-                           limits_.hand_turn_speed * seconds / q_now.angularDistance(q_to)});
+  const double turn = q_now.angularDistance(q_to);
+  double share = std::min({1.0, limits_.hand_speed * seconds / way.norm(), limits_.hand_turn_speed * seconds / turn,
+                           limits_.fingertip_speed * seconds / (way.norm() + kShadowWristReach * turn)});
   for (int attempt = 0; attempt < 4; ++attempt, share /= 2) {
     next =
         step(Eigen::Translation3d(T_base_now.translation() + share * way) * q_now.slerp(share, q_to).normalized());
@@ -119,13 +122,16 @@ ArmJoints ArmServer::next_joints(const ArmJoints& wanted, double seconds) {
     ArmJoints next;
     for (int j = 0; j < kArmJointCount; ++j) next[j] = joints_[j] + share * (wanted[j] - joints_[j]);
     const Eigen::Isometry3d T_base_next = wrist_pose(next);
-    const double way =
-        (T_base_next.translation() - T_base_now.translation()).norm() / (limits_.hand_speed * seconds);
-    const double turn =
-        angle_between(T_base_now.linear(), T_base_next.linear()) / (limits_.hand_turn_speed * seconds);
-    const double excess = std::max(way, turn);
+    const double way = (T_base_next.translation() - T_base_now.translation()).norm();
+    const double turn = angle_between(T_base_now.linear(), T_base_next.linear());
+    using Excess = std::pair<double, Intervention>;
+    const auto [excess, kind] =
+        std::max({Excess(way / (limits_.hand_speed * seconds), Intervention::hand_speed),
+                  Excess(turn / (limits_.hand_turn_speed * seconds), Intervention::hand_turn_speed),
+                  Excess((way + kShadowWristReach * turn) / (limits_.fingertip_speed * seconds),
+                         Intervention::fingertip_speed)});
     if (excess <= 1 + 1e-9) return next;
-    if (attempt == 0) interventions_.add(way > turn ? Intervention::hand_speed : Intervention::hand_turn_speed);
+    if (attempt == 0) interventions_.add(kind);
     share *= 0.99 / excess;
   }
   return joints_;

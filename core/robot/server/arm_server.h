@@ -12,6 +12,8 @@ namespace glovebench {
 /// faster than lets the hand keep its speeds on their way, which is not the pose's when they have to catch up: then
 /// they go straight wherever their way would take the wrist out of the workspace.
 /// Where the arm has no joints for a pose they stay, which is counted as `arm_unreachable`.
+/// What the fingers do is not known here. So the wrist stays kShadowWristReach inside the workspace on all sides,
+/// and moves and turns only as fast as every point within that reach may, as a fingertip.
 class ArmServer {
  public:
   /// `solver` must outlive the server; `T_flange_wrist` is how the hand's forearm is mounted; `start`: where the
@@ -40,10 +42,10 @@ class ArmServer {
   ArmJoints step_towards(const Eigen::Isometry3d& T_base_wrist, double seconds);
   ArmJoints next_joints(const ArmJoints& wanted, double seconds);
 
-  CommandLimits limits_;
   const ArmSolver& solver_;
   Eigen::Isometry3d T_flange_wrist_;
   CommandGuard guard_;
+  CommandLimits limits_;  ///< the guard's
   StreamGate gate_;
   ReceiptCounts receipts_{};
   Interventions interventions_;

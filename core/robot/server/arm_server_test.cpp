@@ -7,6 +7,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/random.h"
 #include "core/robot/server/test_messages.h"
 
 namespace glovebench {
@@ -76,6 +77,15 @@ class ArmServerTest : public testing::Test {
     EXPECT_LE((after.translation() - before.translation()).norm(), limits_.hand_speed * seconds + kRounding);
     EXPECT_LE(Eigen::Quaterniond(before.linear()).angularDistance(Eigen::Quaterniond(after.linear())),
               limits_.hand_turn_speed * seconds + kRounding);
+    // A fingertip may be anywhere within 0.23 m of the wrist.
+    RandomStream random(1, "arm", now_us_, "fingertips");
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::Vector3d tip =
+          0.23 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+      EXPECT_LE((after * tip - before * tip).norm(), 0.5 * seconds + kRounding);
+      EXPECT_GE(((after * tip) - limits_.workspace_min).minCoeff(), -1e-4);
+      EXPECT_GE((limits_.workspace_max - after * tip).minCoeff(), -1e-4);
+    }
     for (int j = 0; j < kArmJointCount; ++j) {
       EXPECT_LE(std::abs(state.position[j] - last_[j]),
                 radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds + kRounding);
@@ -165,7 +175,7 @@ class SleepingSolver : public JacobianSolver {
 };
 
 TEST_F(ArmServerTest, StaysInTheWorkspaceWhenItHasToCatchUp) {
-  limits_.workspace_max.x() = T_start_.translation().x();
+  limits_.workspace_max.x() = T_start_.translation().x() + 0.23;
   SleepingSolver solver;
   ArmServer server(limits_, solver, T_flange_wrist_, kStart);
   tick(server);
@@ -174,7 +184,7 @@ TEST_F(ArmServerTest, StaysInTheWorkspaceWhenItHasToCatchUp) {
     solver.asleep = i < 200;  // meanwhile the pose goes there
     server.receive(kSender, displaced(way, i), now_us_);
     tick(server);
-    EXPECT_LE(server.T_base_wrist().translation().x(), limits_.workspace_max.x() + 1e-4) << i;
+    EXPECT_LE(server.T_base_wrist().translation().x(), limits_.workspace_max.x() - 0.23 + 1e-4) << i;
   }
   EXPECT_GT(server.interventions()[Intervention::workspace], 0);
   EXPECT_LT((server.T_base_wrist().translation() - T_start_.translation() - way).norm(), 1e-3)
@@ -228,7 +238,7 @@ TEST(ArmServer, StartsAtTheEdgeOfTheWorkspace) {
   for (int axis = 0; axis < 3; ++axis) {
     CommandLimits limits;
     const auto outside_by = [&](double distance) {
-      limits.workspace_max[axis] = p[axis] - distance;
+      limits.workspace_max[axis] = p[axis] + 0.23 - distance;
       return limits;
     };
     for (const double rounding : {0.0, 1e-7, 2e-5}) {  // of the log, of inverse kinematics
@@ -247,7 +257,8 @@ TEST(ArmServer, StartsAtTheEdgeOfTheWorkspace) {
     } catch (const Error& e) {
       EXPECT_THAT(e.what(),
                   testing::MatchesRegex("arm.jsonl: wrist of the arm: found \\(.*\\) m, expected a place in "
-                                        "the workspace, \\(-1.5 -1.5 0\\) to \\(.*\\)"));
+                                        "the workspace, with room for the fingertips: \\(-1.27 -1.27 0.23\\) to "
+                                        "\\(.*\\)"));
     }
   }
 }

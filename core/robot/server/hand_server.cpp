@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/robot/guarded_motion.h"
 #include "core/robot/server/start_place.h"
 
 namespace glovebench {
@@ -36,7 +35,7 @@ RobotTargets standing(const CommandLimits& limits, const std::vector<double>& st
 }  // namespace
 
 HandServer::HandServer(const CommandLimits& limits, const std::vector<double>& start, const std::string& source)
-    : guard_(limits), gate_(limits.stop_after_s), goal_(standing(limits, start, source)) {
+    : guard_(limits, GuardedPart::hand), gate_(limits.stop_after_s), goal_(standing(limits, start, source)) {
   guard_.start_from(goal_);
   last_.position.assign(goal_.hand.joints.begin(), goal_.hand.joints.end());
 }

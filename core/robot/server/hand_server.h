@@ -13,7 +13,9 @@ enum class HandTopic { fingers, wrist };
 /// The hand's side of the stream: messages in, states out, without a middleware and without a clock. What is wrong
 /// in a message is counted, and it is as if it had not come. Good ones set the target; a tick moves towards it no
 /// farther than CommandGuard allows, and holds and stops when messages fail to come. Of several between two ticks
-/// the last one counts.
+/// the last one counts. J1 and J2 of a finger are taken as their motor's J0 = J1 + J2 and split by the limits'
+/// coupling. The speed of fingertips is limited in the frame of the forearm: where the arm takes it is not known
+/// here.
 class HandServer {
  public:
   /// `start`: where the joints stand, rad, in the order of ShadowJoint; `source`: who says so. Throws Error unless

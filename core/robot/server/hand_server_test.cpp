@@ -8,6 +8,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/robot/server/test_messages.h"
+#include "core/robot/test_fingertips.h"
 
 namespace glovebench {
 namespace {
@@ -25,6 +26,12 @@ class HandServerTest : public testing::Test {
     return server_.receive(sender, HandTopic::fingers,
                            trajectory_message(hand_trajectory_names(), angle_deg, stamp_us), now_us_);
   }
+  /// The first finger's J3 alone; all others at 0.
+  Receipt first_finger(double angle_deg, int64_t stamp_us) {
+    ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 0, stamp_us);
+    message.points[0].positions[kFFJ3] = radians_from_degrees(angle_deg);
+    return server_.receive(kFirst, HandTopic::fingers, message, now_us_);
+  }
   Receipt wrist(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
     return server_.receive(sender, HandTopic::wrist,
                            trajectory_message(wrist_trajectory_names(), angle_deg, stamp_us), now_us_);
@@ -40,11 +47,21 @@ class HandServerTest : public testing::Test {
       EXPECT_GE(state.position[j], radians_from_degrees(info.min_deg));
       EXPECT_LE(state.position[j], radians_from_degrees(info.max_deg));
     }
+    for (const int j1 : {kFFJ1, kMFJ1, kRFJ1, kLFJ1})
+      EXPECT_NEAR(state.position[j1], std::max(0.0, state.position[j1] + state.position[j1 + 1] - M_PI / 2),
+                  kRounding);
+    const TestFingertips::Tips way = fingertips(state) - fingertips(last_);
+    EXPECT_LE(way.colwise().norm().maxCoeff(), limits_.fingertip_speed * kPeriodUs * 1e-6 + 1e-9);
     return last_ = state;
   }
   RobotState ticks(int count) {
     for (int i = 0; i < count; ++i) tick();
     return last_;
+  }
+  static TestFingertips::Tips fingertips(const RobotState& state) {
+    std::array<double, kShadowJointCount> joints;
+    std::ranges::copy(state.position, joints.begin());
+    return TestFingertips(joints).in_forearm();
   }
   int64_t count(Receipt receipt) const { return server_.receipts()[static_cast<size_t>(receipt)]; }
 
@@ -66,8 +83,7 @@ TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
   tick();
   int moving = 0;
   for (int i = 0; i < 60; ++i) {
-    EXPECT_EQ(fingers(30, 1000 * (i + 1)), Receipt::accepted);
-    EXPECT_EQ(wrist(8, 1000 * (i + 1)), Receipt::accepted);
+    EXPECT_EQ(first_finger(30, 1000 * (i + 1)), Receipt::accepted);
     const RobotState state = tick();
     EXPECT_EQ(state.state, CommandState::following);
     moving += state.velocity[kFFJ3] > 0;
@@ -75,7 +91,47 @@ TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
   }
   EXPECT_EQ(moving, 27) << "30 degrees at 2 rad/s are 0.262 s";
   EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kRounding);
+}
+
+TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
+  tick();
+  for (int i = 0; i < 150; ++i) {
+    EXPECT_EQ(fingers(30, 1000 * (i + 1)), Receipt::accepted);
+    EXPECT_EQ(wrist(8, 1000 * (i + 1)), Receipt::accepted);
+    const RobotState state = tick();  // checks the fingertips
+    EXPECT_NEAR(state.position[kWRJ1] / radians_from_degrees(8), state.position[kFFJ3] / radians_from_degrees(30),
+                1e-9);
+  }
+  EXPECT_GT(server_.interventions()[Intervention::fingertip_speed], 0);
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kRounding);
   EXPECT_NEAR(last_.position[kWRJ1], radians_from_degrees(8), kRounding);
+  EXPECT_GT(server_.interventions()[Intervention::coupling], 0) << "30 and 30 degrees are 60 of the motor, and 0";
+  EXPECT_NEAR(last_.position[kFFJ2], radians_from_degrees(60), kRounding);
+}
+
+TEST(HandServer, SplitsByTheCouplingThatItIsTold) {
+  CommandLimits limits;
+  limits.coupling = ShadowCoupling::even;
+  HandServer server(limits, std::vector<double>(kShadowJointCount, 0.0));
+  ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 0, 1);
+  message.points[0].positions[kMFJ2] = 1;
+  server.tick(1);
+  RobotState state;
+  for (int64_t now_us = 10'000; now_us < 1'000'000; now_us += 10'000) {
+    message.stamp = test_stamp(now_us);
+    server.receive(kFirst, HandTopic::fingers, message, now_us);
+    state = server.tick(now_us);
+  }
+  EXPECT_EQ(state.position[kMFJ1], 0.5);
+  EXPECT_EQ(state.position[kMFJ2], 0.5);
+}
+
+TEST(HandServer, StartsWithAFingerThatTouchesSomething) {
+  std::vector<double> start(kShadowJointCount, 0.0);
+  start[kFFJ2] = 1;
+  start[kFFJ1] = 0.5;
+  HandServer server({}, start);
+  EXPECT_EQ(server.tick(1).position, start) << "what was measured stays until the finger moves";
 }
 
 TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
@@ -103,7 +159,7 @@ TEST_F(HandServerTest, MovesNoFasterOnItsVeryFirstTick) {
 
 TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
   tick();
-  fingers(80, 1);
+  first_finger(80, 1);
   EXPECT_EQ(ticks(15).state, CommandState::following);
   const RobotState held = ticks(2);
   EXPECT_EQ(held.state, CommandState::holding);
@@ -111,14 +167,14 @@ TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
   EXPECT_EQ(ticks(40).state, CommandState::stopped);
   EXPECT_EQ(last_.position, held.position);
   EXPECT_THAT(last_.velocity, Each(0.0));
-  EXPECT_EQ(fingers(80, 2), Receipt::accepted);
+  EXPECT_EQ(first_finger(80, 2), Receipt::accepted);
   EXPECT_EQ(tick().state, CommandState::following);
   EXPECT_NEAR(last_.position[kFFJ3] - held.position[kFFJ3], 0.02, kRounding) << "from where it stood";
 }
 
 TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
   tick();
-  fingers(10, 1000);
+  first_finger(10, 1000);
   const RobotState good = ticks(12);
   ros::JointTrajectory bad = trajectory_message(hand_trajectory_names(), 80, 2000);
   bad.points[0].positions[5] = std::numeric_limits<double>::quiet_NaN();
@@ -136,7 +192,7 @@ TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
 
 TEST_F(HandServerTest, ClampsWhatIsBeyondTheLimits) {
   tick();
-  for (int i = 1; i < 200; ++i) {
+  for (int i = 1; i < 600; ++i) {
     EXPECT_EQ(fingers(i % 2 ? 1e6 : 500, i), Receipt::accepted);
     tick();  // checks the limits
   }
@@ -190,7 +246,7 @@ TEST_F(HandServerTest, AFloodMovesNothingFaster) {
   tick();
   int64_t stamp = 0;
   for (int i = 0; i < 20; ++i) {
-    for (int m = 0; m < 1000; ++m) EXPECT_EQ(fingers(m % 2 ? 90 : 0, ++stamp), Receipt::accepted);
+    for (int m = 0; m < 1000; ++m) EXPECT_EQ(first_finger(m % 2 ? 90 : 0, ++stamp), Receipt::accepted);
     tick();
   }
   EXPECT_EQ(count(Receipt::accepted), 20'000);

@@ -39,9 +39,9 @@ Eigen::Vector3d start_in_workspace(const Eigen::Vector3d& p_base, const CommandL
                                    const std::string& source) {
   const Eigen::Vector3d inside = p_base.cwiseMax(limits.workspace_min).cwiseMin(limits.workspace_max);
   if (!((inside - p_base).norm() <= kWorkspaceRounding))
-    throw Error(
-        source, "wrist of the arm", text(p_base) + " m",
-        fmt::format("a place in the workspace, {} to {}", text(limits.workspace_min), text(limits.workspace_max)));
+    throw Error(source, "wrist of the arm", text(p_base) + " m",
+                fmt::format("a place in the workspace, with room for the fingertips: {} to {}",
+                            text(limits.workspace_min), text(limits.workspace_max)));
   return inside;
 }
 

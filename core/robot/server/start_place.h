@@ -17,7 +17,8 @@ double start_angle(double angle, double min_deg, double max_deg, const std::stri
 /// J1 of a finger, which is not above its J2, rad.
 double start_distal(double distal, double proximal, const std::string& source, std::string_view joint);
 
-/// Where the wrist is in the arm's base frame, m. The tolerance of inverse kinematics counts as rounding here.
+/// Where the wrist is in the arm's base frame, m; the workspace is the wrist's (CommandGuard::limits of an arm).
+/// The tolerance of inverse kinematics counts as rounding here.
 Eigen::Vector3d start_in_workspace(const Eigen::Vector3d& p_base, const CommandLimits& limits,
                                    const std::string& source);
 
