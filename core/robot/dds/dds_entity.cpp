@@ -2,6 +2,7 @@
 
 #include <dds/ddsrt/log.h>
 #include <fmt/format.h>
+#include <net/if.h>
 
 #include <algorithm>
 #include <atomic>
@@ -19,9 +20,9 @@
 namespace glovebench {
 namespace {
 
-constexpr int kRosDepth = 10;
 constexpr int kLastDomain = 230;  // later ones have no ports
 constexpr int kLinesPerSecond = 10;
+constexpr const char* kUsable = "a network interface that CYCLONEDDS_URI allows";
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
@@ -48,24 +49,60 @@ void hear_library(void*, const dds_log_data_t* said) {
     std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size + 1, stderr);
 }
 
+/// Keeps what is sent and what is heard on this host. The receive sockets listen on all addresses all the same.
+constexpr const char* kLoopback =
+    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+    "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/></Peers></Discovery>";
+
+/// Of the library, for a domain.
+std::string configuration(const DdsAccess& access) {
+  const char* const uri = std::getenv("CYCLONEDDS_URI");
+  const bool configured = uri && *uri;
+  std::string where;
+  if (!access.interface.empty()) {
+    if (configured) throw Error("DDS", "interface", access.interface + " beside CYCLONEDDS_URI", "one of the two");
+    if (if_nametoindex(access.interface.c_str()) == 0)
+      throw Error("DDS", "interface", access.interface, "a network interface of this host, e.g. lo");
+    where = fmt::format("<General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces></General>",
+                        access.interface);
+  } else if (!configured) {
+    where = kLoopback;
+  }
+  return fmt::format(
+      "{}<CycloneDDS><Domain>{}<Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
+      configured ? std::string(uri) + "," : "", where, kLargestMessage);
+}
+
+}  // namespace
+
 /// A domain of this process, for as long as somebody has it: it is deleted with all that lives in it.
-std::shared_ptr<const dds_entity_t> join_domain(int domain, const std::string& what, const std::string& expected) {
+struct DdsDomain {
+  DdsDomain(int domain, const DdsAccess& its)
+      : access(its),
+        entity(checked_dds(dds_create_domain(static_cast<dds_domainid_t>(domain), configuration(its).c_str()),
+                           fmt::format("domain {}", domain), kUsable)) {}
+  ~DdsDomain() { dds_delete(entity); }
+  DdsDomain(const DdsDomain&) = delete;
+  DdsDomain& operator=(const DdsDomain&) = delete;
+
+  const DdsAccess access;
+  const dds_entity_t entity;
+};
+
+namespace {
+
+std::shared_ptr<const DdsDomain> join_domain(int domain, const DdsAccess& access) {
   static std::mutex mutex;
-  static std::map<int, std::weak_ptr<const dds_entity_t>> domains;
+  static std::map<int, std::weak_ptr<const DdsDomain>> domains;
   const std::lock_guard lock(mutex);
-  if (std::shared_ptr<const dds_entity_t> joined = domains[domain].lock()) return joined;
+  if (std::shared_ptr<const DdsDomain> joined = domains[domain].lock()) {
+    if (joined->access != access)
+      throw Error("DDS", fmt::format("domain {}", domain), "two ways to talk in one process", "one");
+    return joined;
+  }
   dds_set_log_sink(&hear_library, nullptr);
-  const char* const own = std::getenv("CYCLONEDDS_URI");
-  const std::string configuration = fmt::format(
-      "{},<CycloneDDS><Domain><Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
-      own ? own : "", kLargestMessage);
-  const dds_entity_t made =
-      checked_dds(dds_create_domain(static_cast<dds_domainid_t>(domain), configuration.c_str()), what, expected);
-  const auto leave = [](const dds_entity_t* entity) {
-    dds_delete(*entity);
-    delete entity;
-  };
-  const std::shared_ptr<const dds_entity_t> joined(new dds_entity_t(made), leave);
+  const auto joined = std::make_shared<const DdsDomain>(domain, access);
   domains[domain] = joined;
   return joined;
 }
@@ -81,14 +118,12 @@ dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std
   return result;
 }
 
-DdsParticipant::DdsParticipant(int domain) {
+DdsParticipant::DdsParticipant(int domain, const DdsAccess& access) {
   if (domain < 0 || domain > kLastDomain)
     throw Error("DDS", "domain", std::to_string(domain), fmt::format("0 to {}", kLastDomain));
-  const std::string what = fmt::format("participant in domain {}", domain);
-  const char* const expected = "a network interface that CYCLONEDDS_URI allows";
-  domain_ = join_domain(domain, what, expected);
-  entity_ =
-      checked_dds(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr), what, expected);
+  domain_ = join_domain(domain, access);
+  entity_ = checked_dds(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr),
+                        fmt::format("participant in domain {}", domain), kUsable);
 }
 
 dds_entity_t DdsParticipant::make_topic(const dds_topic_descriptor_t& type, const std::string& name) const {
@@ -108,9 +143,9 @@ dds_entity_t DdsParticipant::make_reader(dds_entity_t topic, int max_waiting) co
   return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
 }
 
-dds_entity_t DdsParticipant::make_reader_of_others(dds_entity_t topic) const {
+dds_entity_t DdsParticipant::make_reader_of_others(dds_entity_t topic, int depth) const {
   const Qos qos = make_qos();
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kRosDepth);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
 }

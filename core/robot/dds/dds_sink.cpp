@@ -21,9 +21,9 @@ class DdsSink::Writers {
  public:
   explicit Writers(int domain)
       : participant_(domain),
-        hand_(participant_, topics::kHand),
-        wrist_(participant_, topics::kWrist),
-        arm_(participant_, topics::kArm) {}
+        hand_(participant_, topics::kOwn.hand),
+        wrist_(participant_, topics::kOwn.wrist),
+        arm_(participant_, topics::kOwn.arm) {}
 
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
 

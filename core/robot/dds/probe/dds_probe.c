@@ -25,9 +25,8 @@ typedef geometry_msgs_msg_dds__PoseStamped_ Pose;
 typedef sensor_msgs_msg_dds__JointState_ State;
 
 enum { kHand, kWrist, kPose, kStates, kTopics };
-static const char* const topic_names[kTopics] = {"rt/rh_trajectory_controller/command",
-                                                 "rt/rh_wr_trajectory_controller/command", "rt/pa10/command/pose",
-                                                 "rt/joint_states"};
+static const char* const topic_names[kTopics] = {"rt/glovebench/hand/command", "rt/glovebench/wrist/command",
+                                                 "rt/glovebench/arm/command/pose", "rt/glovebench/joint_states"};
 static const char* const short_names[kTopics] = {"hand", "wrist", "pose", "states"};
 
 static dds_entity_t checked(dds_entity_t result, const char* what) {
