@@ -16,13 +16,15 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/system_time.h"
+#include "core/robot/dds/security_keys.h"
 
 namespace glovebench {
 namespace {
 
 constexpr int kLastDomain = 230;  // later ones have no ports
 constexpr int kLinesPerSecond = 10;
-constexpr const char* kUsable = "a network interface that CYCLONEDDS_URI allows";
+constexpr const char* kUsable = "a network interface that CYCLONEDDS_URI allows, and keys that DDS Security takes";
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
@@ -69,9 +71,11 @@ std::string configuration(const DdsAccess& access) {
   } else if (!configured) {
     where = kLoopback;
   }
+  const std::string security =
+      access.security.empty() ? "" : security_configuration(access.security, access.role, system_us() / 1'000'000);
   return fmt::format(
-      "{}<CycloneDDS><Domain>{}<Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
-      configured ? std::string(uri) + "," : "", where, kLargestMessage);
+      "{}<CycloneDDS><Domain>{}{}<Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
+      configured ? std::string(uri) + "," : "", where, security, kLargestMessage);
 }
 
 }  // namespace
