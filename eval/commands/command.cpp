@@ -18,6 +18,8 @@
 
 namespace glovebench::eval {
 
+constexpr uint64_t kLargestConfig = uint64_t{1} << 20;  // bytes
+
 void CommonFlags::add_output(CLI::App& command, const std::string& what, bool required) {
   CLI::Option* option = command.add_option("-o,--output", output, what);
   if (required) option->required();
@@ -139,8 +141,6 @@ CLI::Validator number_within(double min, double max) {
 }
 
 namespace {
-
-constexpr uint64_t kLargestConfig = uint64_t{1} << 20;  // bytes
 
 Eigen::Isometry3d rigid_transform(const char* flag, const std::vector<double>& values) {
   for (const double value : values)

@@ -2,8 +2,10 @@
 
 #include <dds/ddsrt/log.h>
 #include <fmt/format.h>
+#include <net/if.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -12,16 +14,17 @@
 #include <mutex>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.h"
+#include "core/base/system_time.h"
+#include "core/robot/dds/security_keys.h"
 
 namespace glovebench {
 namespace {
 
-constexpr int kRosDepth = 10;
 constexpr int kLastDomain = 230;  // later ones have no ports
 constexpr int kLinesPerSecond = 10;
+constexpr const char* kUsable = "a network interface that CYCLONEDDS_URI allows, and keys that DDS Security takes";
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
@@ -33,7 +36,7 @@ Qos make_qos() {
   return qos;
 }
 
-std::atomic<int64_t> messages_too_large = 0;
+std::atomic<int64_t> messages_too_large = 0, messages_of_too_many = 0;
 
 /// What the library says: to stderr, as without this, but not without end.
 void hear_library(void*, const dds_log_data_t* said) {
@@ -48,24 +51,62 @@ void hear_library(void*, const dds_log_data_t* said) {
     std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size + 1, stderr);
 }
 
+/// Keeps what is sent and what is heard on this host. The receive sockets listen on all addresses all the same.
+constexpr const char* kLoopback =
+    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+    "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/></Peers></Discovery>";
+
+/// Of the library, for a domain.
+std::string configuration(const DdsAccess& access) {
+  const char* const uri = std::getenv("CYCLONEDDS_URI");
+  const bool configured = uri && *uri;
+  std::string where;
+  if (!access.interface.empty()) {
+    if (configured) throw Error("DDS", "interface", access.interface + " beside CYCLONEDDS_URI", "one of the two");
+    if (if_nametoindex(access.interface.c_str()) == 0)
+      throw Error("DDS", "interface", access.interface, "a network interface of this host, e.g. lo");
+    where = fmt::format("<General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces></General>",
+                        access.interface);
+  } else if (!configured) {
+    where = kLoopback;
+  }
+  const std::string security =
+      access.security.empty() ? "" : security_configuration(access.security, access.role, system_us() / 1'000'000);
+  return fmt::format(
+      "{}<CycloneDDS><Domain>{}{}<Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
+      configured ? std::string(uri) + "," : "", where, security, kLargestMessage);
+}
+
+}  // namespace
+
 /// A domain of this process, for as long as somebody has it: it is deleted with all that lives in it.
-std::shared_ptr<const dds_entity_t> join_domain(int domain, const std::string& what, const std::string& expected) {
+struct DdsDomain {
+  DdsDomain(int domain, const DdsAccess& its)
+      : access(its),
+        entity(checked_dds(dds_create_domain(static_cast<dds_domainid_t>(domain), configuration(its).c_str()),
+                           fmt::format("domain {}", domain), kUsable)) {}
+  ~DdsDomain() { dds_delete(entity); }
+  DdsDomain(const DdsDomain&) = delete;
+  DdsDomain& operator=(const DdsDomain&) = delete;
+
+  const DdsAccess access;
+  const dds_entity_t entity;
+};
+
+namespace {
+
+std::shared_ptr<const DdsDomain> join_domain(int domain, const DdsAccess& access) {
   static std::mutex mutex;
-  static std::map<int, std::weak_ptr<const dds_entity_t>> domains;
+  static std::map<int, std::weak_ptr<const DdsDomain>> domains;
   const std::lock_guard lock(mutex);
-  if (std::shared_ptr<const dds_entity_t> joined = domains[domain].lock()) return joined;
+  if (std::shared_ptr<const DdsDomain> joined = domains[domain].lock()) {
+    if (joined->access != access)
+      throw Error("DDS", fmt::format("domain {}", domain), "two ways to talk in one process", "one");
+    return joined;
+  }
   dds_set_log_sink(&hear_library, nullptr);
-  const char* const own = std::getenv("CYCLONEDDS_URI");
-  const std::string configuration = fmt::format(
-      "{},<CycloneDDS><Domain><Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
-      own ? own : "", kLargestMessage);
-  const dds_entity_t made =
-      checked_dds(dds_create_domain(static_cast<dds_domainid_t>(domain), configuration.c_str()), what, expected);
-  const auto leave = [](const dds_entity_t* entity) {
-    dds_delete(*entity);
-    delete entity;
-  };
-  const std::shared_ptr<const dds_entity_t> joined(new dds_entity_t(made), leave);
+  const auto joined = std::make_shared<const DdsDomain>(domain, access);
   domains[domain] = joined;
   return joined;
 }
@@ -76,19 +117,21 @@ int64_t dds_messages_too_large() {
   return messages_too_large;
 }
 
+int64_t dds_messages_of_too_many() {
+  return messages_of_too_many;
+}
+
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected) {
   if (result < 0) throw Error("DDS", what, dds_strretcode(-result), expected);
   return result;
 }
 
-DdsParticipant::DdsParticipant(int domain) {
+DdsParticipant::DdsParticipant(int domain, const DdsAccess& access) {
   if (domain < 0 || domain > kLastDomain)
     throw Error("DDS", "domain", std::to_string(domain), fmt::format("0 to {}", kLastDomain));
-  const std::string what = fmt::format("participant in domain {}", domain);
-  const char* const expected = "a network interface that CYCLONEDDS_URI allows";
-  domain_ = join_domain(domain, what, expected);
-  entity_ =
-      checked_dds(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr), what, expected);
+  domain_ = join_domain(domain, access);
+  entity_ = checked_dds(dds_create_participant(static_cast<dds_domainid_t>(domain), nullptr, nullptr),
+                        fmt::format("participant in domain {}", domain), kUsable);
 }
 
 dds_entity_t DdsParticipant::make_topic(const dds_topic_descriptor_t& type, const std::string& name) const {
@@ -108,39 +151,39 @@ dds_entity_t DdsParticipant::make_reader(dds_entity_t topic, int max_waiting) co
   return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
 }
 
-dds_entity_t DdsParticipant::make_reader_of_others(dds_entity_t topic) const {
+dds_entity_t DdsParticipant::make_reader_of_others(dds_entity_t topic, int depth) const {
   const Qos qos = make_qos();
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kRosDepth);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
 }
 
-uint64_t DdsSenders::look_up(dds_instance_handle_t writer) const {
+std::optional<uint64_t> DdsSenders::look_up(dds_instance_handle_t writer) const {
   dds_builtintopic_endpoint_t* endpoint = dds_get_matched_publication_data(reader_, writer);
-  if (!endpoint) return writer;  // gone before it was ever seen: a sender of its own
+  if (!endpoint) return std::nullopt;
   const uint64_t participant = endpoint->participant_instance_handle;
   dds_builtintopic_free_endpoint(endpoint);
   return participant;
 }
 
-uint64_t DdsSenders::of(dds_instance_handle_t writer) {
+std::optional<uint64_t> DdsSenders::of(dds_instance_handle_t writer) {
   const auto known = participants_.find(writer);
   if (known != participants_.end()) return known->second;
-  return participants_[writer] = look_up(writer);
+  if (participants_.size() >= kMostWriters) {
+    ++messages_of_too_many;
+    return std::nullopt;
+  }
+  return participants_[writer] = look_up(writer).value_or(writer);  // gone before it was seen: a sender of its own
 }
 
 std::set<uint64_t> DdsSenders::present() {
-  std::vector<dds_instance_handle_t> writers(16);
-  dds_return_t count = 0;
-  while ((count = dds_get_matched_publications(reader_, writers.data(), writers.size())) >
-         static_cast<dds_return_t>(writers.size()))
-    writers.resize(static_cast<size_t>(count));
-  writers.resize(static_cast<size_t>(std::max(count, 0)));
-  std::erase_if(participants_, [&](const auto& known) {
-    return std::find(writers.begin(), writers.end(), known.first) == writers.end();
-  });
+  std::erase_if(participants_, [&](const auto& known) { return !look_up(known.first); });
   std::set<uint64_t> senders;
-  for (const dds_instance_handle_t writer : writers) senders.insert(of(writer));
+  for (const auto& [writer, participant] : participants_) senders.insert(participant);
+  std::array<dds_instance_handle_t, kMostWriters> writers;  // the first of them, however many there are
+  const dds_return_t count = dds_get_matched_publications(reader_, writers.data(), writers.size());
+  for (size_t i = 0; i < std::min(static_cast<size_t>(std::max(count, 0)), writers.size()); ++i)
+    if (const std::optional<uint64_t> participant = look_up(writers[i])) senders.insert(*participant);
   return senders;
 }
 

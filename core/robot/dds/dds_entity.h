@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/dds_types.h"
 
 /// Thin owners of Cyclone DDS's entities. Everything that the library refuses is an Error.
@@ -23,15 +24,21 @@ dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std
 inline constexpr int kLargestMessage = 16 << 10;  // bytes, on the wire
 inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s: who has to wait longer loses what it sent
 
+/// Messages that a writer keeps for its readers, as in ROS 2.
+inline constexpr int kRosDepth = 10;
+
 /// Larger messages that were dropped since the process began.
 int64_t dds_messages_too_large();
+
+struct DdsDomain;
 
 /// A participant in a domain. With it go all entities that were made with it.
 class DdsParticipant {
  public:
-  /// Configured by CYCLONEDDS_URI, as every program with Cyclone DDS, but for the size of messages. Of what the
-  /// library has to say a flood does not reach stderr.
-  explicit DdsParticipant(int domain);
+  /// Limits the size of messages, and the library's own lines on stderr. Throws Error: a domain that is not 0 to
+  /// 230, no such interface, an interface although CYCLONEDDS_URI is set, or another access than that of this
+  /// process's participants in the domain.
+  explicit DdsParticipant(int domain, const DdsAccess& access = {});
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
   DdsParticipant& operator=(const DdsParticipant&) = delete;
@@ -43,11 +50,11 @@ class DdsParticipant {
   /// Reliable, volatile, up to `max_waiting` until they are taken; then the senders wait. The last ten would do for
   /// one sender, but a flood by one must not push out what another has sent.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
-  /// The last ten that other participants have sent.
-  dds_entity_t make_reader_of_others(dds_entity_t topic) const;
+  /// The last `depth` that other participants have sent.
+  dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
 
  private:
-  std::shared_ptr<const dds_entity_t> domain_;
+  std::shared_ptr<const DdsDomain> domain_;
   dds_entity_t entity_;
 };
 
@@ -77,37 +84,47 @@ class DdsWriter {
   dds_entity_t writer_;
 };
 
+/// Writers that a reader tells apart. What further ones send is not read: peers without end take neither time nor
+/// memory here (the library itself keeps each that it knows).
+inline constexpr size_t kMostWriters = 64;
+
+/// Messages that were not read because their writer was one too many, since the process began.
+int64_t dds_messages_of_too_many();
+
 /// Tells writers of a reader's messages apart by the process they belong to.
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The participant that a message's writer belongs to, also if that has gone meanwhile.
-  uint64_t of(dds_instance_handle_t writer);
-  /// The participants of the writers that are there now.
+  /// The participant that a message's writer belongs to, also if that has gone meanwhile. Nothing, and counted, if
+  /// kMostWriters others have sent something and were there at the last call of `present`.
+  std::optional<uint64_t> of(dds_instance_handle_t writer);
+  /// The participants of the writers that are there now: of all that have sent something, and of some that have
+  /// not.
   std::set<uint64_t> present();
 
  private:
-  uint64_t look_up(dds_instance_handle_t writer) const;
+  /// Nothing if the writer is not there.
+  std::optional<uint64_t> look_up(dds_instance_handle_t writer) const;
 
   dds_entity_t reader_;
-  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;
+  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;  ///< of writers that have sent something
 };
 
 template <typename Message>
 class DdsReader {
  public:
   struct Received {
-    std::optional<Message> message;  ///< empty if it was not wanted
-    uint64_t sender = 0;
+    std::optional<Message> message;  ///< empty if it was not wanted, or its writer is one too many
+    uint64_t sender = 0;             ///< 0 if its writer is one too many
     int64_t source_ns = 0;
   };
 
   /// Keeps up to `max_waiting` messages until they are taken; then it makes the senders wait.
   DdsReader(const DdsParticipant& participant, const std::string& topic, int max_waiting = kMaxWaiting)
       : DdsReader(participant.make_reader(make_topic(participant, topic), max_waiting)) {}
-  /// Keeps the last ten that other participants have sent.
-  static DdsReader of_others(const DdsParticipant& participant, const std::string& topic) {
-    return DdsReader(participant.make_reader_of_others(make_topic(participant, topic)));
+  /// Keeps the last `depth` that other participants have sent.
+  static DdsReader of_others(const DdsParticipant& participant, const std::string& topic, int depth = kRosDepth) {
+    return DdsReader(participant.make_reader_of_others(make_topic(participant, topic), depth));
   }
 
   dds_entity_t entity() const { return reader_; }
@@ -123,8 +140,9 @@ class DdsReader {
       if (count <= 0) return std::nullopt;
       std::optional<Received> received;
       if (info.valid_data) {
-        received = Received{std::nullopt, senders_.of(info.publication_handle), info.source_timestamp};
-        if (is_wanted(received->sender)) received->message = DdsType<Message>::read(sample);
+        const std::optional<uint64_t> sender = senders_.of(info.publication_handle);
+        received = Received{std::nullopt, sender.value_or(0), info.source_timestamp};
+        if (sender && is_wanted(*sender)) received->message = DdsType<Message>::read(sample);
       }
       dds_return_loan(reader_, &sample, count);
       if (received) return received;

@@ -134,6 +134,40 @@ TEST_F(DdsEntity, OthersAreAllButOneself) {
   EXPECT_FALSE(states.take([](uint64_t) { return true; }));
 }
 
+TEST_F(DdsEntity, WritersBeyondABoundAreNotRead) {
+  constexpr size_t kTooMany = 20;
+  const DdsParticipant here(kDomain), there(kFar), last(kFar);
+  auto leaving = std::make_unique<DdsParticipant>(kFar);
+  DdsReader<ros::JointState> reader(here, kTopic);
+  using Writer = DdsWriter<ros::JointState>;
+  std::vector<Writer> crowd = {Writer(*leaving, kTopic)};
+  while (crowd.size() < kMostWriters + kTooMany) crowd.emplace_back(there, kTopic);
+  const auto read = [&](const Writer& writer) {  // whether its message is, after all that came before
+    writer.write({{}, {"a"}, {}, {}}, 1);
+    EXPECT_TRUE(writer.wait_for_listeners(10));
+    bool is_read = false;
+    while (const auto received = reader.take([](uint64_t) { return true; }))
+      is_read = received->message.has_value();
+    return is_read;
+  };
+  const int64_t before = dds_messages_of_too_many();
+  for (size_t i = 0; i < kMostWriters; ++i) EXPECT_TRUE(comes_true([&] { return read(crowd[i]); }));
+  EXPECT_EQ(dds_messages_of_too_many(), before);
+  const auto counted = [&] { return dds_messages_of_too_many() > before; };
+  for (size_t i = kMostWriters; i < crowd.size(); ++i) EXPECT_FALSE(read(crowd[i]));
+  EXPECT_TRUE(comes_true([&] { return !read(crowd.back()) && counted(); }));
+  EXPECT_TRUE(read(crowd[1])) << "who was known before is read on";
+  EXPECT_EQ(reader.senders().present().size(), 2U);
+
+  leaving.reset();
+  const Writer next(last, kTopic);
+  EXPECT_TRUE(comes_true([&] {
+    reader.senders().present();
+    return read(next);
+  })) << "there is room again";
+  EXPECT_EQ(reader.senders().present().size(), 2U);
+}
+
 TEST_F(DdsEntity, ADomainEndsWithItsLastParticipant) {
   for (int i = 0; i < 2; ++i) {
     const auto first = std::make_unique<DdsParticipant>(kDomain);

@@ -39,7 +39,9 @@ class HandPort {
  public:
   static constexpr const char* kName = "hand";
   HandPort(const DdsParticipant& participant, HandServer at_start)
-      : server(std::move(at_start)), fingers_(participant, topics::kHand), wrist_(participant, topics::kWrist) {}
+      : server(std::move(at_start)),
+        fingers_(participant, topics::kOwn.hand),
+        wrist_(participant, topics::kOwn.wrist) {}
 
   static const std::vector<std::string>& names() { return hand_joint_names(); }
   void attach(DdsWaitset& waitset) const {
@@ -80,7 +82,7 @@ class ArmPort {
  public:
   static constexpr const char* kName = "arm";
   ArmPort(const DdsParticipant& participant, ArmServer at_start)
-      : server(std::move(at_start)), pose_(participant, topics::kArm) {}
+      : server(std::move(at_start)), pose_(participant, topics::kOwn.arm) {}
 
   static const std::vector<std::string>& names() { return arm_joint_names(); }
   void attach(DdsWaitset& waitset) const { waitset.add(pose_.entity()); }
@@ -113,7 +115,7 @@ struct StartPlace {
 class OtherServers {
  public:
   OtherServers(const DdsParticipant& participant, const std::vector<std::string>& names)
-      : states_(DdsReader<ros::JointState>::of_others(participant, topics::kJointStates)), names_(names) {}
+      : states_(DdsReader<ros::JointState>::of_others(participant, topics::kOwn.joint_states)), names_(names) {}
 
   /// The name of a joint that another has told of since the last call.
   std::optional<std::string> heard() {
@@ -192,7 +194,7 @@ class Service {
         options_(options),
         others_(others),
         log_(log),
-        states_(participant, topics::kJointStates),
+        states_(participant, topics::kOwn.joint_states),
         waitset_(participant) {
     port_.attach(waitset_);
   }
@@ -257,6 +259,8 @@ class Service {
         states_sent_, static_cast<double>(longest_gap_us_) * 1e-3);
     if (const int64_t count = dds_messages_too_large(); count > 0)
       text += fmt::format("; too large: {} messages", count);
+    if (const int64_t count = dds_messages_of_too_many(); count > 0)
+      text += fmt::format("; of too many writers: {} messages", count);
     if (seen_others_ > 0) text += fmt::format("; another server: heard at {} looks", seen_others_);
     if (log_.lost() > 0) text += fmt::format("; log: {} lines lost ({})", log_.lost(), log_.failure());
     return text;
@@ -278,7 +282,7 @@ void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   const int64_t end_us = steady_us() + kListenUs;
   while (steady_us() < end_us && !options.stopping()) {
     if (const std::optional<std::string> joint = others.heard())
-      throw Error(fmt::format("DDS domain {}", options.domain), topics::kJointStates,
+      throw Error(fmt::format("DDS domain {}", options.domain), topics::kOwn.joint_states,
                   fmt::format("another process that tells of {}", *joint), "one server of a joint");
     std::this_thread::sleep_for(std::chrono::microseconds(kPeriodUs));
   }
@@ -290,7 +294,7 @@ DdsServerSummary serve(const DdsServerOptions& options, const std::vector<double
                        const MakeServer& make_server) {
   Log log(options.log);  // first: nobody else writes on from here
   auto server = make_server(log.start(options, Port::names(), rest));
-  const DdsParticipant participant(options.domain);
+  const DdsParticipant participant(options.domain, options.access);
   OtherServers others(participant, Port::names());
   refuse_beside(others, options);
   Port port(participant, std::move(server));

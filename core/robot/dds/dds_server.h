@@ -6,12 +6,14 @@
 #include <string>
 
 #include "core/robot/command_guard.h"
+#include "core/robot/dds/dds_access.h"
 #include "core/robot/server/server_log.h"
 
 namespace glovebench {
 
 struct DdsServerOptions {
   int domain = 0;
+  DdsAccess access;
   /// File to append the log to, which also says where the joints stood when the last server ended; empty: none.
   std::string log;
   /// How long ago that may be: after longer than that, somebody may have moved them.

@@ -153,7 +153,7 @@ TEST_F(DdsServer, AFloodOfLargeMessagesIsRefusedAndOthersAreFollowed) {
   const std::string log = path("hand.jsonl");
   const auto server = hand(options(log));
   ASSERT_TRUE(serves(log));
-  const UnboundedWriter hostile(topics::kHand);
+  const UnboundedWriter hostile(topics::kOwn.hand);
   ASSERT_TRUE(comes_true([&] { return hostile.listeners() > 0; }));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the server knows it a little later
   for (int i = 0; i < 20; ++i) hostile.write({{}, "", {std::string(2'000'000, 'x')}, {}});
@@ -183,7 +183,7 @@ TEST_F(DdsServer, TwoDoNotServeOneHand) {
   const auto first = hand(options(log));
   ASSERT_TRUE(serves(log));
   EXPECT_THAT(hand(options(others, kFar))->failure(),
-              AllOf(HasSubstr("DDS domain 8: rt/joint_states: found another process that tells of rh_"),
+              AllOf(HasSubstr("DDS domain 8: rt/glovebench/joint_states: found another process that tells of rh_"),
                     HasSubstr("expected one server of a joint")));
   EXPECT_EQ(std::filesystem::file_size(others), 0U) << "it has served nothing";
   const auto other_side = arm(options(path("arm.jsonl"), kFar));
@@ -196,7 +196,7 @@ TEST_F(DdsServer, TellsOfAnotherThatComesLater) {
   const auto server = hand(options(log));
   ASSERT_TRUE(serves(log));
   const DdsParticipant there(kFar);
-  const DdsWriter<ros::JointState> writer(there, topics::kJointStates);
+  const DdsWriter<ros::JointState> writer(there, topics::kOwn.joint_states);
   const auto say = [&](const std::string& joint) { writer.write({{}, {joint}, {0}, {0}}, 1); };
   const auto told_of = [&](const std::string& joint) {
     return comes_true([&] {
