@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "bench/movements.h"
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/database/database_cache.h"
@@ -20,8 +21,6 @@
 namespace glovebench::bench {
 namespace {
 
-constexpr int kFrameStep = 19;  // six to eight frames of each trajectory: open hand, grasp and between
-
 const std::string kShareFolder = GLOVEBENCH_SHARE_DIR;
 const std::string kTrajectoryFolder = kShareFolder + "/trajectories/data";
 
@@ -30,23 +29,13 @@ std::optional<BenchData>& storage() {
   return stored;
 }
 
-std::vector<render::HandFrame> hand_frames(const std::string& name) {
-  const trajectories::Trajectory trajectory = trajectories::source_trajectory(kTrajectoryFolder, name);
-  std::vector<render::HandFrame> frames;
-  for (size_t f = 0; f < trajectory.frames.size(); f += kFrameStep) {
-    const trajectories::TrajectoryFrame& frame = trajectory.frames[f];
-    frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
-  }
-  return frames;
-}
-
-/// A color table for the light of the benchmark's frames alone.
-ColorTable calibrate(const BenchData& data, const std::vector<std::vector<render::HandFrame>>& movements) {
+/// A color table for the light of the benchmark's frames alone, from true labels.
+ColorTable calibrate(const BenchData& data, const std::vector<Movement>& movements) {
   render::RgbdRenderer renderer(data.calibration, data.model, render::SceneConfig{});
   ColorCalibration colors;
   int64_t number = 0;
-  for (const std::vector<render::HandFrame>& frames : movements) {
-    for (const render::HandFrame& frame : frames) {
+  for (const Movement& movement : movements) {
+    for (const render::HandFrame& frame : movement.frames) {
       const PosedHand hand = data.model->pose(frame.posture);
       const ColorImage color = renderer.render(hand, frame.T_camera_hand, {}).color;
       colors.add_view(render::add_color_noise(color, {}, {1, "color calibration", number++}),
@@ -56,14 +45,21 @@ ColorTable calibrate(const BenchData& data, const std::vector<std::vector<render
   return colors.build();
 }
 
-std::vector<BenchFrame> track_frames(const BenchData& data, const std::string& name,
-                                     const std::vector<render::HandFrame>& hands) {
+/// Which of two words an option has.
+bool is_first(const std::string& option, const std::string& found, const std::string& first,
+              const std::string& second) {
+  if (found != first && found != second)
+    throw Error("command line", option, found, fmt::format("{} or {}", first, second));
+  return found == first;
+}
+
+std::vector<BenchFrame> track_frames(const BenchData& data, const Movement& movement) {
   render::SyntheticKinectConfig config;
-  config.sequence = name;
-  render::SyntheticKinect kinect(data.calibration, data.model, hands, config);
+  config.sequence = movement.name;
+  render::SyntheticKinect kinect(data.calibration, data.model, movement.frames, config);
   Tracker tracker(data.config, data.calibration, data.model, data.database, data.table);
   std::vector<BenchFrame> frames;
-  for (const render::HandFrame& hand : hands) {
+  for (const render::HandFrame& hand : movement.frames) {
     BenchFrame frame;
     frame.hand = hand;
     frame.device = *kinect.next_frame();
@@ -118,12 +114,14 @@ void prepare(const Settings& settings) {
   data.postures = trajectories::posture_set(kTrajectoryFolder, settings.database);
   data.database =
       std::make_shared<Database>(data.cache().get(data.postures, *data.model, data.config.views, kTinySizes));
-  const std::vector<std::string>& names = trajectories::ground_truth_names();
-  std::vector<std::vector<render::HandFrame>> movements;
-  for (const std::string& name : names) movements.push_back(hand_frames(name));
-  data.table = std::make_shared<ColorTable>(calibrate(data, movements));
-  for (size_t t = 0; t < names.size(); ++t)
-    std::ranges::move(track_frames(data, names[t], movements[t]), std::back_inserter(data.frames));
+  const bool tuned = is_first("--frames", settings.frames, "tuned", "held-out"),
+             same = is_first("--colors", settings.colors, "same", "other");
+  const auto movements = [](bool of_tuned) {
+    return of_tuned ? tuned_movements(kTrajectoryFolder) : held_out_movements(kTrajectoryFolder);
+  };
+  data.table = std::make_shared<ColorTable>(calibrate(data, movements(tuned == same)));
+  for (const Movement& movement : movements(tuned))
+    std::ranges::move(track_frames(data, movement), std::back_inserter(data.frames));
   storage() = std::move(data);
 }
 

@@ -23,9 +23,12 @@ std::string new_temporary_folder();
 struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";
+  std::string frames = "tuned";  ///< "tuned" or "held-out" (movements.h)
+  std::string colors = "same";   ///< the color table is made with true labels of the "same" poses, or of those of
+                                 ///< the "other" frames
 };
 
-/// One frame of a source trajectory and what each stage of the tracker made of it.
+/// One frame of a movement and what each stage of the tracker made of it.
 struct BenchFrame {
   render::HandFrame hand;     ///< the truth
   render::RgbdImages images;  ///< without noise

@@ -1,4 +1,5 @@
-// glovebench_bench [--cache FOLDER] [--database NAME] [--simd NAME] [--table FILE] [Google Benchmark's options]
+// glovebench_bench [--cache FOLDER] [--database NAME] [--frames tuned|held-out] [--colors same|other] [--simd NAME]
+//   [--table FILE] [Google Benchmark's options]
 
 #include <fmt/format.h>
 #include <hwy/targets.h>
@@ -24,6 +25,8 @@ Options parse(int argc, char** argv) {
   Options options;
   const std::map<std::string, std::string*> values = {{"--cache", &options.settings.cache_folder},
                                                       {"--database", &options.settings.database},
+                                                      {"--frames", &options.settings.frames},
+                                                      {"--colors", &options.settings.colors},
                                                       {"--simd", &options.simd},
                                                       {"--table", &options.table}};
   for (int i = 1; i < argc; i += 2) {
@@ -31,7 +34,8 @@ Options parse(int argc, char** argv) {
     if (option == values.end()) {
       throw Error(
           "command line", argv[i], "an unknown option",
-          "--cache FOLDER, --database NAME, --simd NAME, --table FILE or an option of Google Benchmark (--help)");
+          "--cache FOLDER, --database NAME, --frames tuned or held-out, --colors same or other, --simd NAME, "
+          "--table FILE or an option of Google Benchmark (--help)");
     }
     if (i + 1 == argc) throw Error("command line", argv[i], "nothing after it", "a value");
     *option->second = argv[i + 1];

@@ -6,6 +6,7 @@
 #include "core/base/random.h"
 #include "core/pose/icp.h"
 #include "core/pose/matcher.h"
+#include "core/pose/robust_icp.h"
 
 namespace glovebench::bench {
 namespace {
@@ -121,6 +122,47 @@ void icp_peer(benchmark::State& state, AlignPeer peer, int max_points) {
   set_errors(state, errors);
 }
 BENCHMARK_CAPTURE(icp_peer, pcl, kPcl, 1000)->Name("icp/horn/pcl")->Unit(benchmark::kMillisecond);
+
+/// Errors alone: in the looked-up posture, and in the true one, from the looked-up pose.
+template <typename Align>
+void set_both_errors(benchmark::State& state, const Align& align_posed) {
+  for (auto _ : state) {
+    set_errors(state, mean_errors([&](const BenchFrame& frame) { return align_posed(frame, frame.posed); }));
+    const Errors of_true = mean_errors(
+        [&](const BenchFrame& frame) { return align_posed(frame, data().model->pose(frame.hand.posture)); });
+    state.counters["true_posture_position_mm"] = of_true.position_mm;
+    state.counters["true_posture_rotation_deg"] = of_true.rotation_deg;
+  }
+  state.counters["frames"] = static_cast<double>(data().frames.size());
+}
+
+/// Of the robust alignment with weights of so many percent of the textbook's width.
+void robust_errors(benchmark::State& state) {
+  const IcpConfig config = config_of(IcpAlgorithm::robust, Implementation::fast, 1000);
+  set_both_errors(state, [&](const BenchFrame& frame, const PosedHand& posed) {
+    return align_robust(*data().model, posed, subsample(frame.trace.cloud.points, config.max_points),
+                        frame.result.T_camera_hand_coarse, config, 0.01 * static_cast<double>(state.range(0)));
+  });
+}
+BENCHMARK(robust_errors)
+    ->Name("icp/errors/robust")
+    ->ArgName("width_percent")
+    ->Arg(40)
+    ->Arg(50)
+    ->Arg(60)
+    ->Arg(70)
+    ->Arg(80)
+    ->Arg(100)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+void horn_errors(benchmark::State& state) {
+  const IcpConfig config = config_of(IcpAlgorithm::horn, Implementation::fast, 1000);
+  set_both_errors(state, [&](const BenchFrame& frame, const PosedHand& posed) {
+    return align(*data().model, posed, frame.trace.cloud.points, frame.result.T_camera_hand_coarse, config);
+  });
+}
+BENCHMARK(horn_errors)->Name("icp/errors/horn")->Iterations(1)->Unit(benchmark::kMillisecond);
 
 /// Starts 3 cm and so many degrees from the truth, in the true posture: the share that ends within 2 mm and 1
 /// degree of where an alignment that starts at the truth ends.

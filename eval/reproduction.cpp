@@ -90,6 +90,13 @@ std::vector<std::string> part_names() {
   return names;
 }
 
+int exit_code_of(const reports::RequiredClaims& required, const ReproductionOptions& options, bool judged) {
+  constexpr int kClaimFailed = 1, kIncomplete = 3;
+  if (required.failed > 0) return kClaimFailed;
+  const bool all_of_figure4 = is_wanted(options, kFigure4) && options.trajectories.empty();
+  return judged && all_of_figure4 && required.not_run > 0 ? kIncomplete : 0;
+}
+
 Plan plan_reproduction(const ReproductionOptions& options) {
   refuse_unknown_parts(options.only);
   Plan plan{options.study.tracker, {}, {}, options.study.quick};

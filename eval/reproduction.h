@@ -5,6 +5,7 @@
 
 #include "eval/experiments.h"
 #include "eval/studies/study.h"
+#include "reports/claims/verdicts.h"
 
 namespace glovebench::eval {
 
@@ -18,6 +19,10 @@ struct ReproductionOptions {
 
 /// What can be left out: "fig4", "fig5", "fig6", and the studies.
 std::vector<std::string> part_names();
+
+/// 1 if a required claim failed; 3 if one was not measured in a run that judges claims (are_claims_judged) and was
+/// asked for all of Figure 4, on which they rest; else 0: an inconclusive claim fails nothing.
+int exit_code_of(const reports::RequiredClaims& required, const ReproductionOptions& options, bool judged);
 
 /// The experiments of Figures 4 to 6 that are asked for.
 Plan plan_reproduction(const ReproductionOptions& options);

@@ -56,6 +56,21 @@ TEST(Reproduction, QuickOnesAreAStretch) {
   for (const Replay& replay : plan.replays) EXPECT_LT(frames_of(replay).size(), 30U);
 }
 
+TEST(Reproduction, ExitCodes) {
+  const ReproductionOptions all = only({}), figure4 = only({"fig4"}), figure7 = only({"fig7"});
+  ReproductionOptions one_movement = all;
+  one_movement.trajectories = {"Tr4"};
+  EXPECT_EQ(exit_code_of({.hold = 3}, all, true), 0);
+  EXPECT_EQ(exit_code_of({.hold = 2, .inconclusive = 1}, all, true), 0);
+  EXPECT_EQ(exit_code_of({.hold = 1, .inconclusive = 1, .failed = 1}, all, true), 1);
+  EXPECT_EQ(exit_code_of({.failed = 1, .not_run = 2}, one_movement, true), 1);
+  EXPECT_EQ(exit_code_of({.hold = 2, .not_run = 1}, all, true), 3) << "an absent measure is not a pass";
+  EXPECT_EQ(exit_code_of({.not_run = 3}, figure4, true), 3);
+  EXPECT_EQ(exit_code_of({.not_run = 3}, figure7, true), 0) << "nobody asked for them";
+  EXPECT_EQ(exit_code_of({.not_run = 3}, one_movement, true), 0);
+  EXPECT_EQ(exit_code_of({.not_run = 3}, all, false), 0) << "quick, or another configuration";
+}
+
 reports::StudyResult example_study() {
   reports::StudyResult study{"fig0", "Figure 0", {}, {}};
   study.tables.push_back({"figure0",

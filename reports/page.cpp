@@ -68,8 +68,10 @@ std::string script(const std::string& text) {
 std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
                                   const PageMaterial& material) {
   std::vector<Section> sections;
-  const std::string claims_html = claims_section(judge(claims(), all_measures(result)));
-  if (!claims_html.empty()) sections.push_back({"claims", "Claims", claims_html});
+  const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
+  // A quick run judges none, but shows what a whole one would.
+  if (any_was_run(verdicts) || !quick_note(result).empty())
+    sections.push_back({"claims", "Claims", claims_section(verdicts)});
   for (Section& section : experiment_sections(result, paper, material.sheets))
     sections.push_back(std::move(section));
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));

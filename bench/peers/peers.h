@@ -10,8 +10,9 @@
 #include "core/pose/closest_point.h"
 #include "core/pose/icp.h"
 
-// What a user would take instead of our own: well-known libraries, each at its best on one thread. Only
-// bench/peers/ sees their headers. A constant below is null where this build lacks the library (GLOVEBENCH_PEERS).
+// What a user would take instead of our own: well-known libraries, each on one thread. bench/README.md says how
+// each is used and what was not tried. Only bench/peers/ sees their headers. A constant below is null where this
+// build lacks the library (GLOVEBENCH_PEERS).
 
 namespace glovebench::bench {
 

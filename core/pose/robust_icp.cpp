@@ -53,17 +53,17 @@ double mean_distance(const RecycledVector<Pair>& pairs) {
 /// Tukey's biweight about zero, whose width is that many standard deviations, and those 1.4826 times the median of
 /// the absolute residuals. 4.685 is the textbook's, which keeps 95% of the efficiency of least squares under
 /// Gaussian noise. A narrower one pays where the posture is not quite right: a third of the points then do not fit,
-/// and are no noise. Measured on 37 frames with a looked-up posture, for 1, 0.7, 0.6 and 0.5 times the
-/// textbook's: 4.4, 2.8, 2.2 and 1.9 mm; with the true posture: 0.16, 0.16, 0.19 and 0.31 mm.
-constexpr double kTukeyWidth = 0.6 * 4.685;
+/// and are no noise. `glovebench_bench --benchmark_filter=icp/errors` measures widths (bench/README.md).
+constexpr double kTextbookWidth = 4.685;
 
 class Tukey {
  public:
-  explicit Tukey(RecycledVector<double> residuals) {
+  /// `width`: as a share of the textbook's.
+  Tukey(RecycledVector<double> residuals, double width) {
     const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
     std::nth_element(residuals.begin(), middle, residuals.end());
     // Never narrower than a tenth of a millimeter: without noise the median is rounding.
-    width_ = kTukeyWidth * std::max(1.4826 * *middle, 1e-4);
+    width_ = width * kTextbookWidth * std::max(1.4826 * *middle, 1e-4);
   }
   double weight(double residual) const {
     const double share = residual / width_;
@@ -86,7 +86,8 @@ Eigen::Isometry3d motion(const Eigen::Vector3d& turn, const Eigen::Vector3d& shi
 
 /// One Gauss-Newton step on the weighted distances: how to move the points towards the hand. Empty if they leave a
 /// motion open.
-std::optional<Eigen::Isometry3d> step_on_planes(const RecycledVector<Pair>& pairs, double tangential) {
+std::optional<Eigen::Isometry3d> step_on_planes(const RecycledVector<Pair>& pairs, double tangential,
+                                                double width) {
   using Vector6d = Eigen::Matrix<double, 6, 1>;
   RecycledVector<double> distances;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -95,7 +96,7 @@ std::optional<Eigen::Isometry3d> step_on_planes(const RecycledVector<Pair>& pair
     center += pair.p;
   }
   center /= static_cast<double>(pairs.size());
-  const Tukey tukey(distances);
+  const Tukey tukey(distances, width);
   Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
   Vector6d g = Vector6d::Zero();
   const auto add = [&](const Eigen::Vector3d& arm, const Eigen::Vector3d& direction, double residual,
@@ -135,7 +136,8 @@ std::optional<Eigen::Isometry3d> step_of_horn(const RecycledVector<Pair>& pairs)
 }
 
 /// Takes steps until they are done, or there is a reason to stop: false.
-bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& config, Alignment& result) {
+bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& config, double width,
+                Alignment& result) {
   matcher.cull(result.T_camera_hand);
   for (const Step& step : steps) {
     if (result.iterations == config.max_iterations) return true;
@@ -149,7 +151,7 @@ bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& 
     result.residual = mean_distance(pairs);
     // Planes that leave a motion open, such as a single flat patch, still have Horn's answer.
     std::optional<Eigen::Isometry3d> moved;
-    if (step.kind == Step::Kind::planes) moved = step_on_planes(pairs, step.tangential);
+    if (step.kind == Step::Kind::planes) moved = step_on_planes(pairs, step.tangential, width);
     if (!moved) moved = step_of_horn(pairs);
     if (!moved) {
       result.status = AlignmentStatus::degenerate_cloud;
@@ -164,20 +166,20 @@ bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& 
 }  // namespace
 
 Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> points,
-                       const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
+                       const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config, double width) {
   Alignment result;
   result.T_camera_hand = T_camera_hand_coarse;
   result.points = static_cast<int>(points.size());
   const size_t stride = std::clamp<size_t>(points.size() / kEnough, 1, kStride);
   Matcher some(model, hand, every_nth(points, stride), config);
   Matcher all(model, hand, {points.begin(), points.end()}, config);
-  if (!take_steps(some, kOnSome, config, result)) {
+  if (!take_steps(some, kOnSome, config, width, result)) {
     // What a part of the points cannot do, such as share a color with the hand, all of them may.
     result.T_camera_hand = T_camera_hand_coarse;
     result.iterations = 0;
-    if (!take_steps(all, kOnSome, config, result)) return result;
+    if (!take_steps(all, kOnSome, config, width, result)) return result;
   }
-  if (!take_steps(all, kOnAll, config, result)) return result;
+  if (!take_steps(all, kOnAll, config, width, result)) return result;
   all.match(result.T_camera_hand);
   const RecycledVector<Pair> pairs = pairs_of(all);
   if (pairs.size() < 3) {

@@ -182,12 +182,14 @@ std::vector<Measure> time_measures(const Timed& timed, const Roles& roles) {
              two = look_up(roles.two_stages), three = look_up(roles.three_stages),
              other = slowest_other(plain[roles.two_stages][kSmall]),
              align = percentile(times_ms(plain[roles.two_stages][kSmall], "align"), 0.5),
-             frame = percentile(times_ms(fast[roles.two_stages][kLarge]), 0.95);
-  if (!tiny || !large || !two || !three || !other || !align || !frame) return {};
+             frame = percentile(times_ms(fast[roles.two_stages][kLarge]), 0.95),
+             plain_frame = percentile(times_ms(plain[roles.two_stages][kLarge]), 0.95);
+  if (!tiny || !large || !two || !three || !other || !align || !frame || !plain_frame) return {};
   return {{"figure8.time_share", "", *two / *large, {}, true},
           {"figure8.tiny_time_share", "", *tiny / std::min({*large, *two, *three}), {}, true},
           {"figure8.alignment_over_slowest_other_small", "", *align / *other, {}, true},
-          {"frame.p95_ms_20_postures", "ms", *frame, {}, true}};
+          {"frame.p95_ms_20_postures", "ms", *frame, {}, true},
+          {"frame.p95_ms_20_postures_plain", "ms", *plain_frame, {}, true}};
 }
 
 std::vector<Setting> settings_of(const TrackerConfig& tracker, const std::vector<Cascade>& cascades) {

@@ -89,6 +89,22 @@ def check_charts(browser, scheme):
            f"{scheme}: the page is wider than the window")
 
 
+def check_claims(browser, scheme):
+    """Every claim's history can be opened, and one that changed shows what it was."""
+    ids = browser.execute_script("return [...document.querySelectorAll('#claims tr[id]')].map(row => row.id)")
+    expect(len(ids) > 30 and "claim-15-hz-plain" in ids, f"{scheme}: rows of claims: {ids}")
+    shown = browser.execute_script("""
+        const row = document.getElementById('claim-position-error-rises-slowly');
+        for (let details = row.querySelector('details'); details; details = details.parentElement.closest('details'))
+            details.open = true;
+        return row.querySelector('details').innerText;""")
+    for text in ["changed once", "d87120a", "81f65fc", "below 0.1", "within 0..0.1", "reproduced (a25e2d4"]:
+        expect(text in shown, f"{scheme}: a claim's history does not show {text}: {shown}")
+    without = browser.execute_script("return [...document.querySelectorAll('#claims tr[id]')].filter(row => "
+                                     "!row.querySelector('details.history li')).map(row => row.id)")
+    expect(without == [], f"{scheme}: claims without a history: {without}")
+
+
 def read_table(folder, name):
     """Rows as the page has them: numbers as numbers, empty cells as None."""
     def value(text):
@@ -200,6 +216,7 @@ def main():
                 open_page(browser, page, scheme)
                 check_silence(browser, page, scheme)
                 check_charts(browser, scheme)
+                check_claims(browser, scheme)
                 check_frames(browser, folder, scheme)
                 check_colors(browser, scheme, colors)
                 check_silence(browser, page, scheme)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/chart.h"
 #include "reports/csv.h"
 #include "reports/json_text.h"
 #include "reports/statistics_json.h"
@@ -16,28 +15,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<ClaimOutcome, 6> kOutcomes = {ClaimOutcome::reproduced,   ClaimOutcome::not_reproduced,
+constexpr std::array<ClaimOutcome, 7> kOutcomes = {ClaimOutcome::reproduced,   ClaimOutcome::not_reproduced,
                                                    ClaimOutcome::consistent,   ClaimOutcome::not_consistent,
-                                                   ClaimOutcome::inconclusive, ClaimOutcome::not_run};
+                                                   ClaimOutcome::inconclusive, ClaimOutcome::not_run,
+                                                   ClaimOutcome::withdrawn};
 
 bool has_failed(const ClaimVerdict& verdict) {
   return verdict.outcome == ClaimOutcome::not_reproduced || verdict.outcome == ClaimOutcome::not_consistent;
-}
-
-/// Of the page's style.
-std::string_view css_class(ClaimOutcome outcome) {
-  switch (outcome) {
-    case ClaimOutcome::reproduced:
-    case ClaimOutcome::consistent:
-      return "better";
-    case ClaimOutcome::not_reproduced:
-    case ClaimOutcome::not_consistent:
-      return "worse";
-    case ClaimOutcome::inconclusive:
-    case ClaimOutcome::not_run:
-      break;
-  }
-  return "unsure";
 }
 
 std::string with_unit(const std::string& text, const ClaimVerdict& verdict) {
@@ -68,13 +52,31 @@ TextTable verdict_table(const std::vector<ClaimVerdict>& verdicts) {
   return table;
 }
 
-constexpr std::string_view kExplanation =
-    "Each claim of the paper has a rule. Those about Figures 4 to 6 and 15 Hz were written down when first results "
-    "of "
-    "this program were known, the others before. A claim is reproduced if the whole "
-    "95% interval of what was measured satisfies the rule, not reproduced if none of it does, and inconclusive in "
-    "between; a number without an interval is judged by itself. Consistent says less: the experiment is not the "
-    "paper's.";
+Json or_null(const std::optional<std::string>& text) {
+  return text ? Json(*text) : Json();
+}
+
+Json history_json(const Claim& claim) {
+  Json history = Json::array();
+  for (const ClaimChange& change : claim.history) {
+    Json set = Json::object();
+    for (const std::string& field : change.set) set[field] = field_text(change.definition, field);
+    history.push_back({{"date", change.date},
+                       {"commit", or_null(change.commit)},
+                       {"set", std::move(set)},
+                       {"came_out", or_null(change.came_out)},
+                       {"why", change.why}});
+  }
+  return history;
+}
+
+Json judging_json() {
+  Json judging = Json::array();
+  for (const JudgingChange& change : claim_set().judging)
+    judging.push_back(
+        {{"date", change.date}, {"commit", or_null(change.commit)}, {"rule", change.rule}, {"why", change.why}});
+  return judging;
+}
 
 Json verdict_json(const ClaimVerdict& verdict) {
   const Claim& claim = verdict.claim;
@@ -97,7 +99,15 @@ Json verdict_json(const ClaimVerdict& verdict) {
           {"rule", to_string(claim.rule)},
           {"measure_name", claim.measure},
           {"measure", std::move(measure)},
-          {"if_not", claim.if_not}};
+          {"if_not", claim.if_not},
+          {"history", history_json(claim)}};
+}
+
+Json required_json(const RequiredClaims& count) {
+  return {{"hold", count.hold},
+          {"inconclusive", count.inconclusive},
+          {"failed", count.failed},
+          {"not_run", count.not_run}};
 }
 
 Json csv_row(const ClaimVerdict& verdict) {
@@ -137,8 +147,25 @@ std::string count_text(const std::vector<ClaimVerdict>& verdicts) {
   return fmt::format("{} claims: {}", verdicts.size(), fmt::join(counts, ", "));
 }
 
+std::string required_text(const std::vector<ClaimVerdict>& verdicts) {
+  const auto [hold, inconclusive, failed, not_run] = count_required(verdicts);
+  return fmt::format("{} required (*): {} hold, {} inconclusive, {} failed, {} not run",
+                     hold + inconclusive + failed + not_run, hold, inconclusive, failed, not_run);
+}
+
+std::string judging_text() {
+  const auto changed = std::ranges::count_if(claims(), [](const Claim& claim) { return change_count(claim) > 0; });
+  return fmt::format(
+      "{} The rules were written by the authors of this program: those about Figures 4 to 6 and 15 Hz when its "
+      "first "
+      "results were known, the others before. {} of the {} claims were changed after that; the history of each "
+      "says "
+      "when, why, and what had come out.",
+      claim_set().judging.back().rule, changed, claims().size());
+}
+
 std::string claims_table(const std::vector<ClaimVerdict>& verdicts) {
-  std::string text = count_text(verdicts) + " (* required)\n", notes;
+  std::string text = count_text(verdicts) + "\n" + required_text(verdicts) + "\n", notes;
   for (const ClaimVerdict& verdict : verdicts) {
     if (verdict.outcome == ClaimOutcome::not_run) continue;
     text +=
@@ -152,8 +179,8 @@ std::string claims_table(const std::vector<ClaimVerdict>& verdicts) {
 std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts) {
   if (!any_was_run(verdicts)) return "";
   const std::string not_run = ids_of(verdicts, ClaimOutcome::not_run);
-  return fmt::format("## Claims\n\n{}. {}\n\n{}\n{}", count_text(verdicts), kExplanation,
-                     to_markdown(verdict_table(verdicts)),
+  return fmt::format("## Claims\n\n{}. {}. {} `claims.json` holds the histories.\n\n{}\n{}", count_text(verdicts),
+                     required_text(verdicts), judging_text(), to_markdown(verdict_table(verdicts)),
                      not_run.empty() ? "" : fmt::format("Not run: {}.\n\n", not_run));
 }
 
@@ -168,33 +195,11 @@ std::string claims_json(const std::vector<ClaimVerdict>& verdicts) {
   Json json = Json::array();
   for (const ClaimVerdict& verdict : verdicts) json.push_back(verdict_json(verdict));
   return format_json({{"format", "glovebench-verdicts"},
-                      {"version", 1},
-                      {"required_claim_failed", required_claim_failed(verdicts)},
+                      {"version", 2},
+                      {"required_claim_failed", count_required(verdicts).failed > 0},
+                      {"required", required_json(count_required(verdicts))},
+                      {"judging", judging_json()},
                       {"verdicts", std::move(json)}});
-}
-
-std::string claims_section(const std::vector<ClaimVerdict>& verdicts) {
-  if (!any_was_run(verdicts)) return "";
-  std::string html = fmt::format(
-      "<h2>Claims</h2>\n<p>{}. {}</p>\n<div class=\"scroll\"><table class=\"claims\">\n<thead><tr>"
-      "<th class=\"name\">outcome</th><th class=\"name\">claim</th><th class=\"name\">paper</th>"
-      "<th>measured</th><th>holds if</th></tr></thead>\n<tbody>\n",
-      escape_html(count_text(verdicts)), escape_html(std::string(kExplanation)));
-  for (const ClaimVerdict& verdict : verdicts) {
-    if (verdict.outcome == ClaimOutcome::not_run) continue;
-    const Claim& claim = verdict.claim;
-    const std::string note = has_failed(verdict) ? "<br/><b>" + escape_html(claim.if_not) + "</b>" : "";
-    html += fmt::format(
-        "<tr><td class=\"name verdict {}\">{}{}</td><td class=\"name\">{}<br/><small>{}</small>{}</td>"
-        "<td class=\"name\">{}<br/><small>{}</small></td><td>{}</td><td>{}</td></tr>\n",
-        css_class(verdict.outcome), to_string(verdict.outcome), claim.required ? "<br/>required" : "",
-        escape_html(claim.claim), escape_html(claim.measured), note, escape_html(claim.paper_value),
-        escape_html(claim.source), escape_html(measured_text(verdict)), escape_html(rule_text(verdict)));
-  }
-  html += "</tbody></table></div>\n";
-  const std::string not_run = ids_of(verdicts, ClaimOutcome::not_run);
-  return html +
-         (not_run.empty() ? "" : fmt::format("<p class=\"legend\">Not run: {}.</p>\n", escape_html(not_run)));
 }
 
 }  // namespace glovebench::reports

@@ -14,8 +14,12 @@ namespace glovebench::reports {
 std::string measured_text(const ClaimVerdict& verdict);
 /// The rule with the measure's unit: "below 10 mm".
 std::string rule_text(const ClaimVerdict& verdict);
-/// "11 of 20 reproduced, ...", for a line above the claims.
+/// "20 claims: 11 reproduced, ...", for a line above the claims.
 std::string count_text(const std::vector<ClaimVerdict>& verdicts);
+/// "3 required (*): 2 hold, 1 inconclusive, 0 failed, 0 not run", for the line after it.
+std::string required_text(const std::vector<ClaimVerdict>& verdicts);
+/// How claims are judged, and what their histories tell, in sentences.
+std::string judging_text();
 
 /// Aligned text of at most 120 columns, and below it what to say of the claims that do not hold.
 std::string claims_table(const std::vector<ClaimVerdict>& verdicts);
@@ -23,9 +27,9 @@ std::string claims_table(const std::vector<ClaimVerdict>& verdicts);
 std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts);
 /// tables/claims.csv: one line a claim.
 std::string claims_csv(const std::vector<ClaimVerdict>& verdicts);
-/// claims.json: everything of every verdict.
+/// claims.json: everything of every verdict, the claims' histories, and how claims are and were judged.
 std::string claims_json(const std::vector<ClaimVerdict>& verdicts);
-/// A section for the page; empty if nothing was run.
+/// A section for the page, with the claims' histories. Claims that were not run are folded away.
 std::string claims_section(const std::vector<ClaimVerdict>& verdicts);
 
 }  // namespace glovebench::reports

@@ -23,6 +23,11 @@ ClaimVerdict example_verdict(ClaimOutcome outcome, std::optional<Measure> measur
   claim.rule = {.kind = Rule::Kind::below, .high = 2.5};
   claim.required = true;
   claim.if_not = "It is large.";
+  ClaimDefinition before = claim;
+  before.rule.high = 9;
+  claim.history = {
+      {"2026-01-02", "0123456", before, {"rule", "paper_value"}, "8 < 9 mm: reproduced", "First written."},
+      {"2026-01-03", std::nullopt, claim, {"rule"}, std::nullopt, "Nine is <large>."}};
   return {claim, std::move(measure), outcome};
 }
 
@@ -41,6 +46,12 @@ TEST(ClaimsReport, NumbersHaveFourDigitsAndTheirUnit) {
 TEST(ClaimsReport, CountsOutcomes) {
   std::vector<ClaimVerdict> verdicts = {kFailed[0], kNotRun[0], kNotRun[0]};
   EXPECT_EQ(count_text(verdicts), "3 claims: 1 not reproduced, 2 not run");
+  EXPECT_EQ(required_text(verdicts), "3 required (*): 0 hold, 0 inconclusive, 1 failed, 2 not run");
+  verdicts = {example_verdict(ClaimOutcome::reproduced, kLarge),
+              example_verdict(ClaimOutcome::inconclusive, kLarge), example_verdict(ClaimOutcome::withdrawn, {})};
+  EXPECT_EQ(count_text(verdicts), "3 claims: 1 reproduced, 1 inconclusive, 1 withdrawn");
+  EXPECT_EQ(required_text(verdicts), "2 required (*): 1 hold, 1 inconclusive, 0 failed, 0 not run");
+  EXPECT_THAT(claims_table(verdicts), HasSubstr("inconclusive   * fast"));
 }
 
 TEST(ClaimsReport, WhatDoesNotHoldIsSaidEverywhere) {
@@ -67,9 +78,45 @@ TEST(ClaimsReport, WhatHoldsHasNoExcuse) {
     EXPECT_THAT(text, Not(HasSubstr("It is large.")));
 }
 
-TEST(ClaimsReport, RunsWithoutClaimsHaveNoSection) {
+TEST(ClaimsReport, HistoriesAreTold) {
+  const std::string html = claims_section(kFailed);
+  for (const char* text : {"History: changed once", "<b>2026-01-02, commit 0123456</b>: First written.",
+                           "<br/>rule: <ins>below 9</ins>", "Came out: 8 &lt; 9 mm: reproduced",
+                           "<b>2026-01-03</b>: Nine is &lt;large&gt;.",
+                           "<br/>rule: <del>below 9</del> <ins>below 2.5</ins>", "Came out: no run published"})
+    EXPECT_THAT(html, HasSubstr(text));
+  const auto json = nlohmann::json::parse(claims_json(kFailed));
+  const auto& history = json["verdicts"][0]["history"];
+  ASSERT_EQ(history.size(), 2U);
+  EXPECT_EQ(history[0]["came_out"], "8 < 9 mm: reproduced");
+  EXPECT_EQ(history[1]["set"]["rule"], "below 2.5");
+  EXPECT_TRUE(history[1]["commit"].is_null());
+  EXPECT_EQ(json["judging"].size(), claim_set().judging.size());
+}
+
+TEST(ClaimsReport, EveryHistoryOfThisProgramIsOnThePage) {
+  const std::string html = claims_section(judge(claims(), all_measures(full_result())));
+  size_t entries = claim_set().judging.size();
+  for (const Claim& claim : claims()) {
+    EXPECT_THAT(html, HasSubstr("id=\"claim-" + claim.id + "\""));
+    entries += claim.history.size();
+  }
+  size_t found = 0;
+  for (size_t at = html.find("<li>"); at != std::string::npos; at = html.find("<li>", at + 1)) ++found;
+  EXPECT_EQ(found, entries);
+  EXPECT_THAT(html, HasSubstr("160 ms: not consistent (7bbb283)"));
+}
+
+TEST(ClaimsReport, AWithdrawnClaimStaysInTheTables) {
+  const std::vector<ClaimVerdict> verdicts = {example_verdict(ClaimOutcome::withdrawn, {}), kFailed[0]};
+  EXPECT_THAT(claims_table(verdicts), HasSubstr("withdrawn"));
+  EXPECT_THAT(claims_markdown(verdicts), HasSubstr("| withdrawn, required |"));
+  EXPECT_THAT(claims_section(verdicts), HasSubstr("verdict unsure\">withdrawn"));
+}
+
+TEST(ClaimsReport, RunsWithoutClaimsFoldThemAway) {
   EXPECT_EQ(claims_markdown(kNotRun), "");
-  EXPECT_EQ(claims_section(kNotRun), "");
+  EXPECT_THAT(claims_section(kNotRun), HasSubstr("<details><summary>Not run: 1</summary>"));
   const auto json = nlohmann::json::parse(claims_json(kNotRun));
   EXPECT_TRUE(json["verdicts"][0]["measure"].is_null());
   EXPECT_EQ(json["required_claim_failed"], false);

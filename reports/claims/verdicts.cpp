@@ -1,6 +1,7 @@
 #include "reports/claims/verdicts.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/tracker/tracker_config.h"
 #include "reports/claims/figure4_measures.h"
@@ -8,17 +9,41 @@
 namespace glovebench::reports {
 namespace {
 
-ClaimOutcome judge(const Claim& claim, const Measure& measure) {
-  if (!measure.value && !measure.interval) return ClaimOutcome::inconclusive;
-  const double low = measure.interval ? measure.interval->low : *measure.value;
-  const double high = measure.interval ? measure.interval->high : *measure.value;
-  const bool is_consistency = claim.kind == ClaimKind::consistency;
+bool is_interval(const ConfidenceInterval& interval) {
+  return std::isfinite(interval.low) && std::isfinite(interval.high) && interval.low <= interval.high;
+}
+
+/// 1 if the claim holds, -1 if it does not, 0 if neither can be said.
+int sign_of(const Rule& rule, const Measure& measure) {
+  if (!measure.value || !std::isfinite(*measure.value)) return 0;
+  if (!holds(rule, *measure.value)) return -1;
+  if (!measure.interval) return 1;
+  const double low = measure.interval->low, high = measure.interval->high;
+  if (!is_interval(*measure.interval)) return 0;
+  if (!meets(rule, low, high)) return -1;
   // A rule is an interval: it holds everywhere between two values with which it holds.
-  if (holds(claim.rule, low) && holds(claim.rule, high))
-    return is_consistency ? ClaimOutcome::consistent : ClaimOutcome::reproduced;
-  if (!meets(claim.rule, low, high))
-    return is_consistency ? ClaimOutcome::not_consistent : ClaimOutcome::not_reproduced;
+  return holds(rule, low) && holds(rule, high) ? 1 : 0;
+}
+
+ClaimOutcome outcome_of(const Claim& claim, const Measure& measure) {
+  const bool is_consistency = claim.kind == ClaimKind::consistency;
+  const int sign = sign_of(claim.rule, measure);
+  if (sign > 0) return is_consistency ? ClaimOutcome::consistent : ClaimOutcome::reproduced;
+  if (sign < 0) return is_consistency ? ClaimOutcome::not_consistent : ClaimOutcome::not_reproduced;
   return ClaimOutcome::inconclusive;
+}
+
+ClaimVerdict verdict_of(const Claim& claim, Measure measure) {
+  const ClaimOutcome outcome = claim.withdrawn ? ClaimOutcome::withdrawn : outcome_of(claim, measure);
+  if (measure.value && !std::isfinite(*measure.value)) measure.value.reset();
+  if (measure.interval && !is_interval(*measure.interval)) measure.interval.reset();
+  return {claim, std::move(measure), outcome};
+}
+
+/// Claims are about the paper's configuration. A run that does not say its own is taken for one of it.
+bool is_of_the_paper(const nlohmann::json& configuration) {
+  const auto tracker = configuration.find("tracker");
+  return tracker == configuration.end() || *tracker == to_json(profile("paper"));
 }
 
 }  // namespace
@@ -35,24 +60,20 @@ std::string_view to_string(ClaimOutcome outcome) {
       return "not consistent";
     case ClaimOutcome::inconclusive:
       return "inconclusive";
+    case ClaimOutcome::withdrawn:
+      return "withdrawn";
     case ClaimOutcome::not_run:
       break;
   }
   return "not run";
 }
 
-namespace {
-
-/// Claims are about the paper's configuration. A run that does not say its own is taken for one of it.
-bool is_of_the_paper(const nlohmann::json& configuration) {
-  const auto tracker = configuration.find("tracker");
-  return tracker == configuration.end() || *tracker == to_json(profile("paper"));
+bool are_claims_judged(const RunResult& result) {
+  return !result.configuration.value("quick", false) && is_of_the_paper(result.configuration);
 }
 
-}  // namespace
-
 std::vector<Measure> all_measures(const RunResult& result) {
-  if (result.configuration.value("quick", false) || !is_of_the_paper(result.configuration)) return {};
+  if (!are_claims_judged(result)) return {};
   std::vector<Measure> measures = figure4_measures(result);
   for (const StudyResult& study : result.studies)
     measures.insert(measures.end(), study.measures.begin(), study.measures.end());
@@ -63,24 +84,34 @@ std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vec
   std::vector<ClaimVerdict> verdicts;
   for (const Claim& claim : claims) {
     const auto measure = std::ranges::find(measures, claim.measure, &Measure::name);
-    if (measure == measures.end())
-      verdicts.push_back({claim, std::nullopt, ClaimOutcome::not_run});
+    if (measure != measures.end())
+      verdicts.push_back(verdict_of(claim, *measure));
     else
-      verdicts.push_back({claim, *measure, judge(claim, *measure)});
+      verdicts.push_back({claim, {}, claim.withdrawn ? ClaimOutcome::withdrawn : ClaimOutcome::not_run});
   }
   return verdicts;
 }
 
-bool required_claim_failed(const std::vector<ClaimVerdict>& verdicts) {
-  return std::ranges::any_of(verdicts, [](const ClaimVerdict& verdict) {
-    if (!verdict.claim.required) return false;
-    if (verdict.measure && !verdict.measure->value) return true;
-    return (verdict.outcome == ClaimOutcome::not_reproduced || verdict.outcome == ClaimOutcome::not_consistent);
-  });
+RequiredClaims count_required(const std::vector<ClaimVerdict>& verdicts) {
+  RequiredClaims count;
+  for (const auto& [claim, measure, outcome] : verdicts) {
+    if (!claim.required || outcome == ClaimOutcome::withdrawn) continue;
+    if (outcome == ClaimOutcome::not_run)
+      ++count.not_run;
+    else if (outcome == ClaimOutcome::reproduced || outcome == ClaimOutcome::consistent)
+      ++count.hold;
+    else if (outcome == ClaimOutcome::inconclusive && measure && measure->value)
+      ++count.inconclusive;
+    else
+      ++count.failed;
+  }
+  return count;
 }
 
 bool any_was_run(const std::vector<ClaimVerdict>& verdicts) {
-  return std::ranges::any_of(verdicts, [](const ClaimVerdict& v) { return v.outcome != ClaimOutcome::not_run; });
+  return std::ranges::any_of(verdicts, [](const ClaimVerdict& v) {
+    return v.outcome != ClaimOutcome::not_run && v.outcome != ClaimOutcome::withdrawn;
+  });
 }
 
 }  // namespace glovebench::reports

@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+
 #include "reports/example_result.h"
 
 namespace glovebench::reports {
@@ -41,7 +44,11 @@ TEST(Judge, WithoutAnIntervalByItsValue) {
 TEST(Judge, ByTheWholeInterval) {
   EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(8, 7, 9.9)}), ClaimOutcome::reproduced);
   EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(8, 7, 10)}), ClaimOutcome::inconclusive);
-  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 9, 14)}), ClaimOutcome::inconclusive);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 9, 14)}), ClaimOutcome::not_reproduced)
+      << "the number breaks the rule, whatever the interval";
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 7, 9)}), ClaimOutcome::not_reproduced);
+  EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(8, 10, 14)}), ClaimOutcome::not_reproduced)
+      << "no part of the interval holds";
   EXPECT_EQ(outcome_of(example_claim(kBelow10), {with_interval(12, 10, 14)}), ClaimOutcome::not_reproduced);
   EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(10, 6, 14)}), ClaimOutcome::reproduced);
   EXPECT_EQ(outcome_of(example_claim(kWithin), {with_interval(10, 1, 20)}), ClaimOutcome::inconclusive)
@@ -56,26 +63,89 @@ TEST(Judge, WhatWasNotRunOrHasNoValue) {
   EXPECT_TRUE(any_was_run(judge({example_claim(kBelow10)}, {{"m", "mm", {}, {}, false}})));
 }
 
-TEST(Judge, OnlyRequiredClaimsThatDoNotHoldFail) {
-  const auto fails = [](bool required, const std::vector<Measure>& measures, ClaimKind kind) {
-    return required_claim_failed(judge({example_claim(kBelow10, kind, required)}, measures));
-  };
-  const Measure bad = {"m", "mm", 11, {}, false};
-  EXPECT_TRUE(fails(true, {bad}, ClaimKind::reproduction));
-  EXPECT_TRUE(fails(true, {bad}, ClaimKind::consistency));
-  EXPECT_FALSE(fails(false, {bad}, ClaimKind::reproduction));
-  EXPECT_FALSE(fails(true, {with_interval(11, 9, 13)}, ClaimKind::reproduction)) << "inconclusive";
-  EXPECT_FALSE(fails(true, {}, ClaimKind::reproduction)) << "not run";
-  EXPECT_TRUE(fails(true, {{"m", "mm", {}, {}, false}}, ClaimKind::reproduction)) << "run, and without an answer";
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+Measure without_interval(std::optional<double> value) {
+  return {"m", "mm", value, {}, false};
+}
+
+/// What comes of a measure, by hand, for the rule "below 10".
+struct Case {
+  const char* what;
+  std::optional<Measure> measure;
+  int sign;                 ///< 1: holds, -1: does not, 0: inconclusive
+  RequiredClaims required;  ///< if the claim is required
+};
+const RequiredClaims kHolds = {.hold = 1}, kUnsure = {.inconclusive = 1}, kFails = {.failed = 1},
+                     kNotRun = {.not_run = 1};
+const std::vector<Case> kCases = {
+    {"holds, no interval", without_interval(9), 1, kHolds},
+    {"breaks, no interval", without_interval(11), -1, kFails},
+    {"on the bound of an open rule", without_interval(10), -1, kFails},
+    {"holds, the interval holds", with_interval(9, 8, 9.5), 1, kHolds},
+    {"holds, the interval crosses", with_interval(9, 8, 12), 0, kUnsure},
+    {"holds, the interval breaks", with_interval(9, 11, 12), -1, kFails},
+    {"breaks, the interval crosses", with_interval(11, 9, 12), -1, kFails},
+    {"breaks, the interval holds", with_interval(11, 8, 9), -1, kFails},
+    {"breaks, the interval breaks", with_interval(11, 10.5, 12), -1, kFails},
+    {"no number", without_interval({}), 0, kFails},
+    {"NaN", without_interval(kNan), 0, kFails},
+    {"an infinite number that satisfies the rule", without_interval(-kInfinite), 0, kFails},
+    {"NaN with an interval that holds", with_interval(kNan, 8, 9), 0, kFails},
+    {"holds, NaN in the interval", with_interval(9, kNan, 9.5), 0, kUnsure},
+    {"breaks, NaN in the interval", with_interval(11, 9, kNan), -1, kFails},
+    {"holds, an interval that ends before it begins", with_interval(9, 9.5, 8), 0, kUnsure},
+    {"not run", std::nullopt, 0, kNotRun},
+};
+
+TEST(Judge, EveryCombinationOfNumberAndInterval) {
+  for (const auto& [what, measure, sign, required] : kCases) {
+    const std::vector<Measure> measures = measure ? std::vector{*measure} : std::vector<Measure>{};
+    for (const ClaimKind kind : {ClaimKind::reproduction, ClaimKind::consistency}) {
+      const bool reproduction = kind == ClaimKind::reproduction;
+      const ClaimOutcome holds = reproduction ? ClaimOutcome::reproduced : ClaimOutcome::consistent;
+      const ClaimOutcome not_so = reproduction ? ClaimOutcome::not_reproduced : ClaimOutcome::not_consistent;
+      const ClaimOutcome neither = measure ? ClaimOutcome::inconclusive : ClaimOutcome::not_run;
+      for (const bool is_required : {false, true}) {
+        const auto verdicts = judge({example_claim(kBelow10, kind, is_required)}, measures);
+        EXPECT_EQ(verdicts[0].outcome, sign > 0 ? holds : sign < 0 ? not_so : neither) << what;
+        EXPECT_EQ(count_required(verdicts), is_required ? required : RequiredClaims{}) << what;
+      }
+    }
+  }
+}
+
+TEST(Judge, NumbersOfVerdictsCanBeWritten) {
+  for (const Case& example : kCases) {
+    if (!example.measure) continue;
+    const ClaimVerdict verdict = judge({example_claim(kBelow10)}, {*example.measure})[0];
+    EXPECT_TRUE(!verdict.measure->value || std::isfinite(*verdict.measure->value)) << example.what;
+    const auto& interval = verdict.measure->interval;
+    EXPECT_TRUE(!interval || (std::isfinite(interval->low) && interval->low <= interval->high)) << example.what;
+  }
+}
+
+TEST(Judge, AWithdrawnClaimIsNotJudgedAndFailsNothing) {
+  Claim claim = example_claim(kBelow10, ClaimKind::reproduction, true);
+  claim.withdrawn = true;
+  for (const auto& measures : {std::vector<Measure>{}, std::vector{without_interval(11)}}) {
+    const auto verdicts = judge({claim}, measures);
+    EXPECT_EQ(verdicts[0].outcome, ClaimOutcome::withdrawn);
+    EXPECT_EQ(count_required(verdicts), RequiredClaims{});
+    EXPECT_FALSE(any_was_run(verdicts));
+  }
 }
 
 TEST(Judge, OnlyTheConfigurationOfThePaperAndNoQuickRun) {
   RunResult result = full_result();
   result.configuration = {{"tracker", to_json(profile("paper"))}};
   EXPECT_FALSE(all_measures(result).empty());
+  EXPECT_TRUE(are_claims_judged(result));
   RunResult quick = result, other = result;
   quick.configuration["quick"] = true;
   other.configuration["tracker"]["method"] = "monocular_bbox";
+  EXPECT_FALSE(are_claims_judged(quick) || are_claims_judged(other));
   EXPECT_TRUE(all_measures(quick).empty());
   EXPECT_TRUE(all_measures(other).empty());
 }

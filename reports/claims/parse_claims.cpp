@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/parse_json.h"
+#include "reports/claims/claims.h"
+#include "reports/json_reader.h"
+
+namespace glovebench::reports {
+namespace {
+
+/// Rules are about millimetres, degrees, counts and ratios: a larger bound is a slip of the pen.
+constexpr double kLargestBound = 1e6;
+
+constexpr std::array<std::pair<std::string_view, Rule::Kind>, 5> kRules = {{{"below", Rule::Kind::below},
+                                                                            {"at_most", Rule::Kind::at_most},
+                                                                            {"above", Rule::Kind::above},
+                                                                            {"at_least", Rule::Kind::at_least},
+                                                                            {"within", Rule::Kind::within}}};
+
+Rule::Kind read_rule_kind(const JsonReader& json, const std::string& name) {
+  for (const auto& [known, kind] : kRules)
+    if (known == name) return kind;
+  json.fail("one of below, at_most, above, at_least, within");
+}
+
+Rule read_rule(const JsonReader& json) {
+  const auto members = json.members();
+  if (members.size() != 1) json.fail("an object with one rule");
+  const auto& [name, bound] = members.front();
+  Rule rule;
+  rule.kind = read_rule_kind(json, name);
+  if (rule.kind == Rule::Kind::within) {
+    const std::vector<JsonReader> bounds = bound.items();
+    if (bounds.size() != 2) bound.fail("the lower and the upper bound");
+    rule.low = bounds[0].number(-kLargestBound, kLargestBound);
+    rule.high = bounds[1].number(rule.low, kLargestBound);
+  } else {
+    const bool is_upper = rule.kind == Rule::Kind::below || rule.kind == Rule::Kind::at_most;
+    (is_upper ? rule.high : rule.low) = bound.number(-kLargestBound, kLargestBound);
+  }
+  return rule;
+}
+
+ClaimKind read_kind(const JsonReader& json) {
+  const std::string name = json.text();
+  for (const ClaimKind kind : {ClaimKind::reproduction, ClaimKind::consistency})
+    if (to_string(kind) == name) return kind;
+  json.fail("reproduction or consistency");
+}
+
+/// One line that is not empty.
+std::string read_sentence(const JsonReader& json) {
+  const std::string text = json.text();
+  if (text.empty() || text.find_first_of("\r\n") != std::string::npos) json.fail("a line of text");
+  return text;
+}
+
+bool consists_of(const std::string& text, size_t min, size_t max, std::string_view letters) {
+  return text.size() >= min && text.size() <= max && text.find_first_not_of(letters) == std::string::npos;
+}
+
+std::string read_id(const JsonReader& json, const std::vector<Claim>& before) {
+  const std::string id = json.text();
+  if (!consists_of(id, 1, 40, "abcdefghijklmnopqrstuvwxyz0123456789-"))
+    json.fail("lower-case letters, digits and hyphens, 40 at most");
+  if (std::ranges::find(before, id, &Claim::id) != before.end()) json.fail("an id that has not been before");
+  return id;
+}
+
+/// The fields of a definition by their names.
+struct Field {
+  std::string_view name;
+  void (*read)(ClaimDefinition& definition, const JsonReader& json);
+  bool (*equal)(const ClaimDefinition& a, const ClaimDefinition& b);
+};
+
+template <auto member, auto read_value>
+constexpr Field field(std::string_view name) {
+  return {name, [](ClaimDefinition& definition, const JsonReader& json) { definition.*member = read_value(json); },
+          [](const ClaimDefinition& a, const ClaimDefinition& b) { return a.*member == b.*member; }};
+}
+
+std::string read_text(const JsonReader& json) {
+  return json.text();
+}
+bool read_boolean(const JsonReader& json) {
+  return json.boolean();
+}
+
+constexpr std::array<Field, 10> kFields = {field<&ClaimDefinition::claim, read_sentence>("claim"),
+                                           field<&ClaimDefinition::source, read_sentence>("source"),
+                                           field<&ClaimDefinition::paper_value, read_text>("paper_value"),
+                                           field<&ClaimDefinition::measured, read_sentence>("measured"),
+                                           field<&ClaimDefinition::measure, read_sentence>("measure"),
+                                           field<&ClaimDefinition::rule, read_rule>("rule"),
+                                           field<&ClaimDefinition::kind, read_kind>("kind"),
+                                           field<&ClaimDefinition::required, read_boolean>("required"),
+                                           field<&ClaimDefinition::withdrawn, read_boolean>("withdrawn"),
+                                           field<&ClaimDefinition::if_not, read_sentence>("if_not")};
+
+std::string read_date(const JsonReader& json, const std::string& before) {
+  const std::string date = json.text();
+  const bool is_date = date.size() == 10 && date[4] == '-' && date[7] == '-' &&
+                       consists_of(date.substr(0, 4) + date.substr(5, 2) + date.substr(8), 8, 8, "0123456789");
+  if (!is_date) json.fail("a date, YYYY-MM-DD");
+  if (date < before) json.fail(fmt::format("{} or later, as the entry before", before));
+  return date;
+}
+
+std::optional<std::string> read_commit(const JsonReader& json, bool is_newest) {
+  if (json.is_null() && is_newest) return std::nullopt;
+  const bool is_commit = json.is_text() && consists_of(json.text(), 7, 40, "0123456789abcdef");
+  if (!is_commit) json.fail("a commit, 7 to 40 hexadecimal digits, or in the newest entry null");
+  return json.text();
+}
+
+/// Sets the fields that a change names: all of them in the first one, only others than before in a later one.
+void apply(const JsonReader& set, bool is_first, ClaimChange& change) {
+  const ClaimDefinition before = change.definition;
+  for (const auto& [name, value] : set.members()) {
+    const auto known = std::ranges::find(kFields, name, &Field::name);
+    if (known == kFields.end()) set.fail(fmt::format("fields of a claim, which {} is not", name));
+    known->read(change.definition, value);
+    if (!is_first && known->equal(before, change.definition)) value.fail("another value than before");
+    change.set.push_back(name);
+  }
+  if (is_first)
+    for (const Field& field : kFields) set[field.name];
+}
+
+ClaimChange read_change(const JsonReader& json, const ClaimChange* before, bool is_newest) {
+  json.expect_keys({"date", "commit", "set", "came_out", "why"});
+  ClaimChange change;
+  if (before) change.definition = before->definition;
+  change.date = read_date(json["date"], before ? before->date : "");
+  change.commit = read_commit(json["commit"], is_newest);
+  apply(json["set"], before == nullptr, change);
+  if (!json["came_out"].is_null()) change.came_out = read_sentence(json["came_out"]);
+  change.why = read_sentence(json["why"]);
+  return change;
+}
+
+std::vector<ClaimChange> read_history(const JsonReader& json) {
+  std::vector<ClaimChange> history;
+  const std::vector<JsonReader> items = json.items();
+  if (items.empty()) json.fail("at least the entry that writes the claim");
+  for (const JsonReader& item : items)
+    history.push_back(
+        read_change(item, history.empty() ? nullptr : &history.back(), history.size() + 1 == items.size()));
+  return history;
+}
+
+Claim read_claim(const JsonReader& json, const std::vector<Claim>& before) {
+  json.expect_keys({"id", "claim", "source", "paper_value", "measured", "measure", "rule", "kind", "required",
+                    "withdrawn", "if_not", "history"});
+  Claim claim;
+  claim.id = read_id(json["id"], before);
+  claim.history = read_history(json["history"]);
+  for (const Field& field : kFields) {
+    field.read(claim, json[field.name]);
+    if (!field.equal(claim, claim.history.back().definition))
+      json[field.name].fail("that of the newest entry of its history");
+  }
+  return claim;
+}
+
+std::vector<JudgingChange> read_judging(const JsonReader& json) {
+  std::vector<JudgingChange> judging;
+  const std::vector<JsonReader> items = json.items();
+  if (items.empty()) json.fail("at least one entry");
+  for (const JsonReader& item : items) {
+    item.expect_keys({"date", "commit", "rule", "why"});
+    judging.push_back({read_date(item["date"], judging.empty() ? "" : judging.back().date),
+                       read_commit(item["commit"], judging.size() + 1 == items.size()), read_sentence(item["rule"]),
+                       read_sentence(item["why"])});
+  }
+  return judging;
+}
+
+}  // namespace
+
+ClaimSet parse_claims(const std::string& text, const std::string& where) {
+  const nlohmann::json document = parse_json(text, where);
+  const JsonReader json(document, where);
+  json["format"].expect_text("glovebench-claims");
+  json["version"].integer(2, 2);
+  json.expect_keys({"format", "version", "judging", "claims"});
+  ClaimSet set;
+  set.judging = read_judging(json["judging"]);
+  for (const JsonReader& item : json["claims"].items()) set.claims.push_back(read_claim(item, set.claims));
+  return set;
+}
+
+}  // namespace glovebench::reports
