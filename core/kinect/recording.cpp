@@ -51,17 +51,17 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
   const Pair& pair = pairs_[next_++];
   const PinholeCamera &ir = calibration_.ir, &rgb = calibration_.rgb;
   try {
-    return DeviceFrame{.raw_disparity = decode_pgm(read_image(pair.depth), ir.width, ir.height, pair.depth),
-                       .color = decode_ppm(read_image(pair.color), rgb.width, rgb.height, pair.color),
-                       .depth_timestamp_us = pair.depth_us,
-                       .color_timestamp_us = pair.color_us};
+    const std::string depth = read_file(pair.depth), color = read_file(pair.color);
+    DeviceFrame frame{.raw_disparity = decode_pgm(depth, ir.width, ir.height, pair.depth),
+                      .color = decode_ppm(color, rgb.width, rgb.height, pair.color),
+                      .depth_timestamp_us = pair.depth_us,
+                      .color_timestamp_us = pair.color_us};
+    files_.expect_content(fs::path(pair.depth).filename(), depth);
+    files_.expect_content(fs::path(pair.color).filename(), color);
+    return frame;
   } catch (const Error& e) {
     throw FrameError(e.what());
   }
-}
-
-std::string RecordingDevice::read_image(const std::string& path) const {
-  return files_.read(fs::path(path).filename());
 }
 
 RecordingWriter::RecordingWriter(const std::string& folder, const RgbdCalibration& calibration)
