@@ -55,8 +55,12 @@ class FileSet {
   /// Throws BrokenSet if the manifest does not name the file or the file is not what the manifest says; Error if it
   /// cannot be read or is larger.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
+  /// Throws BrokenSet if the manifest names the file and says that its content is another.
+  void expect_content(const std::string& name, std::string_view content) const;
 
  private:
+  [[noreturn]] void fail(const ManifestEntry& entry) const;
+
   std::string folder_;
   std::optional<std::vector<ManifestEntry>> files_;
 };

@@ -141,6 +141,15 @@ TEST(FileSet, takes_only_what_the_manifest_names_and_as_it_says) {
   EXPECT_THAT([&] { set.read("a", 0); }, ThrowsMessage<Error>(HasSubstr("more than 0 bytes")));
 }
 
+TEST(FileSet, compares_content_that_was_read_elsewhere) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a"}, "");
+  const FileSet set(folder.path());
+  set.expect_content("a", "a");
+  set.expect_content("other", "x");
+  EXPECT_THAT([&] { set.expect_content("a", "b"); }, ThrowsMessage<BrokenSet>(HasSubstr(folder / "a")));
+}
+
 TEST(FileSet, without_a_manifest_is_read_as_it_is) {
   const TestFolder folder;
   write_file(folder / "a", "by hand");

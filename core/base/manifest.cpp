@@ -88,8 +88,18 @@ std::string FileSet::read(const std::string& name, uint64_t max_bytes) const {
   // The place once more: the writer may have moved the file there since.
   for (const std::string& at : {path(name), staged_path(folder_, name), path(name)})
     if (std::optional<std::string> content = content_of(at, *entry, max_bytes)) return *std::move(content);
-  throw BrokenSet(path(name), "content", "a missing, changed or damaged file",
-                  fmt::format("{} bytes of hash {}, as manifest.json says", entry->bytes, entry->hash));
+  fail(*entry);
+}
+
+void FileSet::expect_content(const std::string& name, std::string_view content) const {
+  if (!files_) return;
+  const auto entry = std::ranges::find(*files_, name, &ManifestEntry::name);
+  if (entry != files_->end() && (content.size() != entry->bytes || hash_text(content) != entry->hash)) fail(*entry);
+}
+
+void FileSet::fail(const ManifestEntry& entry) const {
+  throw BrokenSet(path(entry.name), "content", "a missing, changed or damaged file",
+                  fmt::format("{} bytes of hash {}, as manifest.json says", entry.bytes, entry.hash));
 }
 
 }  // namespace glovebench

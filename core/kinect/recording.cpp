@@ -54,12 +54,15 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
   if (next_ == pairs_.size()) return std::nullopt;
   const Pair& pair = pairs_[next_++];
   const PinholeCamera &ir = calibration_.ir, &rgb = calibration_.rgb;
-  const std::string depth = files_.path(pair.depth), color = files_.path(pair.color);
   try {
-    return DeviceFrame{.raw_disparity = decode_pgm(read_image(pair.depth, ir), ir.width, ir.height, depth),
-                       .color = decode_ppm(read_image(pair.color, rgb), rgb.width, rgb.height, color),
-                       .depth_timestamp_us = pair.depth_us,
-                       .color_timestamp_us = pair.color_us};
+    const std::string depth = read_image(pair.depth, ir), color = read_image(pair.color, rgb);
+    DeviceFrame frame{.raw_disparity = decode_pgm(depth, ir.width, ir.height, files_.path(pair.depth)),
+                      .color = decode_ppm(color, rgb.width, rgb.height, files_.path(pair.color)),
+                      .depth_timestamp_us = pair.depth_us,
+                      .color_timestamp_us = pair.color_us};
+    files_.expect_content(pair.depth, depth);
+    files_.expect_content(pair.color, color);
+    return frame;
   } catch (const Error& e) {
     throw FrameError(e.what());
   }
@@ -68,7 +71,8 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
 std::string RecordingDevice::read_image(const std::string& name, const PinholeCamera& camera) const {
   // The most that the file of such an image holds, and a little: decoding tells of that, and no more is read.
   constexpr uint64_t kBytesPerPixel = 4, kOthers = 4096;
-  return files_.read(name, kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers);
+  return read_file(files_.path(name),
+                   kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers);
 }
 
 RecordingWriter::RecordingWriter(const std::string& folder, const RgbdCalibration& calibration)

@@ -34,8 +34,8 @@ class RecordingDevice : public Device {
   RecordingDevice(const std::string& folder, const RgbdCalibration& calibration);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
-  /// Throws FrameError naming the image file and what is wrong with it: also if the manifest does not name the
-  /// image, or with another hash.
+  /// Throws FrameError naming the image file and what is wrong with it: also if the manifest has another hash for
+  /// it. An image that the manifest does not name was added by hand, and is read as it is.
   std::optional<DeviceFrame> next_frame() override;
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }

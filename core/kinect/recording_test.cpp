@@ -95,7 +95,7 @@ TEST_F(Recording, KeepsAColorImageThatTwoDepthImagesShareOnce) {
   DeviceFrame first = frame(1'000'000, 1'010'000), second = frame(1'033'000, 1'010'000);
   second.color = first.color;
   record({first, second});
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2 + 1 + 2);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 2 + 1 + 3);
   RecordingDevice device(folder_);
   EXPECT_EQ(device.next_frame()->color, first.color);
   EXPECT_EQ(device.next_frame()->color, first.color);
@@ -186,6 +186,16 @@ TEST_F(Recording, GoesOnAfterAFrameThatIsDamaged) {
   EXPECT_TRUE(device.next_frame());
   EXPECT_THROW(device.next_frame(), FrameError);
   EXPECT_EQ(device.next_frame()->depth_timestamp_us, 1'066'000);
+}
+
+TEST_F(Recording, NoticesAnImageThatIsAnother) {
+  record({frame(1'000'000, 1'001'000)});
+  std::string color = read_file(path("r-1.001000-60060000.ppm"));
+  color.back() = static_cast<char>(color.back() ^ 1);
+  write_file(path("r-1.001000-60060000.ppm"), color);
+  EXPECT_TRUE(mentions(play_error(), "r-1.001000-60060000.ppm: content: found a missing, changed or damaged file"));
+  fs::remove(path("manifest.json"));
+  EXPECT_EQ(play_error(), "") << "a recording of fakenect's own";
 }
 
 TEST_F(Recording, TakesACalibrationFromElsewhere) {

@@ -68,10 +68,9 @@ auto read_provenance(const FileSet& set, const Read& read) {
 
 /// The replaced baseline in a few words; null if there was none.
 Json describe_replaced(const std::string& folder) {
-  const FileSet set(folder);
-  if (!set.has(kResults)) return nullptr;
-  const std::string text = read_of(set, kResults);
-  return {{"commit", reports::parse_results(text, set.path(kResults)).commit}, {"results_hash", hash_text(text)}};
+  if (!fs::exists(in(folder, kResults))) return nullptr;
+  const reports::RunResult old = reports::read_results(in(folder, kResults));
+  return {{"commit", old.commit}, {"results_hash", hash_file(in(folder, kResults))}};
 }
 
 void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
@@ -91,9 +90,8 @@ void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
 }
 
 void require_same_truths(const std::string& folder, const reports::NamedResult& run) {
-  const FileSet set(folder);
-  if (!set.has(kResults)) return;
-  const reports::RunResult old = reports::parse_results(read_of(set, kResults), set.path(kResults));
+  if (!fs::exists(in(folder, kResults))) return;
+  const reports::RunResult old = reports::read_results(in(folder, kResults));
   for (const auto& [name, hash] : run.result.inputs.truths) {
     const auto found = old.inputs.truths.find(name);
     if (found == old.inputs.truths.end() || found->second == hash) continue;
@@ -191,10 +189,10 @@ Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file)
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times) {
   require_whole_suite(run, suite);
+  WholeFiles files(folder);  // first: it finishes an update that a kill ended
   require_same_truths(folder, run);
   const Json replaced = describe_replaced(folder);
   const std::string results = reports::results_json(run.result);
-  WholeFiles files(folder);
   files.add(kProvenance, provenance_json(run, hash_text(results), times, replaced));
   if (speed.empty()) files.keep(kSpeed);
   if (!speed.empty()) files.add(kSpeed, reports::speed_json(speed));

@@ -18,9 +18,8 @@ namespace glovebench::eval {
 ///   speed.json        ratios to the plain implementations; may be missing
 ///   provenance.json   what made it: commit, date, compiler, processor with the times of the tracker's stages; and
 ///                     what it replaced
-///   manifest.json     of results, speed and provenance, which are one set (core/base/file_set.h); may be missing
-///   in
-///                     baselines of before
+///   manifest.json     names and hashes of results, speed and provenance, which are one set (core/base/file_set.h);
+///                     an older baseline has none
 struct Baseline {
   reports::NamedResult results;
   std::optional<reports::NoiseFloor> noise_floor;

@@ -13,6 +13,7 @@
 #include "render/montage.h"
 #include "render/pictures.h"
 #include "reports/estimates.h"
+#include "reports/json_reader.h"
 #include "reports/tables.h"
 
 namespace glovebench::eval {

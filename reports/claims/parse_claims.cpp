@@ -32,7 +32,7 @@ Rule read_rule(const JsonReader& json) {
   Rule rule;
   rule.kind = read_rule_kind(json, name);
   if (rule.kind == Rule::Kind::within) {
-    const std::vector<JsonReader> bounds = bound.items();
+    const JsonItems bounds = bound.items();
     if (bounds.size() != 2) bound.fail("the lower and the upper bound");
     rule.low = bounds[0].number(-kLargestBound, kLargestBound);
     rule.high = bounds[1].number(rule.low, kLargestBound);
@@ -144,8 +144,8 @@ ClaimChange read_change(const JsonReader& json, const ClaimChange* before, bool 
 
 std::vector<ClaimChange> read_history(const JsonReader& json) {
   std::vector<ClaimChange> history;
-  const std::vector<JsonReader> items = json.items();
-  if (items.empty()) json.fail("at least the entry that writes the claim");
+  const JsonItems items = json.items();
+  if (items.size() == 0) json.fail("at least the entry that writes the claim");
   for (const JsonReader& item : items)
     history.push_back(
         read_change(item, history.empty() ? nullptr : &history.back(), history.size() + 1 == items.size()));
@@ -168,8 +168,8 @@ Claim read_claim(const JsonReader& json, const std::vector<Claim>& before) {
 
 std::vector<JudgingChange> read_judging(const JsonReader& json) {
   std::vector<JudgingChange> judging;
-  const std::vector<JsonReader> items = json.items();
-  if (items.empty()) json.fail("at least one entry");
+  const JsonItems items = json.items();
+  if (items.size() == 0) json.fail("at least one entry");
   for (const JsonReader& item : items) {
     item.expect_keys({"date", "commit", "rule", "why"});
     judging.push_back({read_date(item["date"], judging.empty() ? "" : judging.back().date),
