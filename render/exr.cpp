@@ -8,10 +8,15 @@
 #include <ImfStdIO.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
+#include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
+#include "core/camera/pinhole_camera.h"
 #include "render/lighting.h"
 
 namespace glovebench::render {
@@ -113,6 +118,22 @@ FrameLayers join(const Channels& channels) {
   return layers;
 }
 
+constexpr uint64_t kLargestFile = uint64_t{64} << 20;  // bytes
+constexpr std::array<std::string_view, 7> kChannels = {"R", "G", "B", "Z", "label", "tracker.Z", "tracker.label"};
+
+/// Throws Error unless there is room for all channels of an image in proportion to its file (core/README.md).
+void expect_size(const Imath::Box2i& window, uint64_t file_bytes, const std::string& path) {
+  constexpr int64_t kBytesPerPixel = 42;  // of the channels and of what is made of them
+  const int64_t width = int64_t{window.max.x} + 1, height = int64_t{window.max.y} + 1;
+  const bool is_frame =
+      window.min == Imath::V2i(0, 0) && width > 0 && height > 0 && width <= kMostSide_px && height <= kMostSide_px;
+  const auto room = static_cast<int64_t>((uint64_t{15} << 20) + 16 * file_bytes);
+  if (!is_frame || width * height * kBytesPerPixel > room) {
+    throw Error(path, "size", fmt::format("{}x{} pixels in {} bytes", width, height, file_bytes),
+                "an image that begins at (0, 0) and is not much larger than its file");
+  }
+}
+
 /// OpenEXR's view of the channels' memory, for writing and for reading.
 Imf::FrameBuffer frame_buffer(Channels& channels) {
   Imf::FrameBuffer buffer;
@@ -144,14 +165,18 @@ void write_exr(const std::string& path, const FrameLayers& layers) {
 }
 
 FrameLayers read_exr(const std::string& path) {
-  const std::string content = read_file(path);
+  const std::string content = read_file(path, kLargestFile);
   try {
     Imf::StdISStream stream;
     stream.str(content);
     Imf::InputFile file(stream);
     const Imath::Box2i window = file.header().dataWindow();
+    expect_size(window, content.size(), path);
     Channels channels{window.max.x + 1, window.max.y + 1, {}, {}};
     for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it) {
+      if (std::ranges::find(kChannels, it.name()) == kChannels.end()) {
+        throw Error(path, "channel", quoted_excerpt(it.name()), "those of a frame");
+      }
       if (it.channel().type == Imf::UINT) {
         channels.integers[it.name()] = Image<uint32_t>(channels.width, channels.height);
       } else {
@@ -161,6 +186,8 @@ FrameLayers read_exr(const std::string& path) {
     file.setFrameBuffer(frame_buffer(channels));
     file.readPixels(0, channels.height - 1);
     return join(channels);
+  } catch (const Error&) {
+    throw;
   } catch (const std::exception& failure) {
     throw Error(path, "content", failure.what(), "a readable OpenEXR file");
   }

@@ -66,5 +66,15 @@ TEST_F(Exr, RefusesBadInput) {
   EXPECT_THROW(read_exr(path_), Error);
 }
 
+TEST_F(Exr, RefusesAnImageThatIsMuchLargerThanItsFile) {
+  FrameLayers black;
+  black.depth = DepthImage(640, 480);
+  write_exr(path_, black);
+  EXPECT_EQ(read_exr(path_).depth, black.depth) << "that of a Kinect is always read";
+  black.depth = DepthImage(2100, 1000);
+  write_exr(path_, black);
+  EXPECT_THROW(read_exr(path_), Error);
+}
+
 }  // namespace
 }  // namespace glovebench::render

@@ -8,7 +8,7 @@
 namespace glovebench {
 
 /// Files are refused from this size on where nobody says what they may hold.
-inline constexpr uint64_t kLargestUnknownFile = uint64_t{64} << 20;
+inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// The whole content of a regular file or a pipe (InputFile). Throws Error if it is missing, cannot be read or is
 /// larger than `max_bytes`, of which a reader says how many its files may have (core/README.md).
