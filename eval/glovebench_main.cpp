@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <system_error>
 
 #include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/program_info.h"
+#include "eval/say.h"
 #include "reports/comparison/pairing.h"
 
 namespace {
@@ -53,7 +56,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return program.exit(e);  // --help, --version
   } catch (const CLI::ParseError& e) {
-    fmt::print(stderr, "glovebench: {} (see glovebench --help)\n", describe(program, e));
+    glovebench::eval::say("glovebench: {} (see glovebench --help)\n", describe(program, e));
     return kUsageError;
   }
   return exit_code;
@@ -63,16 +66,20 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is an Error like a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading what is said ends no work
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to file");
+    return exit_code;
   } catch (const glovebench::reports::Incomparable& e) {
-    fmt::print(stderr, "glovebench: {}\n", e.what());
+    glovebench::eval::say("glovebench: {}\n", e.what());
     return kIncomparable;
   } catch (const glovebench::Error& e) {
-    fmt::print(stderr, "glovebench: {}\n", e.what());
+    glovebench::eval::say("glovebench: {}\n", e.what());
     return kUsageError;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "glovebench: internal error: {}\n", e.what());
+    const char* const kind = std::ferror(stdout) != 0 ? "stdout" : "internal error";
+    glovebench::eval::say("glovebench: {}: {}\n", kind, e.what());
     return kUsageError;
   }
 }

@@ -11,6 +11,11 @@ void note_wish(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
+/// A terminal that is closed may say so several times: by the kernel, and by its shell.
+void note_hang_up(int) {
+  wish = 1;
+}
+
 }  // namespace
 
 Interruption::Interruption() {
@@ -20,11 +25,17 @@ Interruption::Interruption() {
   once.sa_flags = SA_RESTART;
   sigaction(SIGINT, &once, &before_int_);
   sigaction(SIGTERM, &once, &before_term_);
+  sigaction(SIGHUP, nullptr, &before_hup_);
+  if (before_hup_.sa_handler == SIG_IGN) return;  // nohup: it goes on without its terminal
+  struct sigaction always = once;
+  always.sa_handler = note_hang_up;
+  sigaction(SIGHUP, &always, nullptr);
 }
 
 Interruption::~Interruption() {
   sigaction(SIGINT, &before_int_, nullptr);
   sigaction(SIGTERM, &before_term_, nullptr);
+  sigaction(SIGHUP, &before_hup_, nullptr);
 }
 
 bool Interruption::wished() {

@@ -4,8 +4,8 @@
 
 namespace glovebench::eval {
 
-/// While it lives, the first SIGINT (Ctrl-C) or SIGTERM is a wish that can be asked for; the second of
-/// either ends the program.
+/// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal was closed) are a wish that can be asked for.
+/// The second SIGINT or SIGTERM ends the program; SIGHUP never does, and where it was ignored (nohup) it still is.
 class Interruption {
  public:
   Interruption();
@@ -16,7 +16,7 @@ class Interruption {
   static bool wished();
 
  private:
-  struct sigaction before_int_, before_term_;
+  struct sigaction before_int_, before_term_, before_hup_;
 };
 
 }  // namespace glovebench::eval

@@ -24,5 +24,27 @@ TEST(InterruptionDeathTest, SecondSignalEndsTheProgram) {
       EXPECT_EXIT(raise_both(first, second), testing::KilledBySignal(second), "") << first;
 }
 
+TEST(InterruptionDeathTest, AHangUpIsAWishHoweverOftenItComes) {
+  EXPECT_EXIT(
+      {
+        const Interruption interruption;
+        for (int i = 0; i < 3; ++i) std::raise(SIGHUP);
+        if (!Interruption::wished()) std::exit(1);
+        std::raise(SIGINT);
+        std::raise(SIGTERM);
+      },
+      testing::KilledBySignal(SIGTERM), "");
+}
+
+TEST(Interruption, IgnoresAHangUpThatIsIgnoredAlready) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  {
+    const Interruption interruption;
+    std::raise(SIGHUP);
+    EXPECT_FALSE(Interruption::wished());
+  }
+  EXPECT_EQ(std::signal(SIGHUP, before), SIG_IGN);
+}
+
 }  // namespace
 }  // namespace glovebench::eval

@@ -1,4 +1,5 @@
 #include "eval/progress.h"
+#include "eval/say.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -17,7 +18,7 @@ Progress::Progress(std::string title, bool quiet)
     : title_(std::move(title)), enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() {
-  if (last_percent_ >= 0) fmt::print(stderr, "\r\x1b[K");
+  if (last_percent_ >= 0) say("\r\x1b[K");
 }
 
 void Progress::show(double share) {
@@ -29,8 +30,7 @@ void Progress::show(double share) {
   last_percent_ = percent;
   const int filled = kWidth * percent / 100;
   const double left = share > 0 ? elapsed.count() * (1 - share) / share : 0;
-  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{: <{}}] {:3d}%  {:.0f} s left", title_, "", filled, "", kWidth - filled,
-             percent, left);
+  say("\r\x1b[K{} [{:#<{}}{: <{}}] {:3d}%  {:.0f} s left", title_, "", filled, "", kWidth - filled, percent, left);
   std::fflush(stderr);
 }
 

@@ -15,6 +15,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/name.h"
+#include "eval/say.h"
 #include "reports/comparison/pairing.h"
 
 namespace glovebench::eval {
@@ -112,7 +113,7 @@ std::optional<std::string> RunFolder::load(const std::string& key) const {
   if (bytes.substr(0, content) == heading(key, std::string_view(bytes).substr(content)))
     return bytes.substr(content);
   std::call_once(told_, [&] {
-    fmt::print(stderr, "glovebench: {} is cut short or of another version of the program: made anew, as any such\n",
+    say("glovebench: {} is cut short or of another version of the program: made anew, as any such\n",
                path);
   });
   fs::remove_all(path, ignored);

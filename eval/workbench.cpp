@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "eval/color_table_cache.h"
 #include "eval/progress.h"
+#include "eval/say.h"
 #include "eval/share.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
@@ -103,7 +104,7 @@ DatabaseCache Workbench::database_cache() const {
   cache.source_hash = render::database_source_hash();
   cache.threads = config_.threads;
   cache.memory = config_.memory;
-  cache.message = [](const std::string& text) { fmt::print(stderr, "glovebench: {}\n", text); };
+  cache.message = [](const std::string& text) { say("glovebench: {}\n", text); };
   return cache;
 }
 

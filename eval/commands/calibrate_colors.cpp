@@ -10,6 +10,7 @@
 #include "eval/commands/command.h"
 #include "eval/commands/track_source.h"
 #include "eval/progress.h"
+#include "eval/say.h"
 #include "render/pictures.h"
 #include "reports/json_text.h"
 
@@ -70,7 +71,7 @@ struct CalibrateColors {
         frame = source.device->next_frame();
         if (!frame) break;
       } catch (const FrameError& e) {
-        if (!common.quiet) fmt::print(stderr, "glovebench: skipped: {}\n", e.what());
+        if (!common.quiet) say("glovebench: skipped: {}\n", e.what());
         continue;
       }
       if (number > 0 && number * taken / all == (number - 1) * taken / all) continue;

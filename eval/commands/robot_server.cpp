@@ -16,6 +16,7 @@
 #endif
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
+#include "eval/say.h"
 #endif
 
 namespace glovebench::eval {
@@ -58,7 +59,7 @@ struct RobotServer {
             .max_log_age_s = max_log_age_s,
             .limits = limits.limits(),
             .stopping = Interruption::wished,
-            .tell = [](const std::string& line) { fmt::print(stderr, "glovebench: {}\n", line); }};
+            .tell = [](const std::string& line) { say("glovebench: {}\n", line); }};
   }
   int finish(const DdsServerSummary& summary) const {
     fmt::print("{}\n", summary.text);

@@ -16,6 +16,7 @@
 #include "eval/interruption.h"
 #include "eval/live_status.h"
 #include "eval/progress.h"
+#include "eval/say.h"
 
 namespace glovebench::eval {
 namespace {
@@ -27,7 +28,7 @@ class StatusLine {
  public:
   explicit StatusLine(bool quiet) : enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
   ~StatusLine() {
-    if (last_ > 0) fmt::print(stderr, "\n");
+    if (last_ > 0) say("\n");
   }
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
@@ -37,7 +38,7 @@ class StatusLine {
     status_.add(elapsed.count(), result);
     if (!enabled_ || elapsed.count() < last_ + kStatusInterval) return;
     last_ = elapsed.count();
-    fmt::print(stderr, "\r\x1b[K{}", status_.line(dropped));
+    say("\r\x1b[K{}", status_.line(dropped));
     std::fflush(stderr);
   }
 
@@ -89,7 +90,7 @@ struct Track {
     fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
                counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
     if (failure) throw *failure;
-    if (!common.quiet && !source.ended_by().empty()) fmt::print(stderr, "glovebench: {}\n", source.ended_by());
+    if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
   }
 
   void track_all(TrackSource& source, Method& method, LineFile& output,
@@ -158,7 +159,7 @@ struct Track {
     } catch (const FrameError& e) {
       ++frames;
       ++unusable;
-      if (!common.quiet) fmt::print(stderr, "glovebench: skipped: {}\n", e.what());
+      if (!common.quiet) say("glovebench: skipped: {}\n", e.what());
     } catch (const Error& e) {
       failure = e;
     }

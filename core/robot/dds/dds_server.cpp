@@ -12,22 +12,20 @@
 #include "core/base/error.h"
 #include "core/base/system_time.h"
 #include "core/robot/dds/dds_entity.h"
+#include "core/robot/dds/measured_joints.h"
 #include "core/robot/dds/topics.h"
 #include "core/robot/server/arm_server.h"
 #include "core/robot/server/hand_server.h"
-#include "core/robot/server/server_log.h"
+#include "core/robot/server/motion_log.h"
 
 namespace glovebench {
 namespace {
 
-constexpr int64_t kPeriodUs = 10'000;        // between two states
-constexpr int64_t kLookAroundUs = 100'000;   // between two looks at who is there
-constexpr int64_t kHeartbeatUs = 1'000'000;  // a state in the log even if nothing moves
-constexpr int kLogLinesPerSecond = 500;      // of messages, accepted and refused each: a flood fills no disk
-constexpr int kMostStates = 10;              // of other servers, at a look
-constexpr int kMessagesAtOnce = 200;         // then the clock is asked again: a flood delays no state by much
-constexpr uint64_t kTailBytes = 1 << 20;     // seconds of the fullest log
-constexpr int64_t kListenUs = 1'000'000;     // for another server, before the first state
+constexpr int64_t kPeriodUs = 10'000;       // between two states
+constexpr int64_t kLookAroundUs = 100'000;  // between two looks at who is there
+constexpr int kMostStates = 10;             // of other servers, at a look
+constexpr int kMessagesAtOnce = 200;        // then the clock is asked again: a flood delays no state by much
+constexpr int64_t kListenUs = 1'000'000;    // for another server, before the first state
 
 int64_t steady_us() {
   using namespace std::chrono;
@@ -66,11 +64,12 @@ class HandPort {
   void receive(DdsReader<ros::JointTrajectory>& reader, HandTopic topic, const char* name, const Report& report) {
     for (int i = 0; i < kMessagesAtOnce; ++i) {
       const int64_t now_us = steady_us();
-      const auto received = reader.take([&](uint64_t sender) { return !server.ignores(sender, now_us); });
+      const auto received = reader.take([&](uint64_t sender) { return !server.stream().ignores(sender, now_us); });
       if (!received) return;
       const auto& message = received->message;
       if (!message) continue;
-      report(name, server.receive(received->sender, topic, *message, now_us), message->stamp, received->source_ns);
+      const Arrival arrival{received->sender, received->source_ns, now_us};
+      report(name, server.receive(topic, *message, arrival), message->stamp, received->source_ns);
     }
   }
 
@@ -90,11 +89,12 @@ class ArmPort {
   void receive(const Report& report) {
     for (int i = 0; i < kMessagesAtOnce; ++i) {
       const int64_t now_us = steady_us();
-      const auto received = pose_.take([&](uint64_t sender) { return !server.ignores(sender, now_us); });
+      const auto received = pose_.take([&](uint64_t sender) { return !server.stream().ignores(sender, now_us); });
       if (!received) return;
       const auto& message = received->message;
       if (!message) continue;
-      report("pose", server.receive(received->sender, *message, now_us), message->stamp, received->source_ns);
+      const Arrival arrival{received->sender, received->source_ns, now_us};
+      report("pose", server.receive(*message, arrival), message->stamp, received->source_ns);
     }
   }
   std::set<uint64_t> present() { return pose_.senders().present(); }
@@ -103,12 +103,6 @@ class ArmPort {
 
  private:
   DdsReader<ros::PoseStamped> pose_;
-};
-
-/// Where the joints start, and who says so.
-struct StartPlace {
-  std::vector<double> joints;
-  std::string source;
 };
 
 /// Whether another process says where these joints are: it serves them, too.
@@ -136,47 +130,6 @@ class OtherServers {
   const std::vector<std::string>& names_;
 };
 
-/// The log, which no flood fills.
-class Log {
- public:
-  explicit Log(const std::string& path) : file_(path), path_(path) {}
-
-  /// Where the joints shall start: where the last state has them, if there is one; else at rest.
-  StartPlace start(const DdsServerOptions& options, const std::vector<std::string>& names,
-                   const std::vector<double>& rest) const {
-    if (path_.empty()) return {rest, "posture at rest"};
-    const std::optional<LoggedState> last = last_state(read_tail(path_, kTailBytes), names, path_);
-    if (!last) return {rest, "posture at rest"};
-    const int64_t now_us = system_us();
-    check_age(*last, now_us, options.max_log_age_s, path_);
-    check_whole(*last, changed_us(path_), path_);
-    options.tell(fmt::format("{}: starts at its last state, of {}", path_, age_text(*last, now_us)));
-    return {last->positions, path_};
-  }
-
-  void received(const ReceivedLine& line) {
-    int64_t& left = line.receipt == Receipt::accepted ? accepted_left_ : refused_left_;
-    if (left-- > 0) file_.append(received_line(line));
-  }
-  void state(const RobotState& state, int64_t time_us, const std::vector<std::string>& names) {
-    const bool heartbeat = state.clock_us - heartbeat_us_ >= kHeartbeatUs;
-    if (!heartbeat && state.position == last_.position && state.state == last_.state) return;
-    if (heartbeat) accepted_left_ = refused_left_ = kLogLinesPerSecond;
-    if (heartbeat) heartbeat_us_ = state.clock_us;
-    file_.append(state_line(state, time_us, names));
-    last_ = state;
-  }
-  int64_t lost() const { return file_.lost(); }
-  const std::string& failure() const { return file_.failure(); }
-
- private:
-  GrowingFile file_;
-  std::string path_;
-  int64_t accepted_left_ = kLogLinesPerSecond, refused_left_ = kLogLinesPerSecond;
-  int64_t heartbeat_us_ = 0;
-  RobotState last_;
-};
-
 template <typename Names, typename Counts>
 std::string counted(int kinds, const Names& name, const Counts& count) {
   std::string text;
@@ -189,7 +142,7 @@ template <typename Port>
 class Service {
  public:
   Service(Port& port, const DdsParticipant& participant, const DdsServerOptions& options, OtherServers& others,
-          Log& log)
+          MotionLog& log)
       : port_(port),
         options_(options),
         others_(others),
@@ -208,7 +161,7 @@ class Service {
         next_us = std::max(next_us + kPeriodUs, now_us);
       }
       if (now_us >= look_us) {
-        port_.server.gate().keep_only(port_.present());
+        port_.server.stream().keep_only(port_.present());
         look_for_others();
         look_us = now_us + kLookAroundUs;
       }
@@ -217,6 +170,7 @@ class Service {
       if (now_us < next_us) waitset_.wait((next_us - now_us) * 1000);
     }
     receive();  // what came before the end counts
+    if (states_sent_ > 0) log_.finish(last_, system_us());
     return {summary(), log_.lost()};
   }
 
@@ -234,29 +188,36 @@ class Service {
           fmt::format("{}: another process tells of {}, too: two servers of one robot?", Port::kName, *joint));
   }
   void tick(int64_t now_us) {
-    if (now_us <= last_us_) return;
-    if (states_sent_ > 0) longest_gap_us_ = std::max(longest_gap_us_, now_us - last_us_);
-    last_us_ = now_us;
-    const RobotState state = port_.server.tick(now_us);
+    if (now_us <= last_.clock_us) return;
+    const int64_t elapsed_us = states_sent_ > 0 ? now_us - last_.clock_us : 0;
+    longest_gap_us_ = std::max(longest_gap_us_, elapsed_us);
+    const double step_s = std::min(static_cast<double>(elapsed_us) * 1e-6, options_.limits.longest_step_s);
+    const bool may_move = log_.may_move(port_.server.positions(), step_s);
     const int64_t time_us = system_us();
-    states_.write({ros_time(time_us), Port::names(), state.position, state.velocity}, time_us * 1000);
-    log_.state(state, time_us, Port::names());
+    last_ = port_.server.tick({now_us, time_us}, may_move);
+    states_.write({ros_time(time_us), Port::names(), last_.position, last_.velocity}, time_us * 1000);
+    const bool commanded = port_.server.stream().is_current(now_us);
+    log_.ticked(last_, time_us, last_.state == CommandState::stopped && !commanded);
+    waited_ += commanded && !may_move;
     ++states_sent_;
   }
 
   std::string summary() const {
-    const ReceiptCounts& receipts = port_.server.receipts();
+    const CommandStream& stream = port_.server.stream();
+    const ReceiptCounts& receipts = stream.receipts();
     const Interventions& interventions = port_.server.interventions();
     std::string text = fmt::format(
         "{}: messages: {}; streams: {}; interventions: {}; states: {}, the longest gap {:.1f} ms", Port::kName,
         counted(
             kReceiptCount, [](int i) { return to_string(static_cast<Receipt>(i)); },
             [&](int i) { return receipts[static_cast<size_t>(i)]; }),
-        port_.server.gate().owners(),
+        stream.owners(),
         counted(
             kInterventionCount, [](int i) { return to_string(static_cast<Intervention>(i)); },
             [&](int i) { return interventions[static_cast<Intervention>(i)]; }),
         states_sent_, static_cast<double>(longest_gap_us_) * 1e-3);
+    if (stream.gaps() > 0) text += fmt::format("; gaps: {}", stream.gaps());
+    if (waited_ > 0) text += fmt::format("; held for the log: {} states", waited_);
     if (const int64_t count = dds_messages_too_large(); count > 0)
       text += fmt::format("; too large: {} messages", count);
     if (const int64_t count = dds_messages_of_too_many(); count > 0)
@@ -269,10 +230,12 @@ class Service {
   Port& port_;
   const DdsServerOptions& options_;
   OtherServers& others_;
-  Log& log_;
+  MotionLog& log_;
   DdsWriter<ros::JointState> states_;
   DdsWaitset waitset_;
-  int64_t last_us_ = 0, longest_gap_us_ = 0, states_sent_ = 0;
+  RobotState last_;
+  int64_t longest_gap_us_ = 0, states_sent_ = 0;
+  int64_t waited_ = 0;   ///< states at which a command had to wait for the disk
   int seen_others_ = 0;  ///< looks at which there was another
 };
 
@@ -288,16 +251,40 @@ void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   }
 }
 
+/// Where the joints are measured, as soon as they are. Nothing if the server shall stop before.
+std::optional<StartPlace> await_measured(const DdsParticipant& participant, const std::vector<std::string>& names,
+                                         const LoggedStart& logged, const std::vector<JointMotion>& joints,
+                                         const DdsServerOptions& options) {
+  MeasuredJoints measured(participant, topics::kMeasuredJointStates, names);
+  options.tell(
+      fmt::format("{}: {}: waits for a measured state on {}", logged.source, logged.doubt, measured.topic()));
+  const double slowest = std::ranges::min_element(joints, {}, &JointMotion::speed)->speed;
+  while (!options.stopping()) {
+    if (const auto positions = measured.latest(system_us(), steady_us()))
+      return StartPlace{*positions, measured.topic(), slowest * kPeriodUs * 1e-6};
+    std::this_thread::sleep_for(std::chrono::microseconds(kPeriodUs));
+  }
+  return std::nullopt;
+}
+
 /// `make_server`: the server of a side at a StartPlace.
-template <typename Port, typename MakeServer>
+template <typename Port, typename Server, typename MakeServer>
 DdsServerSummary serve(const DdsServerOptions& options, const std::vector<double>& rest,
                        const MakeServer& make_server) {
-  Log log(options.log);  // first: nobody else writes on from here
-  auto server = make_server(log.start(options, Port::names(), rest));
+  const std::vector<JointMotion> joints = Server::joint_motions(options.limits);
+  MotionLog log(options.log, Port::names(), joints);  // first: nobody else writes on from here
+  const LoggedStart logged = log.start(rest, system_us(), options.max_log_age_s, kPeriodUs * 1e-6);
+  if (!logged.age.empty() && logged.doubt.empty())
+    options.tell(fmt::format("{}: starts at its last state, of {}", logged.source, logged.age));
+  std::optional<StartPlace> start = StartPlace{logged.joints, logged.source};
+  if (logged.doubt.empty()) make_server(*start);  // throws where that is no place
   const DdsParticipant participant(options.domain, options.access);
   OtherServers others(participant, Port::names());
   refuse_beside(others, options);
-  Port port(participant, std::move(server));
+  if (!logged.doubt.empty()) start = await_measured(participant, Port::names(), logged, joints, options);
+  if (!start) return {fmt::format("{}: ended before the joints were measured", Port::kName), 0};
+  Port port(participant, make_server(*start));
+  log.started(system_us(), logged.doubt.empty() ? logged.from : "measured");
   return Service(port, participant, options, others, log).run();
 }
 
@@ -305,15 +292,14 @@ DdsServerSummary serve(const DdsServerOptions& options, const std::vector<double
 
 DdsServerSummary serve_hand(const DdsServerOptions& options) {
   const std::vector<double> open(kShadowJointCount, 0.0);
-  return serve<HandPort>(options, open, [&](const StartPlace& start) {
-    return HandServer(options.limits, start.joints, start.source);
-  });
+  return serve<HandPort, HandServer>(options, open,
+                                     [&](const StartPlace& start) { return HandServer(options.limits, start); });
 }
 
 DdsServerSummary serve_arm(const DdsServerOptions& options, const ArmSolver& solver,
                            const Eigen::Isometry3d& T_flange_wrist, const ArmJoints& rest) {
-  return serve<ArmPort>(options, {rest.begin(), rest.end()}, [&](const StartPlace& start) {
-    return ArmServer(options.limits, solver, T_flange_wrist, start.joints, start.source);
+  return serve<ArmPort, ArmServer>(options, {rest.begin(), rest.end()}, [&](const StartPlace& start) {
+    return ArmServer(options.limits, solver, T_flange_wrist, start);
   });
 }
 

@@ -9,31 +9,32 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/robot/server/start_place.h"
 #include "core/robot/shadow_kinematics.h"
 
 namespace glovebench {
 namespace {
 
+constexpr int kPoseTopic = 0;
 constexpr double kSlightlyOutside = 5e-5;  // m: less than what is taken as inside at a start (start_place.cpp)
 
-RobotCommand pose_command(const Eigen::Isometry3d& T_base_wrist, int64_t now_us) {
+/// Without a pose: to hold.
+RobotCommand pose_command(const std::optional<Eigen::Isometry3d>& T_base_wrist, int64_t now_us) {
   RobotCommand command;
   command.frame_timestamp_us = command.timestamp_us = now_us;
   command.status = TrackStatus::tracked;
-  command.hold = false;
+  command.hold = !T_base_wrist;
   command.state = CommandState::following;
-  command.targets.emplace().T_base_hand = T_base_wrist;
+  if (T_base_wrist) command.targets.emplace().T_base_hand = *T_base_wrist;
   return command;
 }
 
-ArmJoints arm_joints(const std::vector<double>& start, const std::string& source) {
-  if (start.size() != kArmJointCount)
-    throw Error(source, "joints", fmt::format("{}", start.size()), fmt::format("{}", kArmJointCount));
+ArmJoints arm_joints(const StartPlace& start) {
+  if (start.joints.size() != kArmJointCount)
+    throw Error(start.source, "joints", fmt::format("{}", start.joints.size()), fmt::format("{}", kArmJointCount));
   ArmJoints joints;
   for (int j = 0; j < kArmJointCount; ++j) {
     const ArmJointInfo& info = arm_joint_infos()[j];
-    joints[j] = start_angle(start[j], info.min_deg, info.max_deg, source, info.name);
+    joints[j] = start_angle(start.joints[static_cast<size_t>(j)], info.min_deg, info.max_deg, start, info.name);
   }
   return joints;
 }
@@ -44,33 +45,36 @@ double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 
 }  // namespace
 
+std::vector<JointMotion> ArmServer::joint_motions(const CommandLimits& limits) {
+  std::vector<JointMotion> motions;
+  for (const ArmJointInfo& info : arm_joint_infos())
+    motions.push_back({radians_from_degrees(info.min_deg), radians_from_degrees(info.max_deg),
+                       limits.arm_speed_share * radians_from_degrees(info.max_speed_deg_s)});
+  return motions;
+}
+
 ArmServer::ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
-                     const std::vector<double>& start, const std::string& source)
+                     const StartPlace& start)
     : solver_(solver),
       T_flange_wrist_(T_flange_wrist),
       guard_(limits, GuardedPart::arm),
       limits_(guard_.limits()),
-      gate_(limits.stop_after_s),
-      joints_(arm_joints(start, source)) {
+      stream_(limits, kPoseTopic + 1),
+      joints_(arm_joints(start)) {
   RobotTargets standing;
   standing.T_base_hand = wrist_pose(joints_);
-  standing.T_base_hand.translation() = start_in_workspace(standing.T_base_hand.translation(), limits_, source);
+  standing.T_base_hand.translation() =
+      start_in_workspace(standing.T_base_hand.translation(), limits_, start.source);
   guard_.start_from(standing);
 }
 
-bool ArmServer::ignores(uint64_t sender, int64_t now_us) {
-  const bool foreign = gate_.is_foreign(sender, now_us);
-  receipts_[static_cast<size_t>(Receipt::foreign)] += foreign;
-  return foreign;
-}
-
-Receipt ArmServer::receive(uint64_t sender, const ros::PoseStamped& message, int64_t now_us) {
-  if (ignores(sender, now_us)) return Receipt::foreign;
+Receipt ArmServer::receive(const ros::PoseStamped& message, const Arrival& arrival) {
+  if (stream_.ignores(arrival.sender, arrival.now_us)) return Receipt::foreign;
   const PoseRead read = read_pose(message);
-  Receipt receipt = read.receipt;
-  if (receipt == Receipt::accepted) receipt = gate_.admit(sender, 0, message.stamp, now_us);
-  ++receipts_[static_cast<size_t>(receipt)];
-  if (receipt == Receipt::accepted) goal_ = read.T_base_wrist;
+  const Receipt receipt = stream_.receive(arrival, kPoseTopic, message.stamp, read.receipt);
+  if (receipt != Receipt::accepted) return receipt;
+  goal_ = read.T_base_wrist;
+  changed_ = true;
   return receipt;
 }
 
@@ -137,19 +141,22 @@ ArmJoints ArmServer::next_joints(const ArmJoints& wanted, double seconds) {
   return joints_;
 }
 
-RobotState ArmServer::tick(int64_t now_us) {
-  if (ticked_ && now_us <= now_us_) throw std::logic_error("a tick of the arm that is not after the last one");
+RobotState ArmServer::tick(const ServerTime& now, bool may_move) {
+  if (ticked_ && now.clock_us <= now_us_)
+    throw std::logic_error("a tick of the arm that is not after the last one");
+  stream_.tick(now.clock_us, now.system_us);
+  if (!stream_.is_current(now.clock_us)) goal_.reset();
+  const bool follows = may_move && ticked_ && goal_;  // the first tick only says what time it is
   std::optional<RobotCommand> sent;
-  // The first tick only says what time it is.
-  if (ticked_ && goal_) {
-    sent = guard_.guard(pose_command(*goal_, now_us), now_us);
-    goal_.reset();
+  if (!follows || changed_) {
+    sent = guard_.guard(pose_command(follows ? goal_ : std::nullopt, now.clock_us), now.clock_us);
+    changed_ = !follows;
   } else {
-    sent = guard_.tick(now_us);
+    sent = guard_.tick(now.clock_us);
   }
   interventions_.add(sent->interventions);
-  RobotState state{now_us, sent->state, {}, std::vector<double>(kArmJointCount, 0.0)};
-  const double elapsed = ticked_ ? static_cast<double>(now_us - now_us_) * 1e-6 : 0;
+  RobotState state{now.clock_us, sent->state, {}, std::vector<double>(kArmJointCount, 0.0)};
+  const double elapsed = ticked_ ? static_cast<double>(now.clock_us - now_us_) * 1e-6 : 0;
   if (ticked_ && sent->state == CommandState::following) {
     const ArmJoints before = joints_;
     joints_ = step_towards(sent->targets->T_base_hand, std::min(elapsed, limits_.longest_step_s));
@@ -157,7 +164,7 @@ RobotState ArmServer::tick(int64_t now_us) {
   }
   state.position.assign(joints_.begin(), joints_.end());
   ticked_ = true;
-  now_us_ = now_us;
+  now_us_ = now.clock_us;
   return state;
 }
 

@@ -2,8 +2,10 @@
 
 #include "core/robot/command_guard.h"
 #include "core/robot/server/command_messages.h"
+#include "core/robot/server/command_stream.h"
 #include "core/robot/server/robot_state.h"
-#include "core/robot/server/stream_gate.h"
+#include "core/robot/server/start_place.h"
+#include "core/robot/server/stated_interval.h"
 
 namespace glovebench {
 
@@ -17,23 +19,23 @@ namespace glovebench {
 class ArmServer {
  public:
   /// `solver` must outlive the server; `T_flange_wrist` is how the hand's forearm is mounted; `start`: where the
-  /// joints stand, rad, and `source` who says so. Throws Error unless they are within the limits and the wrist is
-  /// in the workspace there (start_place.h), or if the limits have problems.
+  /// joints stand. Throws Error unless they are within the limits and the wrist is in the workspace there
+  /// (start_place.h), or if the limits have problems.
   ArmServer(const CommandLimits& limits, const ArmSolver& solver, const Eigen::Isometry3d& T_flange_wrist,
-            const std::vector<double>& start, const std::string& source = "arm server");
+            const StartPlace& start);
+  /// What the joints can do under these limits.
+  static std::vector<JointMotion> joint_motions(const CommandLimits& limits);
 
-  /// Whether a message of that sender is foreign, whatever is in it; then it is counted and need not be read.
-  bool ignores(uint64_t sender, int64_t now_us);
-  /// `now_us` is the server's own clock, as in `tick`. It must not go back.
-  Receipt receive(uint64_t sender, const ros::PoseStamped& message, int64_t now_us);
-  /// What the joints shall do now. Later than the last tick.
-  RobotState tick(int64_t now_us);
+  Receipt receive(const ros::PoseStamped& message, const Arrival& arrival);
+  /// What the joints shall do now. Later than the last tick. `may_move`: false holds them.
+  RobotState tick(const ServerTime& now, bool may_move = true);
+  /// rad, from base to flange.
+  std::vector<double> positions() const { return {joints_.begin(), joints_.end()}; }
   /// Where the wrist is, in the arm's base frame, if the joints do as they are told.
   Eigen::Isometry3d T_base_wrist() const { return wrist_pose(joints_); }
 
-  StreamGate& gate() { return gate_; }
-  const StreamGate& gate() const { return gate_; }
-  const ReceiptCounts& receipts() const { return receipts_; }
+  CommandStream& stream() { return stream_; }
+  const CommandStream& stream() const { return stream_; }
   const Interventions& interventions() const { return interventions_; }
 
  private:
@@ -46,11 +48,11 @@ class ArmServer {
   Eigen::Isometry3d T_flange_wrist_;
   CommandGuard guard_;
   CommandLimits limits_;  ///< the guard's
-  StreamGate gate_;
-  ReceiptCounts receipts_{};
+  CommandStream stream_;
   Interventions interventions_;
   ArmJoints joints_{};
-  std::optional<Eigen::Isometry3d> goal_;  ///< received since the last tick
+  std::optional<Eigen::Isometry3d> goal_;  ///< of the last message, while it is followed
+  bool changed_ = false;                   ///< the goal, since the guard got it
   bool ticked_ = false;
   int64_t now_us_ = 0;
 };

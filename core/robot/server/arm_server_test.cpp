@@ -71,7 +71,7 @@ class ArmServerTest : public testing::Test {
   RobotState tick(ArmServer& server) {
     const Eigen::Isometry3d before = server.T_base_wrist();
     now_us_ += kPeriodUs;
-    const RobotState state = server.tick(now_us_);
+    const RobotState state = server.tick({now_us_, now_us_});
     const Eigen::Isometry3d after = server.T_base_wrist();
     const double seconds = kPeriodUs * 1e-6;
     EXPECT_LE((after.translation() - before.translation()).norm(), limits_.hand_speed * seconds + kRounding);
@@ -93,6 +93,17 @@ class ArmServerTest : public testing::Test {
     last_ = state.position;
     return state;
   }
+  Receipt receive(ArmServer& server, const ros::PoseStamped& message) const {
+    return server.receive(message, {kSender, now_us_ * 1000, now_us_});
+  }
+  /// After that the next message is accepted.
+  void start(ArmServer& server) {
+    for (int i = 0; i < 20; ++i) {
+      tick(server);
+      EXPECT_EQ(receive(server, displaced({0, 0, 0}, 0)), Receipt::starting);
+    }
+    tick(server);
+  }
   ros::PoseStamped displaced(const Eigen::Vector3d& way, int64_t stamp_us) const {
     const Eigen::Vector3d p = T_start_.translation() + way;
     const Eigen::Quaterniond q(T_start_.linear());
@@ -104,19 +115,19 @@ class ArmServerTest : public testing::Test {
   CommandLimits limits_;
   JacobianSolver solver_;
   Eigen::Isometry3d T_flange_wrist_ = Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.1));
-  ArmServer server_{limits_, solver_, T_flange_wrist_, kStart};
+  ArmServer server_{limits_, solver_, T_flange_wrist_, {kStart}};
   Eigen::Isometry3d T_start_ = server_.T_base_wrist();
   int64_t now_us_ = 1'000'000;
   std::vector<double> last_ = kStart;
 };
 
 TEST_F(ArmServerTest, FollowsThePoseOfTheWrist) {
-  tick(server_);
+  start(server_);
   int ticks = 0;
   const Eigen::Vector3d way(0.03, -0.1, 0.04);
   for (; ticks < 300 && (server_.T_base_wrist().translation() - T_start_.translation() - way).norm() > 1e-6;
        ++ticks) {
-    EXPECT_EQ(server_.receive(kSender, displaced(way, now_us_), now_us_), Receipt::accepted);
+    EXPECT_EQ(receive(server_, displaced(way, now_us_)), Receipt::accepted);
     EXPECT_EQ(tick(server_).state, CommandState::following);
   }
   EXPECT_EQ(ticks, std::ceil(way.norm() / limits_.hand_speed * 100)) << "as fast as the hand may move";
@@ -124,8 +135,8 @@ TEST_F(ArmServerTest, FollowsThePoseOfTheWrist) {
 }
 
 TEST_F(ArmServerTest, HoldsAndStopsOnTheWay) {
-  tick(server_);
-  EXPECT_EQ(server_.receive(kSender, displaced({0, 0.2, 0}, 1), now_us_), Receipt::accepted);
+  start(server_);
+  EXPECT_EQ(receive(server_, displaced({0, 0.2, 0}, 1)), Receipt::accepted);
   for (int i = 0; i < 15; ++i) EXPECT_EQ(tick(server_).state, CommandState::following);
   tick(server_);
   const RobotState held = tick(server_);
@@ -136,9 +147,9 @@ TEST_F(ArmServerTest, HoldsAndStopsOnTheWay) {
 }
 
 TEST_F(ArmServerTest, StaysWhereThePoseIsOutOfReach) {
-  tick(server_);
+  start(server_);
   for (int i = 1; i < 900; ++i) {
-    EXPECT_EQ(server_.receive(kSender, displaced({1e3, 0, 0}, i), now_us_), Receipt::accepted);
+    EXPECT_EQ(receive(server_, displaced({1e3, 0, 0}, i)), Receipt::accepted);
     tick(server_);
   }
   EXPECT_GT(server_.interventions()[Intervention::arm_unreachable], 0);
@@ -146,7 +157,7 @@ TEST_F(ArmServerTest, StaysWhereThePoseIsOutOfReach) {
   const std::vector<double> stuck = last_;
   EXPECT_EQ(tick(server_).position, stuck);
   for (int i = 1000; i < 3000; ++i) {
-    server_.receive(kSender, displaced({0, 0, 0}, i), now_us_);
+    receive(server_, displaced({0, 0, 0}, i));
     tick(server_);
   }
   EXPECT_LT((server_.T_base_wrist().translation() - T_start_.translation()).norm(), 1e-6) << "and it comes back";
@@ -154,10 +165,10 @@ TEST_F(ArmServerTest, StaysWhereThePoseIsOutOfReach) {
 
 TEST_F(ArmServerTest, MovesNoFasterThanTheHandMayWhateverTheSolverSays) {
   const FlippingSolver flipping;
-  ArmServer server(limits_, flipping, T_flange_wrist_, kStart);
-  tick(server);
+  ArmServer server(limits_, flipping, T_flange_wrist_, {kStart});
+  start(server);
   for (int i = 1; i < 300; ++i) {
-    server.receive(kSender, displaced({0, 0, 0}, i), now_us_);
+    receive(server, displaced({0, 0, 0}, i));
     tick(server);  // checks it
   }
   EXPECT_NE(last_, kStart);
@@ -177,12 +188,12 @@ class SleepingSolver : public JacobianSolver {
 TEST_F(ArmServerTest, StaysInTheWorkspaceWhenItHasToCatchUp) {
   limits_.workspace_max.x() = T_start_.translation().x() + 0.23;
   SleepingSolver solver;
-  ArmServer server(limits_, solver, T_flange_wrist_, kStart);
-  tick(server);
+  ArmServer server(limits_, solver, T_flange_wrist_, {kStart});
+  start(server);
   const Eigen::Vector3d way(0, 0.4, 0);
   for (int i = 1; i < 800; ++i) {
     solver.asleep = i < 200;  // meanwhile the pose goes there
-    server.receive(kSender, displaced(way, i), now_us_);
+    receive(server, displaced(way, i));
     tick(server);
     EXPECT_LE(server.T_base_wrist().translation().x(), limits_.workspace_max.x() - 0.23 + 1e-4) << i;
   }
@@ -191,13 +202,35 @@ TEST_F(ArmServerTest, StaysInTheWorkspaceWhenItHasToCatchUp) {
       << "and it gets there";
 }
 
+TEST_F(ArmServerTest, AGapOrALogThatWaitsHoldsIt) {
+  start(server_);
+  for (int i = 1; i <= 10; ++i, tick(server_))
+    EXPECT_EQ(receive(server_, displaced({0, 0.2, 0}, i)), Receipt::accepted);
+  const std::vector<double> stood = last_;
+  now_us_ += kPeriodUs;
+  EXPECT_EQ(receive(server_, displaced({0, 0.2, 0}, 11)), Receipt::accepted);
+  EXPECT_EQ(server_.tick({now_us_, now_us_}, false).position, stood);
+  tick(server_);
+  EXPECT_NE(last_, stood) << "without another message";
+  const std::vector<double> next = last_;
+  now_us_ += 95'000;
+  EXPECT_EQ(receive(server_, displaced({0, 0.2, 0}, 12)), Receipt::accepted);
+  for (int i = 0; i < 30; ++i) {
+    tick(server_);
+    EXPECT_EQ(last_, next);
+    EXPECT_NE(receive(server_, displaced({0, 0.2, 0}, 13)), Receipt::accepted);
+  }
+  tick(server_);
+  EXPECT_EQ(receive(server_, displaced({0, 0.2, 0}, 13)), Receipt::accepted);
+}
+
 TEST_F(ArmServerTest, RefusesOtherFrames) {
   tick(server_);
   ros::PoseStamped message = displaced({0, 0.1, 0}, 1);
   message.frame_id = "world";
-  EXPECT_EQ(server_.receive(kSender, message, now_us_), Receipt::wrong_frame);
+  EXPECT_EQ(receive(server_, message), Receipt::wrong_frame);
   EXPECT_EQ(tick(server_).position, kStart);
-  EXPECT_EQ(server_.receipts()[static_cast<size_t>(Receipt::wrong_frame)], 1);
+  EXPECT_EQ(server_.stream().receipts()[static_cast<size_t>(Receipt::wrong_frame)], 1);
 }
 
 /// What a log makes of an angle.
@@ -218,11 +251,11 @@ TEST(ArmServer, StartsAtALimitOfAJoint) {
       for (const double angle :
            {limit, logged(limit), std::nextafter(limit, outwards * 10), limit + outwards * 1e-8}) {
         start[j] = angle;
-        EXPECT_EQ(ArmServer(everywhere, solver, mounted, start).tick(1).position[j], limit)
+        EXPECT_EQ(ArmServer(everywhere, solver, mounted, {start}).tick({1, 1}).position[j], limit)
             << arm_joint_infos()[j].name;
       }
       start[j] = limit + outwards * 1e-6;
-      EXPECT_THROW(ArmServer(everywhere, solver, mounted, start), Error) << arm_joint_infos()[j].name;
+      EXPECT_THROW(ArmServer(everywhere, solver, mounted, {start}), Error) << arm_joint_infos()[j].name;
     }
   }
 }
@@ -242,17 +275,23 @@ TEST(ArmServer, StartsAtTheEdgeOfTheWorkspace) {
       return limits;
     };
     for (const double rounding : {0.0, 1e-7, 2e-5}) {  // of the log, of inverse kinematics
-      ArmServer server(outside_by(rounding), solver, mounted, start);
-      EXPECT_EQ(server.tick(1).position, start);
+      ArmServer server(outside_by(rounding), solver, mounted, {start});
+      EXPECT_EQ(server.tick({1, 1}).position, start);
       ros::PoseStamped message = pose_at(p.x() - 0.05, p.y() - 0.05, p.z() - 0.05, 1);
       const Eigen::Quaterniond q(server.T_base_wrist().linear());
       message.qx = q.x(), message.qy = q.y(), message.qz = q.z(), message.qw = q.w();
-      server.receive(kSender, message, 2);
-      EXPECT_EQ(server.tick(10'000).state, CommandState::following) << "and goes on from there";
+      int64_t now_us = 1;
+      for (int i = 0; i <= 20; ++i) {
+        now_us += kPeriodUs;
+        message.stamp = test_stamp(now_us);
+        server.receive(message, {kSender, now_us * 1000, now_us});
+        server.tick({now_us + 1, now_us + 1});
+      }
+      EXPECT_EQ(server.tick({now_us + 2, now_us + 2}).state, CommandState::following) << "and goes on from there";
       EXPECT_LT(server.T_base_wrist().translation()[axis], p[axis]);
     }
     try {
-      ArmServer(outside_by(1e-3), solver, mounted, start, "arm.jsonl");
+      ArmServer(outside_by(1e-3), solver, mounted, {start, "arm.jsonl"});
       ADD_FAILURE() << axis;
     } catch (const Error& e) {
       EXPECT_THAT(e.what(),
@@ -266,11 +305,11 @@ TEST(ArmServer, StartsAtTheEdgeOfTheWorkspace) {
 TEST(ArmServer, StartsWhereTheJointsStandIfThatIsAPlace) {
   const JacobianSolver solver;
   const Eigen::Isometry3d mounted = Eigen::Isometry3d::Identity();
-  EXPECT_EQ(ArmServer({}, solver, mounted, kStart).tick(1).position, kStart);
-  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 2, 0, 0, 0, 0, 0}), Error) << "115 degrees, of 94";
-  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 1.6, 0, 1, 0, 0, 0}), Error) << "the wrist under the table";
-  EXPECT_THROW(ArmServer({}, solver, mounted, {std::nan(""), 0, 0, 0, 0, 0, 0}), Error);
-  EXPECT_THROW(ArmServer({}, solver, mounted, {0, 0}), Error);
+  EXPECT_EQ(ArmServer({}, solver, mounted, {kStart}).tick({1, 1}).position, kStart);
+  EXPECT_THROW(ArmServer({}, solver, mounted, {{0, 2, 0, 0, 0, 0, 0}}), Error) << "115 degrees, of 94";
+  EXPECT_THROW(ArmServer({}, solver, mounted, {{0, 1.6, 0, 1, 0, 0, 0}}), Error) << "the wrist under the table";
+  EXPECT_THROW(ArmServer({}, solver, mounted, {{std::nan(""), 0, 0, 0, 0, 0, 0}}), Error);
+  EXPECT_THROW(ArmServer({}, solver, mounted, {{0, 0}}), Error);
 }
 
 }  // namespace

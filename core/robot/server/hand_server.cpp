@@ -4,85 +4,109 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
+#include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/robot/server/start_place.h"
 
 namespace glovebench {
 namespace {
 
 /// This server has no arm: its hand stays at one place, in the middle of the workspace.
-RobotTargets standing(const CommandLimits& limits, const std::vector<double>& start, const std::string& source) {
-  if (start.size() != kShadowJointCount)
-    throw Error(source, "joints", fmt::format("{}", start.size()), fmt::format("{}", kShadowJointCount));
+RobotTargets standing(const CommandLimits& limits, const StartPlace& start) {
+  if (start.joints.size() != kShadowJointCount)
+    throw Error(start.source, "joints", fmt::format("{}", start.joints.size()),
+                fmt::format("{}", kShadowJointCount));
   RobotTargets targets;
   std::array<double, kShadowJointCount>& joints = targets.hand.joints;
   for (size_t j = 0; j < joints.size(); ++j) {
     const ShadowJointInfo& info = shadow_joint_infos()[j];
-    joints[j] = start_angle(start[j], info.min_deg, info.max_deg, source, hand_joint_names()[j]);
+    joints[j] = start_angle(start.joints[j], info.min_deg, info.max_deg, start, hand_joint_names()[j]);
   }
   for (const ShadowActuatorInfo& info : shadow_actuator_infos()) {
     if (!info.coupled_joint) continue;
     double& distal = joints[*info.coupled_joint];
-    distal = start_distal(distal, joints[info.joint], source, hand_joint_names()[*info.coupled_joint]);
+    distal = start_distal(distal, joints[info.joint], start, hand_joint_names()[*info.coupled_joint]);
   }
   make_actuators(targets.hand);
   targets.T_base_hand.translation() = (limits.workspace_min + limits.workspace_max) / 2;
   return targets;
 }
 
+const std::vector<std::string>& names_of(HandTopic topic) {
+  return topic == HandTopic::wrist ? wrist_trajectory_names() : hand_trajectory_names();
+}
+
+int first_joint(HandTopic topic) {
+  return topic == HandTopic::wrist ? kWRJ1 : 0;
+}
+
 }  // namespace
 
-HandServer::HandServer(const CommandLimits& limits, const std::vector<double>& start, const std::string& source)
-    : guard_(limits, GuardedPart::hand), gate_(limits.stop_after_s), goal_(standing(limits, start, source)) {
+std::vector<JointMotion> HandServer::joint_motions(const CommandLimits& limits) {
+  std::vector<JointMotion> motions;
+  for (const ShadowJointInfo& info : shadow_joint_infos())
+    motions.push_back(
+        {radians_from_degrees(info.min_deg), radians_from_degrees(info.max_deg), limits.hand_joint_speed});
+  return motions;
+}
+
+HandServer::HandServer(const CommandLimits& limits, const StartPlace& start)
+    : guard_(limits, GuardedPart::hand), stream_(limits, 2), goal_(standing(limits, start)) {
   guard_.start_from(goal_);
   last_.position.assign(goal_.hand.joints.begin(), goal_.hand.joints.end());
 }
 
-bool HandServer::ignores(uint64_t sender, int64_t now_us) {
-  const bool foreign = gate_.is_foreign(sender, now_us);
-  receipts_[static_cast<size_t>(Receipt::foreign)] += foreign;
-  return foreign;
-}
-
-Receipt HandServer::receive(uint64_t sender, HandTopic topic, const ros::JointTrajectory& message, int64_t now_us) {
-  if (ignores(sender, now_us)) return Receipt::foreign;
-  const bool wrist = topic == HandTopic::wrist;
-  const JointsRead read = read_joints(message, wrist ? wrist_trajectory_names() : hand_trajectory_names());
-  Receipt receipt = read.receipt;
-  if (receipt == Receipt::accepted) receipt = gate_.admit(sender, wrist ? 1 : 0, message.stamp, now_us);
-  ++receipts_[static_cast<size_t>(receipt)];
+Receipt HandServer::receive(HandTopic topic, const ros::JointTrajectory& message, const Arrival& arrival) {
+  if (stream_.ignores(arrival.sender, arrival.now_us)) return Receipt::foreign;
+  const auto number = static_cast<size_t>(topic);
+  const JointsRead read = read_joints(message, names_of(topic));
+  const Receipt receipt = stream_.receive(arrival, static_cast<int>(number), message.stamp, read.receipt);
   if (receipt != Receipt::accepted) return receipt;
-  // What another sender wanted of the other joints, or this one before it fell silent, is wanted no more.
-  if (std::exchange(sender_, sender) != sender || (last_.state != CommandState::following && !received_))
-    std::ranges::copy(last_.position, goal_.hand.joints.begin());
-  std::ranges::copy(read.positions, goal_.hand.joints.begin() + (wrist ? kWRJ1 : 0));
-  received_ = true;
+  drop_old_goals(arrival.now_us);
+  std::ranges::copy(read.positions, goal_.hand.joints.begin() + first_joint(topic));
+  wanted_[number] = changed_ = true;
   return receipt;
 }
 
-RobotState HandServer::tick(int64_t now_us) {
+/// Joints whose goal is followed no more shall stay where they are. True if there are some.
+bool HandServer::drop_old_goals(int64_t now_us) {
+  bool dropped = false;
+  for (const HandTopic topic : {HandTopic::fingers, HandTopic::wrist}) {
+    const auto number = static_cast<size_t>(topic);
+    if (!wanted_[number] || stream_.is_current(static_cast<int>(number), now_us)) continue;
+    const auto first = static_cast<std::ptrdiff_t>(first_joint(topic));
+    std::copy_n(last_.position.begin() + first, names_of(topic).size(), goal_.hand.joints.begin() + first);
+    wanted_[number] = false;
+    dropped = true;
+  }
+  return dropped;
+}
+
+RobotState HandServer::tick(const ServerTime& now, bool may_move) {
+  stream_.tick(now.clock_us, now.system_us);
+  changed_ |= drop_old_goals(now.clock_us);
+  const bool follows = may_move && ticked_ && stream_.is_current(now.clock_us);
   std::optional<RobotCommand> sent;
   // The first tick only says what time it is: from there the guard knows how far a joint may move.
-  if (ticked_ && std::exchange(received_, false)) {
+  if (!follows || changed_) {
     make_actuators(goal_.hand);
     RobotCommand command;
-    command.frame_timestamp_us = command.timestamp_us = now_us;
+    command.frame_timestamp_us = command.timestamp_us = now.clock_us;
     command.status = TrackStatus::tracked;
-    command.hold = false;
+    command.hold = !follows;
     command.state = CommandState::following;
     command.targets = goal_;
-    sent = guard_.guard(command, now_us);
+    sent = guard_.guard(command, now.clock_us);
+    changed_ = !follows;
   } else {
-    sent = guard_.tick(now_us);
+    sent = guard_.tick(now.clock_us);
   }
   if (!sent) throw std::logic_error("a tick of the hand that is not after the last one");
-  RobotState state{now_us, sent->state, {}, std::vector<double>(kShadowJointCount, 0.0)};
+  RobotState state{now.clock_us, sent->state, {}, std::vector<double>(kShadowJointCount, 0.0)};
   state.position.assign(sent->targets->hand.joints.begin(), sent->targets->hand.joints.end());
   for (size_t j = 0; ticked_ && j < state.position.size(); ++j)
     state.velocity[j] =
-        (state.position[j] - last_.position[j]) / (static_cast<double>(now_us - last_.clock_us) * 1e-6);
+        (state.position[j] - last_.position[j]) / (static_cast<double>(now.clock_us - last_.clock_us) * 1e-6);
   ticked_ = true;
   last_ = state;
   return state;

@@ -17,28 +17,41 @@ using testing::Each;
 
 constexpr int64_t kPeriodUs = 10'000;
 constexpr uint64_t kFirst = 11, kSecond = 22;
+constexpr int64_t kEpochUs = 1'800'000'000'000'000;
 constexpr double kRounding = 1e-12;
 
 /// A server and its clock; every state is checked against the limits.
 class HandServerTest : public testing::Test {
  protected:
   Receipt fingers(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
-    return server_.receive(sender, HandTopic::fingers,
-                           trajectory_message(hand_trajectory_names(), angle_deg, stamp_us), now_us_);
+    return receive(HandTopic::fingers, trajectory_message(hand_trajectory_names(), angle_deg, stamp_us), sender);
   }
   /// The first finger's J3 alone; all others at 0.
   Receipt first_finger(double angle_deg, int64_t stamp_us) {
     ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 0, stamp_us);
     message.points[0].positions[kFFJ3] = radians_from_degrees(angle_deg);
-    return server_.receive(kFirst, HandTopic::fingers, message, now_us_);
+    return receive(HandTopic::fingers, message);
   }
   Receipt wrist(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
-    return server_.receive(sender, HandTopic::wrist,
-                           trajectory_message(wrist_trajectory_names(), angle_deg, stamp_us), now_us_);
+    return receive(HandTopic::wrist, trajectory_message(wrist_trajectory_names(), angle_deg, stamp_us), sender);
+  }
+  /// Sent `age_us` ago, by a sender whose clock is right.
+  Receipt receive(HandTopic topic, const ros::JointTrajectory& message, uint64_t sender = kFirst,
+                  int64_t age_us = 0) {
+    return server_.receive(topic, message, {sender, (now_us_ - age_us) * 1000, now_us_});
+  }
+  /// After that the next messages of a sender, in the tick that has begun, are accepted.
+  void start(uint64_t sender = kFirst) {
+    for (int i = 0; i < 20; ++i) {
+      tick();
+      EXPECT_EQ(fingers(0, 0, sender), Receipt::starting);
+      EXPECT_EQ(wrist(0, 0, sender), Receipt::starting);
+    }
+    tick();
   }
   RobotState tick() {
     now_us_ += kPeriodUs;
-    const RobotState state = server_.tick(now_us_);
+    const RobotState state = server_.tick({now_us_, kEpochUs + now_us_});
     for (size_t j = 0; j < state.position.size(); ++j) {
       EXPECT_LE(std::abs(state.position[j] - last_.position[j]),
                 limits_.hand_joint_speed * kPeriodUs * 1e-6 + kRounding)
@@ -63,11 +76,11 @@ class HandServerTest : public testing::Test {
     std::ranges::copy(state.position, joints.begin());
     return TestFingertips(joints).in_forearm();
   }
-  int64_t count(Receipt receipt) const { return server_.receipts()[static_cast<size_t>(receipt)]; }
+  int64_t count(Receipt receipt) const { return server_.stream().receipts()[static_cast<size_t>(receipt)]; }
 
   CommandLimits limits_;
   std::vector<double> start_ = std::vector<double>(kShadowJointCount, 0.0);
-  HandServer server_{limits_, start_};
+  HandServer server_{limits_, {start_}};
   int64_t now_us_ = 5'000'000;
   RobotState last_{0, CommandState::stopped, start_, {}};
 };
@@ -80,7 +93,7 @@ TEST_F(HandServerTest, StandsUntilSomethingComes) {
 }
 
 TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
-  tick();
+  start();
   int moving = 0;
   for (int i = 0; i < 60; ++i) {
     EXPECT_EQ(first_finger(30, 1000 * (i + 1)), Receipt::accepted);
@@ -135,7 +148,7 @@ TEST(HandServer, StartsWithAFingerThatTouchesSomething) {
 }
 
 TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
-  tick();
+  start();
   for (int i = 0; i < 2; ++i) {
     wrist(28, 1000 * (i + 1));
     tick();
@@ -143,6 +156,7 @@ TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
   const double stood = ticks(80).position[kWRJ1];  // its sender is dead
   EXPECT_GT(stood, 0);
   EXPECT_LT(stood, radians_from_degrees(25)) << "it was on its way";
+  start(kSecond);
   for (int i = 0; i < 60; ++i) {
     EXPECT_EQ(fingers(10, 1000 * (i + 1), kSecond), Receipt::accepted);
     tick();
@@ -152,13 +166,14 @@ TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
 }
 
 TEST_F(HandServerTest, MovesNoFasterOnItsVeryFirstTick) {
-  EXPECT_EQ(fingers(90, 1), Receipt::accepted);
+  for (int i = 0; i < 21; ++i, now_us_ += kPeriodUs) fingers(90, i);
+  EXPECT_EQ(fingers(90, 21), Receipt::accepted);
   tick();  // checks it
   EXPECT_GT(tick().position[kFFJ3], 0) << "what came before the first tick is not lost";
 }
 
 TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
-  tick();
+  start();
   first_finger(80, 1);
   EXPECT_EQ(ticks(15).state, CommandState::following);
   const RobotState held = ticks(2);
@@ -173,13 +188,13 @@ TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
 }
 
 TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
-  tick();
+  start();
   first_finger(10, 1000);
   const RobotState good = ticks(12);
   ros::JointTrajectory bad = trajectory_message(hand_trajectory_names(), 80, 2000);
   bad.points[0].positions[5] = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(server_.receive(kFirst, HandTopic::fingers, bad, now_us_), Receipt::not_finite);
+    EXPECT_EQ(receive(HandTopic::fingers, bad), Receipt::not_finite);
     EXPECT_EQ(fingers(80, 999), Receipt::went_back);
     EXPECT_EQ(fingers(80, 1000), Receipt::went_back) << "the same once more";
     EXPECT_EQ(tick().position, good.position);
@@ -191,7 +206,7 @@ TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
 }
 
 TEST_F(HandServerTest, ClampsWhatIsBeyondTheLimits) {
-  tick();
+  start();
   for (int i = 1; i < 600; ++i) {
     EXPECT_EQ(fingers(i % 2 ? 1e6 : 500, i), Receipt::accepted);
     tick();  // checks the limits
@@ -201,7 +216,7 @@ TEST_F(HandServerTest, ClampsWhatIsBeyondTheLimits) {
 }
 
 TEST_F(HandServerTest, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
-  tick();
+  start();
   for (int i = 1; i <= 50; ++i) {
     EXPECT_EQ(fingers(10, i, kFirst), Receipt::accepted);
     EXPECT_EQ(fingers(80, i, kSecond), Receipt::foreign);
@@ -216,34 +231,37 @@ TEST_F(HandServerTest, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
     tick();
   }
   EXPECT_EQ(refused, 50) << "0.5 s after the owner's last message, which came one tick before";
-  EXPECT_EQ(server_.gate().owners(), 2);
+  start(kSecond);
+  EXPECT_EQ(fingers(20, 1, kSecond), Receipt::accepted);
+  EXPECT_EQ(server_.stream().owners(), 2);
   EXPECT_EQ(fingers(80, 1000, kFirst), Receipt::foreign) << "who comes back has to wait as well";
 }
 
-TEST_F(HandServerTest, AnOwnerThatHasGoneIsFollowedByTheNextAtOnce) {
-  tick();
+TEST_F(HandServerTest, AnOwnerThatHasGoneIsFollowedByTheNext) {
+  start();
   EXPECT_EQ(fingers(10, 1'000'000, kFirst), Receipt::accepted);
-  server_.gate().keep_only({kFirst, kSecond});
+  server_.stream().keep_only({kFirst, kSecond});
   EXPECT_EQ(fingers(10, 1, kSecond), Receipt::foreign);
-  server_.gate().keep_only({kSecond});
+  server_.stream().keep_only({kSecond});
+  start(kSecond);
   EXPECT_EQ(fingers(10, 1, kSecond), Receipt::accepted) << "its stamps begin anew";
 }
 
 TEST_F(HandServerTest, BadMessagesDoNotMakeAnOwner) {
-  tick();
-  EXPECT_EQ(server_.receive(kSecond, HandTopic::fingers, ros::JointTrajectory(), now_us_), Receipt::wrong_joints);
+  start();
+  EXPECT_EQ(receive(HandTopic::fingers, ros::JointTrajectory(), kSecond), Receipt::wrong_joints);
   EXPECT_EQ(fingers(10, 1, kFirst), Receipt::accepted);
 }
 
 TEST_F(HandServerTest, StampsOfZeroMeanNow) {
-  tick();
+  start();
   for (int i = 0; i < 5; ++i) EXPECT_EQ(fingers(10, 0), Receipt::accepted);
   EXPECT_EQ(fingers(10, 1), Receipt::accepted);
   EXPECT_EQ(fingers(10, 0), Receipt::went_back);
 }
 
 TEST_F(HandServerTest, AFloodMovesNothingFaster) {
-  tick();
+  start();
   int64_t stamp = 0;
   for (int i = 0; i < 20; ++i) {
     for (int m = 0; m < 1000; ++m) EXPECT_EQ(first_finger(m % 2 ? 90 : 0, ++stamp), Receipt::accepted);
@@ -251,6 +269,78 @@ TEST_F(HandServerTest, AFloodMovesNothingFaster) {
   }
   EXPECT_EQ(count(Receipt::accepted), 20'000);
   EXPECT_NEAR(last_.position[kFFJ3], 20 * 0.02, kRounding) << "the last one before a tick counts";
+}
+
+TEST_F(HandServerTest, WhatWaitedThroughAStandstillMovesNothing) {
+  start();
+  for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(5, i), Receipt::accepted);
+  now_us_ += 6'500'000;  // stopped; its sender is dead, and commands of 1.5 s wait
+  const std::vector<double> stood = last_.position;
+  for (int i = 0; i < 150; ++i)
+    EXPECT_NE(receive(HandTopic::fingers, trajectory_message(hand_trajectory_names(), 80, 11 + i), kFirst,
+                      6'500'000 - i * 10'000),
+              Receipt::accepted);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().position, stood);
+  EXPECT_EQ(last_.state, CommandState::stopped);
+  EXPECT_EQ(count(Receipt::stale), 150);
+  EXPECT_EQ(server_.stream().gaps(), 1);
+}
+
+TEST_F(HandServerTest, OwnGapsNeedANewStart) {
+  start();
+  for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(80, i), Receipt::accepted);
+  now_us_ += 95'000;  // the next tick is 105 ms after the last one
+  const std::vector<double> stood = last_.position;
+  EXPECT_EQ(fingers(80, 11), Receipt::accepted) << "95 ms after the last tick";
+  EXPECT_EQ(tick().position, stood) << "it was on its way, but now it holds";
+  EXPECT_EQ(last_.state, CommandState::holding);
+  int refused = 0;
+  for (; fingers(80, 12 + refused) != Receipt::accepted; ++refused) EXPECT_EQ(tick().position, stood);
+  EXPECT_EQ(refused, 30) << "0.1 s in which all is stale, 0.2 s of a start";
+  EXPECT_NE(tick().position, stood);
+  EXPECT_EQ(server_.stream().owners(), 2);
+}
+
+TEST_F(HandServerTest, ALateCommandMovesNothing) {
+  start();
+  for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(5, i), Receipt::accepted);
+  const ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 80, 20);
+  EXPECT_EQ(receive(HandTopic::fingers, message, kFirst, 151'000), Receipt::stale);
+  EXPECT_EQ(receive(HandTopic::fingers, message, kFirst, 120'000), Receipt::accepted);
+  EXPECT_EQ(tick().state, CommandState::following) << "it is 130 ms old";
+  EXPECT_EQ(ticks(2).state, CommandState::following);
+  EXPECT_EQ(tick().state, CommandState::holding) << "160 ms";
+}
+
+TEST_F(HandServerTest, AnOldTargetOfTheWristIsNotFollowedWhileTheFingersAre) {
+  start();
+  EXPECT_EQ(wrist(28, 1), Receipt::accepted);
+  std::vector<double> angles;
+  for (int i = 1; i <= 40; ++i) {
+    fingers(80, i);
+    angles.push_back(tick().position[kWRJ1]);
+  }
+  EXPECT_NEAR(angles[14], 15 * 0.02, kRounding);
+  EXPECT_EQ(angles[15], angles[14]) << "0.15 s after its last message";
+  EXPECT_EQ(angles[39], angles[14]);
+}
+
+TEST_F(HandServerTest, HoldsWhileItMayNotMoveAndGoesOnThen) {
+  start();
+  fingers(80, 1);
+  for (int i = 0; i < 3; ++i, now_us_ += kPeriodUs)
+    EXPECT_EQ(server_.tick({now_us_ + kPeriodUs, kEpochUs + now_us_ + kPeriodUs}, false).position, start_);
+  EXPECT_EQ(tick().state, CommandState::following) << "without another message";
+  EXPECT_NEAR(last_.position[kFFJ3], 0.02, kRounding) << "and without making up for what it missed";
+}
+
+TEST_F(HandServerTest, AClockThatIsSetIsAGap) {
+  start();
+  for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(80, i), Receipt::accepted);
+  now_us_ += kPeriodUs;
+  const std::vector<double> stood = last_.position;
+  EXPECT_EQ(server_.tick({now_us_, kEpochUs + now_us_ + 101'000}).position, stood);
+  EXPECT_EQ(server_.stream().gaps(), 1);
 }
 
 TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
@@ -262,7 +352,7 @@ TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
       highest.push_back(radians_from_degrees(info.max_deg) + outwards);
     }
     for (const std::vector<double>& start : {lowest, highest}) {
-      const RobotState state = HandServer({}, start).tick(1);
+      const RobotState state = HandServer({}, {start}).tick({1, 1});
       for (size_t j = 0; j < start.size(); ++j) {
         EXPECT_NEAR(state.position[j], start[j], rounding * 1.001);
         EXPECT_GE(state.position[j], radians_from_degrees(shadow_joint_infos()[j].min_deg));
@@ -273,14 +363,14 @@ TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ2] = 1;
   start[kFFJ1] = 1 + rounding;
-  EXPECT_EQ(HandServer({}, start).tick(1).position[kFFJ1], 1) << "not above J2";
+  EXPECT_EQ(HandServer({}, {start}).tick({1, 1}).position[kFFJ1], 1) << "not above J2";
 }
 
 TEST(HandServer, NamesWhatIsOutside) {
   std::vector<double> start(kShadowJointCount, 0.0);
   const auto error = [&]() -> std::string {
     try {
-      HandServer({}, start, "hand.jsonl");
+      HandServer({}, {start, "hand.jsonl"});
     } catch (const Error& e) {
       return e.what();
     }
@@ -296,14 +386,14 @@ TEST(HandServer, NamesWhatIsOutside) {
 TEST(HandServer, StartsWhereTheJointsStandIfThatIsAPlace) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ3] = 1;
-  HandServer server({}, start);
-  EXPECT_EQ(server.tick(1).position, start);
-  EXPECT_THROW(server.tick(1), std::logic_error);
+  HandServer server({}, {start});
+  EXPECT_EQ(server.tick({1, 1}).position, start);
+  EXPECT_THROW(server.tick({1, 1}), std::logic_error);
   start[kFFJ3] = 4;
-  EXPECT_THROW(HandServer({}, start), Error);
+  EXPECT_THROW(HandServer({}, {start}), Error);
   start[kFFJ3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(HandServer({}, start), Error);
-  EXPECT_THROW(HandServer({}, {}), Error);
+  EXPECT_THROW(HandServer({}, {start}), Error);
+  EXPECT_THROW(HandServer({}, StartPlace{}), Error);
 }
 
 }  // namespace

@@ -17,8 +17,10 @@ enum class Receipt {
   wrong_frame,   ///< a pose in another frame than the arm's base
   bad_time,      ///< a time before 1970, or with a second and more of nanoseconds
   went_back,     ///< its stamp is not after that of its sender's last message
+  starting,      ///< good, but its stream has not yet shown for 0.2 s that it is a live one
+  stale,         ///< good, but older than the time of silence, or it waited through a gap (message_age.h)
 };
-inline constexpr int kReceiptCount = 9;
+inline constexpr int kReceiptCount = 11;
 std::string_view to_string(Receipt receipt);
 
 /// How often each has happened.

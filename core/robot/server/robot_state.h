@@ -7,6 +7,12 @@
 
 namespace glovebench {
 
+/// A moment by the two clocks of a server, us.
+struct ServerTime {
+  int64_t clock_us = 0;   ///< does not go back
+  int64_t system_us = 0;  ///< since 1970; may be set
+};
+
 /// What a server of the robot sends to its joints, and so where they stand.
 struct RobotState {
   int64_t clock_us = 0;  ///< of the server, which does not go back

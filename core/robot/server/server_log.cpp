@@ -1,19 +1,11 @@
 #include "core/robot/server/server_log.h"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/base/angles.h"
@@ -25,20 +17,30 @@ namespace {
 
 constexpr double kClockCorrection = 1;  // s
 constexpr double kLongestPause = 5;     // s: a server writes a state a second
-constexpr std::string_view kEvent = R"({"event":")", kState = R"({"event":"state",)";
+constexpr std::string_view kEvent = R"({"event":")", kState = R"({"event":"state",)",
+                           kInterval = R"({"event":"interval",)";
+constexpr double kSteps = 1e6;  // of a degree
 
-double rounded_deg(double angle) {
-  return std::round(degrees_from_radians(angle) * 1e6) / 1e6 + 0.0;  // + 0.0 turns -0 into 0
+/// `round`: to whole steps.
+template <typename Round>
+std::string angles_text(const std::vector<double>& angles, const std::vector<std::string>& names,
+                        const Round& round) {
+  std::string text;
+  for (size_t j = 0; j < names.size(); ++j) {
+    const double angle_deg = round(degrees_from_radians(angles.at(j)) * kSteps) / kSteps + 0.0;  // turns -0 into 0
+    text += fmt::format(R"({}"{}":{})", j > 0 ? "," : "", names[j], angle_deg);
+  }
+  return "{" + text + "}";
 }
 
-/// The last state that was written as a whole; null if there is none.
-nlohmann::json last_state_line(std::string_view log) {
+/// The last line that begins like that and was written as a whole; null if there is none.
+nlohmann::json last_line(std::string_view log, std::string_view beginning) {
   size_t end = log.rfind('\n');
   while (end != std::string_view::npos) {
     const size_t before = end == 0 ? std::string_view::npos : log.rfind('\n', end - 1);
     const size_t begin = before == std::string_view::npos ? 0 : before + 1;
     const std::string_view line = log.substr(begin, end - begin);
-    if (line.starts_with(kState)) {
+    if (line.starts_with(beginning)) {
       try {
         return parse_json(line, "log");
       } catch (const Error&) {  // a kill may have cut it
@@ -60,14 +62,23 @@ double age_s(const LoggedState& state, int64_t now_us) {
   return (static_cast<double>(now_us) - static_cast<double>(state.time_us)) * 1e-6;
 }
 
-/// Locks a file, for as long as it is open; a device is everybody's.
-void lock_file(int descriptor, const std::string& path) {
-  struct stat status {};
-  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;
-  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return;
-  if (errno == EWOULDBLOCK)
-    throw Error(path, "log", "another server that is writing it", "a log of its own for each server");
-  throw Error(path, "log", std::strerror(errno), "a file that can be locked");
+/// The angles of the joints under a key of a line, rad.
+std::vector<double> read_angles(const nlohmann::json& line, const char* key, const std::string& field,
+                                const std::vector<std::string>& names, const std::string& path) {
+  if (!line.contains(key) || !line[key].is_object())
+    throw Error(path, field, fmt::format("no object {}", key), "a line of this server");
+  const nlohmann::json& angles = line[key];
+  std::vector<double> positions;
+  for (const std::string& name : names) {
+    if (!angles.contains(name) || !angles[name].is_number())
+      throw Error(path, field, "no angle of " + name, fmt::format("those of its {} joints", names.size()));
+    const double angle_deg = angles[name].get<double>();
+    if (!(std::abs(angle_deg) <= 360)) throw Error(path, name, fmt::format("{}", angle_deg), "-360 to 360 degrees");
+    positions.push_back(radians_from_degrees(angle_deg));
+  }
+  if (angles.size() != names.size())
+    throw Error(path, field, fmt::format("{} joints", angles.size()), fmt::format("{}", names.size()));
+  return positions;
 }
 
 }  // namespace
@@ -79,35 +90,43 @@ std::string received_line(const ReceivedLine& received) {
 }
 
 std::string state_line(const RobotState& state, int64_t time_us, const std::vector<std::string>& names) {
-  std::string line = fmt::format(R"({}"time_us":{},"clock_us":{},"state":"{}","position_deg":{{)", kState, time_us,
-                                 state.clock_us, to_string(state.state));
-  for (size_t j = 0; j < names.size(); ++j)
-    line += fmt::format(R"({}"{}":{})", j > 0 ? "," : "", names[j], rounded_deg(state.position.at(j)));
-  return line + "}}";
+  return fmt::format(R"({}"time_us":{},"clock_us":{},"state":"{}","position_deg":{}}})", kState, time_us,
+                     state.clock_us, to_string(state.state),
+                     angles_text(state.position, names, [](double steps) { return std::round(steps); }));
+}
+
+std::string interval_line(const JointInterval& interval, int64_t time_us, const std::vector<std::string>& names) {
+  return fmt::format(R"({}"time_us":{},"min_deg":{},"max_deg":{}}})", kInterval, time_us,
+                     angles_text(interval.min, names, [](double steps) { return std::floor(steps); }),
+                     angles_text(interval.max, names, [](double steps) { return std::ceil(steps); }));
+}
+
+std::string start_line(int64_t time_us, std::string_view from) {
+  return fmt::format(R"({{"event":"start","time_us":{},"from":"{}"}})", time_us, from);
 }
 
 std::optional<LoggedState> last_state(std::string_view log, const std::vector<std::string>& names,
                                       const std::string& path) {
-  const nlohmann::json state = last_state_line(log);
+  const nlohmann::json state = last_line(log, kState);
   const bool is_log = log.empty() || log.starts_with(kEvent) || log.find(fmt::format("\n{}", kEvent)) != log.npos;
   if (!is_log) throw Error(path, "lines", "none of a log of `robot-server`", "a log, or no file");
   if (state.is_null()) return std::nullopt;
-  if (!state.contains("position_deg") || !state["position_deg"].is_object())
-    throw Error(path, "last state", "no object position_deg", "a line of this server");
   if (!state.contains("time_us") || !state["time_us"].is_number_integer() || state["time_us"].get<int64_t>() < 0)
     throw Error(path, "last state", "no time_us", "a line of this server");
-  const nlohmann::json& angles = state["position_deg"];
-  std::vector<double> positions;
-  for (const std::string& name : names) {
-    if (!angles.contains(name) || !angles[name].is_number())
-      throw Error(path, "last state", "no angle of " + name, fmt::format("those of its {} joints", names.size()));
-    const double angle_deg = angles[name].get<double>();
-    if (!(std::abs(angle_deg) <= 360)) throw Error(path, name, fmt::format("{}", angle_deg), "-360 to 360 degrees");
-    positions.push_back(radians_from_degrees(angle_deg));
-  }
-  if (angles.size() != names.size())
-    throw Error(path, "last state", fmt::format("{} joints", angles.size()), fmt::format("{}", names.size()));
-  return LoggedState{state["time_us"].get<int64_t>(), std::move(positions)};
+  return LoggedState{state["time_us"].get<int64_t>(),
+                     read_angles(state, "position_deg", "last state", names, path)};
+}
+
+std::optional<JointInterval> last_interval(std::string_view log, const std::vector<std::string>& names,
+                                           const std::string& path) {
+  const nlohmann::json line = last_line(log, kInterval);
+  if (line.is_null()) return std::nullopt;
+  JointInterval interval{read_angles(line, "min_deg", "last interval", names, path),
+                         read_angles(line, "max_deg", "last interval", names, path)};
+  for (size_t j = 0; j < names.size(); ++j)
+    if (interval.min[j] > interval.max[j])
+      throw Error(path, "last interval", "a minimum above the maximum of " + names[j], "a line of this server");
+  return interval;
 }
 
 std::string age_text(const LoggedState& state, int64_t now_us) {
@@ -137,59 +156,6 @@ void check_whole(const LoggedState& state, int64_t changed_us, const std::string
         path, "last state", fmt::format("one {:.1f} s before the file was changed last", missing),
         "the last thing that happened: states after it are lost, as with a full disk. Look where the joints "
         "stand; if at rest: another --log");
-}
-
-int64_t changed_us(const std::string& path) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0) throw Error(path, "log", std::strerror(errno), "a file");
-  return int64_t{status.st_mtim.tv_sec} * 1'000'000 + status.st_mtim.tv_nsec / 1000;
-}
-
-std::string read_tail(const std::string& path, uint64_t max_bytes) {
-  if (!std::filesystem::is_regular_file(path)) return "";
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<int64_t>(file.tellg());
-  const int64_t length = std::min(size, static_cast<int64_t>(max_bytes));
-  std::string text(static_cast<size_t>(std::max<int64_t>(length, 0)), '\0');
-  file.seekg(size - length);
-  file.read(text.data(), length);
-  if (!file) throw Error(path, "file", "nothing that can be read", "a file");
-  return text;
-}
-
-GrowingFile::GrowingFile(const std::string& path) {
-  if (path.empty()) return;
-  descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "one that can be appended to");
-  try {
-    lock_file(descriptor_, path);
-  } catch (const Error&) {
-    close(descriptor_);
-    throw;
-  }
-  char last = '\n';
-  const off_t size = lseek(descriptor_, 0, SEEK_END);
-  if (size > 0 && pread(descriptor_, &last, 1, size - 1) == 1) cut_ = last != '\n';
-}
-
-GrowingFile::~GrowingFile() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
-void GrowingFile::append(const std::string& line) {
-  if (descriptor_ < 0) return;
-  const std::string whole = (cut_ ? "\n" : "") + line + "\n";
-  ssize_t written = -1;
-  do {
-    written = write(descriptor_, whole.data(), whole.size());
-  } while (written < 0 && errno == EINTR);
-  if (written == static_cast<ssize_t>(whole.size())) {
-    cut_ = false;
-    return;
-  }
-  futimens(descriptor_, nullptr);  // takes no room, and tells the next reader that there was more
-  if (lost_++ == 0) failure_ = written < 0 ? std::strerror(errno) : "no room for a whole line";
-  cut_ = cut_ || written > 0;
 }
 
 }  // namespace glovebench

@@ -8,6 +8,7 @@
 
 #include "core/robot/server/receipt.h"
 #include "core/robot/server/robot_state.h"
+#include "core/robot/server/stated_interval.h"
 
 namespace glovebench {
 
@@ -24,6 +25,10 @@ struct ReceivedLine {
 /// clock.
 std::string received_line(const ReceivedLine& received);
 std::string state_line(const RobotState& state, int64_t time_us, const std::vector<std::string>& names);
+/// From this line to the next one of its kind the joints are inside the interval, which is rounded outwards.
+std::string interval_line(const JointInterval& interval, int64_t time_us, const std::vector<std::string>& names);
+/// A server begins. `from`: what says where the joints are.
+std::string start_line(int64_t time_us, std::string_view from);
 
 /// Where the joints stood, and when.
 struct LoggedState {
@@ -35,6 +40,10 @@ struct LoggedState {
 /// last state is not one of these joints, or no line is one of a log.
 std::optional<LoggedState> last_state(std::string_view log, const std::vector<std::string>& names,
                                       const std::string& path);
+/// The last interval of a log, as last_state has the last state. Nothing if there is none, as in logs of older
+/// versions. Throws Error naming `path` if it is not one of these joints, or a minimum is above its maximum.
+std::optional<JointInterval> last_interval(std::string_view log, const std::vector<std::string>& names,
+                                           const std::string& path);
 /// When a state was, as a person reads it: its time of day, and how long before `now_us` that is.
 std::string age_text(const LoggedState& state, int64_t now_us);
 /// A server that failed is started again by then, s.
@@ -46,35 +55,5 @@ void check_age(const LoggedState& state, int64_t now_us, double max_age_s, const
 /// Throws Error naming `path` if the file was changed (`changed_us`, by the system's clock) seconds after its last
 /// state: then later ones could not be written.
 void check_whole(const LoggedState& state, int64_t changed_us, const std::string& path);
-/// When a file was changed last, microseconds since 1970 by the system's clock. Throws Error.
-int64_t changed_us(const std::string& path);
-
-/// The end of a file, at most that many bytes; empty if there is none or it is a device. Throws Error if it cannot
-/// be read.
-std::string read_tail(const std::string& path, uint64_t max_bytes);
-
-/// A file that grows by a line at a time and has each of them at once, for it is read after a kill. What cannot be
-/// written is counted, and the file's time of change goes on: a robot does not stop for a full disk. Nobody else
-/// has it as his GrowingFile meanwhile, unless it is a device.
-class GrowingFile {
- public:
-  /// Opens a file to append to, or none for an empty path. Throws Error if it cannot be opened, or another has it.
-  explicit GrowingFile(const std::string& path);
-  ~GrowingFile();
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
-
-  void append(const std::string& line);
-  /// Lines that could not be written.
-  int64_t lost() const { return lost_; }
-  /// Why the first of them was lost.
-  const std::string& failure() const { return failure_; }
-
- private:
-  int descriptor_ = -1;
-  bool cut_ = false;  ///< the file does not end with a whole line
-  int64_t lost_ = 0;
-  std::string failure_;
-};
 
 }  // namespace glovebench

@@ -4,11 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 
 namespace glovebench {
 namespace {
@@ -25,14 +23,7 @@ RobotState state_at(double a_deg, double b_deg) {
   return {17, CommandState::following, {radians_from_degrees(a_deg), radians_from_degrees(b_deg)}, {}};
 }
 
-class ServerLog : public testing::Test {
- protected:
-  void SetUp() override { std::filesystem::remove(path_); }
-  void TearDown() override { std::filesystem::remove(path_); }
-  std::string path_ = testing::TempDir() + "robot-server-" + std::to_string(getpid()) + ".jsonl";
-};
-
-TEST_F(ServerLog, HasOneObjectALine) {
+TEST(ServerLog, HasOneObjectALine) {
   EXPECT_EQ(state_line(state_at(-0.0, 89.9999999), 5, kNames),
             R"({"event":"state","time_us":5,"clock_us":17,"state":"following","position_deg":{"a":0,"b":90}})");
   EXPECT_EQ(
@@ -41,7 +32,7 @@ TEST_F(ServerLog, HasOneObjectALine) {
       R"({"event":"received","time_us":5,"topic":"pose","receipt":"wrong_frame","stamp_ns":-1,"source_us":4})");
 }
 
-TEST_F(ServerLog, SaysWhereTheJointsStood) {
+TEST(ServerLog, SaysWhereTheJointsStood) {
   const std::string first = state_line(state_at(1, 2), 5, kNames) + "\n",
                     last = state_line(state_at(3, 45), 6, kNames);
   const std::string received = received_line({}) + "\n";
@@ -54,7 +45,7 @@ TEST_F(ServerLog, SaysWhereTheJointsStood) {
   EXPECT_THAT(last_state("its beginning is not read\n" + last + "\n", kNames, "log"), expected);
 }
 
-TEST_F(ServerLog, ForgetsALineThatWasCutOff) {
+TEST(ServerLog, ForgetsALineThatWasCutOff) {
   const std::string first = state_line(state_at(1, 2), 5, kNames) + "\n",
                     last = state_line(state_at(3, 45), 5, kNames);
   const auto expected =
@@ -67,7 +58,7 @@ TEST_F(ServerLog, ForgetsALineThatWasCutOff) {
   }
 }
 
-TEST_F(ServerLog, OfOtherJointsIsRefused) {
+TEST(ServerLog, OfOtherJointsIsRefused) {
   const std::string log = state_line(state_at(1, 2), 5, kNames) + "\n";
   EXPECT_THROW(last_state(log, {"a", "c"}, "log"), Error);
   EXPECT_THROW(last_state(log, {"a"}, "log"), Error);
@@ -86,7 +77,7 @@ TEST_F(ServerLog, OfOtherJointsIsRefused) {
   EXPECT_THROW(last_state("{\"event\":\"state\",\"time_us\":1}\n", kNames, "log"), Error);
 }
 
-TEST_F(ServerLog, IsBelievedForATime) {
+TEST(ServerLog, IsBelievedForATime) {
   constexpr int64_t kSecond = 1'000'000, kThen = 1'795'363'200 * kSecond;
   const auto error_after = [&](double seconds, double max_age_s) -> std::string {
     try {
@@ -113,46 +104,35 @@ TEST_F(ServerLog, IsBelievedForATime) {
   EXPECT_NE(error_after(0.1, 0), "");
 }
 
-TEST_F(ServerLog, IsWrittenByOneAtATime) {
-  {
-    GrowingFile first(path_);
-    EXPECT_THROW(GrowingFile{path_}, Error);
-    first.append("one");
+TEST(ServerLog, StatesWhereTheJointsMayBe) {
+  const JointInterval interval{{radians_from_degrees(1), radians_from_degrees(-3)},
+                               {radians_from_degrees(2.00000014), radians_from_degrees(-3)}};
+  const std::string line = interval_line(interval, 5, kNames);
+  EXPECT_THAT(line, testing::StartsWith(R"({"event":"interval","time_us":5,"min_deg":{"a":)"));
+  const auto read = last_interval(start_line(1, "rest") + "\n" + line + "\n", kNames, "log");
+  ASSERT_TRUE(read);
+  for (size_t j = 0; j < kNames.size(); ++j) {
+    EXPECT_LE(read->min[j], interval.min[j]) << "rounded outwards";
+    EXPECT_GE(read->max[j], interval.max[j]);
+    EXPECT_NEAR(read->min[j], interval.min[j], radians_from_degrees(1.1e-6));
+    EXPECT_NEAR(read->max[j], interval.max[j], radians_from_degrees(1.1e-6));
   }
-  GrowingFile(path_).append("two");
-  EXPECT_EQ(read_file(path_), "one\ntwo\n");
-  const GrowingFile device("/dev/null"), again("/dev/null");
+  EXPECT_FALSE(last_interval(state_line(state_at(1, 2), 5, kNames) + "\n", kNames, "log")) << "an older log";
+  for (size_t length = 0; length < line.size(); ++length)
+    EXPECT_EQ(last_interval(line + "\n" + line.substr(0, length), kNames, "log"), read) << "cut off";
 }
 
-TEST_F(ServerLog, GrowsAndMendsWhatWasCutOff) {
-  write_file(path_, "{\"event\":\"st");
-  {
-    GrowingFile file(path_);
-    file.append("one");
-    EXPECT_EQ(read_file(path_), "{\"event\":\"st\none\n") << "at once";
-    file.append("two");
-  }
-  GrowingFile(path_).append("three");
-  EXPECT_EQ(read_file(path_), "{\"event\":\"st\none\ntwo\nthree\n");
-  EXPECT_EQ(read_tail(path_, 6), "three\n");
-  EXPECT_EQ(read_tail(path_, 1000), read_file(path_));
-  EXPECT_EQ(read_tail(path_ + "x", 10), "");
+TEST(ServerLog, AnIntervalOfOtherJointsIsRefused) {
+  const auto line = [](const char* min, const char* max) {
+    return fmt::format(R"({{"event":"interval","time_us":1,"min_deg":{},"max_deg":{}}})", min, max) + "\n";
+  };
+  EXPECT_TRUE(last_interval(line(R"({"a":1,"b":2})", R"({"a":1,"b":2})"), kNames, "log"));
+  for (const char* max : {R"({"a":1})", R"({"a":1,"b":2,"c":3})", R"({"a":1,"c":2})", R"({"a":1,"b":1.9})",
+                          R"({"a":1,"b":"2"})", R"({"a":1,"b":361})", "[1,2]", "null"})
+    EXPECT_THROW(last_interval(line(R"({"a":1,"b":2})", max), kNames, "log"), Error) << max;
 }
 
-TEST_F(ServerLog, CountsWhatAFullDiskDoesNotTake) {
-  GrowingFile file("/dev/full");
-  file.append("one");
-  file.append("two");
-  EXPECT_EQ(file.lost(), 2);
-  EXPECT_THAT(file.failure(), HasSubstr("space"));
-  EXPECT_EQ(read_tail("/dev/full", 10), "");
-  EXPECT_THROW(GrowingFile("/nowhere/log"), Error);
-  GrowingFile none("");
-  none.append("one");
-  EXPECT_EQ(none.lost(), 0);
-}
-
-TEST_F(ServerLog, IsWholeIfItsLastStateIsItsLastChange) {
+TEST(ServerLog, IsWholeIfItsLastStateIsItsLastChange) {
   const LoggedState state{1'000'000'000, {}};
   EXPECT_NO_THROW(check_whole(state, 1'000'000'000, "a.jsonl"));
   EXPECT_NO_THROW(check_whole(state, 1'004'000'000, "a.jsonl")) << "messages come after a state, too";

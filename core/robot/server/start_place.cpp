@@ -10,7 +10,6 @@
 namespace glovebench {
 namespace {
 
-constexpr double kLogRoundingDeg = 1e-6;     // twice what an angle of a log may be off
 constexpr double kWorkspaceRounding = 1e-4;  // m: 1e-7 of the arm's angles in a log, 1e-5 of their solver
 
 std::string text(const Eigen::Vector3d& p) {
@@ -19,18 +18,17 @@ std::string text(const Eigen::Vector3d& p) {
 
 }  // namespace
 
-double start_angle(double angle, double min_deg, double max_deg, const std::string& source,
-                   std::string_view joint) {
-  const double angle_deg = degrees_from_radians(angle);
-  if (!(angle_deg >= min_deg - kLogRoundingDeg && angle_deg <= max_deg + kLogRoundingDeg))
-    throw Error(source, std::string(joint), fmt::format("{} degrees", angle_deg),
+double start_angle(double angle, double min_deg, double max_deg, const StartPlace& start, std::string_view joint) {
+  const double angle_deg = degrees_from_radians(angle), tolerance_deg = degrees_from_radians(start.tolerance);
+  if (!(angle_deg >= min_deg - tolerance_deg && angle_deg <= max_deg + tolerance_deg))
+    throw Error(start.source, std::string(joint), fmt::format("{} degrees", angle_deg),
                 fmt::format("{} to {}", min_deg, max_deg));
   return std::clamp(angle, radians_from_degrees(min_deg), radians_from_degrees(max_deg));
 }
 
-double start_distal(double distal, double proximal, const std::string& source, std::string_view joint) {
-  if (!(distal <= proximal + radians_from_degrees(kLogRoundingDeg)))
-    throw Error(source, std::string(joint), fmt::format("{} degrees", degrees_from_radians(distal)),
+double start_distal(double distal, double proximal, const StartPlace& start, std::string_view joint) {
+  if (!(distal <= proximal + start.tolerance))
+    throw Error(start.source, std::string(joint), fmt::format("{} degrees", degrees_from_radians(distal)),
                 fmt::format("at most the {} of the joint before it", degrees_from_radians(proximal)));
   return std::min(distal, proximal);
 }

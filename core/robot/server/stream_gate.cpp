@@ -8,8 +8,8 @@ namespace glovebench {
 
 std::string_view to_string(Receipt receipt) {
   static constexpr std::array<std::string_view, kReceiptCount> names = {
-      "accepted",     "foreign",     "wrong_joints", "wrong_points", "not_finite",
-      "not_rotation", "wrong_frame", "bad_time",     "went_back"};
+      "accepted",    "foreign",  "wrong_joints", "wrong_points", "not_finite", "not_rotation",
+      "wrong_frame", "bad_time", "went_back",    "starting",     "stale"};
   return names.at(static_cast<size_t>(receipt));
 }
 

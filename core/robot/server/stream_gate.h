@@ -26,6 +26,9 @@ class StreamGate {
   /// The senders that are there: an owner that is not among them is gone.
   void keep_only(const std::set<uint64_t>& present);
 
+  /// As if the owner was gone.
+  void release() { owner_.reset(); }
+
   std::optional<uint64_t> owner() const { return owner_; }
   /// How often the stream got an owner.
   int64_t owners() const { return owners_; }

@@ -1,0 +1,207 @@
+#include "core/robot/server/message_age.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace glovebench {
+namespace {
+
+constexpr int64_t kSecond = 1'000'000, kPeriod = 33'333, kTick = 10'000;
+constexpr int64_t kEpoch = 1'800'000'000 * kSecond;
+constexpr double kLimit = 0.15;
+
+/// A server that ticks, and a sender whose clock is `offset_` ahead of the server's.
+class MessageAgeTest : public testing::Test {
+ protected:
+  /// Time goes on, with ticks.
+  void pass(int64_t us) {
+    const int64_t end = now_ + us;
+    while (now_ + kTick <= end) {
+      now_ += kTick;
+      gaps_ += ages_.tick(now_, kEpoch + now_);
+    }
+    now_ = end;
+  }
+  /// A message that took `delay` us to come.
+  MessageAge come(int64_t delay = 300, uint64_t sender = 1, int topic = 0) {
+    return ages_.judge({sender, (now_ - delay + offset_) * 1000, now_}, topic);
+  }
+  /// A stream at 30 Hz; how many of its messages are accepted.
+  int stream(double seconds, int64_t delay = 300, uint64_t sender = 1) {
+    int accepted = 0;
+    for (int i = 0; i < seconds * 30; ++i) {
+      pass(kPeriod);
+      accepted += come(delay, sender).receipt == Receipt::accepted;
+    }
+    return accepted;
+  }
+
+  MessageAges ages_{kLimit};
+  int64_t now_ = 100 * kSecond, offset_ = -50 * kSecond;
+  int gaps_ = 0;
+};
+
+TEST_F(MessageAgeTest, AStreamIsFollowedAfterAStart) {
+  pass(kSecond);
+  EXPECT_EQ(come().receipt, Receipt::starting);
+  for (int i = 0; i < 5; ++i) {
+    pass(kPeriod);
+    EXPECT_EQ(come().receipt, Receipt::starting) << i;
+  }
+  pass(kPeriod);
+  EXPECT_EQ(come().receipt, Receipt::accepted) << "after 0.2 s";
+  EXPECT_EQ(come(300, 1, 7).receipt, Receipt::starting) << "another topic";
+  EXPECT_EQ(come(300, 2).receipt, Receipt::starting) << "another sender";
+}
+
+TEST_F(MessageAgeTest, ALateMessageIsStaleAndTheNextOneIsNot) {
+  EXPECT_GT(stream(1), 20);
+  EXPECT_EQ(come(300).age_us, 0);
+  EXPECT_EQ(come(100'300).age_us, 100'000);
+  EXPECT_EQ(come(150'300).receipt, Receipt::accepted);
+  EXPECT_EQ(come(150'301).receipt, Receipt::stale);
+  EXPECT_EQ(come(3 * kSecond).receipt, Receipt::stale);
+  EXPECT_FALSE(come(3 * kSecond).jumped) << "lateness explains it";
+  EXPECT_EQ(come().receipt, Receipt::accepted);
+}
+
+TEST_F(MessageAgeTest, OldMessagesOfAnUnknownSenderStartNothing) {
+  pass(kSecond);
+  for (const int64_t between :
+       {int64_t{0}, int64_t{10}, int64_t{1000}, int64_t{10'000}, kPeriod, int64_t{90'000}}) {
+    MessageAges ages(kLimit);
+    for (int i = 0; i < 3000; ++i) {  // the first has waited for 6.5 s, and 1 us each is taken
+      const Arrival arrival{1, (now_ - 6'500'000 + i * between) * 1000, now_ + i};
+      EXPECT_NE(ages.judge(arrival, 0).receipt, Receipt::accepted) << between << " us, message " << i;
+    }
+  }
+}
+
+TEST_F(MessageAgeTest, OldMessagesAfterAStandstillAreStaleHoweverLongItWas) {
+  for (const int64_t standstill : {kSecond / 5, 5 * kSecond, 9 * kSecond, 11 * kSecond, 3600 * kSecond}) {
+    EXPECT_GT(stream(1), 10);
+    now_ += standstill;
+    gaps_ = 0;
+    int accepted = 0;
+    for (int64_t waited = standstill; waited > 0; waited -= std::max<int64_t>(kPeriod, standstill / 500)) {
+      gaps_ += ages_.watch(now_);
+      accepted += come(300 + waited).receipt == Receipt::accepted;
+      now_ += 10;
+    }
+    EXPECT_EQ(gaps_, 1);
+    EXPECT_EQ(accepted, 0) << standstill;
+    // Some come later still: a writer sends its last ten again.
+    pass(200'000);
+    for (int i = 10; i > 0 && standstill > kSecond; --i)
+      EXPECT_EQ(come(300 + 200'000 + i * kPeriod).receipt, Receipt::stale) << "sent before the end of the gap";
+    EXPECT_EQ(stream(0.2), 0) << "and a live stream starts anew";
+    EXPECT_GT(stream(1), 28);
+  }
+}
+
+TEST_F(MessageAgeTest, TicksThatAreLateAreAGap) {
+  EXPECT_GT(stream(1), 20);
+  EXPECT_EQ(gaps_, 0);
+  const int64_t last = now_ / kTick * kTick;
+  EXPECT_FALSE(ages_.watch(last + 100'000));
+  EXPECT_FALSE(ages_.tick(last + 100'000, kEpoch + last + 100'000));
+  EXPECT_TRUE(ages_.tick(last + 200'001, kEpoch + last + 200'001));
+  now_ = last + 210'000;
+  EXPECT_EQ(come().receipt, Receipt::stale);
+}
+
+TEST_F(MessageAgeTest, AClockOfTheServerThatJumpsIsAGap) {
+  for (const int64_t jump : {100'001L, -100'001L, 3600 * kSecond, -3600 * kSecond}) {
+    MessageAges ages(kLimit);
+    EXPECT_FALSE(ages.tick(kTick, kEpoch));
+    EXPECT_FALSE(ages.tick(2 * kTick, kEpoch + kTick + 99'999)) << "corrected a little";
+    EXPECT_TRUE(ages.tick(3 * kTick, kEpoch + 2 * kTick + 99'999 + jump)) << jump;
+    EXPECT_FALSE(ages.tick(4 * kTick, kEpoch + 3 * kTick + 99'999 + jump));
+  }
+}
+
+TEST_F(MessageAgeTest, AClockOfASenderThatJumpsStartsItAnew) {
+  for (const int64_t jump : {110'000L, -150'000L, 3600 * kSecond, -3600 * kSecond}) {
+    EXPECT_GT(stream(1), 10);
+    offset_ += jump;
+    pass(kPeriod);
+    const MessageAge age = come();
+    EXPECT_TRUE(age.jumped) << jump;
+    EXPECT_EQ(age.receipt, Receipt::starting) << jump;
+    EXPECT_EQ(stream(0.15), 0);
+    EXPECT_GT(stream(1), 25);
+  }
+  offset_ += 90'000;
+  pass(kPeriod);
+  EXPECT_FALSE(come().jumped) << "corrected a little";
+  offset_ -= 90'000;
+  pass(kPeriod);
+  EXPECT_FALSE(come().jumped);
+}
+
+TEST_F(MessageAgeTest, ClocksThatDriftAreFollowed) {
+  int accepted = stream(1);
+  for (int i = 0; i < 600; ++i) {  // 200 parts in a million, for 10 minutes
+    offset_ -= 200;
+    accepted += stream(1);
+  }
+  EXPECT_GE(accepted, 601 * 30 - 7);
+  EXPECT_LE(come().age_us, 2000 + 200);
+}
+
+TEST_F(MessageAgeTest, WhoWasSilentForLongStartsAnew) {
+  EXPECT_GT(stream(1), 20);
+  pass(9 * kSecond);
+  EXPECT_EQ(come().receipt, Receipt::accepted);
+  pass(11 * kSecond);
+  EXPECT_EQ(come(5 * kSecond).receipt, Receipt::starting);
+  EXPECT_TRUE(come().jumped) << "sooner than it can be: the first one was old";
+  EXPECT_EQ(come().receipt, Receipt::starting);
+}
+
+TEST_F(MessageAgeTest, WithoutSourceTimesNothingIsFollowed) {
+  for (int i = 0; i < 1000; ++i) {
+    pass(kPeriod);
+    for (const int64_t source : {int64_t{0}, std::numeric_limits<int64_t>::min()}) {
+      const uint64_t sender = source == 0 ? 1 : 2;
+      EXPECT_NE(ages_.judge({sender, source, now_}, 0).receipt, Receipt::accepted);
+    }
+  }
+}
+
+/// Whatever comes, what is accepted is no older than the limit and the 0.1 s by which a start may be wrong.
+TEST_F(MessageAgeTest, NothingOldIsAcceptedWhateverHappens) {
+  std::mt19937 random(5);
+  const auto any = [&](int64_t most) { return std::uniform_int_distribution<int64_t>(0, most)(random); };
+  int accepted = 0;
+  for (int round = 0; round < 300; ++round) {
+    const int64_t delay = any(3) == 0 ? any(8 * kSecond) : any(50'000);  // of the next messages
+    switch (any(4)) {
+      case 0:
+        now_ += any(20 * kSecond);
+        break;  // the server stands still
+      case 1:
+        pass(any(15 * kSecond));
+        break;  // the sender is silent
+      default:
+        break;
+    }
+    int64_t waiting = delay;
+    while (waiting > 270'000) {  // they come at once; 20 ms of it is usual here
+      gaps_ += ages_.watch(now_);
+      EXPECT_NE(come(waiting).receipt, Receipt::accepted);
+      now_ += any(20);
+      waiting -= any(2 * kPeriod);
+    }
+    for (int i = 0; i < 20; ++i) {  // and a live stream follows
+      pass(any(2 * kPeriod));
+      accepted += come(any(20'000)).receipt == Receipt::accepted;
+    }
+  }
+  EXPECT_GT(accepted, 1000);
+}
+
+}  // namespace
+}  // namespace glovebench
