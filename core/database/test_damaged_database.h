@@ -69,7 +69,7 @@ inline std::string with_right_hashes(std::string file, const std::vector<Section
     for (uint64_t begin = 0; begin < section.bytes; begin += section.piece_bytes)
       pieces.push_back(piece_hash(
           {reinterpret_cast<const uint8_t*>(file.data()) + section.offset + begin, section.piece_bytes}));
-    const std::string key = "\"" + section.name() + "\":\"";
+    const std::string key = section.name() + "\":\"";
     if (const size_t place = file.find(key, kHeader); place < sections.front().offset)
       file.replace(place + key.size(), kHexadecimal, section_hash(pieces));
   }
