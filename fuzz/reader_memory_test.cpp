@@ -201,10 +201,6 @@ constexpr const char* kColors =
     R"({"format": "glovebench-glove-colors", "version": 1, "colors_rgb": [[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3],
 [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3]]})";
 
-std::string webxr_of(const std::string& frames) {
-  return R"({"format":"glovebench-webxr-joints","version":1,"frames":[)" + frames + "]}";
-}
-
 std::vector<Reader> json_readers() {
   const std::string w = "x.json";
   reports::Timings timings;
@@ -363,7 +359,6 @@ TEST(ReaderMemory, of_long_texts_of_short_lines_is_bounded) {
       "points");
   check("recording index", lines_from("", [](int i) { return fmt::format("d-0.{:06}-{}.pgm", i % 1'000'000, i); }),
         "");
-  const std::string empty_cells(reports::estimates_csv({}).find("\n"), ',');
   const auto commas = std::ranges::count(reports::estimates_csv({}), ',');
   check("estimates",
         lines_from(reports::estimates_csv({}),
