@@ -21,7 +21,9 @@ TEST_F(RobotLimitsLong, SlowTheHandDownAndStandInTheResults) {
   EXPECT_EQ(interventions(free), 0);
   EXPECT_EQ(interventions(slow), kFrames - 1) << "all but the first";
   EXPECT_EQ(free["configuration"]["robot"]["limits"]["hand_speed_m_s"], 0.25);
+  EXPECT_EQ(free["configuration"]["robot"]["limits"]["fingertip_speed_m_s"], 0.5);
   EXPECT_EQ(free["configuration"]["robot"]["mapping"], "direct");
+  EXPECT_EQ(free["configuration"]["robot"]["coupling"], "series");
   EXPECT_EQ(slow["configuration"]["robot"]["limits"]["hand_speed_m_s"], 0.001);
   EXPECT_EQ(slow["configuration"]["robot"]["limits"]["stop_after_s"], 0.5) << "also what was not changed";
   EXPECT_FALSE(read_folder(path("free_robot")) == read_folder(path("slow_robot")));
@@ -30,6 +32,26 @@ TEST_F(RobotLimitsLong, SlowTheHandDownAndStandInTheResults) {
   expect_fine(track("dump", "DB_open_power", "estimates.jsonl",
                     {"--robot-limits", path("slow.json"), "--robot-out", path("tracked.jsonl")}));
   EXPECT_EQ(read_file(path("tracked.jsonl")), read_folder(path("slow_robot")).begin()->second);
+}
+
+TEST_F(RobotLimitsLong, TheCouplingSplitsWhatTheMotorsGet) {
+  const auto first_line = [&](const std::string& name) {
+    const std::string text = read_folder(path(name + "_robot")).begin()->second;
+    return json::parse(text.substr(0, text.find('\n')));
+  };
+  for (const std::string coupling : {"series", "even"}) {
+    const json results = run_trajectory("good.json", coupling,
+                                        {"--robot-coupling", coupling, "--robot-out", path(coupling + "_robot")});
+    EXPECT_EQ(results["configuration"]["robot"]["coupling"], coupling);
+  }
+  const json series = first_line("series"), even = first_line("even");
+  EXPECT_EQ(series["actuators"], even["actuators"]);
+  const double motor = even["actuators"]["target_deg"]["FFJ0"];
+  EXPECT_GT(motor, 0);
+  EXPECT_NEAR(even["joints"]["target_deg"]["FFJ1"].get<double>(), motor / 2, 1e-5);
+  EXPECT_NEAR(series["joints"]["target_deg"]["FFJ1"].get<double>(), std::max(0.0, motor - 90), 1e-5);
+  EXPECT_THAT(refusal(run_glovebench({"list", "mapping", "--robot-coupling", "both"})),
+              HasSubstr("--robot-coupling"));
 }
 
 TEST_F(RobotLimitsLong, ListedOnesAreTheDefaults) {
@@ -50,6 +72,8 @@ TEST_F(RobotLimitsLong, ThatCannotBeAreRefused) {
   EXPECT_THAT(refused("{"), HasSubstr("limits.json: column 2: found the end, expected JSON"));
   EXPECT_THAT(refused(R"({"hand_speed_m_s": -1})"), AllOf(HasSubstr("limits.json"), HasSubstr("hand_speed")));
   EXPECT_THAT(refused(R"({"speed": 1})"), HasSubstr("an unknown key"));
+  EXPECT_THAT(refused(R"({"workspace_max_m": [1, 1, 0.2]})"),
+              HasSubstr("a side of the workspace is shorter than 0.3 m"));
   EXPECT_THAT(refused(R"({"silence_s": 0.1, "silence_s": 0.2})"), HasSubstr("silence_s: found the key twice"));
   EXPECT_FALSE(std::filesystem::exists(path("out/results.json")));
 }
