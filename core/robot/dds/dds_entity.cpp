@@ -51,7 +51,7 @@ void hear_library(void*, const dds_log_data_t* said) {
     std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size + 1, stderr);
 }
 
-/// Keeps what is sent and what is heard on this host. The receive sockets listen on all addresses all the same.
+/// Keeps what is sent on this host. The receive sockets listen on all addresses all the same.
 constexpr const char* kLoopback =
     "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
@@ -65,11 +65,13 @@ std::string configuration(const DdsAccess& access) {
   if (!access.interface.empty()) {
     if (configured) throw Error("DDS", "interface", access.interface + " beside CYCLONEDDS_URI", "one of the two");
     if (if_nametoindex(access.interface.c_str()) == 0)
-      throw Error("DDS", "interface", access.interface, "a network interface of this host, e.g. lo");
+      throw Error("DDS", "interface", access.interface, "a network interface of this host, e.g. eth0");
+  }
+  if (access.interface == "lo" || (access.interface.empty() && !configured)) {
+    where = kLoopback;
+  } else if (!access.interface.empty()) {
     where = fmt::format("<General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces></General>",
                         access.interface);
-  } else if (!configured) {
-    where = kLoopback;
   }
   const std::string security =
       access.security.empty() ? "" : security_configuration(access.security, access.role, system_us() / 1'000'000);

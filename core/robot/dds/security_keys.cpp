@@ -22,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t kLargestFile = 1 << 20;  // bytes
-constexpr int kLastDomain = 230;
 
 std::string topic_list(const char* element, const std::vector<std::string>& topics) {
   if (topics.empty()) return "";
@@ -105,6 +104,7 @@ std::string governance_document() {
       <domains>
         <id_range>
           <min>0</min>
+          <max>230</max>
         </id_range>
       </domains>
       <allow_unauthenticated_participants>false</allow_unauthenticated_participants>
@@ -143,17 +143,17 @@ std::string permissions_document(const SecurityRole& role, const Validity& valid
         <domains>
           <id_range>
             <min>0</min>
-            <max>{3}</max>
+            <max>230</max>
           </id_range>
         </domains>
-{4}{5}      </allow_rule>
+{3}{4}      </allow_rule>
       <default>DENY</default>
     </grant>
   </permissions>
 </dds>
 )",
-                     role.name, utc(validity.begin_s), utc(validity.end_s), kLastDomain,
-                     topic_list("publish", role.writes), topic_list("subscribe", role.reads));
+                     role.name, utc(validity.begin_s), utc(validity.end_s), topic_list("publish", role.writes),
+                     topic_list("subscribe", role.reads));
 }
 
 void make_security_keys(const std::string& folder, const Validity& validity,

@@ -48,13 +48,17 @@ static dds_entity_t checked(dds_entity_t result, const char* what) {
   exit(1);
 }
 
-static dds_entity_t make_topic(dds_entity_t participant, int topic) {
+static dds_entity_t try_topic(dds_entity_t participant, int topic) {
   const dds_topic_descriptor_t* type = topic == kPose     ? &geometry_msgs_msg_dds__PoseStamped__desc
                                        : topic >= kStates ? &sensor_msgs_msg_dds__JointState__desc
                                                           : &trajectory_msgs_msg_dds__JointTrajectory__desc;
   const char* which = getenv("DDS_PROBE_TOPICS");
   const char* name = which && strcmp(which, "controller") == 0 ? controller_names[topic] : own_names[topic];
-  return checked(dds_create_topic(participant, type, name, NULL, NULL), name);
+  return dds_create_topic(participant, type, name, NULL, NULL);
+}
+
+static dds_entity_t make_topic(dds_entity_t participant, int topic) {
+  return checked(try_topic(participant, topic), short_names[topic]);
 }
 
 static dds_qos_t* make_qos(int depth) {
@@ -213,11 +217,11 @@ static void read_state(char* text) {
 
 // Those that this process may not make at its start fail when they are used.
 static dds_entity_t writer_of(dds_entity_t* writers, int topic) {
-  if (writers[topic] <= 0) {
-    dds_qos_t* qos = make_qos(10);
-    writers[topic] = dds_create_writer(writers[kTopics], make_topic(writers[kTopics], topic), qos, NULL);
-    dds_delete_qos(qos);
-  }
+  if (writers[topic] > 0) return writers[topic];
+  dds_qos_t* qos = make_qos(10);
+  writers[topic] = try_topic(writers[kTopics], topic);
+  if (writers[topic] > 0) writers[topic] = dds_create_writer(writers[kTopics], writers[topic], qos, NULL);
+  dds_delete_qos(qos);
   return writers[topic];
 }
 
