@@ -33,8 +33,8 @@ class DdsBus : public testing::Test {
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
 
-  StartedProgram start(std::vector<std::string> command) {
-    running_.push_back(start_program(command));
+  StartedProgram start(std::vector<std::string> command, const ProgramSetting& setting = {}) {
+    running_.push_back(start_program(command, setting));
     return running_.back();
   }
   ProgramRun finish(const StartedProgram& program) {
