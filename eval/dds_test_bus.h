@@ -33,7 +33,7 @@ class DdsBus : public testing::Test {
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
 
-  StartedProgram start(std::vector<std::string> command, const ProgramSetting& setting = {}) {
+  StartedProgram start(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
     running_.push_back(start_program(command, setting));
     return running_.back();
   }
@@ -47,16 +47,16 @@ class DdsBus : public testing::Test {
   }
 
   /// Prints what arrives until nothing has for a second and a half, or for longer, after the first.
-  StartedProgram listen(const std::string& seconds = "1.5") {
-    const StartedProgram listener = start({GLOVEBENCH_DDS_PROBE, "listen", domain_, seconds});
+  StartedProgram listen(const std::string& seconds = "1.5", const ProgramSetting& setting = {}) {
+    const StartedProgram listener = start({GLOVEBENCH_DDS_PROBE, "listen", domain_, seconds}, setting);
     EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
     return listener;
   }
   /// Does what a script of the probe says.
-  StartedProgram talk(const std::string& script) {
+  StartedProgram talk(const std::string& script, const ProgramSetting& setting = {}) {
     const std::string file = path("script-" + std::to_string(scripts_++));
     write_file(file, script);
-    return start({GLOVEBENCH_DDS_PROBE, "talk", domain_, file});
+    return start({GLOVEBENCH_DDS_PROBE, "talk", domain_, file}, setting);
   }
   static std::string said(const StartedProgram& program) {
     return std::filesystem::exists(program.out) ? read_file(program.out) : "";

@@ -6,11 +6,21 @@
 #include "core/robot/json_lines_sink.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/robot/dds/dds_sink.h"
+#include "core/robot/dds/measured_robot.h"
 #endif
 
 namespace glovebench::eval {
 
-int dds_domain(const std::string& middleware, const std::string& option) {
+CLI::Option* BusFlags::add(CLI::App& command, const std::string& what) {
+  CLI::Option* const robot = command.add_option("--robot", middleware, what);
+  command.add_option("--robot-interface", interface,
+                     "network interface for --robot [loopback alone, or what CYCLONEDDS_URI says]");
+  command.add_option("--security", security,
+                     "folder of keys for DDS Security (`glovebench robot-server keys`) [none]");
+  return robot;
+}
+
+int BusFlags::domain() const {
   constexpr std::string_view kDds = "dds";
   const std::string_view rest = std::string_view(middleware).substr(std::min(kDds.size(), middleware.size()));
   int domain = 0;
@@ -19,45 +29,100 @@ int dds_domain(const std::string& middleware, const std::string& option) {
     const auto [stop, error] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), domain);
     known = rest[0] == ':' && error == std::errc() && stop == rest.data() + rest.size() && domain >= 0;
   }
-  if (!known) throw Error(option, "middleware", middleware, "dds or dds:DOMAIN");
+  if (!known) throw Error("--robot", "middleware", middleware, "dds or dds:DOMAIN");
 #ifndef GLOVEBENCH_DDS
-  throw Error(option, middleware, "a glovebench that was built without Cyclone DDS",
-              "one that was configured with it (Debian: cyclonedds-dev, cyclonedds-tools)");
+  throw Error("--robot", middleware, "a glovebench that was built without Cyclone DDS",
+              "one that was configured with it (Debian: cyclonedds-dev, cyclonedds-tools, libssl-dev)");
 #endif
   return domain;
 }
 
 #ifdef GLOVEBENCH_DDS
-class RobotOutputs::Stream : public DdsSink {
-  using DdsSink::DdsSink;
+namespace {
+
+constexpr double kFirstWait = 3;    // s, for a measured state: participants find each other in less than one
+constexpr double kStartWait = 0.5;  // s, for one when the first command is there: it has been there before
+constexpr int64_t kFirstStepUs = 33'333;
+
+DdsAccess access_of(const BusFlags& bus) {
+  return {bus.interface, bus.security, "sender"};
+}
+DdsSinkOptions sink_options(const RobotStream& stream) {
+  if (!stream.to_controller()) return {access_of(stream.bus), topics::kOwn, true};
+  return {access_of(stream.bus), topics::kController, stream.arm};
+}
+
+}  // namespace
+
+class RobotOutputs::Stream {
+ public:
+  explicit Stream(const RobotStream& stream)
+      : sink(stream.bus.domain(), sink_options(stream)), T_flange_wrist_(stream.T_flange_wrist) {
+    if (stream.to_controller())
+      measured_ = std::make_unique<MeasuredRobot>(stream.bus.domain(), access_of(stream.bus), stream.arm);
+  }
+
+  /// Empty unless it matters.
+  std::optional<MeasuredState> wait_for_robot() {
+    if (!measured_) return std::nullopt;
+    return measured_->state(kFirstWait);
+  }
+  void start(CommandGuard& guard, const RobotCommand& command) {
+    if (!measured_ || command.hold || !command.targets) return;
+    Eigen::Isometry3d T_base_hand = command.targets->T_base_hand;
+    const CommandLimits& limits = guard.limits();
+    T_base_hand.translation() =
+        T_base_hand.translation().cwiseMax(limits.workspace_min).cwiseMin(limits.workspace_max).eval();
+    guard.start_from(targets_at(measured_->state(kStartWait), T_flange_wrist_, T_base_hand));
+    guard.tick(command.timestamp_us - kFirstStepUs);  // the first step is as long as the time that it is given
+    measured_.reset();
+  }
+
+  DdsSink sink;
+
+ private:
+  Eigen::Isometry3d T_flange_wrist_;
+  std::unique_ptr<MeasuredRobot> measured_;  ///< until the guard has started
 };
 #else
 class RobotOutputs::Stream {
  public:
-  explicit Stream(int) {}
-  void frame_arrived(int64_t) {}
-  void send(const RobotCommand&) {}
-  void finish() {}
+  explicit Stream(const RobotStream& stream) { stream.bus.domain(); }
+  struct {
+    void frame_arrived(int64_t) {}
+    void send(const RobotCommand&) {}
+    void finish() {}
+  } sink;
+  void start(CommandGuard&, const RobotCommand&) {}
 };
 #endif
 
-RobotOutputs::RobotOutputs(const std::string& file, const std::string& middleware) {
-  if (!file.empty()) file_ = std::make_unique<JsonLinesSink>(file);
-  if (!middleware.empty()) stream_ = std::make_unique<Stream>(dds_domain(middleware, "--robot"));
+RobotOutputs::RobotOutputs(const RobotStream& stream) {
+  if (!stream.bus.middleware.empty()) {
+    stream_ = std::make_unique<Stream>(stream);
+#ifdef GLOVEBENCH_DDS
+    if (const auto robot = stream_->wait_for_robot()) arm_start_ = robot->arm;
+#endif
+  }
+  if (!stream.file.empty()) file_ = std::make_unique<JsonLinesSink>(stream.file);
 }
 
 RobotOutputs::~RobotOutputs() = default;
 
+void RobotOutputs::start(CommandGuard& guard, const RobotCommand& command) {
+  if (stream_) stream_->start(guard, command);
+}
+
 void RobotOutputs::send(const RobotCommand& command, int64_t arrived_us) {
   if (stream_) {  // first: a slow disk does not hold the robot up
-    stream_->frame_arrived(arrived_us);
-    stream_->send(command);
+    stream_->sink.frame_arrived(arrived_us);
+    stream_->sink.send(command);
   }
   if (file_) file_->send(command);
 }
 
 void RobotOutputs::finish() {
-  if (stream_) stream_->finish();
+  if (stream_) stream_->sink.finish();
   if (file_) file_->finish();
 }
 

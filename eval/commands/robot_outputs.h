@@ -1,25 +1,52 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <string>
 
+#include "core/robot/command_guard.h"
 #include "core/robot/robot_command.h"
 
 namespace glovebench::eval {
 
-/// The domain of "dds" (0) or "dds:DOMAIN". Throws Error naming `option` for anything else, or if the program was
-/// built without Cyclone DDS.
-int dds_domain(const std::string& middleware, const std::string& option);
+/// How a program takes part in the robot's middleware.
+struct BusFlags {
+  std::string middleware;  ///< "dds" (domain 0) or "dds:DOMAIN"; empty: not at all
+  std::string interface;   ///< empty: loopback, or what CYCLONEDDS_URI says
+  std::string security;    ///< folder of keys; empty: without
 
-/// Where the robot commands of a run go: to a file, over a middleware, both, or nowhere.
+  /// `--robot`, `--robot-interface` and `--security`.
+  CLI::Option* add(CLI::App& command, const std::string& what);
+  /// Throws Error naming `--robot` unless there is such a domain, or if the program was built without Cyclone DDS.
+  int domain() const;
+};
+
+/// Where the robot commands of a run go.
+struct RobotStream {
+  std::string file;  ///< JSON Lines; empty: none
+  BusFlags bus;
+  std::string topics = "own";                                   ///< or "controller"
+  bool arm = true;                                              ///< whether a controller's arm is spoken to
+  Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();  ///< how the hand is mounted on it
+
+  bool to_controller() const { return !bus.middleware.empty() && topics == "controller"; }
+};
+
+/// Sends robot commands to a file, over a middleware, both, or nowhere.
 class RobotOutputs {
  public:
-  /// Either may be empty. Throws Error: an unknown middleware, one that the build lacks, no network.
-  RobotOutputs(const std::string& file, const std::string& middleware);
+  /// For a controller's topics, waits some seconds for a measured state. Throws Error if there is none, or for an
+  /// unknown middleware, one that the build lacks, no network.
+  explicit RobotOutputs(const RobotStream& stream);
   ~RobotOutputs();
 
   bool any() const { return file_ || stream_; }
+  /// Where the arm stood at the start; empty unless a controller's arm is spoken to.
+  const std::optional<ArmJoints>& arm_start() const { return arm_start_; }
+  /// Before the guard sees a command: for a controller's topics, the first one with targets makes the guard start
+  /// where the robot is measured to stand now. Throws Error if it is not measured.
+  void start(CommandGuard& guard, const RobotCommand& command);
   /// `arrived_us`: when the frame was there, microseconds since 1970. Throws Error.
   void send(const RobotCommand& command, int64_t arrived_us);
   /// Throws Error.
@@ -29,6 +56,7 @@ class RobotOutputs {
   class Stream;
   std::unique_ptr<RobotCommandSink> file_;
   std::unique_ptr<Stream> stream_;
+  std::optional<ArmJoints> arm_start_;
 };
 
 }  // namespace glovebench::eval

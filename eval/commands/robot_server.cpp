@@ -9,8 +9,10 @@
 #include "eval/commands/robot_outputs.h"
 #include "eval/interruption.h"
 #ifdef GLOVEBENCH_DDS
+#include "core/base/system_time.h"
 #include "core/robot/arm_follower.h"
 #include "core/robot/dds/dds_server.h"
+#include "core/robot/dds/security_keys.h"
 #endif
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
@@ -21,7 +23,7 @@ namespace glovebench::eval {
 namespace {
 
 struct RobotServer {
-  std::string middleware = "dds";
+  BusFlags bus{.middleware = "dds", .interface = {}, .security = {}};
   std::string log;
   double max_log_age_s = kMaxLogAge;
   MountingFlag mounting;
@@ -31,18 +33,18 @@ struct RobotServer {
   int serve_hand() const {
 #ifdef GLOVEBENCH_DDS
     const Interruption interruption;
-    return finish(glovebench::serve_hand(options()));
+    return finish(glovebench::serve_hand(options("hand")));
 #else
-    return dds_domain(middleware, "--robot");  // throws
+    return bus.domain();  // throws
 #endif
   }
   int serve_arm() const {
 #if defined(GLOVEBENCH_DDS) && defined(GLOVEBENCH_ARM)
     const std::unique_ptr<ArmSolver> solver = make_kdl_arm_solver();
     const Interruption interruption;
-    return finish(glovebench::serve_arm(options(), *solver, mounting.T_flange_wrist(), kArmAtRest));
+    return finish(glovebench::serve_arm(options("arm"), *solver, mounting.T_flange_wrist(), kArmAtRest));
 #else
-    dds_domain(middleware, "--robot");         // throws where that is missing
+    bus.domain();         // throws where that is missing
     throw Error("robot-server", "arm", "a glovebench that was built without Orocos KDL",
                 "one that was configured with it (Debian: liborocos-kdl-dev)");
 #endif
@@ -50,8 +52,9 @@ struct RobotServer {
 
  private:
 #ifdef GLOVEBENCH_DDS
-  DdsServerOptions options() const {
-    return {.domain = dds_domain(middleware, "--robot"),
+  DdsServerOptions options(const std::string& role) const {
+    return {.domain = bus.domain(),
+            .access = {bus.interface, bus.security, role},
             .log = log,
             .max_log_age_s = max_log_age_s,
             .limits = limits.limits(),
@@ -68,6 +71,25 @@ struct RobotServer {
 #endif
 };
 
+/// Keys for DDS Security.
+struct Keys {
+  std::string folder;
+  int days = 365;
+
+  void make() const {
+#ifdef GLOVEBENCH_DDS
+    constexpr int64_t kDay = 86'400;
+    const int64_t now_s = system_us() / 1'000'000;
+    make_security_keys(folder, {now_s - kDay, now_s + days * kDay});  // clocks of hosts differ
+    fmt::print("{}: keys of", folder);
+    for (const SecurityRole& role : security_roles()) fmt::print(" {}", role.name);
+    fmt::print(", for {} days\n", days);
+#else
+    BusFlags{"dds", {}, {}}.domain();  // throws
+#endif
+  }
+};
+
 }  // namespace
 
 void add_robot_server(CLI::App& program, int& exit_code) {
@@ -79,7 +101,7 @@ void add_robot_server(CLI::App& program, int& exit_code) {
   CLI::App* hand = command->add_subcommand("hand", "The Shadow hand and its wrist, until Ctrl-C.");
   CLI::App* arm = command->add_subcommand("arm", "The PA-10 arm that carries the hand, until Ctrl-C.");
   for (CLI::App* side : {hand, arm}) {
-    side->add_option("--robot", state->middleware, "where from: dds[:DOMAIN]")->capture_default_str();
+    state->bus.add(*side, "where from: dds[:DOMAIN]")->capture_default_str();
     side->add_option("--log", state->log,
                      "log to append to (*.jsonl), which also tells the next server where the joints stood");
     side->add_option("--log-age", state->max_log_age_s,
@@ -90,6 +112,14 @@ void add_robot_server(CLI::App& program, int& exit_code) {
   }
   state->mounting.add(*arm);
   hand->callback([state, &exit_code] { exit_code = state->serve_hand(); });
+  const auto keys = std::make_shared<Keys>();
+  CLI::App* make_keys = command->add_subcommand("keys", "Make keys for DDS Security (`--security FOLDER`).");
+  make_keys->add_option("folder", keys->folder, "folder to make")->required();
+  constexpr int kMostDays = 3650;
+  make_keys->add_option("--days", keys->days, "for how long they shall hold")
+      ->check(CLI::Range(1, kMostDays))
+      ->capture_default_str();
+  make_keys->callback([keys] { keys->make(); });
   arm->callback([state, &exit_code] { exit_code = state->serve_arm(); });
 }
 

@@ -56,7 +56,8 @@ struct Track {
   std::string colors;  ///< color table; empty: the tracker's own
   int limit = 0;       ///< frames; 0: to the end
   RobotFlags robot;
-  std::string middleware;
+  BusFlags bus;
+  std::string topics = "own";  ///< that commands are sent to
 
   // Of the run.
   int frames = 0, unusable = 0, tracked = 0;
@@ -67,7 +68,7 @@ struct Track {
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());
-    RobotOutputs outputs(robot.output, middleware);
+    RobotOutputs outputs({robot.output, bus, topics, robot.arm != "none", robot.mounting.T_flange_wrist()});
     TrackSource source = open_source(from);
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
@@ -78,7 +79,9 @@ struct Track {
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
     WholeFile output(common.output);
     const Interruption interruption;
-    RobotCommander commander(robot.setup(workbench));
+    RobotSetup setup = robot.setup(workbench);
+    setup.arm_start = outputs.arm_start().value_or(setup.arm_start);
+    RobotCommander commander(setup);
     track_all(source, *method, output, [&](const TrackResult& result) {
       if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
     });
@@ -113,8 +116,9 @@ struct Track {
   void command(const TrackResult& result, RobotCommander& commander, CommandGuard& guard, int64_t arrived_us,
                RobotOutputs& outputs) {
     try {
-      if (const std::optional<RobotCommand> safe = guard.guard(commander.command(result)))
-        outputs.send(*safe, arrived_us);
+      const RobotCommand wanted = commander.command(result);
+      outputs.start(guard, wanted);
+      if (const std::optional<RobotCommand> safe = guard.guard(wanted)) outputs.send(*safe, arrived_us);
     } catch (const Error& e) {
       failure = e;
       all_sent = false;
@@ -172,7 +176,16 @@ void add_track(CLI::App& program) {
                       "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
   state->common.add_output(*command, "estimates to write, one line of JSON a frame (*.jsonl)", true);
   state->robot.add(*command, "robot commands to write (*.jsonl)");
-  command->add_option("--robot", state->middleware, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
+  CLI::Option* const stream =
+      state->bus.add(*command, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
+  command
+      ->add_option(
+          "--robot-topics", state->topics,
+          "own, which only `robot-server` hears; controller, those of a robot's controllers, from where the "
+          "robot is measured to stand (the arm's, too, unless --robot-arm none)")
+      ->check(CLI::IsMember({"own", "controller"}))
+      ->needs(stream)
+      ->capture_default_str();
   command->add_flag("--left", state->common.left, "a left hand");
   state->common.add_tracker(*command);
   state->common.add_machine(*command);

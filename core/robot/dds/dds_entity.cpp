@@ -5,6 +5,7 @@
 #include <net/if.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -13,16 +14,17 @@
 #include <mutex>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.h"
+#include "core/base/system_time.h"
+#include "core/robot/dds/security_keys.h"
 
 namespace glovebench {
 namespace {
 
 constexpr int kLastDomain = 230;  // later ones have no ports
 constexpr int kLinesPerSecond = 10;
-constexpr const char* kUsable = "a network interface that CYCLONEDDS_URI allows";
+constexpr const char* kUsable = "a network interface that CYCLONEDDS_URI allows, and keys that DDS Security takes";
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
@@ -34,7 +36,7 @@ Qos make_qos() {
   return qos;
 }
 
-std::atomic<int64_t> messages_too_large = 0;
+std::atomic<int64_t> messages_too_large = 0, messages_of_too_many = 0;
 
 /// What the library says: to stderr, as without this, but not without end.
 void hear_library(void*, const dds_log_data_t* said) {
@@ -49,7 +51,7 @@ void hear_library(void*, const dds_log_data_t* said) {
     std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size + 1, stderr);
 }
 
-/// Keeps what is sent and what is heard on this host. The receive sockets listen on all addresses all the same.
+/// Keeps what is sent on this host. The receive sockets listen on all addresses all the same.
 constexpr const char* kLoopback =
     "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
@@ -63,15 +65,19 @@ std::string configuration(const DdsAccess& access) {
   if (!access.interface.empty()) {
     if (configured) throw Error("DDS", "interface", access.interface + " beside CYCLONEDDS_URI", "one of the two");
     if (if_nametoindex(access.interface.c_str()) == 0)
-      throw Error("DDS", "interface", access.interface, "a network interface of this host, e.g. lo");
+      throw Error("DDS", "interface", access.interface, "a network interface of this host, e.g. eth0");
+  }
+  if (access.interface == "lo" || (access.interface.empty() && !configured)) {
+    where = kLoopback;
+  } else if (!access.interface.empty()) {
     where = fmt::format("<General><Interfaces><NetworkInterface name=\"{}\"/></Interfaces></General>",
                         access.interface);
-  } else if (!configured) {
-    where = kLoopback;
   }
+  const std::string security =
+      access.security.empty() ? "" : security_configuration(access.security, access.role, system_us() / 1'000'000);
   return fmt::format(
-      "{}<CycloneDDS><Domain>{}<Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
-      configured ? std::string(uri) + "," : "", where, kLargestMessage);
+      "{}<CycloneDDS><Domain>{}{}<Internal><MaxSampleSize>{}B</MaxSampleSize></Internal></Domain></CycloneDDS>",
+      configured ? std::string(uri) + "," : "", where, security, kLargestMessage);
 }
 
 }  // namespace
@@ -113,6 +119,10 @@ int64_t dds_messages_too_large() {
   return messages_too_large;
 }
 
+int64_t dds_messages_of_too_many() {
+  return messages_of_too_many;
+}
+
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected) {
   if (result < 0) throw Error("DDS", what, dds_strretcode(-result), expected);
   return result;
@@ -150,32 +160,32 @@ dds_entity_t DdsParticipant::make_reader_of_others(dds_entity_t topic, int depth
   return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
 }
 
-uint64_t DdsSenders::look_up(dds_instance_handle_t writer) const {
+std::optional<uint64_t> DdsSenders::look_up(dds_instance_handle_t writer) const {
   dds_builtintopic_endpoint_t* endpoint = dds_get_matched_publication_data(reader_, writer);
-  if (!endpoint) return writer;  // gone before it was ever seen: a sender of its own
+  if (!endpoint) return std::nullopt;
   const uint64_t participant = endpoint->participant_instance_handle;
   dds_builtintopic_free_endpoint(endpoint);
   return participant;
 }
 
-uint64_t DdsSenders::of(dds_instance_handle_t writer) {
+std::optional<uint64_t> DdsSenders::of(dds_instance_handle_t writer) {
   const auto known = participants_.find(writer);
   if (known != participants_.end()) return known->second;
-  return participants_[writer] = look_up(writer);
+  if (participants_.size() >= kMostWriters) {
+    ++messages_of_too_many;
+    return std::nullopt;
+  }
+  return participants_[writer] = look_up(writer).value_or(writer);  // gone before it was seen: a sender of its own
 }
 
 std::set<uint64_t> DdsSenders::present() {
-  std::vector<dds_instance_handle_t> writers(16);
-  dds_return_t count = 0;
-  while ((count = dds_get_matched_publications(reader_, writers.data(), writers.size())) >
-         static_cast<dds_return_t>(writers.size()))
-    writers.resize(static_cast<size_t>(count));
-  writers.resize(static_cast<size_t>(std::max(count, 0)));
-  std::erase_if(participants_, [&](const auto& known) {
-    return std::find(writers.begin(), writers.end(), known.first) == writers.end();
-  });
+  std::erase_if(participants_, [&](const auto& known) { return !look_up(known.first); });
   std::set<uint64_t> senders;
-  for (const dds_instance_handle_t writer : writers) senders.insert(of(writer));
+  for (const auto& [writer, participant] : participants_) senders.insert(participant);
+  std::array<dds_instance_handle_t, kMostWriters> writers;  // the first of them, however many there are
+  const dds_return_t count = dds_get_matched_publications(reader_, writers.data(), writers.size());
+  for (size_t i = 0; i < std::min(static_cast<size_t>(std::max(count, 0)), writers.size()); ++i)
+    if (const std::optional<uint64_t> participant = look_up(writers[i])) senders.insert(*participant);
   return senders;
 }
 

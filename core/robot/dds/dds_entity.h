@@ -84,28 +84,38 @@ class DdsWriter {
   dds_entity_t writer_;
 };
 
+/// Writers that a reader tells apart. What further ones send is not read: peers without end take neither time nor
+/// memory here (the library itself keeps each that it knows).
+inline constexpr size_t kMostWriters = 64;
+
+/// Messages that were not read because their writer was one too many, since the process began.
+int64_t dds_messages_of_too_many();
+
 /// Tells writers of a reader's messages apart by the process they belong to.
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The participant that a message's writer belongs to, also if that has gone meanwhile.
-  uint64_t of(dds_instance_handle_t writer);
-  /// The participants of the writers that are there now.
+  /// The participant that a message's writer belongs to, also if that has gone meanwhile. Nothing, and counted, if
+  /// kMostWriters others have sent something and were there at the last call of `present`.
+  std::optional<uint64_t> of(dds_instance_handle_t writer);
+  /// The participants of the writers that are there now: of all that have sent something, and of some that have
+  /// not.
   std::set<uint64_t> present();
 
  private:
-  uint64_t look_up(dds_instance_handle_t writer) const;
+  /// Nothing if the writer is not there.
+  std::optional<uint64_t> look_up(dds_instance_handle_t writer) const;
 
   dds_entity_t reader_;
-  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;
+  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;  ///< of writers that have sent something
 };
 
 template <typename Message>
 class DdsReader {
  public:
   struct Received {
-    std::optional<Message> message;  ///< empty if it was not wanted
-    uint64_t sender = 0;
+    std::optional<Message> message;  ///< empty if it was not wanted, or its writer is one too many
+    uint64_t sender = 0;             ///< 0 if its writer is one too many
     int64_t source_ns = 0;
   };
 
@@ -130,8 +140,9 @@ class DdsReader {
       if (count <= 0) return std::nullopt;
       std::optional<Received> received;
       if (info.valid_data) {
-        received = Received{std::nullopt, senders_.of(info.publication_handle), info.source_timestamp};
-        if (is_wanted(received->sender)) received->message = DdsType<Message>::read(sample);
+        const std::optional<uint64_t> sender = senders_.of(info.publication_handle);
+        received = Received{std::nullopt, sender.value_or(0), info.source_timestamp};
+        if (sender && is_wanted(*sender)) received->message = DdsType<Message>::read(sample);
       }
       dds_return_loan(reader_, &sample, count);
       if (received) return received;

@@ -1,10 +1,15 @@
 #include "core/robot/dds/dds_entity.h"
 
+#include <arpa/inet.h>
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
 #include <gmock/gmock.h>
+#include <sys/socket.h>
 
 #include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
 
 #include "core/base/error.h"
 #include "core/robot/dds/test_bus.h"
@@ -132,6 +137,71 @@ TEST_F(DdsEntity, OthersAreAllButOneself) {
   foreign.write({{}, {"foreign"}, {}, {}}, 1);
   EXPECT_THAT(next(states).value().name, ElementsAre("foreign"));
   EXPECT_FALSE(states.take([](uint64_t) { return true; }));
+}
+
+TEST_F(DdsEntity, WritersBeyondABoundAreNotRead) {
+  constexpr size_t kTooMany = 20;
+  const DdsParticipant here(kDomain), there(kFar), last(kFar);
+  auto leaving = std::make_unique<DdsParticipant>(kFar);
+  DdsReader<ros::JointState> reader(here, kTopic);
+  using Writer = DdsWriter<ros::JointState>;
+  std::vector<Writer> crowd = {Writer(*leaving, kTopic)};
+  while (crowd.size() < kMostWriters + kTooMany) crowd.emplace_back(there, kTopic);
+  const auto read = [&](const Writer& writer) {  // whether its message is, after all that came before
+    writer.write({{}, {"a"}, {}, {}}, 1);
+    EXPECT_TRUE(writer.wait_for_listeners(10));
+    bool is_read = false;
+    while (const auto received = reader.take([](uint64_t) { return true; }))
+      is_read = received->message.has_value();
+    return is_read;
+  };
+  const int64_t before = dds_messages_of_too_many();
+  for (size_t i = 0; i < kMostWriters; ++i) EXPECT_TRUE(comes_true([&] { return read(crowd[i]); }));
+  EXPECT_EQ(dds_messages_of_too_many(), before);
+  const auto counted = [&] { return dds_messages_of_too_many() > before; };
+  for (size_t i = kMostWriters; i < crowd.size(); ++i) EXPECT_FALSE(read(crowd[i]));
+  EXPECT_TRUE(comes_true([&] { return !read(crowd.back()) && counted(); }));
+  EXPECT_TRUE(read(crowd[1])) << "who was known before is read on";
+  EXPECT_EQ(reader.senders().present().size(), 2U);
+
+  leaving.reset();
+  const Writer next(last, kTopic);
+  EXPECT_TRUE(comes_true([&] {
+    reader.senders().present();
+    return read(next);
+  })) << "there is room again";
+  EXPECT_EQ(reader.senders().present().size(), 2U);
+}
+
+/// The addresses of this host that UDP sockets of this process are bound to.
+std::set<std::string> bound_addresses() {
+  std::set<std::string> addresses;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    sockaddr_in address = {};
+    socklen_t size = sizeof address;
+    const int socket = std::stoi(entry.path().filename());
+    if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0 && address.sin_family == AF_INET)
+      addresses.insert(inet_ntoa(address.sin_addr));
+  }
+  return addresses;
+}
+
+TEST_F(DdsEntity, TalksOnLoopbackUnlessItIsToldOtherwise) {
+  constexpr int kDefault = 200;  // this process keeps to nobody's configuration there
+  const std::string configured = getenv("CYCLONEDDS_URI");
+  unsetenv("CYCLONEDDS_URI");
+  {
+    const DdsParticipant participant(kDefault);
+    EXPECT_THAT(bound_addresses(), ElementsAre("0.0.0.0", "127.0.0.1")) << "it receives on all, and sends on one";
+    EXPECT_THROW(DdsParticipant(kDefault, {.interface = "lo", .security = {}, .role = {}}), Error) << "two ways";
+  }
+  EXPECT_NO_THROW(DdsParticipant(kDefault, {.interface = "lo", .security = {}, .role = {}}));
+  for (const char* wrong : {"none0", "lo\"/>", "a name that is far too long for an interface"})
+    EXPECT_THROW(DdsParticipant(kDefault, {.interface = wrong, .security = {}, .role = {}}), Error);
+  setenv("CYCLONEDDS_URI", configured.c_str(), 1);
+  EXPECT_THROW(DdsParticipant(kDefault, {.interface = "lo", .security = {}, .role = {}}), Error)
+      << "beside the URI";
+  EXPECT_NO_THROW(DdsParticipant{kDefault});
 }
 
 TEST_F(DdsEntity, ADomainEndsWithItsLastParticipant) {

@@ -220,6 +220,8 @@ class Service {
     if (waited_ > 0) text += fmt::format("; held for the log: {} states", waited_);
     if (const int64_t count = dds_messages_too_large(); count > 0)
       text += fmt::format("; too large: {} messages", count);
+    if (const int64_t count = dds_messages_of_too_many(); count > 0)
+      text += fmt::format("; of too many writers: {} messages", count);
     if (seen_others_ > 0) text += fmt::format("; another server: heard at {} looks", seen_others_);
     if (log_.lost() > 0) text += fmt::format("; log: {} lines lost ({})", log_.lost(), log_.failure());
     return text;

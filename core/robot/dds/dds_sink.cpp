@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/robot/dds/dds_entity.h"
-#include "core/robot/dds/topics.h"
 #include "core/robot/server/command_messages.h"
 
 namespace glovebench {
@@ -19,11 +18,12 @@ constexpr double kFarewell = 1;  // s
 
 class DdsSink::Writers {
  public:
-  explicit Writers(int domain)
-      : participant_(domain),
-        hand_(participant_, topics::kOwn.hand),
-        wrist_(participant_, topics::kOwn.wrist),
-        arm_(participant_, topics::kOwn.arm) {}
+  Writers(int domain, const DdsSinkOptions& options)
+      : participant_(domain, options.access),
+        hand_(participant_, options.topics.hand),
+        wrist_(participant_, options.topics.wrist) {
+    if (options.arm) arm_.emplace(participant_, options.topics.arm);
+  }
 
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
 
@@ -34,7 +34,7 @@ class DdsSink::Writers {
     if (command.hold || !command.targets) return;
     hand_.write(hand_message(command, period_us), source_ns);
     wrist_.write(wrist_message(command, period_us), source_ns);
-    arm_.write(pose_message(command), source_ns);
+    if (arm_) arm_->write(pose_message(command), source_ns);
     ++sent_;
   }
 
@@ -43,11 +43,14 @@ class DdsSink::Writers {
     const auto left_s = [&] { return std::max(0.0, static_cast<double>(end_ns - dds_time()) * 1e-9); };
     hand_.wait_for_listeners(left_s());
     wrist_.wait_for_listeners(left_s());
-    arm_.wait_for_listeners(left_s());
+    if (arm_) arm_->wait_for_listeners(left_s());
   }
 
   int64_t sent() const { return sent_; }
-  int listeners() const { return std::min({hand_.listeners(), wrist_.listeners(), arm_.listeners()}); }
+  int listeners() const {
+    const int of_hand = std::min(hand_.listeners(), wrist_.listeners());
+    return arm_ ? std::min(of_hand, arm_->listeners()) : of_hand;
+  }
 
  private:
   /// What lay between the last two frames: by then the targets shall be reached.
@@ -59,13 +62,14 @@ class DdsSink::Writers {
 
   DdsParticipant participant_;
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
-  DdsWriter<ros::PoseStamped> arm_;
+  std::optional<DdsWriter<ros::PoseStamped>> arm_;
   std::optional<int64_t> arrived_ns_, frame_us_;
   int64_t period_us_ = kFirstPeriodUs;
   int64_t sent_ = 0;
 };
 
-DdsSink::DdsSink(int domain) : writers_(std::make_unique<Writers>(domain)) {}
+DdsSink::DdsSink(int domain, const DdsSinkOptions& options)
+    : writers_(std::make_unique<Writers>(domain, options)) {}
 
 DdsSink::~DdsSink() = default;
 

@@ -3,9 +3,18 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/robot/dds/dds_access.h"
+#include "core/robot/dds/topics.h"
 #include "core/robot/robot_command.h"
 
 namespace glovebench {
+
+/// To whom a DdsSink speaks.
+struct DdsSinkOptions {
+  DdsAccess access;
+  Topics topics = topics::kOwn;
+  bool arm = true;  ///< false: the arm's topic is not spoken to
+};
 
 /// Sends commands over DDS as a node of ROS 2 would (core/robot/README.md: topics, types, quality of service): the
 /// joints of the hand, those of its wrist, and a pose for the arm, one message of each a command. A lost frame
@@ -13,8 +22,8 @@ namespace glovebench {
 /// who does holds it up.
 class DdsSink : public RobotCommandSink {
  public:
-  /// Domain 0..230; CYCLONEDDS_URI configures the rest. Throws Error if there is no such domain or no network.
-  explicit DdsSink(int domain = 0);
+  /// Domain 0..230. Throws Error if there is no such domain or no network.
+  explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
   ~DdsSink() override;
 
   /// When the frame of the next command was there, microseconds since 1970: its messages carry it as their source

@@ -1,18 +1,27 @@
 // Another process on the bus, for tests: listens and prints what arrived, or says what a script tells it to.
 //
-//   dds_probe listen DOMAIN SECONDS [COUNT]   prints "ready", then one line a message, until COUNT messages came in all
-//                                             or nothing came for SECONDS: after the first, which it awaits a minute
+//   dds_probe listen DOMAIN SECONDS [COUNT]   prints "ready", then one line a message, until COUNT messages came in
+//   all
+//                                             or nothing came for SECONDS: after the first, which it awaits a
+//                                             minute
 //   dds_probe raw DOMAIN SECONDS              prints the bytes of the first command of the hand, in hexadecimal
 //   dds_probe talk DOMAIN SCRIPT              one action a line; prints "said" at the end:
 //     hand|wrist SEC NANOSEC POINTS NAME=VALUE ...    a JointTrajectory of that many equal points
 //     short SEC NANOSEC NAME=VALUE ...                one of the hand whose point lacks its last position
 //     pose SEC NANOSEC FRAME X Y Z QX QY QZ QW        a PoseStamped
 //     again COUNT MICROSECONDS                        the last one, that often, each stamp a nanosecond later
-//     huge names|points COUNT BYTES                   so many for the hand, with a name of that length, or points that
+//     huge names|points COUNT BYTES                   so many for the hand, with a name of that length, or points
+//     that
 //                                                     take that much
 //     sleep MILLISECONDS
-//     wait TOPIC                                      until somebody listens to hand, wrist or pose, and half a second
-//                                                     more, for the listener knows the sender a little later
+//     state states|measured NAME=VALUE ...            a JointState without a stamp
+//     wait TOPIC                                      until somebody listens to hand, wrist, pose, states or
+//     measured,
+//                                                     and half a second more, for the listener knows the sender a
+//                                                     little later
+//
+// Topics are glovebench's own, or with DDS_PROBE_TOPICS=controller in the environment those of a robot's
+// controllers.
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
 #include <robot/dds/ros_messages.h>
@@ -24,10 +33,14 @@ typedef trajectory_msgs_msg_dds__JointTrajectory_ Trajectory;
 typedef geometry_msgs_msg_dds__PoseStamped_ Pose;
 typedef sensor_msgs_msg_dds__JointState_ State;
 
-enum { kHand, kWrist, kPose, kStates, kTopics };
-static const char* const topic_names[kTopics] = {"rt/glovebench/hand/command", "rt/glovebench/wrist/command",
-                                                 "rt/glovebench/arm/command/pose", "rt/glovebench/joint_states"};
-static const char* const short_names[kTopics] = {"hand", "wrist", "pose", "states"};
+enum { kHand, kWrist, kPose, kStates, kMeasured, kTopics, kListened = kMeasured };
+static const char* const own_names[kTopics] = {"rt/glovebench/hand/command", "rt/glovebench/wrist/command",
+                                               "rt/glovebench/arm/command/pose", "rt/glovebench/joint_states",
+                                               "rt/glovebench/measured_joint_states"};
+static const char* const controller_names[kTopics] = {
+    "rt/rh_trajectory_controller/command", "rt/rh_wr_trajectory_controller/command", "rt/pa10/command/pose",
+    "rt/joint_states", "rt/glovebench/measured_joint_states"};
+static const char* const short_names[kTopics] = {"hand", "wrist", "pose", "states", "measured"};
 
 static dds_entity_t checked(dds_entity_t result, const char* what) {
   if (result >= 0) return result;
@@ -35,11 +48,17 @@ static dds_entity_t checked(dds_entity_t result, const char* what) {
   exit(1);
 }
 
-static dds_entity_t make_topic(dds_entity_t participant, int topic) {
+static dds_entity_t try_topic(dds_entity_t participant, int topic) {
   const dds_topic_descriptor_t* type = topic == kPose     ? &geometry_msgs_msg_dds__PoseStamped__desc
-                                       : topic == kStates ? &sensor_msgs_msg_dds__JointState__desc
+                                       : topic >= kStates ? &sensor_msgs_msg_dds__JointState__desc
                                                           : &trajectory_msgs_msg_dds__JointTrajectory__desc;
-  return checked(dds_create_topic(participant, type, topic_names[topic], NULL, NULL), topic_names[topic]);
+  const char* which = getenv("DDS_PROBE_TOPICS");
+  const char* name = which && strcmp(which, "controller") == 0 ? controller_names[topic] : own_names[topic];
+  return dds_create_topic(participant, type, name, NULL, NULL);
+}
+
+static dds_entity_t make_topic(dds_entity_t participant, int topic) {
+  return checked(try_topic(participant, topic), short_names[topic]);
 }
 
 static dds_qos_t* make_qos(int depth) {
@@ -98,9 +117,9 @@ static int print_all(dds_entity_t reader, int topic) {
 }
 
 static int listen_to_all(dds_entity_t participant, double seconds, int wanted) {
-  dds_entity_t readers[kTopics];
+  dds_entity_t readers[kListened];
   dds_qos_t* qos = make_qos(1000);
-  for (int t = 0; t < kTopics; ++t)
+  for (int t = 0; t < kListened; ++t)
     readers[t] = checked(dds_create_reader(participant, make_topic(participant, t), qos, NULL), "reader");
   dds_delete_qos(qos);
   printf("ready\n");
@@ -111,7 +130,7 @@ static int listen_to_all(dds_entity_t participant, double seconds, int wanted) {
   while ((wanted == 0 || count < wanted) &&
          (count == 0 ? dds_time() - begin < DDS_SECS(60) : dds_time() - last < (dds_time_t)(seconds * 1e9))) {
     int came = 0;
-    for (int t = 0; t < kTopics; ++t) came += print_all(readers[t], t);
+    for (int t = 0; t < kListened; ++t) came += print_all(readers[t], t);
     count += came;
     if (came > 0) last = dds_time();
     fflush(stdout);
@@ -122,7 +141,8 @@ static int listen_to_all(dds_entity_t participant, double seconds, int wanted) {
 
 static int print_bytes(dds_entity_t participant, double seconds) {
   dds_qos_t* qos = make_qos(10);
-  const dds_entity_t reader = checked(dds_create_reader(participant, make_topic(participant, kHand), qos, NULL), "");
+  const dds_entity_t reader =
+      checked(dds_create_reader(participant, make_topic(participant, kHand), qos, NULL), "");
   dds_delete_qos(qos);
   printf("ready\n");
   fflush(stdout);
@@ -154,10 +174,12 @@ static double values[kMaxNames];
 static trajectory_msgs_msg_dds__JointTrajectoryPoint_ points[8];
 static Trajectory trajectory;
 static Pose pose;
+static State state;
 static char frame[256];
 static int last_topic = -1;
 
-static void read_trajectory(char* text, int point_count, uint32_t missing) {
+// Returns how many there are.
+static uint32_t read_values(char* text) {
   uint32_t count = 0;
   char* rest = names_text;
   for (char* word = strtok(text, " \n"); word && count < kMaxNames; word = strtok(NULL, " \n")) {
@@ -167,6 +189,11 @@ static void read_trajectory(char* text, int point_count, uint32_t missing) {
     rest += strlen(word) + 1;
     values[count++] = strtod(equals + 1, NULL);
   }
+  return count;
+}
+
+static void read_trajectory(char* text, int point_count, uint32_t missing) {
+  const uint32_t count = read_values(text);
   memset(points, 0, sizeof points);
   for (int p = 0; p < point_count; ++p) {
     points[p].positions._maximum = points[p].positions._length = count - missing;
@@ -180,12 +207,32 @@ static void read_trajectory(char* text, int point_count, uint32_t missing) {
   trajectory.points._buffer = points;
 }
 
-static void say(const dds_entity_t* writers) {
-  const void* message = last_topic == kPose ? (const void*)&pose : (const void*)&trajectory;
-  checked(dds_write(writers[last_topic], message), "write");
+static void read_state(char* text) {
+  memset(&state, 0, sizeof state);
+  state.header.frame_id = "";
+  state.name._maximum = state.name._length = state.position._maximum = state.position._length = read_values(text);
+  state.name._buffer = names;
+  state.position._buffer = values;
 }
 
-static void say_again(const dds_entity_t* writers, int count, int microseconds) {
+// Those that this process may not make at its start fail when they are used.
+static dds_entity_t writer_of(dds_entity_t* writers, int topic) {
+  if (writers[topic] > 0) return writers[topic];
+  dds_qos_t* qos = make_qos(10);
+  writers[topic] = try_topic(writers[kTopics], topic);
+  if (writers[topic] > 0) writers[topic] = dds_create_writer(writers[kTopics], writers[topic], qos, NULL);
+  dds_delete_qos(qos);
+  return writers[topic];
+}
+
+static void say(dds_entity_t* writers) {
+  const void* message = last_topic == kPose     ? (const void*)&pose
+                        : last_topic >= kStates ? (const void*)&state
+                                                : (const void*)&trajectory;
+  checked(dds_write(checked(writer_of(writers, last_topic), "writer"), message), "write");
+}
+
+static void say_again(dds_entity_t* writers, int count, int microseconds) {
   for (int i = 0; i < count; ++i) {
     ++trajectory.header.stamp.nanosec;
     ++pose.header.stamp.nanosec;
@@ -194,7 +241,7 @@ static void say_again(const dds_entity_t* writers, int count, int microseconds) 
   }
 }
 
-static void say_huge(const dds_entity_t* writers, const char* what, int count, size_t bytes) {
+static void say_huge(dds_entity_t* writers, const char* what, int count, size_t bytes) {
   const int of_names = strcmp(what, "names") == 0;
   char* text = of_names ? malloc(bytes + 1) : NULL;
   const uint32_t size = of_names ? 0 : (uint32_t)(bytes / 24);  // four empty sequences and a duration
@@ -214,17 +261,18 @@ static void say_huge(const dds_entity_t* writers, const char* what, int count, s
   free(text);
 }
 
-static void await_listener(const dds_entity_t* writers, const char* topic) {
-  for (int t = 0; t < kStates; ++t) {
+static void await_listener(dds_entity_t* writers, const char* topic) {
+  for (int t = 0; t < kTopics; ++t) {
     if (strcmp(topic, short_names[t]) != 0) continue;
     dds_publication_matched_status_t status;
-    while (dds_get_publication_matched_status(writers[t], &status) == 0 && status.current_count == 0)
+    while (dds_get_publication_matched_status(checked(writer_of(writers, t), "writer"), &status) == 0 &&
+           status.current_count == 0)
       dds_sleepfor(DDS_MSECS(1));
     dds_sleepfor(DDS_MSECS(500));
   }
 }
 
-static void act(const dds_entity_t* writers, char* line) {
+static void act(dds_entity_t* writers, char* line) {
   int a = 0, b = 0, from = 0;
   unsigned nanosec = 0;
   char word[16] = "";
@@ -233,9 +281,15 @@ static void act(const dds_entity_t* writers, char* line) {
   if (sscanf(line, "sleep %d", &a) == 1) return dds_sleepfor(DDS_MSECS(a));
   if (sscanf(line, "wait %15s", word) == 1) return await_listener(writers, word);
   if (sscanf(line, "huge %15s %d %d", word, &a, &b) == 3) return say_huge(writers, word, a, (size_t)b);
-  if (sscanf(line, "pose %d %u %255s %lf %lf %lf %lf %lf %lf %lf", &pose.header.stamp.sec, &pose.header.stamp.nanosec,
-             frame, &pose.pose.position.x, &pose.pose.position.y, &pose.pose.position.z, &pose.pose.orientation.x,
-             &pose.pose.orientation.y, &pose.pose.orientation.z, &pose.pose.orientation.w) == 10) {
+  if (sscanf(line, "state %15s %n", word, &from) == 1 && from > 0) {
+    last_topic = strcmp(word, short_names[kMeasured]) == 0 ? kMeasured : kStates;
+    read_state(line + from);
+    return say(writers);
+  }
+  if (sscanf(line, "pose %d %u %255s %lf %lf %lf %lf %lf %lf %lf", &pose.header.stamp.sec,
+             &pose.header.stamp.nanosec, frame, &pose.pose.position.x, &pose.pose.position.y, &pose.pose.position.z,
+             &pose.pose.orientation.x, &pose.pose.orientation.y, &pose.pose.orientation.z,
+             &pose.pose.orientation.w) == 10) {
     pose.header.frame_id = frame;
     last_topic = kPose;
   } else if (sscanf(line, "short %d %u %n", &a, &nanosec, &from) == 2) {
@@ -256,17 +310,16 @@ static void act(const dds_entity_t* writers, char* line) {
 }
 
 static int talk(dds_entity_t participant, const char* script) {
-  dds_entity_t writers[kStates];
-  dds_qos_t* qos = make_qos(10);
-  for (int t = 0; t < kStates; ++t)
-    writers[t] = checked(dds_create_writer(participant, make_topic(participant, t), qos, NULL), "writer");
-  dds_delete_qos(qos);
+  dds_entity_t writers[kTopics + 1] = {0};
+  writers[kTopics] = participant;
+  for (int t = 0; t < kStates; ++t) writer_of(writers, t);
   FILE* file = fopen(script, "r");
   if (!file) return 1;
   static char line[64000];
   while (fgets(line, sizeof line, file)) act(writers, line);
   fclose(file);
-  for (int t = 0; t < kStates; ++t) dds_wait_for_acks(writers[t], DDS_SECS(2));
+  for (int t = 0; t < kTopics; ++t)
+    if (writers[t] > 0) dds_wait_for_acks(writers[t], DDS_SECS(2));
   printf("said\n");
   return 0;
 }
@@ -276,7 +329,8 @@ int main(int argc, char** argv) {
   const dds_entity_t participant =
       checked(dds_create_participant((dds_domainid_t)atoi(argv[2]), NULL, NULL), "participant");
   int result = 2;
-  if (strcmp(argv[1], "listen") == 0) result = listen_to_all(participant, atof(argv[3]), argc > 4 ? atoi(argv[4]) : 0);
+  if (strcmp(argv[1], "listen") == 0)
+    result = listen_to_all(participant, atof(argv[3]), argc > 4 ? atoi(argv[4]) : 0);
   if (strcmp(argv[1], "raw") == 0) result = print_bytes(participant, atof(argv[3]));
   if (strcmp(argv[1], "talk") == 0) result = talk(participant, argv[3]);
   dds_delete(participant);

@@ -1,0 +1,250 @@
+// `track` before the controllers of a robot: it starts where the robot is measured to stand.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "eval/command_test.h"
+#ifdef GLOVEBENCH_DDS
+#include "core/base/angles.h"
+#include "core/base/system_time.h"
+#include "core/robot/arm_follower.h"
+#include "core/robot/command_guard.h"
+#include "core/robot/dds/dds_sink.h"
+#include "core/robot/dds/measured_robot.h"
+#include "core/robot/server/command_messages.h"
+#include "core/robot/shadow_kinematics.h"
+#include "core/robot/test_commands.h"
+#include "eval/commands/robot_outputs.h"
+#include "eval/dds_test_bus.h"
+#endif
+
+namespace glovebench::eval {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+#ifdef GLOVEBENCH_DDS
+
+constexpr double kPeriod = 0.033334;  // s, between two frames of what is tracked here
+constexpr double kRounding = 1e-9;
+
+class DdsController : public DdsBus {
+ protected:
+  static const inline ProgramSetting kController = {.environment = {{"DDS_PROBE_TOPICS", "controller"}}};
+
+  static std::string values(const std::vector<std::string>& names, const std::vector<double>& positions) {
+    std::string text;
+    for (size_t j = 0; j < names.size(); ++j) text += fmt::format(" {}={}", names[j], positions.at(j));
+    return text;
+  }
+  /// Half open, as no tracked hand is at first.
+  static std::vector<double> standing() {
+    std::vector<double> positions(kShadowJointCount);
+    for (int j = 0; j < kShadowJointCount; ++j) {
+      const ShadowJointInfo& info = shadow_joint_infos()[j];
+      positions[j] = radians_from_degrees(0.3 * info.min_deg + 0.7 * info.max_deg);
+    }
+    return positions;
+  }
+  /// A driver that tells where the joints are, a hundred times a second, until it is stopped.
+  StartedProgram drive(const std::string& topic, const std::vector<std::string>& names,
+                       const std::vector<double>& positions, const ProgramSetting& setting = {}) {
+    return talk("wait " + topic + "\nstate " + topic + values(names, positions) + "\nagain 100000 10000\n",
+                setting);
+  }
+  StartedProgram listen_to_controller() { return listen("4", kController); }
+  static std::map<std::string, double> joints_of(const std::string& line) {
+    std::map<std::string, double> joints;
+    std::istringstream words(line);
+    for (std::string word; words >> word;)
+      if (const size_t equals = word.find('='); equals != std::string::npos)
+        joints[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
+    return joints;
+  }
+  RobotStream stream(bool arm) const {
+    RobotStream stream;
+    stream.bus.middleware = "dds:" + domain_;
+    stream.topics = "controller";
+    stream.arm = arm;
+    return stream;
+  }
+  /// A tracked frame whose joints are all at 0.
+  static RobotCommand command(int i) { return good_command(1'000'000 + 33'333 * int64_t{i}); }
+  /// What `track` does with commands.
+  static void send(RobotOutputs& outputs, int count) {
+    CommandGuard guard;
+    for (int i = 0; i < count; ++i) {
+      outputs.start(guard, command(i));
+      outputs.send(guard.guard(command(i)).value(), system_us());
+      std::this_thread::sleep_for(std::chrono::milliseconds(33));
+    }
+    outputs.finish();
+  }
+  static std::string refusal(const RobotStream& stream) {
+    try {
+      RobotOutputs outputs(stream);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(DdsController, HearsNothingUnlessItIsMeant) {
+  const StartedProgram controllers = listen_to_controller();
+  const StartedProgram servers = listen();
+  DdsSink sink(std::stoi(domain_));
+  ASSERT_TRUE(comes_true([&] { return sink.listeners() > 0; }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  for (int i = 0; i < 30; ++i) sink.send(command(i));
+  sink.finish();
+  EXPECT_EQ(lines_of("hand", finish(servers).out).size(), 30U);
+  const ProgramRun heard = stop(controllers, SIGTERM);
+  EXPECT_EQ(heard.out, "ready\n");
+}
+
+TEST_F(DdsController, IsLeftNoFasterThanTheLimitsFromWhereTheRobotStands) {
+  for (const bool own_topic : {true, false}) {
+    const StartedProgram driver = own_topic ? drive("measured", hand_joint_names(), standing())
+                                            : drive("states", hand_joint_names(), standing(), kController);
+    const StartedProgram listener = listen_to_controller();
+    RobotOutputs outputs(stream(false));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the listener knows the sender a little later
+    send(outputs, 20);
+    stop(driver, SIGKILL);
+    const std::string heard = finish(listener).out;
+    const std::vector<std::string> hands = lines_of("hand", heard), wrists = lines_of("wrist", heard);
+    ASSERT_EQ(hands.size(), 20U);
+    ASSERT_EQ(wrists.size(), 20U);
+    EXPECT_THAT(lines_of("pose", heard), IsEmpty());
+    std::map<std::string, double> before;
+    for (size_t j = 0; j < standing().size(); ++j) before[hand_joint_names()[j]] = standing()[j];
+    const double farthest = CommandLimits().hand_joint_speed * kPeriod + kRounding;
+    for (size_t i = 0; i < hands.size(); ++i) {
+      std::map<std::string, double> now = joints_of(hands[i]);
+      now.merge(joints_of(wrists[i]));
+      ASSERT_EQ(now.size(), size_t{kShadowJointCount});
+      for (const auto& [name, angle] : now) {
+        ASSERT_LE(std::abs(angle - before.at(name)), farthest) << name << " in message " << i;
+        ASSERT_LE(std::abs(angle), std::abs(before.at(name)) + kRounding) << name << " goes to 0";
+      }
+      before = now;
+    }
+    EXPECT_LT(std::abs(before.at("rh_FFJ3")), std::abs(standing()[kFFJ3]) / 2) << "it does get there";
+  }
+}
+
+TEST_F(DdsController, IsNotSpokenToWithoutACompleteMeasuredState) {
+  EXPECT_THAT(
+      refusal(stream(false)),
+      AllOf(HasSubstr("DDS domain 7: measured state of the hand: found nothing of them on "
+                      "/glovebench/measured_joint_states, nothing of them on /joint_states, expected all 24 "
+                      "joints (rh_FFJ1 ... rh_WRJ2), at most 0.1 s old")));
+  std::vector<std::string> names(hand_joint_names().begin(), hand_joint_names().end() - 2);
+  const StartedProgram fingers = drive("measured", names, standing());
+  EXPECT_THAT(refusal(stream(false)), HasSubstr("a state without rh_WRJ1, rh_WRJ2 on /glovebench/measured"));
+  stop(fingers, SIGKILL);
+  drive("measured", hand_joint_names(), standing());
+  EXPECT_EQ(refusal(stream(false)), "");
+  EXPECT_THAT(refusal(stream(true)), AllOf(HasSubstr("measured state of the arm: found nothing of them on "),
+                                           HasSubstr("expected all 7 joints (S1 ... W2)")));
+}
+
+TEST_F(DdsController, IsNotSpokenToAfterItsDriverFellSilent) {
+  const StartedProgram driver = drive("measured", hand_joint_names(), standing());
+  RobotOutputs outputs(stream(false));
+  stop(driver, SIGKILL);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const StartedProgram listener = listen_to_controller();
+  CommandGuard guard;
+  EXPECT_NO_THROW(outputs.start(guard, lost_command(1)));  // sends nothing anyway
+  EXPECT_THROW(outputs.start(guard, command(1)), Error);
+  EXPECT_EQ(stop(listener, SIGTERM).out, "ready\n");
+}
+
+TEST_F(DdsController, StartsTheArmWhereItStands) {
+  const StartedProgram hand = drive("measured", hand_joint_names(), std::vector<double>(kShadowJointCount, 0.0));
+  const StartedProgram listener = listen_to_controller();
+  const ArmJoints rest = kArmAtRest;
+  // The arm's own controller tells of it on another topic.
+  const StartedProgram arm = drive("states", arm_joint_names(), {rest.begin(), rest.end()}, kController);
+  RobotOutputs outputs(stream(true));
+  ASSERT_TRUE(outputs.arm_start());
+  EXPECT_EQ(*outputs.arm_start(), rest);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  send(outputs, 3);
+  stop(hand, SIGKILL), stop(arm, SIGKILL);
+  const std::vector<std::string> poses = lines_of("pose", finish(listener).out);
+  ASSERT_EQ(poses.size(), 3U);
+  Eigen::Vector3d before = (arm_flange_pose(rest) * default_T_flange_wrist()).translation();
+  const Eigen::Vector3d goal =
+      Eigen::Vector3d(0.5, 0, 0.5) + shadow_T_wrist_hand(command(0).targets->hand.joints).inverse().translation();
+  for (const std::string& line : poses) {
+    std::istringstream words(line.substr(line.find('"')));
+    std::string frame;
+    Eigen::Vector3d now;
+    words >> frame >> now.x() >> now.y() >> now.z();
+    // The wrist turns about the hand's origin, which the limits are of.
+    constexpr double kWristFromHand = 0.15;
+    EXPECT_LE((now - before).norm(),
+              (CommandLimits().hand_speed + kWristFromHand * CommandLimits().hand_turn_speed) * kPeriod);
+    before = now;
+  }
+  EXPECT_GT((before - goal).norm(), 0.01) << "it is still on its way";
+}
+
+TEST(MeasuredTargets, TakeNoiseAsTheLimit) {
+  MeasuredState state{std::vector<double>(kShadowJointCount, 0.0), std::nullopt};
+  state.hand[kFFJ3] = radians_from_degrees(90.9);
+  state.hand[kMFJ1] = radians_from_degrees(20.9);
+  state.hand[kMFJ2] = radians_from_degrees(20);
+  const Eigen::Isometry3d T_base_hand = good_command(1).targets->T_base_hand;
+  const RobotTargets targets = targets_at(state, default_T_flange_wrist(), T_base_hand);
+  EXPECT_EQ(targets.hand.joints[kFFJ3], radians_from_degrees(90));
+  EXPECT_EQ(targets.hand.joints[kMFJ1], radians_from_degrees(20));
+  CommandGuard guard;
+  EXPECT_NO_THROW(guard.start_from(targets));
+  state.hand[kFFJ3] = radians_from_degrees(92);
+  EXPECT_THROW(targets_at(state, default_T_flange_wrist(), T_base_hand), Error);
+  state.hand[kFFJ3] = 0;
+  state.hand[kMFJ1] = radians_from_degrees(22);
+  EXPECT_THROW(targets_at(state, default_T_flange_wrist(), T_base_hand), Error);
+}
+
+/// From frames to a controller.
+class DdsControllerTrackLong : public CommandTest {};
+
+TEST_F(DdsControllerTrackLong, TrackNeedsAMeasuredState) {
+  use_loopback_dds();
+  render_recording("good.json", "dump");
+  const std::vector<std::string> flags = {"--robot",    "dds:7",       "--robot-topics",
+                                          "controller", "--robot-arm", "none"};
+  EXPECT_THAT(refusal(track("dump", "DB_open_power", "e.jsonl", flags)),
+              HasSubstr("measured state of the hand: found nothing of them on /glovebench/measured_joint_states"));
+  EXPECT_FALSE(std::filesystem::exists(path("e.jsonl")));
+  std::string script = "wait measured\nstate measured";
+  for (const std::string& name : hand_joint_names()) script += fmt::format(" {}=0.1", name);
+  write_file(path("script"), script + "\nagain 20000 10000\n");
+  const StartedProgram driver = start_program({GLOVEBENCH_DDS_PROBE, "talk", "7", path("script")});
+  std::vector<std::string> more = flags;
+  more.insert(more.end(), {"--robot-out", path("r.jsonl")});
+  expect_fine(track("dump", "DB_open_power", "e.jsonl", more));
+  kill(driver.process, SIGKILL);
+  finish_program(driver);
+  std::istringstream lines(read_file(path("r.jsonl")));
+  std::string first;
+  ASSERT_TRUE(std::getline(lines, first));
+  const nlohmann::json command = nlohmann::json::parse(first);
+  for (const auto& [name, angle_deg] : command.at("joints").at("target_deg").items())
+    EXPECT_LE(std::abs(angle_deg.get<double>() - degrees_from_radians(0.1)),
+              degrees_from_radians(CommandLimits().hand_joint_speed * kPeriod) + 1e-6)
+        << name;
+  EXPECT_THAT(refusal(track("dump", "DB_open_power", "e.jsonl", {"--robot-topics", "controller"})),
+              HasSubstr("--robot-topics"));
+}
+
+#endif
+
+}  // namespace
+}  // namespace glovebench::eval
