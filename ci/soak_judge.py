@@ -12,13 +12,16 @@ work, seconds = sys.argv[1], int(sys.argv[2])
 frames = [json.loads(line) for line in open(f"{work}/estimates.jsonl")]
 # A lost frame sends nothing.
 expected = {frame["timestamp_us"] for frame in frames if frame["status"] == "tracked"}
-latencies, missed, counts = [], 0, []
+latencies, missed, stale, counts = [], 0, 0, []
+# A command that came is not missed, though at a start, or too late, it moves nothing (core/robot/dds/README.md).
+CAME = ("accepted", "starting", "stale")
 for side, topics in (("hand", ("fingers", "wrist")), ("arm", ("pose",))):
     received = [json.loads(line) for line in open(f"{work}/{side}.jsonl") if '"received"' in line]
     for topic in topics:
-        lines = [line for line in received if line["topic"] == topic and line["receipt"] == "accepted"]
+        lines = [line for line in received if line["topic"] == topic and line["receipt"] in CAME]
         missed += len(expected - {line["stamp_ns"] // 1000 for line in lines})
         counts.append(f"{topic} {len(lines)}")
+        stale += sum(line["receipt"] == "stale" for line in lines)
         latencies += [(line["time_us"] - line["source_us"]) / 1000 for line in lines]
 latencies.sort()
 
@@ -30,7 +33,7 @@ def at(share):
 elapsed_us = frames[-1]["timestamp_us"] - frames[0]["timestamp_us"] if frames else 0
 frame_rate = (len(frames) - 1) / elapsed_us * 1e6 if elapsed_us > 0 else 0
 print(f"soak: {seconds} s, {len(frames)} frames at {frame_rate:.1f} Hz, {len(expected)} tracked; commands expected "
-      f"{len(expected)}, received {', '.join(counts)}, missed {missed}; frame to command {at(0.5):.2f} ms median, "
+      f"{len(expected)}, received {', '.join(counts)}, missed {missed}, stale {stale}; frame to command {at(0.5):.2f} ms median, "
       f"{at(0.99):.2f} ms p99, {at(1):.2f} ms at most (system clock, frame whole at the device to reception by the "
       f"server); {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
 if not expected or missed > 0:

@@ -126,7 +126,12 @@ TEST_F(Freenect, StopsAfterTheFramesThatWereAskedFor) {
   EXPECT_THAT(run.out, HasSubstr("4 of 4 frames tracked"));
 }
 
-TEST_F(Freenect, FinishesItsOutputWhenInterrupted) {
+/// The signals that a person, a supervisor and a terminal that is closed send.
+class FreenectSignal : public Freenect, public testing::WithParamInterface<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Signals, FreenectSignal, testing::Values(SIGINT, SIGHUP));
+
+TEST_P(FreenectSignal, FinishesItsOutputWhenInterrupted) {
   render_dump(12, 0, 300'000);
   const StartedProgram started = start_glovebench(live(), fakenect());
   const auto has_begun = [&] {  // the file grows under a temporary name
@@ -138,7 +143,7 @@ TEST_F(Freenect, FinishesItsOutputWhenInterrupted) {
   };
   for (int i = 0; i < 1000 && !has_begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_FALSE(fs::exists(path("live.jsonl"))) << "not finished yet";
-  kill(started.process, SIGINT);
+  kill(started.process, GetParam());
   const ProgramRun run = finish_program(started);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("frames tracked"));

@@ -47,10 +47,11 @@ TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
   const std::string log = path("arm.jsonl");
   const StartedProgram server = serve_until_ready("arm", log);
   const Eigen::Vector3d way(-0.05, 0.08, -0.03);
-  finish(talk("wait pose\n" + pose(way, 1) + "again 60 10000\n"));
+  finish(talk("wait pose\n" + pose(way, 1) + "again 200 10000\n"));
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("arm: messages: 61 accepted; streams: 1;"));
+  EXPECT_EQ(good(log, "pose"), 201);
+  EXPECT_THAT(run.out, HasSubstr("arm: messages: "));
   const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back());
   EXPECT_LT((wrist - wrist_at_rest().translation() - way).norm(), 1e-4) << wrist.transpose();
   expect_safe(log);
@@ -62,7 +63,7 @@ TEST_F(RobotServer, TheArmKnowsHowTheHandIsMounted) {
       serve_until_ready("arm", log, {"--flange-wrist", "0", "0", "0.1", "0.6", "0", "0", "0.8"});
   const Eigen::Isometry3d mounted = Eigen::Translation3d(0, 0, 0.1) * Eigen::Quaterniond(0.6, 0, 0, 0.8);
   const Eigen::Vector3d way(-0.05, 0.08, -0.03);
-  finish(talk("wait pose\n" + pose(way, 1, "base_link", mounted) + "again 60 10000\n"));
+  finish(talk("wait pose\n" + pose(way, 1, "base_link", mounted) + "again 200 10000\n"));
   EXPECT_EQ(stop(server, SIGTERM).exit_code, 0);
   const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back(), mounted);
   EXPECT_LT((wrist - wrist_at_rest(mounted).translation() - way).norm(), 1e-4) << wrist.transpose();
@@ -93,7 +94,10 @@ TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
     state["time_us"] = system_us();
     std::string text = state.dump();  // in the order of a log: `event` comes first
     text.erase(text.find(R"("event":"state",)"), 16);
-    write_file(log, R"({"event":"state",)" + text.substr(1) + "\n");
+    const std::string place = state["position_deg"].dump();
+    write_file(log, R"({"event":"state",)" + text.substr(1) + "\n" +
+                        fmt::format(R"({{"event":"interval","time_us":1,"min_deg":{0},"max_deg":{0}}})", place) +
+                        "\n");
   };
   log_at(177);
   ProgramRun run = stop(serve_until_ready("arm", log), SIGTERM);
@@ -109,19 +113,20 @@ TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
 TEST_F(RobotServerLong, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
   const std::string log = path("arm.jsonl");
   const StartedProgram server = serve_until_ready("arm", log);
-  finish(talk("wait pose\n" + pose({0, 0, 0}, 10) + pose({0, 0.1, 0}, 11, "world") +
+  finish(talk("wait pose\n" + pose({0, 0, 0}, 10) + "again 60 10000\n" + pose({0, 0.1, 0}, 11, "world") +
               pose({0, std::nan(""), 0}, 11) + pose({0, 0.1, 0}, 9) + "pose 12 0 base_link 0.5 0 0.5 0 0 0 2\n" +
               pose({50, 0, 0}, 20) + "again 600 10000\n"));
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out,
-              AllOf(HasSubstr("messages: 602 accepted, 1 not_finite, 1 not_rotation, 1 wrong_frame, 1 went_back;"),
-                    HasSubstr(" arm_unreachable"), HasSubstr(" workspace")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr(" accepted, 1 not_finite, 1 not_rotation, 1 wrong_frame, "),
+                             HasSubstr(" arm_unreachable"), HasSubstr(" workspace")));
+  EXPECT_EQ(good(log, "pose") + received(log, "pose", "went_back"), 61 + 1 + 601);
   expect_safe(log);
 }
 
 TEST_F(RobotServerLong, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
   const std::string hand_log = path("hand.jsonl"), arm_log = path("arm.jsonl");
+  const SimulatedRobot robot(std::stoi(domain_));
   StartedProgram hand = serve_until_ready("hand", hand_log), arm = serve_until_ready("arm", arm_log);
   std::string script = "wait hand\nwait pose\n";
   for (int i = 0; i < 600; ++i) {
@@ -130,9 +135,7 @@ TEST_F(RobotServerLong, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
   }
   const StartedProgram sender = talk(script);
   for (int round = 0; round < 2; ++round) {
-    const auto sent = [&] {
-      return received(hand_log, "fingers", "accepted") + received(arm_log, "pose", "accepted");
-    };
+    const auto sent = [&] { return good(hand_log, "fingers") + good(arm_log, "pose"); };
     const int64_t before = sent();
     ASSERT_TRUE(comes_true([&] { return sent() > before + 100; }));
     stop(hand, SIGKILL);
@@ -144,7 +147,9 @@ TEST_F(RobotServerLong, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
   for (const StartedProgram& server : {hand, arm}) {
     const ProgramRun run = stop(server, SIGTERM);
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
+    if (!had_gaps(run)) {
+      EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
+    }
   }
   expect_safe(hand_log);
   expect_safe(arm_log);

@@ -55,6 +55,7 @@ struct ProgramRun {
 struct ProgramSetting {
   std::map<std::string, std::string> environment;  ///< beside what there is
   rlim_t max_file_bytes = RLIM_INFINITY;           ///< what a full disk is like
+  bool unheard = false;                            ///< stdout and stderr are pipes that nobody reads any more
 };
 
 /// In the child: becomes the program, or ends with 127.
@@ -63,6 +64,12 @@ struct ProgramSetting {
   for (const auto& [name, value] : setting.environment) setenv(name.c_str(), value.c_str(), 1);
   dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
   dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+  if (int ends[2]; setting.unheard && pipe(ends) == 0) {
+    dup2(ends[1], STDOUT_FILENO);
+    dup2(ends[1], STDERR_FILENO);
+    close(ends[0]);
+    close(ends[1]);
+  }
   const rlimit limit{setting.max_file_bytes, setting.max_file_bytes};
   if (setting.max_file_bytes != RLIM_INFINITY) setrlimit(RLIMIT_FSIZE, &limit);
   std::vector<char*> arguments;

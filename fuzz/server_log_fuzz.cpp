@@ -6,8 +6,29 @@
 
 using namespace glovebench;
 
+namespace {
+
+/// What is read of an interval is inside of what is written of it, and no more than rounding is added.
+void check_interval(std::string_view log) {
+  const auto interval = last_interval(log, arm_joint_names(), "log.jsonl");
+  if (!interval) return;
+  const auto again =
+      last_interval(interval_line(*interval, 1, arm_joint_names()) + "\n", arm_joint_names(), "again");
+  check(again.has_value(), "an interval returns");
+  for (size_t j = 0; j < interval->min.size(); ++j) {
+    check(interval->min[j] <= interval->max[j], "an interval has its ends in order");
+    check(again->min[j] <= interval->min[j] + 1e-12 && again->max[j] >= interval->max[j] - 1e-12,
+          "an interval is rounded outwards");
+    check(again->min[j] >= interval->min[j] - 2e-8 && again->max[j] <= interval->max[j] + 2e-8,
+          "an interval returns");
+  }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   return fuzz::expect_value_or_error([&] {
+    check_interval(fuzz::as_text(data, size));
     const auto state = last_state(fuzz::as_text(data, size), arm_joint_names(), "log.jsonl");
     if (!state) return;
     for (const double position : state->positions) check(std::isfinite(position), "a position is finite");

@@ -80,7 +80,8 @@ void MessageAges::begin_anew(int64_t now_us) {
 }
 
 bool MessageAges::watch(int64_t now_us) {
-  if (!seen_us_ || now_us - *seen_us_ <= kGapUs) return false;
+  if (!seen_us_) seen_us_ = now_us;
+  if (now_us - *seen_us_ <= kGapUs) return false;
   // The time that the server has missed ages nothing that it knows: so it tells old messages from new ones.
   for (auto& [key, its] : streams_)
     for (auto& [from_us, delay] : its.smallest) from_us += now_us - *seen_us_;
