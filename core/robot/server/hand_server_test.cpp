@@ -107,7 +107,7 @@ TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
 }
 
 TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
-  tick();
+  start();
   for (int i = 0; i < 150; ++i) {
     EXPECT_EQ(fingers(30, 1000 * (i + 1)), Receipt::accepted);
     EXPECT_EQ(wrist(8, 1000 * (i + 1)), Receipt::accepted);
@@ -125,15 +125,14 @@ TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
 TEST(HandServer, SplitsByTheCouplingThatItIsTold) {
   CommandLimits limits;
   limits.coupling = ShadowCoupling::even;
-  HandServer server(limits, std::vector<double>(kShadowJointCount, 0.0));
+  HandServer server(limits, {std::vector<double>(kShadowJointCount, 0.0)});
   ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 0, 1);
   message.points[0].positions[kMFJ2] = 1;
-  server.tick(1);
   RobotState state;
-  for (int64_t now_us = 10'000; now_us < 1'000'000; now_us += 10'000) {
+  for (int64_t now_us = 10'000; now_us < 2'000'000; now_us += 10'000) {
     message.stamp = test_stamp(now_us);
-    server.receive(kFirst, HandTopic::fingers, message, now_us);
-    state = server.tick(now_us);
+    server.receive(HandTopic::fingers, message, {kFirst, now_us * 1000, now_us});
+    state = server.tick({now_us, kEpochUs + now_us});
   }
   EXPECT_EQ(state.position[kMFJ1], 0.5);
   EXPECT_EQ(state.position[kMFJ2], 0.5);
@@ -143,8 +142,8 @@ TEST(HandServer, StartsWithAFingerThatTouchesSomething) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ2] = 1;
   start[kFFJ1] = 0.5;
-  HandServer server({}, start);
-  EXPECT_EQ(server.tick(1).position, start) << "what was measured stays until the finger moves";
+  HandServer server({}, {start});
+  EXPECT_EQ(server.tick({1, kEpochUs}).position, start) << "what was measured stays until the finger moves";
 }
 
 TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
