@@ -206,6 +206,8 @@ std::vector<Reader> json_readers() {
   reports::Timings timings;
   timings.experiments = {{{"Tr1", "D", reports::TruthKind::source, 1, {}}, 1, {{"align", {1, 2, 3}}}}};
   const reports::NoiseFloor floor = {"quick", 16, 2, 0.01, "0", "2026", {{"all", "position_error_mm", 0, 0, 0}}};
+  reports::RunResult result = reports::full_result();
+  result.experiments = reports::small_result().experiments;
   const std::vector<reports::SpeedRatio> ratios = {{"a", 2, 1, 3}};
   return {
       {"configuration", [=](auto& text) { config_from_json(parse_json(text, w), {}, w); },
@@ -223,7 +225,7 @@ std::vector<Reader> json_readers() {
       {"webxr", [=](auto& text) { motion::parse_capture(text, "webxr", Side::right, w); }, kWebxr},
       {"motion script", [=](auto& text) { motion::parse_motion_script(text, gestures(), w); }, kScript},
       {"suite", [=](auto& text) { eval::parse_suite(text, w); }, kSuite},
-      {"results", [=](auto& text) { reports::parse_results(text, w); }, results_json(reports::full_result())},
+      {"results", [=](auto& text) { reports::parse_results(text, w); }, results_json(result)},
       {"timings", [=](auto& text) { reports::parse_stage_times(text, w); }, timings_json(timings)},
       {"noise floor", [=](auto& text) { reports::parse_noise_floor(text, w); }, noise_floor_json(floor)},
       {"speed ratios", [=](auto& text) { reports::parse_speed_ratios(text, w); }, speed_json(ratios)},
@@ -245,8 +247,6 @@ TEST(ReaderMemory, of_json_is_bounded_at_each_place) {
     for (size_t i = 1; i < places.size(); ++i) {
       const auto& [what, value] = hostile_values()[i % hostile_values().size()];
       expect_bounded(reader, with_value_at(document, places[i], value), what + " at " + places[i].to_string());
-      const auto& [zeros, text] = hostile_values().front();
-      expect_bounded(reader, with_value_at(document, places[i], text), zeros + " at " + places[i].to_string());
     }
   }
 }
@@ -283,7 +283,7 @@ TEST(ReaderMemory, of_long_documents_of_small_values_is_bounded) {
   check("trajectory", "/frames", frame, "");
   check(
       "posture set", "/postures",
-      [&](int i) { return fmt::format(R"({{"name":"{}","angles_deg":[{}]}})", i, zeros); }, "small values");
+      [&](int i) { return fmt::format(R"({{"name":"{}","angles_deg":[{}]}})", i, zeros); }, "");
   check(
       "webxr", "/frames", [](int i) { return fmt::format(R"({{"timestamp_us":{},"joints_m":{{}}}})", i); },
       "points");
@@ -376,7 +376,10 @@ TEST(ReaderMemory, of_long_texts_of_short_lines_is_bounded) {
 
 /// A header that claims an image of that size, with nothing behind it.
 std::vector<std::string> claiming_pictures() {
-  const std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x75\x30\0\0\x75\x30\x10\0\0\0\0\x0a\x4e\x3b\x1b", 33);
+  const std::string png(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x75\x30\0\0\x75\x30\x10\0\0\0\0"
+      "\x13\xdc\x7b\x25",
+      33);
   return {"P5 30000 30000 65535\n", "P6 30000 30000 255\n", png};
 }
 
