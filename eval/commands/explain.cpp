@@ -90,7 +90,8 @@ struct Explain {
     const auto it = results.inputs.databases.find(key.database);
     const std::string expected = it == results.inputs.databases.end() ? "nothing" : it->second;
     if (database.content_hash() != expected)
-      throw Error(path, "hash of " + key.database, database.content_hash(), expected + " (the database of the run)");
+      throw Error(path, "hash of " + key.database, database.content_hash(),
+                  expected + " (the database of the run)");
   }
 };
 
