@@ -86,9 +86,9 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
 }
 
 std::string DatabaseCache::path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const {
-  return path_within(folder, fmt::format("{}-{}.glovedb",
-                                         stem(*this, postures, Database::input_hash(postures, model, views)),
-                                         hash_text(source_hash).substr(0, 16)));
+  return path_within(
+      folder, fmt::format("{}-{}.glovedb", stem(*this, postures, Database::input_hash(postures, model, views)),
+                          hash_text(source_hash).substr(0, 16)));
 }
 
 }  // namespace glovebench
