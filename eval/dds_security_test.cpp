@@ -25,7 +25,7 @@ constexpr int64_t kDay = 86'400;
 int64_t now_s() {
   return system_us() / 1'000'000;
 }
-Validity good() {
+Validity valid_now() {
   return {now_s() - kDay, now_s() + kDay};
 }
 
@@ -33,8 +33,8 @@ class DdsSecurity : public RobotServer {
  protected:
   void SetUp() override {
     RobotServer::SetUp();
-    make_security_keys(path("keys"), good());
-    make_security_keys(path("strangers"), good());
+    make_security_keys(path("keys"), valid_now());
+    make_security_keys(path("strangers"), valid_now());
   }
 
   /// What Cyclone DDS is told, whether it fits or not.
@@ -63,11 +63,11 @@ class DdsSecurity : public RobotServer {
 
   /// An observer with a true identity whose rights are signed by itself.
   ProgramSetting as_presumptuous_observer() {
-    const Authority own("its own", good());
+    const Authority own("its own", valid_now());
     const SecurityRole wanted = {"observer", {"*"}, {"*"}};
     write_file(path("own_ca.pem"), own.certificate());
     write_file(path("own_governance.p7s"), own.sign(governance_document()));
-    write_file(path("own_rights.p7s"), own.sign(permissions_document(wanted, good())));
+    write_file(path("own_rights.p7s"), own.sign(permissions_document(wanted, valid_now())));
     Files its = files("keys", "observer");
     its.permissions_ca = path("own_ca.pem");
     its.governance = path("own_governance.p7s");
@@ -148,7 +148,7 @@ TEST_F(DdsSecurity, StatesOfIntrudersAreNotBelieved) {
 TEST_F(DdsSecurity, ACertificateThatExpiredIsNotFollowed) {
   constexpr int64_t kLifetime = 8;  // s
   const int64_t end_s = now_s() + kLifetime;
-  make_security_keys(path("short"), good(), {{"sender", {now_s() - kDay, end_s}}});
+  make_security_keys(path("short"), valid_now(), {{"sender", {now_s() - kDay, end_s}}});
   const StartedProgram sender =
       talk("sleep 12000\n" + fingers(80, 1) + "again 300 10000\n", as(files("short", "sender")));
   while (now_s() <= end_s) std::this_thread::sleep_for(std::chrono::milliseconds(100));

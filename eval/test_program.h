@@ -53,9 +53,9 @@ struct ProgramRun {
   std::string err;
 };
 struct ProgramSetting {
-  std::map<std::string, std::string> environment;  ///< beside what there is
-  rlim_t max_file_bytes = RLIM_INFINITY;           ///< what a full disk is like
-  bool unheard = false;                            ///< stdout and stderr are pipes that nobody reads any more
+  std::map<std::string, std::string> environment = {};  ///< beside what there is
+  rlim_t max_file_bytes = RLIM_INFINITY;                ///< what a full disk is like
+  bool unheard = false;                                 ///< stdout and stderr are pipes that nobody reads any more
 };
 
 /// In the child: becomes the program, or ends with 127.
