@@ -208,6 +208,7 @@ std::vector<Reader> json_readers() {
   const reports::NoiseFloor floor = {"quick", 16, 2, 0.01, "0", "2026", {{"all", "position_error_mm", 0, 0, 0}}};
   reports::RunResult result = reports::full_result();
   result.experiments = reports::small_result().experiments;
+  for (reports::ExperimentResult& experiment : result.experiments) experiment.runs.resize(1);
   const std::vector<reports::SpeedRatio> ratios = {{"a", 2, 1, 3}};
   return {
       {"configuration", [=](auto& text) { config_from_json(parse_json(text, w), {}, w); },

@@ -64,9 +64,10 @@ Extent extent_of(const DepthImage& depth) {
   return extent;
 }
 
-/// The pixels of one depth row in the RGB camera; z is 0 or negative where there is nothing to see.
+/// The pixels of one depth row in the RGB camera; z is 0 or negative where there is nothing to see. Pointers: an
+/// index into a vector is checked, which costs these loops a fifth.
 struct ProjectedRow {
-  RecycledVector<float> u_px, v_px, z;
+  const float *u_px, *v_px, *z;
 };
 
 /// Projects depth rows into the RGB camera: the homogeneous pixel is z * M * (u, v, 1) + b with
@@ -78,17 +79,18 @@ class RowProjector {
     M_ = (K_rgb * calibration.T_rgb_ir.linear() * intrinsic_matrix(calibration.ir).inverse()).cast<float>();
     b_ = (K_rgb * calibration.T_rgb_ir.translation()).cast<float>();
     const size_t width = calibration.ir.width;
-    row_ = {RecycledVector<float>(width), RecycledVector<float>(width), RecycledVector<float>(width)};
+    u_px_ = v_px_ = z_ = RecycledVector<float>(width);
   }
 
-  const ProjectedRow& project(const DepthImage& depth, int v, const Span& span) {
+  /// Valid until the next call.
+  ProjectedRow project(const DepthImage& depth, int v, const Span& span) {
     const Eigen::Vector3f start = M_.col(1) * static_cast<float>(v) + M_.col(2);
     const Eigen::Vector3f step = M_.col(0);
     const Eigen::Vector3f b = b_;
     const float* d = &depth(0, v);
-    float* const u_out = row_.u_px.data();
-    float* const v_out = row_.v_px.data();
-    float* const z_out = row_.z.data();
+    float* const u_out = u_px_.data();
+    float* const v_out = v_px_.data();
+    float* const z_out = z_.data();
     for (int u = span.left; u < span.right; ++u) {
       const float fu = static_cast<float>(u);
       const float z = d[u] * (start.z() + step.z() * fu) + b.z();
@@ -99,7 +101,7 @@ class RowProjector {
       v_out[u] = y * inverse;
       z_out[u] = d[u] > 0 ? z : 0.0f;
     }
-    return row_;
+    return {u_out, v_out, z_out};
   }
 
   /// Pixels of the RGB camera among which all values lie, within a rounding; empty if it cannot be told.
@@ -123,7 +125,7 @@ class RowProjector {
  private:
   Eigen::Matrix3f M_;
   Eigen::Vector3f b_;
-  ProjectedRow row_;
+  RecycledVector<float> u_px_, v_px_, z_;
 };
 
 /// How far (px) a depth sample reaches in the RGB image, so that neighboring samples of one surface leave no gap:
@@ -166,8 +168,9 @@ class NearestSurface {
                 height = static_cast<float>(calibration.rgb.height + 2 * radius_ - 1),
                 offset = static_cast<float>(radius_);
     for (int v = extent.top; v < extent.bottom; ++v) {
-      const ProjectedRow& row = projector.project(depth, v, extent.rows[v]);
-      for (int u = extent.rows[v].left; u < extent.rows[v].right; ++u) {
+      const Span span = extent.rows[v];
+      const ProjectedRow row = projector.project(depth, v, span);
+      for (int u = span.left; u < span.right; ++u) {
         const float i = row.u_px[u] + offset, j = row.v_px[u] + offset;
         if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
         float& cell = nearest_(static_cast<int>(i) - cells_of_.left, static_cast<int>(j) - cells_of_.top);
@@ -218,8 +221,9 @@ RegisteredImage register_color(const DepthImage& depth, const ColorImage& color,
   const float width = static_cast<float>(color.width()), height = static_cast<float>(color.height());
 
   for (int v = extent.top; v < extent.bottom; ++v) {
-    const ProjectedRow& row = projector.project(depth, v, extent.rows[v]);
-    for (int u = extent.rows[v].left; u < extent.rows[v].right; ++u) {
+    const Span span = extent.rows[v];
+    const ProjectedRow row = projector.project(depth, v, span);
+    for (int u = span.left; u < span.right; ++u) {
       const float i = row.u_px[u] + 0.5f, j = row.v_px[u] + 0.5f;  // truncated: the nearest pixel
       if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
       const int u_rgb = static_cast<int>(i), v_rgb = static_cast<int>(j);

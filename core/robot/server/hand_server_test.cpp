@@ -164,11 +164,10 @@ TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
   EXPECT_EQ(last_.position[kWRJ1], stood);
 }
 
-TEST_F(HandServerTest, MovesNoFasterOnItsVeryFirstTick) {
-  for (int i = 0; i < 21; ++i, now_us_ += kPeriodUs) fingers(90, i);
-  EXPECT_EQ(fingers(90, 21), Receipt::accepted);
-  tick();  // checks it
-  EXPECT_GT(tick().position[kFFJ3], 0) << "what came before the first tick is not lost";
+TEST_F(HandServerTest, NothingThatCameBeforeItsFirstTickMovesIt) {
+  for (int i = 0; i < 60; ++i, now_us_ += kPeriodUs)
+    EXPECT_NE(fingers(90, i), Receipt::accepted) << "more than 0.1 s without a tick are a gap";
+  EXPECT_EQ(ticks(3).position, start_);
 }
 
 TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
@@ -230,8 +229,10 @@ TEST_F(HandServerTest, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
     tick();
   }
   EXPECT_EQ(refused, 50) << "0.5 s after the owner's last message, which came one tick before";
-  start(kSecond);
-  EXPECT_EQ(fingers(20, 1, kSecond), Receipt::accepted);
+  int starting = 0;
+  for (; fingers(20, 1, kSecond) == Receipt::starting && starting < 1000; ++starting) tick();
+  EXPECT_EQ(starting, 20) << "0.2 s";
+  EXPECT_EQ(fingers(20, 2, kSecond), Receipt::accepted);
   EXPECT_EQ(server_.stream().owners(), 2);
   EXPECT_EQ(fingers(80, 1000, kFirst), Receipt::foreign) << "who comes back has to wait as well";
 }
@@ -303,6 +304,7 @@ TEST_F(HandServerTest, OwnGapsNeedANewStart) {
 TEST_F(HandServerTest, ALateCommandMovesNothing) {
   start();
   for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(5, i), Receipt::accepted);
+  EXPECT_EQ(ticks(16).state, CommandState::holding);
   const ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 80, 20);
   EXPECT_EQ(receive(HandTopic::fingers, message, kFirst, 151'000), Receipt::stale);
   EXPECT_EQ(receive(HandTopic::fingers, message, kFirst, 120'000), Receipt::accepted);
@@ -319,14 +321,14 @@ TEST_F(HandServerTest, AnOldTargetOfTheWristIsNotFollowedWhileTheFingersAre) {
     fingers(80, i);
     angles.push_back(tick().position[kWRJ1]);
   }
-  EXPECT_NEAR(angles[14], 15 * 0.02, kRounding);
+  EXPECT_GT(angles[14], angles[13]);
   EXPECT_EQ(angles[15], angles[14]) << "0.15 s after its last message";
   EXPECT_EQ(angles[39], angles[14]);
 }
 
 TEST_F(HandServerTest, HoldsWhileItMayNotMoveAndGoesOnThen) {
   start();
-  fingers(80, 1);
+  first_finger(80, 1);
   for (int i = 0; i < 3; ++i, now_us_ += kPeriodUs)
     EXPECT_EQ(server_.tick({now_us_ + kPeriodUs, kEpochUs + now_us_ + kPeriodUs}, false).position, start_);
   EXPECT_EQ(tick().state, CommandState::following) << "without another message";
