@@ -20,20 +20,31 @@ struct Gate {
   reports::PairingOptions pairing;
   bool update = false;
 
-  /// The exit code. A report of an earlier gate does not stay beside a refusal.
-  int run() const {
-    require_own_folder(output, candidate_path);
-    if (!output.empty()) reports::remove_comparison(output);
+  /// What `make` returns. What it throws is written in the place of a report, too.
+  template <typename Make>
+  auto or_refusal(Make&& make) const {
     try {
-      const reports::NamedResult candidate = load_run(candidate_path);
-      const std::string folder =
-          baseline_folder.empty() ? default_baseline_folder(suite_name(candidate)) : baseline_folder;
-      require_own_folder(output, folder);
-      return update ? replace(folder, candidate) : judge(folder, candidate);
+      return make();
     } catch (const Error& e) {
-      if (!output.empty()) reports::write_refusal(output, e.what());
+      if (!output.empty()) {
+        reports::remove_comparison(output);
+        reports::write_refusal(output, e.what());
+      }
       throw;
     }
+  }
+
+  /// The exit code. A report of an earlier gate does not stay beside a refusal. Nothing is removed before it is
+  /// known that the output is neither the run nor the baseline.
+  int run() const {
+    require_own_folder(output, candidate_path);
+    if (!baseline_folder.empty()) require_own_folder(output, baseline_folder);
+    const reports::NamedResult candidate = or_refusal([&] { return load_run(candidate_path); });
+    const std::string folder = or_refusal(
+        [&] { return baseline_folder.empty() ? default_baseline_folder(suite_name(candidate)) : baseline_folder; });
+    require_own_folder(output, folder);
+    if (!output.empty()) reports::remove_comparison(output);
+    return or_refusal([&] { return update ? replace(folder, candidate) : judge(folder, candidate); });
   }
 
   /// Says what the new baseline changes, then makes it the baseline.

@@ -94,6 +94,16 @@ TEST_F(RegressionLong, WithoutABaselineNothingPasses) {
   EXPECT_THAT(read_file(path("refused/junit.xml")), HasSubstr("<error"));
 }
 
+TEST_F(RegressionLong, GateRefusesTheBaselineAsItsOutputAndLeavesIt) {
+  fs::remove_all(path("baseline"));
+  ASSERT_EQ(gate(path("run"), {"--update", "--suite", path("mine.json")}).exit_code, 0);
+  const auto files = read_folder(path("baseline"));
+  EXPECT_EQ(gate(path("same"), {"-o", path("baseline")}).exit_code, 2);
+  EXPECT_EQ(gate(path("none"), {"-o", path("baseline")}).exit_code, 2);
+  EXPECT_EQ(read_folder(path("baseline")), files);
+  fs::remove_all(path("baseline"));
+}
+
 TEST_F(RegressionLong, GatePassesWhatIsTheSameAndStopsWhatIsWorse) {
   copy_baseline();
   EXPECT_EQ(gate(path("same")).exit_code, 0);

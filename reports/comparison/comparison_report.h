@@ -37,7 +37,8 @@ std::string comparison_page(const ComparisonReport& report);
 /// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html, each file whole, all or none, and returns
 /// their names. Throws Error if the folder cannot be written.
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report);
-/// Removes such files of an earlier comparison: no reader takes them for those of one that failed since.
+/// Removes such files of an earlier comparison: no reader takes them for those of one that failed since. Throws
+/// Error, and removes nothing, if the folder's manifest names other files, too.
 void remove_comparison(const std::string& folder);
 /// What stands in place of a comparison that could not be made: comparison.md and junit.xml with the message. Other
 /// files stay as they are.

@@ -10,6 +10,8 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/file_set.h"
+#include "core/base/hash.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/comparison/example_comparison.h"
 
@@ -251,6 +253,24 @@ TEST(WriteComparison, WritesEveryFileOrRefuses) {
                                           "junit.xml", "index.html"));
   for (const std::string& name : names) EXPECT_GT(fs::file_size(folder + "/" + name), 0u) << name;
   EXPECT_THROW(write_comparison(folder + "/index.html", small_comparison()), Error);
+}
+
+TEST(RemoveComparison, RemovesItsOwnFilesAndRefusesOtherSets) {
+  const std::string folder = testing::TempDir() + "/remove_comparison_test";
+  fs::remove_all(folder);
+  write_comparison(folder, small_comparison());
+  write_file(folder + "/notes", "the user's");
+  remove_comparison(folder);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1) << "the notes";
+
+  const std::string manifest = manifest_json({{"results.json", 7, hash_text("results")}});
+  write_file(folder + "/manifest.json", manifest);
+  write_file(folder + "/results.json", "results");
+  write_file(folder + "/index.html", "the run's");
+  EXPECT_THROW(remove_comparison(folder), Error);
+  EXPECT_EQ(read_file(folder + "/manifest.json"), manifest);
+  EXPECT_EQ(read_file(folder + "/results.json"), "results");
+  EXPECT_EQ(read_file(folder + "/index.html"), "the run's");
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <filesystem>
 
+#include "core/base/excerpt.h"
 #include "core/base/file_set.h"
 #include "reports/comparison/comparison_report.h"
 
@@ -8,6 +10,7 @@ namespace {
 
 constexpr const char *kJson = "comparison.json", *kMarkdown = "comparison.md", *kCsv = "comparison.csv",
                      *kLatex = "comparison.tex", *kJunit = "junit.xml", *kPage = "index.html";
+constexpr const char* kFiles[] = {kJson, kMarkdown, kCsv, kLatex, kJunit, kPage};
 
 }  // namespace
 
@@ -24,9 +27,12 @@ std::vector<std::string> write_comparison(const std::string& folder, const Compa
 }
 
 void remove_comparison(const std::string& folder) {
+  for (const ManifestEntry& file : read_manifest(folder).value_or(std::vector<ManifestEntry>{}))
+    if (std::ranges::find(kFiles, file.name) == std::end(kFiles))
+      throw Error(folder + "/" + kManifest, "files", quoted_excerpt(file.name), "the files of a comparison alone");
   remove_set(folder);
-  for (const char* name : {kJson, kMarkdown, kCsv, kLatex, kJunit, kPage}) {  // of before there were manifests
-    std::error_code ignored;  // what cannot be removed cannot be replaced either, and that is an Error
+  for (const char* name : kFiles) {  // of before there were manifests
+    std::error_code ignored;         // what cannot be removed cannot be replaced either, and that is an Error
     std::filesystem::remove(folder + "/" + name, ignored);
   }
 }
