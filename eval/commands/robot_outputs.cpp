@@ -68,10 +68,15 @@ class RobotOutputs::Stream {
   }
   void start(CommandGuard& guard, const RobotCommand& command) {
     if (!measured_ || command.hold || !command.targets) return;
+    // Without an arm the pose is not sent, but the guard needs one: the hand's, so far inside that every fingertip
+    // is.
     Eigen::Isometry3d T_base_hand = command.targets->T_base_hand;
     const CommandLimits& limits = guard.limits();
-    T_base_hand.translation() =
-        T_base_hand.translation().cwiseMax(limits.workspace_min).cwiseMin(limits.workspace_max).eval();
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(kShadowHandReach);
+    T_base_hand.translation() = T_base_hand.translation()
+                                    .cwiseMax(limits.workspace_min + reach)
+                                    .cwiseMin(limits.workspace_max - reach)
+                                    .eval();
     guard.start_from(targets_at(measured_->state(kStartWait), T_flange_wrist_, T_base_hand));
     guard.tick(command.timestamp_us - kFirstStepUs);  // the first step is as long as the time that it is given
     measured_.reset();

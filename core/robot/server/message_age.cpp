@@ -11,6 +11,7 @@ namespace {
 constexpr int64_t kGapUs = 100'000;        // between two ticks, or what a clock jumps by
 constexpr int64_t kSettleUs = 100'000;     // after a gap: what was underway arrives
 constexpr int64_t kStartUs = 200'000;      // of a stream, by both clocks
+constexpr int64_t kCatchUpUs = 20'000;     // by which source times may gain on the server's clock during a start
 constexpr int64_t kWindowUs = 10'000'000;  // in which the smallest delay counts
 constexpr int64_t kBucketUs = 1'000'000;   // of the window: a flood takes no memory
 constexpr size_t kMostStreams = 64;
@@ -23,7 +24,7 @@ void MessageAges::Stream::add(int64_t now_us, int64_t delay) {
 }
 
 void MessageAges::Stream::forget(int64_t now_us) {
-  while (!smallest.empty() && now_us - smallest.front().first > kWindowUs) smallest.pop_front();
+  while (!smallest.empty() && now_us - smallest.front().first > kWindowUs + kBucketUs) smallest.pop_front();
   if (smallest.empty()) *this = {};
 }
 
@@ -65,7 +66,9 @@ MessageAge MessageAges::judge(const Arrival& arrival, int topic) {
     result.receipt = Receipt::stale;
     return result;
   }
-  if (!its.start) its.start = {arrival.now_us, source};
+  // Source times that gain on the server's clock are those of messages that waited: no start is among them.
+  if (!its.start || (!its.started && its.start->first - its.start->second - delay > kCatchUpUs))
+    its.start = {arrival.now_us, source};
   its.started |= arrival.now_us - its.start->first >= kStartUs && source - its.start->second >= kStartUs;
   if (!its.started) result.receipt = Receipt::starting;
   return result;

@@ -26,12 +26,13 @@ struct MessageAge {
 
 /// How old messages are, although nobody knows how far a sender's clock is from the server's. The delay of a
 /// message is the server's time minus its source time. Its age is its delay minus the smallest delay of the last 10
-/// s on that topic of that sender.
+/// to 11 s on that topic of that sender.
 ///
 /// The first message of a sender would have the age 0, however long it has waited. So a stream has to start: for
 /// 0.2 s its messages show that source times advance as the server's clock does, and count as `starting`. Messages
-/// that waited come at once, whatever time lies between their source times, so they start nothing. (A stream that
-/// is late by the same time all along cannot be told from one whose clock is behind.)
+/// that waited come faster than they were sent. If their source times gain more than 20 ms on the server's clock,
+/// the start begins anew with the latest one. (A stream that is late by the same time all along cannot be told from
+/// one whose clock is behind; nor can a queue that is emptied less than a tenth faster than it was filled.)
 ///
 /// A gap makes every stream start again, and what comes in the 0.1 s after it is stale, for it waited somewhere.
 /// A gap is: more than 0.1 s between two ticks; the server's two clocks further apart or nearer by more than 0.1 s

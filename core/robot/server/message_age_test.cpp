@@ -80,6 +80,20 @@ TEST_F(MessageAgeTest, OldMessagesOfAnUnknownSenderStartNothing) {
   }
 }
 
+TEST_F(MessageAgeTest, AQueueThatIsEmptiedSlowlyStartsNothing) {
+  for (const double faster : {1.2, 1.5, 2.0, 3.0, 10.0}) {
+    MessageAges ages(kLimit);
+    int64_t waited = 5 * kSecond;  // of the first one
+    for (int i = 0; waited > kSecond; ++i) {
+      const auto taken = static_cast<int64_t>(static_cast<double>(kPeriod) / faster);
+      now_ += taken;
+      waited -= kPeriod - taken;
+      const Arrival arrival{1, (now_ - waited + offset_) * 1000, now_};
+      EXPECT_NE(ages.judge(arrival, 0).receipt, Receipt::accepted) << faster << " times, message " << i;
+    }
+  }
+}
+
 TEST_F(MessageAgeTest, OldMessagesAfterAStandstillAreStaleHoweverLongItWas) {
   for (const int64_t standstill : {kSecond / 5, 5 * kSecond, 9 * kSecond, 11 * kSecond, 3600 * kSecond}) {
     EXPECT_GT(stream(1), 10);
