@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
@@ -15,8 +16,10 @@
 
 namespace glovebench {
 
-/// A new folder whose name nobody could foresee, only for this user.
-inline std::string new_test_folder(const std::string& name) {
+/// A new folder whose name nobody could foresee, only for this user. Slashes, as tests with parameters have them in
+/// their names, become hyphens.
+inline std::string new_test_folder(std::string name) {
+  std::ranges::replace(name, '/', '-');
   std::string path = testing::TempDir() + name + "-XXXXXX";
   if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
   return path;
