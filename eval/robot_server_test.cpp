@@ -142,7 +142,9 @@ TEST_F(RobotServer, AfterAKillInMotionItWaitsForAMeasuredState) {
   stop(server, SIGKILL);
   const size_t size = std::filesystem::file_size(log);
   server = serve("hand", log);
-  ASSERT_TRUE(comes_true([&] { return read_file(server.err).find("measured state") != std::string::npos; }));
+  ASSERT_TRUE(comes_true([&] {
+    return std::filesystem::exists(server.err) && read_file(server.err).find("measured state") != std::string::npos;
+  }));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_EQ(std::filesystem::file_size(log), size) << "it has not begun, though a sender is there";
   const ProgramRun run = stop(server, SIGTERM);

@@ -99,7 +99,7 @@ void MotionLog::ticked(const RobotState& its, int64_t time_us, bool at_rest) {
 
 void MotionLog::finish(const RobotState& its, int64_t time_us) {
   if (!writer_) return;
-  state(its, time_us);
+  if (its.clock_us != last_.clock_us) state(its, time_us);
   writer_->push(interval_line({its.position, its.position}, time_us, names_), true);
   writer_->finish();
 }
