@@ -12,8 +12,8 @@ struct Movement {
   std::vector<render::HandFrame> frames;  ///< some of its frames
 };
 
-/// Every 19th frame of the five source trajectories: 37 frames of open hand, grasp and between. What is tuned in
-/// this project is tuned on these, or on the trajectories that they are of.
+/// Every 19th frame of the five source trajectories: 37 frames of open hand, grasp and between. The width of the
+/// robust alignment was chosen on these.
 std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
 
 /// The same of ten movements between random blends of two gestures, on random ways within the ranges of the five:
