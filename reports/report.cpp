@@ -51,7 +51,7 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
                                       const PageMaterial& material,
                                       const std::vector<ExperimentEstimates>& estimates) {
   const PaperNumbers& paper = paper_numbers();
-  WholeFiles files(folder);
+  WholeFiles files(folder, kRunSet);
   files.add("config.json", format_json(result.configuration));
   files.add("summary.md", summary_markdown(result, paper));
   files.add("index.html", html_page(result, paper, timings, material));

@@ -72,7 +72,7 @@ using testing::ElementsAre;
 using Files = std::map<std::string, std::string>;
 
 void write_set(const std::string& folder, const Files& files) {
-  WholeFiles set(folder);
+  WholeFiles set(folder, kRunSet);
   for (const auto& [name, content] : files) set.add(name, content);
   set.commit();
 }

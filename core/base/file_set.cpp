@@ -12,6 +12,7 @@
 #include <set>
 
 #include "core/base/check.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/name.h"
@@ -55,22 +56,23 @@ std::set<std::string> folders_of(const std::string& folder, const std::vector<Ma
   return folders;
 }
 
-/// The files of a manifest; none if there is none, or it is damaged: a new set takes the place of that one.
-std::vector<ManifestEntry> files_of(const std::string& manifest) {
+/// None if there is none. Throws Error if it is no regular file or cannot be read.
+std::optional<Manifest> own_manifest(const std::string& folder) {
+  file_in_place(folder + "/" + kManifest);
+  return read_manifest(folder);
+}
+
+/// The files that a set may have replaced; none if that is not known any more.
+std::vector<ManifestEntry> older_files(const std::string& staged) {
+  const std::string path = staged + "/" + kOlder;
   try {
-    if (is_file(manifest)) return parse_manifest(read_file(manifest), manifest);
+    if (is_file(path)) return parse_manifest(read_file(path), path).files;
   } catch (const Error&) {
   }
   return {};
 }
 
-}  // namespace
-
-void put_in_place(const std::string& folder) {
-  const std::string staged = staged_folder(folder);
-  std::error_code error;
-  if (!fs::exists(staged, error)) return;
-  const std::vector<ManifestEntry> files = files_of(folder + "/" + kManifest);
+void place_files(const std::string& folder, const std::vector<ManifestEntry>& files) {
   for (const ManifestEntry& file : files) {
     const std::string place = path_within(folder, file.name), from = staged_path(folder, file.name);
     if (!is_content(from, file) || is_content(place, file)) continue;
@@ -78,11 +80,30 @@ void put_in_place(const std::string& folder) {
     if (std::rename(from.c_str(), place.c_str()) != 0)
       throw Error(place, "file", std::strerror(errno), "a file that can be replaced");
   }
-  for (const ManifestEntry& old : files_of(staged + "/" + kOlder)) {
+  for (const ManifestEntry& old : older_files(staged_folder(folder))) {
     const bool is_kept = std::ranges::find(files, old.name, &ManifestEntry::name) != files.end();
-    if (!is_kept && is_content(path_within(folder, old.name), old)) fs::remove(folder + "/" + old.name, error);
+    std::error_code ignored;
+    if (!is_kept && is_content(path_within(folder, old.name), old)) fs::remove(folder + "/" + old.name, ignored);
   }
   for (const std::string& changed : folders_of(folder, files)) sync_folder(changed);
+}
+
+}  // namespace
+
+std::optional<Manifest> manifest_to_replace(const std::string& folder, const std::string& kind) {
+  std::optional<Manifest> manifest = own_manifest(folder);
+  if (manifest && manifest->kind != kind)
+    throw Error(folder + "/" + kManifest, "kind", quoted_excerpt(manifest->kind),
+                kind + ", or a folder without a manifest");
+  return manifest;
+}
+
+void put_in_place(const std::string& folder) {
+  const std::string staged = staged_folder(folder);
+  std::error_code error;
+  if (!fs::exists(staged, error)) return;
+  // Without a manifest nobody knows of a set, and what is staged belongs to none.
+  if (const std::optional<Manifest> manifest = own_manifest(folder)) place_files(folder, manifest->files);
   fs::remove_all(staged, error);
   if (error) throw Error(staged, "folder", error.message(), "one that can be removed");
 }
@@ -96,7 +117,9 @@ FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-WholeFiles::WholeFiles(const std::string& folder) : folder_((make_folders(folder), folder)), lock_(folder) {
+WholeFiles::WholeFiles(const std::string& folder, const std::string& kind)
+    : folder_((make_folders(folder), folder)), kind_(kind), lock_(folder) {
+  manifest_to_replace(folder_, kind_);
   put_in_place(folder_);
   remove_leftovers(folder_, [](const std::string& name) { return name == kManifest; });
 }
@@ -131,7 +154,8 @@ std::vector<std::string> WholeFiles::names() const {
 }
 
 void WholeFiles::commit() {
-  std::vector<ManifestEntry> files = files_;
+  Manifest made{kind_, files_};
+  std::vector<ManifestEntry>& files = made.files;
   for (const std::string& name : kept_) {
     const std::string path = path_within(folder_, name);
     files.push_back({name, fs::file_size(path), hash_file(path)});
@@ -140,23 +164,24 @@ void WholeFiles::commit() {
   make_folders(staged);
   // Before the manifest: afterwards an error could only be reported.
   for (const std::string& needed : folders_of(folder_, files)) make_folders(needed);
-  write_file(staged + "/" + kOlder, manifest_json(files_of(manifest)));
-  for (const std::string& made : folders_of(staged, files_)) sync_folder(made);
+  write_file(staged + "/" + kOlder,
+             manifest_json(manifest_to_replace(folder_, kind_).value_or(Manifest{kind_, {}})));
+  for (const std::string& changed : folders_of(staged, files_)) sync_folder(changed);
   sync_folder(folder_);
   WholeFile file(manifest);
-  file.append(manifest_json(files));
+  file.append(manifest_json(made));
   is_committed_ = true;  // whatever fails from here on, the staged files may be the set
   file.commit();
   put_in_place(folder_);
 }
 
-void remove_set(const std::string& folder) {
+void remove_set(const std::string& folder, const std::string& kind) {
   std::error_code ignored;
   const FolderLock lock(folder);
-  const std::string manifest = folder + "/" + kManifest;
-  const std::vector<ManifestEntry> files = files_of(manifest);
-  fs::remove(manifest, ignored);
-  for (const ManifestEntry& file : files) fs::remove(path_within(folder, file.name), ignored);
+  const std::optional<Manifest> manifest = manifest_to_replace(folder, kind);
+  if (!manifest) return;
+  fs::remove(folder + "/" + kManifest, ignored);
+  for (const ManifestEntry& file : manifest->files) fs::remove(path_within(folder, file.name), ignored);
   fs::remove_all(staged_folder(folder), ignored);
 }
 

@@ -22,8 +22,13 @@ namespace glovebench {
 // A reader takes a file from its place if its hash is the manifest's, else from .staged. So it reads all of the old
 // set or all of the new one, wherever a kill or a power failure ended the writer; the next writer first finishes
 // step 3. A folder without a manifest is older than manifests or was made by hand: its files are read as they are.
+//
+// The manifest also says of what kind the set is. A writer replaces and removes sets of its own kind alone.
 
 inline constexpr const char* kManifest = "manifest.json";
+/// The kinds of sets.
+inline constexpr const char *kRunSet = "run", *kComparisonSet = "comparison", *kBaselineSet = "baseline",
+                            *kRecordingSet = "recording";
 
 /// A file is missing or has another content than the manifest says: it was changed, or it is damaged.
 class BrokenSet : public Error {
@@ -36,17 +41,24 @@ struct ManifestEntry {
   uint64_t bytes = 0;
   std::string hash;  ///< core/base/hash.h
 };
-std::string manifest_json(const std::vector<ManifestEntry>& files);
-/// Throws Error. A name that leads out of the folder is one.
-std::vector<ManifestEntry> parse_manifest(const std::string& text, const std::string& where);
+struct Manifest {
+  std::string kind;  ///< empty: written before manifests had kinds
+  std::vector<ManifestEntry> files;
+};
+std::string manifest_json(const Manifest& manifest);
+/// Any kind. Throws Error. A name that leads out of the folder is one.
+Manifest parse_manifest(const std::string& text, const std::string& where);
 /// None if the folder has no manifest. Throws Error if it cannot be read.
-std::optional<std::vector<ManifestEntry>> read_manifest(const std::string& folder);
+std::optional<Manifest> read_manifest(const std::string& folder);
+/// The manifest that a writer of this kind may replace; none if the folder has none. Throws Error if it is no
+/// regular file, cannot be read or is of another kind.
+std::optional<Manifest> manifest_to_replace(const std::string& folder, const std::string& kind);
 
 /// A set to read. All reads through one object are of one set.
 class FileSet {
  public:
   /// Throws Error if there is a manifest that cannot be read.
-  explicit FileSet(std::string folder) : folder_(std::move(folder)), files_(read_manifest(folder_)) {}
+  explicit FileSet(std::string folder) : folder_(std::move(folder)), manifest_(read_manifest(folder_)) {}
 
   /// The manifest names the file; without a manifest: it is there.
   bool has(const std::string& name) const;
@@ -62,7 +74,7 @@ class FileSet {
   [[noreturn]] void fail(const ManifestEntry& entry) const;
 
   std::string folder_;
-  std::optional<std::vector<ManifestEntry>> files_;
+  std::optional<Manifest> manifest_;
 };
 
 /// Held while a set is written. Waits for another holder. A file system that cannot lock folders does without.
@@ -77,12 +89,13 @@ class FolderLock {
   int descriptor_;
 };
 
-/// A set to write. Creates the folder, and waits while another process writes a set into it. A full disk, an error
-/// or a missing `commit` leaves the older set. Files that no set names stay as they are, unless one of them has the
+/// A set to write. Creates the folder, and waits while another process writes a set into it. A folder that holds a
+/// set of another kind, or a manifest that cannot be read, is an error and stays as it is. A full disk, an error or
+/// a missing `commit` leaves the older set. Files that no set names stay as they are, unless one of them has the
 /// name of a new file; so do files of the older set that somebody changed. Every function throws Error.
 class WholeFiles {
  public:
-  explicit WholeFiles(const std::string& folder);
+  WholeFiles(const std::string& folder, const std::string& kind);
   ~WholeFiles();
   WholeFiles(const WholeFiles&) = delete;
   WholeFiles& operator=(const WholeFiles&) = delete;
@@ -98,13 +111,15 @@ class WholeFiles {
 
  private:
   std::string folder_;
+  std::string kind_;
   FolderLock lock_;
   std::vector<ManifestEntry> files_;
   std::vector<std::string> kept_;
   bool is_committed_ = false;
 };
 
-/// Removes a set, its manifest first. Without a manifest nothing. What cannot be removed stays.
-void remove_set(const std::string& folder);
+/// Removes a set of this kind, its manifest first. Without a manifest nothing. What cannot be removed stays. Throws
+/// Error, and removes nothing, if the folder holds a set of another kind or a manifest that cannot be read.
+void remove_set(const std::string& folder, const std::string& kind);
 
 }  // namespace glovebench

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 void write_set(const std::string& folder, const std::vector<std::string>& names, const std::string& content) {
-  WholeFiles files(folder);
+  WholeFiles files(folder, kRunSet);
   for (const std::string& name : names) files.add(name, content + name);
   EXPECT_EQ(files.names(), names);
   files.commit();
@@ -30,10 +30,10 @@ TEST(WholeFiles, are_in_their_places_with_a_manifest_that_names_them) {
   write_set(folder / "set", {"tables/a.csv", "b.json"}, "content of ");
   EXPECT_EQ(read_file(folder / "set/tables/a.csv"), "content of tables/a.csv");
   const auto manifest = read_manifest(folder / "set");
-  ASSERT_TRUE(manifest && manifest->size() == 2);
-  EXPECT_EQ(manifest->front().name, "tables/a.csv");
-  EXPECT_EQ(manifest->front().bytes, 23U);
-  EXPECT_EQ(manifest->front().hash.size(), 32U);
+  ASSERT_TRUE(manifest && manifest->files.size() == 2);
+  EXPECT_EQ(manifest->files.front().name, "tables/a.csv");
+  EXPECT_EQ(manifest->files.front().bytes, 23U);
+  EXPECT_EQ(manifest->files.front().hash.size(), 32U);
   EXPECT_FALSE(fs::exists(folder / "set/.staged"));
 }
 
@@ -41,7 +41,7 @@ TEST(WholeFiles, without_commit_leave_the_older_set) {
   const TestFolder folder;
   write_set(folder.path(), {"a"}, "old ");
   {
-    WholeFiles files(folder.path());
+    WholeFiles files(folder.path(), kRunSet);
     files.add("a", "new");
     files.add("b", "new");
   }
@@ -52,7 +52,7 @@ TEST(WholeFiles, without_commit_leave_the_older_set) {
 TEST(WholeFiles, refuse_names_that_leave_the_folder) {
   const TestFolder folder;
   for (const char* name : {"../evil", "/evil", "x/../../evil", ".staged/a", ".unfinished", ""}) {
-    WholeFiles files(folder / "set");
+    WholeFiles files(folder / "set", kRunSet);
     EXPECT_THAT([&] { files.add(name, "x"); }, ThrowsMessage<Error>(HasSubstr("stays in the folder"))) << name;
   }
   EXPECT_EQ(folder.file_count(), 1);
@@ -65,7 +65,7 @@ TEST(WholeFiles, refuse_what_they_would_destroy_before_they_write) {
   write_file(folder / "target", "the user's");
   fs::create_symlink("target", folder / "link");
   fs::create_directories(folder / "folder");
-  WholeFiles files(folder.path());
+  WholeFiles files(folder.path(), kRunSet);
   files.add("a", "new");
   EXPECT_THAT([&] { files.add("link", "x"); }, ThrowsMessage<Error>(HasSubstr("a link")));
   EXPECT_THAT([&] { files.add("folder", "x"); }, ThrowsMessage<Error>(HasSubstr("a folder")));
@@ -78,7 +78,7 @@ TEST(WholeFiles, keep_modes_and_files_that_are_kept) {
   const TestFolder folder;
   write_set(folder.path(), {"a", "kept", "other"}, "old ");
   ASSERT_EQ(::chmod((folder / "a").c_str(), 0600), 0);
-  WholeFiles files(folder.path());
+  WholeFiles files(folder.path(), kRunSet);
   files.add("a", "new");
   files.keep("kept");
   files.keep("missing");
@@ -103,7 +103,7 @@ TEST(WholeFiles, of_two_writers_do_not_mix) {
   const TestFolder folder;
   const auto write = [&](const std::string& content) {
     for (int i = 0; i < 20; ++i) {
-      WholeFiles files(folder.path());
+      WholeFiles files(folder.path(), kRunSet);
       for (const char* name : {"a", "b", "c"}) files.add(name, content);
       files.commit();
     }
@@ -116,13 +116,63 @@ TEST(WholeFiles, of_two_writers_do_not_mix) {
   EXPECT_EQ(folder.file_count(), 4);
 }
 
-TEST(WholeFiles, take_the_place_of_a_set_whose_manifest_is_damaged) {
+TEST(WholeFiles, refuse_a_set_of_another_kind_and_change_nothing) {
   const TestFolder folder;
   write_set(folder.path(), {"a"}, "old ");
+  const std::string manifest = read_file(folder / kManifest);
+  write_file(folder / ".staged/a", "of an interrupted writer");
+  for (const char* kind : {kComparisonSet, kBaselineSet, kRecordingSet, ""}) {
+    EXPECT_THAT([&] { WholeFiles(folder.path(), kind); },
+                ThrowsMessage<Error>(AllOf(HasSubstr("manifest.json: kind"), HasSubstr("\"run\""))));
+    EXPECT_THROW(remove_set(folder.path(), kind), Error);
+  }
+  EXPECT_EQ(read_file(folder / kManifest), manifest);
+  EXPECT_EQ(read_file(folder / "a"), "old a");
+  EXPECT_TRUE(fs::exists(folder / ".staged/a"));
+}
+
+TEST(WholeFiles, refuse_a_set_that_was_written_before_sets_had_kinds) {
+  const TestFolder folder;
+  write_file(folder / "a", "old");
+  write_file(folder / kManifest, R"({"format": "glovebench-manifest", "version": 1, "files": []})");
+  EXPECT_THAT([&] { WholeFiles(folder.path(), kRunSet); }, ThrowsMessage<Error>(HasSubstr("kind")));
+  EXPECT_EQ(read_file(folder / "a"), "old");
+}
+
+TEST(WholeFiles, refuse_a_manifest_that_is_a_link) {
+  const TestFolder folder;
+  write_set(folder / "other", {"a"}, "other ");
+  const std::string manifest = read_file(folder / "other/manifest.json");
+  fs::create_directories(folder / "set");
+  fs::create_symlink("../other/manifest.json", folder / "set/manifest.json");
+  EXPECT_THAT([&] { WholeFiles(folder / "set", kRunSet); }, ThrowsMessage<Error>(HasSubstr("a link")));
+  EXPECT_THAT([&] { remove_set(folder / "set", kRunSet); }, ThrowsMessage<Error>(HasSubstr("a link")));
+  EXPECT_EQ(read_file(folder / "other/manifest.json"), manifest);
+}
+
+TEST(WholeFiles, refuse_a_damaged_manifest_and_remove_nothing) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a"}, "old ");
+  // As after a kill between the manifest and the moves.
+  write_file(folder / ".staged/b", "staged");
+  fs::copy(folder / kManifest, folder / ".staged/.older-manifest");
   write_file(folder / kManifest, "{");
   EXPECT_THROW(FileSet(folder.path()), Error);
-  write_set(folder.path(), {"a"}, "new ");
-  EXPECT_EQ(FileSet(folder.path()).read("a"), "new a");
+  EXPECT_THROW(WholeFiles(folder.path(), kRunSet), Error);
+  EXPECT_THROW(remove_set(folder.path(), kRunSet), Error);
+  EXPECT_EQ(read_file(folder / "a"), "old a");
+  EXPECT_EQ(read_file(folder / ".staged/b"), "staged");
+  EXPECT_EQ(read_file(folder / kManifest), "{");
+}
+
+TEST(WholeFiles, without_a_manifest_remove_nothing_of_an_older_one) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a"}, "old ");
+  fs::create_directories(folder / ".staged");
+  fs::rename(folder / kManifest, folder / ".staged/.older-manifest");
+  write_set(folder.path(), {"b"}, "new ");
+  EXPECT_EQ(read_file(folder / "a"), "old a");
+  EXPECT_FALSE(FileSet(folder.path()).has("a"));
 }
 
 TEST(FileSet, takes_only_what_the_manifest_names_and_as_it_says) {
@@ -172,15 +222,16 @@ TEST(FileSet, removed_is_gone_but_for_others_files) {
   const TestFolder folder;
   write_set(folder.path(), {"tables/a", "b"}, "");
   write_file(folder / "notes", "the user's");
-  remove_set(folder.path());
+  remove_set(folder.path(), kRunSet);
   EXPECT_FALSE(fs::exists(folder / kManifest) || fs::exists(folder / "b") || fs::exists(folder / "tables/a"));
   EXPECT_TRUE(fs::exists(folder / "notes"));
-  remove_set(folder / "none");
+  remove_set(folder / "none", kRunSet);
 }
 
 TEST(Manifest, is_read_as_it_was_written_and_nothing_else) {
-  const std::vector<ManifestEntry> files = {{"tables/a.csv", 7, std::string(32, '0')}, {"b", 0, "x"}};
-  const std::vector<ManifestEntry> read = parse_manifest(manifest_json(files), "manifest.json");
+  const Manifest manifest = {kBaselineSet, {{"tables/a.csv", 7, std::string(32, '0')}, {"b", 0, "x"}}};
+  const auto [kind, read] = parse_manifest(manifest_json(manifest), "manifest.json");
+  EXPECT_EQ(kind, "baseline");
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].name, "tables/a.csv");
   EXPECT_EQ(read[0].bytes, 7U);
@@ -188,7 +239,8 @@ TEST(Manifest, is_read_as_it_was_written_and_nothing_else) {
     return R"({"format": "glovebench-manifest", "version": 1, "files": [)" + file + "]}";
   };
   const std::string good = R"({"name": "a", "bytes": 1, "hash": "h"})";
-  EXPECT_EQ(parse_manifest(entry(good), "m").size(), 1U);
+  EXPECT_EQ(parse_manifest(entry(good), "m").files.size(), 1U);
+  EXPECT_EQ(parse_manifest(entry(good), "m").kind, "") << "of before there were kinds";
   for (const std::string& bad :
        {std::string("{}"), std::string("[]"), std::string("1"), entry("1"), entry(good + "," + good),
         entry(R"({"name": "../a", "bytes": 1, "hash": "h"})"), entry(R"({"name": "/a", "bytes": 1, "hash": "h"})"),
@@ -196,6 +248,7 @@ TEST(Manifest, is_read_as_it_was_written_and_nothing_else) {
         entry(R"({"name": "a", "bytes": 1, "hash": 2})"), entry(R"({"name": "a", "bytes": 1})"),
         entry(R"({"name": "a", "bytes": 1, "hash": "h", "more": 1})"),
         std::string(R"({"format": "another", "version": 1, "files": []})"),
+        std::string(R"({"format": "glovebench-manifest", "version": 1, "kind": 1, "files": []})"),
         std::string(R"({"format": "glovebench-manifest", "version": 2, "files": []})")})
     EXPECT_THAT([&] { parse_manifest(bad, "m"); }, ThrowsMessage<Error>(HasSubstr("m"))) << bad;
 }

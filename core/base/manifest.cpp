@@ -40,32 +40,37 @@ std::optional<std::string> content_of(const std::string& path, const ManifestEnt
 
 }  // namespace
 
-std::string manifest_json(const std::vector<ManifestEntry>& files) {
+std::string manifest_json(const Manifest& manifest) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const ManifestEntry& file : files)
+  for (const ManifestEntry& file : manifest.files)
     list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"hash", file.hash}});
-  return nlohmann::ordered_json{{"format", kFormat}, {"version", 1}, {"files", std::move(list)}}.dump(1) + "\n";
+  return nlohmann::ordered_json{
+             {"format", kFormat}, {"version", 1}, {"kind", manifest.kind}, {"files", std::move(list)}}
+             .dump(1) +
+         "\n";
 }
 
-std::vector<ManifestEntry> parse_manifest(const std::string& text, const std::string& where) {
+Manifest parse_manifest(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   try {
     if (document.at("format") != kFormat || document.at("version") != 1)
       throw Error(where, "format", excerpt(document.at("format")), "glovebench-manifest, version 1");
-    std::vector<ManifestEntry> files;
+    Manifest manifest{document.value("kind", std::string()), {}};
+    std::vector<ManifestEntry>& files = manifest.files;
     std::set<std::string> names;
     for (const nlohmann::json& json : document.at("files")) {
       files.push_back(entry_from(json, where));
       if (!names.insert(files.back().name).second)
         throw Error(where, "files", quoted_excerpt(files.back().name) + " twice", "each file once");
     }
-    return files;
+    return manifest;
   } catch (const nlohmann::json::exception& e) {
-    throw Error(where, "manifest", printable(e.what()), "format, version and files with name, bytes and hash");
+    throw Error(where, "manifest", printable(e.what()),
+                "format, version, kind and files with name, bytes and hash");
   }
 }
 
-std::optional<std::vector<ManifestEntry>> read_manifest(const std::string& folder) {
+std::optional<Manifest> read_manifest(const std::string& folder) {
   const std::string path = folder + "/" + kManifest;
   std::error_code error;
   const bool is_there = fs::exists(path, error);
@@ -75,15 +80,15 @@ std::optional<std::vector<ManifestEntry>> read_manifest(const std::string& folde
 }
 
 bool FileSet::has(const std::string& name) const {
-  if (files_) return std::ranges::find(*files_, name, &ManifestEntry::name) != files_->end();
+  if (manifest_) return std::ranges::find(manifest_->files, name, &ManifestEntry::name) != manifest_->files.end();
   std::error_code ignored;  // what cannot be looked for cannot be read
   return fs::exists(path(name), ignored);
 }
 
 std::string FileSet::read(const std::string& name, uint64_t max_bytes) const {
-  if (!files_) return read_file(path(name), max_bytes);
-  const auto entry = std::ranges::find(*files_, name, &ManifestEntry::name);
-  if (entry == files_->end())
+  if (!manifest_) return read_file(path(name), max_bytes);
+  const auto entry = std::ranges::find(manifest_->files, name, &ManifestEntry::name);
+  if (entry == manifest_->files.end())
     throw BrokenSet(path(name), "file", "none that manifest.json names", "a file of the set");
   // The place once more: the writer may have moved the file there since.
   for (const std::string& at : {path(name), staged_path(folder_, name), path(name)})
@@ -92,9 +97,10 @@ std::string FileSet::read(const std::string& name, uint64_t max_bytes) const {
 }
 
 void FileSet::expect_content(const std::string& name, std::string_view content) const {
-  if (!files_) return;
-  const auto entry = std::ranges::find(*files_, name, &ManifestEntry::name);
-  if (entry != files_->end() && (content.size() != entry->bytes || hash_text(content) != entry->hash)) fail(*entry);
+  if (!manifest_) return;
+  const auto entry = std::ranges::find(manifest_->files, name, &ManifestEntry::name);
+  if (entry != manifest_->files.end() && (content.size() != entry->bytes || hash_text(content) != entry->hash))
+    fail(*entry);
 }
 
 void FileSet::fail(const ManifestEntry& entry) const {

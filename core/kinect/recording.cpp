@@ -79,6 +79,7 @@ RecordingWriter::RecordingWriter(const std::string& folder, const RgbdCalibratio
     : folder_(folder), calibration_(calibration) {
   if (fs::exists(path_in_recording(folder, "INDEX.txt")))
     throw Error(folder, "INDEX.txt", "a recording", "a folder without one");
+  manifest_to_replace(folder, kRecordingSet);
   save_calibration(calibration, path_in_recording(folder, "calibration.json"));
 }
 
@@ -119,9 +120,11 @@ void RecordingWriter::finish() {
   std::sort(index_.begin(), index_.end());
   std::string content;
   for (const auto& [timestamp_us, name] : index_) content += name + "\n";
+  const FolderLock lock(folder_);
+  manifest_to_replace(folder_, kRecordingSet);
   sync_folder(folder_);
   write_file(path_in_recording(folder_, "INDEX.txt"), content);
-  write_file(path_in_recording(folder_, kManifest), manifest_json(images_));
+  write_file(path_in_recording(folder_, kManifest), manifest_json({kRecordingSet, images_}));
 }
 
 }  // namespace glovebench

@@ -60,14 +60,15 @@ class RecordingDevice : public Device {
 /// nearest in time to its depth image.
 class RecordingWriter {
  public:
-  /// Throws Error if the folder already holds a recording or cannot be written.
+  /// Throws Error if the folder already holds a recording or a set of another kind (core/base/file_set.h), or
+  /// cannot be written.
   RecordingWriter(const std::string& folder, const RgbdCalibration& calibration);
 
   /// Depth time stamps increase; a color time stamp equal to the one before means the same image again. Throws
   /// Error on time stamps that go back or are negative, and on images that no Kinect could give.
   void write(const DeviceFrame& frame);
   /// Writes the index: until then the folder is no recording. Then the manifest. Throws Error if no frame was
-  /// written.
+  /// written, or another set was written into the folder meanwhile.
   void finish();
 
  private:

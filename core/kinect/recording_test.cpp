@@ -268,6 +268,32 @@ TEST_F(Recording, SurvivesTruncationsAndByteFlips) {
   EXPECT_EQ(play_error(), "");
 }
 
+TEST_F(Recording, WriterRefusesASetOfAnotherKindAndLeavesIt) {
+  const auto write_run = [&] {
+    WholeFiles files(folder_, kRunSet);
+    files.add("results.json", "results");
+    files.commit();
+  };
+  write_run();
+  EXPECT_THROW(RecordingWriter(folder_, calibration_), Error);
+  EXPECT_FALSE(fs::exists(path("calibration.json")));
+  fs::remove_all(folder_);
+
+  RecordingWriter writer(folder_, calibration_);
+  writer.write(frame(1'000'000, 1'001'000));
+  write_run();
+  const std::string manifest = read_file(path(kManifest));
+  EXPECT_THROW(writer.finish(), Error);
+  EXPECT_EQ(read_file(path(kManifest)), manifest);
+  EXPECT_EQ(read_file(path("results.json")), "results");
+  fs::remove_all(folder_);
+
+  record({frame(1'000'000, 1'001'000)});
+  EXPECT_EQ(read_manifest(folder_)->kind, kRecordingSet);
+  EXPECT_THROW(write_run(), Error);
+  EXPECT_EQ(play_error(), "");
+}
+
 TEST_F(Recording, WriterRefusesWhatNoKinectGives) {
   record({frame(1'000'000, 1'001'000)});
   EXPECT_THROW(RecordingWriter(folder_, calibration_), Error);  // would overwrite

@@ -189,7 +189,7 @@ Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file)
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times) {
   require_whole_suite(run, suite);
-  WholeFiles files(folder);  // first: it finishes an update that a kill ended
+  WholeFiles files(folder, kBaselineSet);  // first: it finishes an update that a kill ended
   require_same_truths(folder, run);
   const Json replaced = describe_replaced(folder);
   const std::string results = reports::results_json(run.result);

@@ -263,7 +263,7 @@ TEST(RemoveComparison, RemovesItsOwnFilesAndRefusesOtherSets) {
   remove_comparison(folder);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1) << "the notes";
 
-  const std::string manifest = manifest_json({{"results.json", 7, hash_text("results")}});
+  const std::string manifest = manifest_json({kRunSet, {{"results.json", 7, hash_text("results")}}});
   write_file(folder + "/manifest.json", manifest);
   write_file(folder + "/results.json", "results");
   write_file(folder + "/index.html", "the run's");

@@ -15,7 +15,7 @@ constexpr const char* kFiles[] = {kJson, kMarkdown, kCsv, kLatex, kJunit, kPage}
 }  // namespace
 
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report) {
-  WholeFiles files(folder);
+  WholeFiles files(folder, kComparisonSet);
   files.add(kJson, comparison_json(report));
   files.add(kMarkdown, comparison_markdown(report));
   files.add(kCsv, comparison_csv(report));
@@ -27,10 +27,10 @@ std::vector<std::string> write_comparison(const std::string& folder, const Compa
 }
 
 void remove_comparison(const std::string& folder) {
-  for (const ManifestEntry& file : read_manifest(folder).value_or(std::vector<ManifestEntry>{}))
+  for (const ManifestEntry& file : read_manifest(folder).value_or(Manifest{}).files)
     if (std::ranges::find(kFiles, file.name) == std::end(kFiles))
       throw Error(folder + "/" + kManifest, "files", quoted_excerpt(file.name), "the files of a comparison alone");
-  remove_set(folder);
+  remove_set(folder, kComparisonSet);
   for (const char* name : kFiles) {  // of before there were manifests
     std::error_code ignored;         // what cannot be removed cannot be replaced either, and that is an Error
     std::filesystem::remove(folder + "/" + name, ignored);
@@ -38,7 +38,7 @@ void remove_comparison(const std::string& folder) {
 }
 
 void write_refusal(const std::string& folder, const std::string& message) {
-  WholeFiles files(folder);
+  WholeFiles files(folder, kComparisonSet);
   files.add(kMarkdown, incomparable_markdown(message));
   files.add(kJunit, incomparable_junit(message));
   files.commit();
