@@ -56,6 +56,12 @@ std::set<std::string> folders_of(const std::string& folder, const std::vector<Ma
   return folders;
 }
 
+void remove_file(const std::string& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw Error(path, "file", error.message(), "a file that can be removed");
+}
+
 /// None if there is none. Throws Error if it is no regular file or cannot be read.
 std::optional<Manifest> own_manifest(const std::string& folder) {
   file_in_place(folder + "/" + kManifest);
@@ -73,17 +79,18 @@ std::vector<ManifestEntry> older_files(const std::string& staged) {
 }
 
 void place_files(const std::string& folder, const std::vector<ManifestEntry>& files) {
+  const std::string staged = staged_folder(folder);
   for (const ManifestEntry& file : files) {
-    const std::string place = path_within(folder, file.name), from = staged_path(folder, file.name);
+    const std::string place = place_within(folder, file.name), from = place_within(staged, file.name);
     if (!is_content(from, file) || is_content(place, file)) continue;
     make_folders(folder_above(place));
     if (std::rename(from.c_str(), place.c_str()) != 0)
       throw Error(place, "file", std::strerror(errno), "a file that can be replaced");
   }
-  for (const ManifestEntry& old : older_files(staged_folder(folder))) {
+  for (const ManifestEntry& old : older_files(staged)) {
     const bool is_kept = std::ranges::find(files, old.name, &ManifestEntry::name) != files.end();
     std::error_code ignored;
-    if (!is_kept && is_content(path_within(folder, old.name), old)) fs::remove(folder + "/" + old.name, ignored);
+    if (!is_kept && is_content(place_within(folder, old.name), old)) fs::remove(folder + "/" + old.name, ignored);
   }
   for (const std::string& changed : folders_of(folder, files)) sync_folder(changed);
 }
@@ -101,7 +108,9 @@ std::optional<Manifest> manifest_to_replace(const std::string& folder, const std
 void put_in_place(const std::string& folder) {
   const std::string staged = staged_folder(folder);
   std::error_code error;
-  if (!fs::exists(staged, error)) return;
+  const fs::file_status found = fs::symlink_status(staged, error);
+  if (!fs::exists(found)) return;
+  if (!fs::is_directory(found)) throw Error(staged, "file", "no folder", "a folder, or nothing");
   // Without a manifest nobody knows of a set, and what is staged belongs to none.
   if (const std::optional<Manifest> manifest = own_manifest(folder)) place_files(folder, manifest->files);
   fs::remove_all(staged, error);
@@ -132,7 +141,7 @@ WholeFiles::~WholeFiles() {
 void WholeFiles::add(const std::string& name, std::string_view content) {
   check(name != kManifest && std::ranges::find(files_, name, &ManifestEntry::name) == files_.end(),
         "a set holds each name once, beside the manifest");
-  const std::optional<struct stat> older = file_in_place(path_within(folder_, name));
+  const std::optional<struct stat> older = file_in_place(place_within(folder_, name));
   const std::string path = staged_path(folder_, name);
   make_folders(folder_above(path));
   const int descriptor = create_like(older, path);
@@ -144,7 +153,7 @@ void WholeFiles::add(const std::string& name, std::string_view content) {
 }
 
 void WholeFiles::keep(const std::string& name) {
-  if (is_file(path_within(folder_, name))) kept_.push_back(name);
+  if (is_file(place_within(folder_, name))) kept_.push_back(name);
 }
 
 std::vector<std::string> WholeFiles::names() const {
@@ -157,7 +166,7 @@ void WholeFiles::commit() {
   Manifest made{kind_, files_};
   std::vector<ManifestEntry>& files = made.files;
   for (const std::string& name : kept_) {
-    const std::string path = path_within(folder_, name);
+    const std::string path = place_within(folder_, name);
     files.push_back({name, fs::file_size(path), hash_file(path)});
   }
   const std::string staged = staged_folder(folder_), manifest = folder_ + "/" + kManifest;
@@ -176,13 +185,17 @@ void WholeFiles::commit() {
 }
 
 void remove_set(const std::string& folder, const std::string& kind) {
-  std::error_code ignored;
   const FolderLock lock(folder);
   const std::optional<Manifest> manifest = manifest_to_replace(folder, kind);
   if (!manifest) return;
-  fs::remove(folder + "/" + kManifest, ignored);
-  for (const ManifestEntry& file : manifest->files) fs::remove(path_within(folder, file.name), ignored);
-  fs::remove_all(staged_folder(folder), ignored);
+  for (const ManifestEntry& file : manifest->files) place_within(folder, file.name);  // before anything is removed
+  put_in_place(folder);
+  // The manifest goes last: until then it says which files are left to remove.
+  for (const ManifestEntry& file : manifest->files)
+    if (const std::string path = place_within(folder, file.name); is_content(path, file)) remove_file(path);
+  for (const std::string& changed : folders_of(folder, manifest->files)) sync_folder(changed);
+  remove_file(folder + "/" + kManifest);
+  sync_folder(folder);
 }
 
 }  // namespace glovebench

@@ -26,6 +26,8 @@ namespace glovebench {
 // The manifest also says of what kind the set is. A writer replaces and removes sets of its own kind alone.
 
 inline constexpr const char* kManifest = "manifest.json";
+/// Bytes, for readers and writers: 1.7 million files of a recording, more than 7 hours.
+inline constexpr uint64_t kLargestManifest = uint64_t{256} << 20;
 /// The kinds of sets.
 inline constexpr const char *kRunSet = "run", *kComparisonSet = "comparison", *kBaselineSet = "baseline",
                             *kRecordingSet = "recording";
@@ -45,7 +47,8 @@ struct Manifest {
   std::string kind;  ///< empty: written before manifests had kinds
   std::vector<ManifestEntry> files;
 };
-std::string manifest_json(const Manifest& manifest);
+/// Throws Error if it is larger.
+std::string manifest_json(const Manifest& manifest, uint64_t max_bytes = kLargestManifest);
 /// Any kind. Throws Error. A name that leads out of the folder is one.
 Manifest parse_manifest(const std::string& text, const std::string& where);
 /// None if the folder has no manifest. Throws Error if it cannot be read.
@@ -118,8 +121,9 @@ class WholeFiles {
   bool is_committed_ = false;
 };
 
-/// Removes a set of this kind, its manifest first. Without a manifest nothing. What cannot be removed stays. Throws
-/// Error, and removes nothing, if the folder holds a set of another kind or a manifest that cannot be read.
+/// Finishes an interrupted write, then removes a set of this kind: the files that still have the manifest's
+/// content, then the manifest. Without a manifest nothing. Throws Error if a file cannot be removed; and, with
+/// nothing removed, if the folder holds a set of another kind or a manifest that cannot be read.
 void remove_set(const std::string& folder, const std::string& kind);
 
 }  // namespace glovebench

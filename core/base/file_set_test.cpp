@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/base/file.h"
+#include "core/base/hash.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -218,6 +219,52 @@ TEST(FileSet, that_is_replaced_while_it_is_read_does_not_mix) {
   EXPECT_THROW(set.read("b"), BrokenSet);
 }
 
+TEST(WholeFiles, follow_no_link_out_of_the_folder) {
+  const TestFolder folder;
+  const std::string set = folder / "set", elsewhere = folder / "elsewhere";
+  write_set(set, {"tables/a", "b"}, "");
+  fs::rename(set + "/tables", elsewhere);
+  fs::create_symlink(elsewhere, set + "/tables");
+  const auto is_a_link = ThrowsMessage<Error>(AllOf(HasSubstr(set + "/tables"), HasSubstr("a link")));
+  {
+    WholeFiles files(set, kRunSet);
+    EXPECT_THAT([&] { files.add("tables/new", "x"); }, is_a_link);
+    EXPECT_THAT([&] { files.keep("tables/a"); }, is_a_link);
+  }
+  EXPECT_THAT([&] { remove_set(set, kRunSet); }, is_a_link);
+  EXPECT_TRUE(fs::exists(set + "/b") && fs::exists(set + "/manifest.json"));
+  // As after a kill between the manifest and the moves: of the new set, then of the older one.
+  write_file(set + "/.staged/tables/a", "tables/a");
+  EXPECT_THAT([&] { WholeFiles(set, kRunSet); }, is_a_link);
+  fs::copy(set + "/manifest.json", set + "/.staged/.older-manifest");
+  write_file(set + "/manifest.json", manifest_json({kRunSet, {}}));
+  EXPECT_THAT([&] { WholeFiles(set, kRunSet); }, is_a_link);
+  EXPECT_EQ(read_file(elsewhere + "/a"), "tables/a");
+  EXPECT_EQ(std::distance(fs::directory_iterator(elsewhere), fs::directory_iterator()), 1);
+}
+
+TEST(WholeFiles, refuse_a_staging_folder_that_is_a_link) {
+  const TestFolder folder;
+  write_set(folder / "set", {"a"}, "old ");
+  write_file(folder / "elsewhere/a", "theirs");
+  fs::create_symlink("../elsewhere", folder / "set/.staged");
+  EXPECT_THROW(WholeFiles(folder / "set", kRunSet), Error);
+  EXPECT_EQ(read_file(folder / "elsewhere/a"), "theirs");
+}
+
+TEST(FileSet, that_was_interrupted_is_removed_with_what_is_staged) {
+  const TestFolder folder;
+  write_set(folder.path(), {"a", "b"}, "new ");
+  write_file(folder / "only-old", "old");
+  fs::create_directories(folder / ".staged");
+  fs::rename(folder / "a", folder / ".staged/a");
+  write_file(folder / ".staged/.older-manifest", manifest_json({kRunSet, {{"only-old", 3, hash_text("old")}}}));
+  write_file(folder / "b", "changed by hand");
+  remove_set(folder.path(), kRunSet);
+  EXPECT_EQ(folder.file_count(), 1);
+  EXPECT_EQ(read_file(folder / "b"), "changed by hand");
+}
+
 TEST(FileSet, removed_is_gone_but_for_others_files) {
   const TestFolder folder;
   write_set(folder.path(), {"tables/a", "b"}, "");
@@ -226,6 +273,21 @@ TEST(FileSet, removed_is_gone_but_for_others_files) {
   EXPECT_FALSE(fs::exists(folder / kManifest) || fs::exists(folder / "b") || fs::exists(folder / "tables/a"));
   EXPECT_TRUE(fs::exists(folder / "notes"));
   remove_set(folder / "none", kRunSet);
+}
+
+TEST(Manifest, of_a_long_recording_can_be_written_and_read) {
+  const TestFolder folder;
+  constexpr int kImages = 5000;
+  Manifest manifest{kRecordingSet, {}};
+  const std::string hash(4096, '0');  // much longer than they are: fewer images do
+  for (int i = 0; i < kImages; ++i) manifest.files.push_back({"d-" + std::to_string(i) + ".pgm", 614'417, hash});
+  const std::string text = manifest_json(manifest);
+  EXPECT_GT(text.size(), 16U << 20);
+  write_file(folder / kManifest, text);
+  EXPECT_EQ(manifest_to_replace(folder.path(), kRecordingSet)->files.size(), size_t{kImages});
+  EXPECT_NO_THROW(manifest_json(manifest, text.size()));
+  EXPECT_THAT([&] { manifest_json(manifest, text.size() - 1); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("manifest.json: size"), HasSubstr("at most"))));
 }
 
 TEST(Manifest, is_read_as_it_was_written_and_nothing_else) {

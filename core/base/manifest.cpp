@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "glovebench-manifest";
-constexpr uint64_t kLargestManifest = 16 << 20;
 
 ManifestEntry entry_from(const nlohmann::json& json, const std::string& where) {
   ManifestEntry entry{json.at("name"), json.at("bytes"), json.at("hash")};
@@ -40,14 +39,16 @@ std::optional<std::string> content_of(const std::string& path, const ManifestEnt
 
 }  // namespace
 
-std::string manifest_json(const Manifest& manifest) {
+std::string manifest_json(const Manifest& manifest, uint64_t max_bytes) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const ManifestEntry& file : manifest.files)
     list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"hash", file.hash}});
-  return nlohmann::ordered_json{
-             {"format", kFormat}, {"version", 1}, {"kind", manifest.kind}, {"files", std::move(list)}}
-             .dump(1) +
-         "\n";
+  const nlohmann::ordered_json json = {
+      {"format", kFormat}, {"version", 1}, {"kind", manifest.kind}, {"files", std::move(list)}};
+  std::string text = json.dump(1) + "\n";
+  if (text.size() > max_bytes)
+    throw Error(kManifest, "size", fmt::format("{} bytes", text.size()), fmt::format("at most {}", max_bytes));
+  return text;
 }
 
 Manifest parse_manifest(const std::string& text, const std::string& where) {

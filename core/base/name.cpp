@@ -1,6 +1,7 @@
 #include "core/base/name.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
@@ -38,6 +39,17 @@ std::string path_within(const std::string& folder, std::string_view name) {
     begin = end + 1;
   }
   return folder + "/" + std::string(name);
+}
+
+std::string place_within(const std::string& folder, std::string_view name) {
+  const std::string path = path_within(folder, name);
+  for (size_t end = name.find('/'); end != std::string_view::npos; end = name.find('/', end + 1)) {
+    const std::string above = folder + "/" + std::string(name.substr(0, end));
+    std::error_code ignored;  // what cannot be looked at cannot be followed either
+    if (std::filesystem::is_symlink(std::filesystem::symlink_status(above, ignored)))
+      throw Error(above, "folder", "a link", "a folder, or nothing");
+  }
+  return path;
 }
 
 }  // namespace glovebench

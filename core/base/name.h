@@ -18,5 +18,8 @@ std::string checked_name(std::string name, const std::string& where, const std::
 /// of its own ("tables/figure4.csv"). Throws Error if it is absolute, or a part of it is empty, begins with a dot
 /// or holds a control character.
 std::string path_within(const std::string& folder, std::string_view name);
+/// The same path, for what is created, replaced or removed there. Throws Error also if a folder of the name's own
+/// is a symbolic link, which may lead anywhere. What the name itself is does not matter here.
+std::string place_within(const std::string& folder, std::string_view name);
 
 }  // namespace glovebench

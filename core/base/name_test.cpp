@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "core/base/error.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -39,6 +42,22 @@ TEST(PathWithin, stays_in_the_folder) {
         std::string("a//b"), std::string("a/"), std::string("."), std::string("a/./b"),
         std::string(".unfinished/lock"), with_zero})
     EXPECT_THAT([&] { path_within("out", name); }, ThrowsMessage<Error>(HasSubstr("stays in the folder"))) << name;
+}
+
+TEST(PlaceWithin, follows_no_link_below_the_folder) {
+  const TestFolder folder;
+  const std::string set = folder / "set";
+  std::filesystem::create_directories(set + "/real");
+  std::filesystem::create_directory_symlink(folder.path(), set + "/link");
+  std::filesystem::create_directory_symlink(folder / "none", set + "/real/dangling");
+  std::filesystem::create_directory_symlink(set, folder / "alias");
+  for (const char* name : {"a", "real/a", "missing/a", "link", "real/dangling"}) {
+    EXPECT_EQ(place_within(set, name), set + "/" + name);
+    EXPECT_EQ(place_within(folder / "alias", name), folder / "alias/" + name) << "the folder itself may be one";
+  }
+  for (const char* name : {"link/a", "link/set/a", "real/dangling/a"})
+    EXPECT_THAT([&] { place_within(set, name); }, ThrowsMessage<Error>(HasSubstr("a link"))) << name;
+  EXPECT_THROW(place_within(set, "../a"), Error);
 }
 
 }  // namespace

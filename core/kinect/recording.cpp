@@ -122,9 +122,10 @@ void RecordingWriter::finish() {
   for (const auto& [timestamp_us, name] : index_) content += name + "\n";
   const FolderLock lock(folder_);
   manifest_to_replace(folder_, kRecordingSet);
+  const std::string manifest = manifest_json({kRecordingSet, images_});  // first: it may be too large
   sync_folder(folder_);
   write_file(path_in_recording(folder_, "INDEX.txt"), content);
-  write_file(path_in_recording(folder_, kManifest), manifest_json({kRecordingSet, images_}));
+  write_file(path_in_recording(folder_, kManifest), manifest);
 }
 
 }  // namespace glovebench
