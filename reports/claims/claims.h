@@ -37,7 +37,7 @@ struct ClaimDefinition {
   Rule rule;
   ClaimKind kind = ClaimKind::reproduction;
   bool required = false;   ///< a run in which it does not hold has failed
-  bool withdrawn = false;  ///< no longer judged, but still told
+  bool withdrawn = false;  ///< not judged any more, still listed
   std::string if_not;      ///< shown when it does not hold
 
   friend bool operator==(const ClaimDefinition&, const ClaimDefinition&) = default;
@@ -47,7 +47,7 @@ struct ClaimDefinition {
 struct ClaimChange {
   std::string date;                     ///< "2026-11-21"
   std::optional<std::string> commit;    ///< empty for the newest change alone: no commit can name itself
-  ClaimDefinition definition;           ///< the claim from here on
+  ClaimDefinition definition;           ///< the definition after this change
   std::vector<std::string> set;         ///< the fields of it that are others than before; none if only the program
                                         ///< that measures it changed
   std::optional<std::string> came_out;  ///< what runs measured with it, and in brackets their commits; empty if no
@@ -57,7 +57,7 @@ struct ClaimChange {
   friend bool operator==(const ClaimChange&, const ClaimChange&) = default;
 };
 
-/// A claim with all that it has been.
+/// A claim and its history.
 struct Claim : ClaimDefinition {
   std::string id;                    ///< "position-error-source"
   std::vector<ClaimChange> history;  ///< oldest first; the newest is what the claim is

@@ -157,10 +157,9 @@ std::string judging_text() {
   const auto changed = std::ranges::count_if(claims(), [](const Claim& claim) { return change_count(claim) > 0; });
   return fmt::format(
       "{} The rules were written by the authors of this program: those about Figures 4 to 6 and 15 Hz when its "
-      "first "
-      "results were known, the others before. {} of the {} claims were changed after that; the history of each "
-      "says "
-      "when, why, and what had come out.",
+      "first results were known, most others before, two claims later. {} of the {} claims were changed after they "
+      "were first written, most when an outcome was known; the history of each says when, why, and what had come "
+      "out.",
       claim_set().judging.back().rule, changed, claims().size());
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "reports/paper_numbers.h"
 
@@ -88,12 +89,16 @@ Measure measure(const std::string& name, const std::string& unit, const Groups& 
   return measure;
 }
 
-/// Empty when an experiment has no frame with the error: its mean may be the largest.
+bool is_number(const std::optional<double>& mean) {
+  return mean && std::isfinite(*mean);
+}
+
+/// Empty when an experiment has no mean, or none that is a number: it may be the largest.
 std::optional<double> largest_position_error(const MeansOf& means_of) {
   double largest = 0;
   for (size_t t = 0; t < kTrajectories; ++t) {
     for (const std::optional<double>& mean : means_of(t, "position_error_mm")) {
-      if (!mean) return std::nullopt;
+      if (!is_number(mean)) return std::nullopt;
       largest = std::max(largest, *mean);
     }
   }
@@ -110,14 +115,15 @@ bool is_ordered(const Means& means) {
   return specific_is_best(means) && large_is_worst(means);
 }
 
-/// In how many of the 15 pairs of trajectory and error the condition holds; empty when a mean is missing.
+/// In how many of the 15 pairs of trajectory and error the condition holds; empty when a mean is missing or no
+/// number.
 Statistic count_of(bool (*condition)(const Means&)) {
   return [condition](const MeansOf& means_of) -> std::optional<double> {
     int count = 0;
     for (size_t t = 0; t < kTrajectories; ++t)
       for (const std::string_view metric : kErrors) {
         const Means means = means_of(t, metric);
-        if (!means[0] || !means[1] || !means[2]) return std::nullopt;
+        if (!std::ranges::all_of(means, is_number)) return std::nullopt;
         count += condition(means) ? 1 : 0;
       }
     return count;

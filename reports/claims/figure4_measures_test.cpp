@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <limits>
 
 #include "reports/example_result.h"
 
@@ -120,6 +121,18 @@ TEST(Figure4Measures, AnExperimentThatLostEveryFrameHasNoSmallError) {
   EXPECT_FALSE(largest->value);
   EXPECT_FALSE(largest->interval);
   EXPECT_EQ(value_of(result, "figure4.ordered_pairs_source"), -1) << "Tr5 cannot be ordered: there is no count";
+}
+
+TEST(Figure4Measures, AMeanThatIsNoNumberIsNotIgnored) {
+  for (const double mean : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    RunResult result = ordered_result();
+    result.experiments[4].aggregates[metric_index("position_error_mm")].mean = mean;
+    const std::vector<Measure> measures = figure4_measures(result);
+    const Measure* largest = find(measures, "figure4.largest_mean_position_error_mm_source");
+    ASSERT_NE(largest, nullptr);
+    EXPECT_FALSE(largest->value);
+    EXPECT_EQ(value_of(result, "figure4.ordered_pairs_source"), -1);
+  }
 }
 
 TEST(Figure4Measures, DrawsAreSharedByTheDatabasesOfATrajectory) {

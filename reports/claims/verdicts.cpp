@@ -100,7 +100,7 @@ RequiredClaims count_required(const std::vector<ClaimVerdict>& verdicts) {
       ++count.not_run;
     else if (outcome == ClaimOutcome::reproduced || outcome == ClaimOutcome::consistent)
       ++count.hold;
-    else if (outcome == ClaimOutcome::inconclusive && measure && measure->value)
+    else if (outcome == ClaimOutcome::inconclusive && measure && measure->value && measure->interval)
       ++count.inconclusive;
     else
       ++count.failed;

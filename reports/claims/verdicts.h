@@ -16,7 +16,7 @@ enum class ClaimOutcome {
   not_consistent,
   inconclusive,
   not_run,
-  withdrawn  ///< the claim is no longer judged
+  withdrawn  ///< not judged any more, still listed
 };
 /// "not reproduced"
 std::string_view to_string(ClaimOutcome outcome);
@@ -49,8 +49,7 @@ std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vec
 struct RequiredClaims {
   int hold = 0;
   int inconclusive = 0;  ///< the number satisfies the rule, a part of the interval does not
-  int failed = 0;        ///< does not hold, or was run and has no number: a tracker that answers nothing keeps no
-                         ///< promise
+  int failed = 0;        ///< does not hold, or was measured and has no value, or an interval that is none
   int not_run = 0;
 
   friend bool operator==(const RequiredClaims&, const RequiredClaims&) = default;
