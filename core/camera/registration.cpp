@@ -64,8 +64,7 @@ Extent extent_of(const DepthImage& depth) {
   return extent;
 }
 
-/// The pixels of one depth row in the RGB camera; z is 0 or negative where there is nothing to see. Pointers: an
-/// index into a vector is checked, which costs these loops a fifth.
+/// The pixels of one depth row in the RGB camera; z is 0 or negative where there is nothing to see.
 struct ProjectedRow {
   const float *u_px, *v_px, *z;
 };
