@@ -26,6 +26,9 @@ class Image {
   const T& operator()(int u, int v) const { return pixels_[static_cast<size_t>(v) * width_ + u]; }
   T& operator[](size_t i) { return pixels_[i]; }
   const T& operator[](size_t i) const { return pixels_[i]; }
+  /// The pixels of a row. Hardened builds check the row once and no column: for loops over all pixels.
+  T* row(int v) { return &pixels_[static_cast<size_t>(v) * width_]; }
+  const T* row(int v) const { return &pixels_[static_cast<size_t>(v) * width_]; }
   T* data() { return pixels_.data(); }
   const T* data() const { return pixels_.data(); }
   auto begin() { return pixels_.begin(); }

@@ -74,16 +74,19 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
   LabeledCloud cloud;
   cloud.labels = LabelImage(labels.width(), labels.height());
   for (int v = 0; v < labels.height(); ++v) {
+    const float* const depths = depth.row(v);
+    const uint8_t* const found = labels.row(v);
+    uint8_t* const kept = cloud.labels.row(v);
     for_each_nonzero(labels, v, [&](int u) {
-      const double z = depth(u, v);
+      const double z = depths[u];
       if (!(z > 0)) return;
       if (z < volume.z_min || z > volume.z_max) {
         ++cloud.labeled_outside;
         cloud.labeled_cut_off += z > volume.z_min - kCutOffMargin && z < volume.z_max + kCutOffMargin;
         return;
       }
-      cloud.labels(u, v) = labels(u, v);
-      cloud.points.push_back({camera.back_project(u, v, z).cast<float>(), labels(u, v)});
+      kept[u] = found[u];
+      cloud.points.push_back({camera.back_project(u, v, z).cast<float>(), found[u]});
     });
   }
   return cloud;

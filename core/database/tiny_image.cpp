@@ -37,17 +37,19 @@ struct Columns {
   RecycledVector<int> labeled_before;  ///< in all columns before this one
 };
 
+/// `left` to `right` lie within the columns.
 void count_row(const uint8_t* pixels, int left, int right, Columns& columns) {
-  for (int c = left; c < right; ++c)
-    columns.labeled[c] = static_cast<uint16_t>(columns.labeled[c] + (pixels[c] != 0));
+  LabelVotes* const votes = columns.votes.data();
+  uint16_t* const labeled = columns.labeled.data();
+  for (int c = left; c < right; ++c) labeled[c] = static_cast<uint16_t>(labeled[c] + (pixels[c] != 0));
   int c = left;
   for (; c + 8 <= right; c += 8) {
     uint64_t eight = 0;
     std::memcpy(&eight, pixels + c, sizeof eight);
     if (eight == 0) continue;
-    for (int i = 0; i < 8; ++i) ++columns.votes[c + i][pixels[c + i]];
+    for (int i = 0; i < 8; ++i) ++votes[c + i][pixels[c + i]];
   }
-  for (; c < right; ++c) ++columns.votes[c][pixels[c]];
+  for (; c < right; ++c) ++votes[c][pixels[c]];
 }
 
 /// Counts anew; what lies outside the image has no label.
@@ -62,8 +64,9 @@ void count_columns(const LabelImage& labels, const Square& square, const CellRan
     const ptrdiff_t start = static_cast<ptrdiff_t>(v) * labels.width() + square.left;
     count_row(labels.data() + start, left, right, columns);
   }
-  for (int c = 0; c < square.side; ++c)
-    columns.labeled_before[c + 1] = columns.labeled_before[c] + columns.labeled[c];
+  const uint16_t* const labeled = columns.labeled.data();
+  int* const before = columns.labeled_before.data();
+  for (int c = 0; c < square.side; ++c) before[c + 1] = before[c] + labeled[c];
 }
 
 }  // namespace
@@ -127,7 +130,8 @@ LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int s
       const int unlabeled = (rows.last - rows.first) * (range.last - range.first) - labeled;
       if (labeled < unlabeled) continue;
       LabelVotes votes = LabelVotes::Zero();
-      for (int c = range.first; c < range.last; ++c) votes += columns.votes[c];
+      const LabelVotes* const under = columns.votes.data();
+      for (int c = range.first; c < range.last; ++c) votes += under[c];
       tiny(cu, cv) = winner(votes, unlabeled);
     }
   }

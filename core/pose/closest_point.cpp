@@ -36,10 +36,11 @@ void Surface::assign(const HandModel& model, const PosedHand& hand, const Eigen:
   for (RecycledVector<Face>& faces : faces_) faces.clear();
   Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
   double total = 0;
-  for (uint32_t t = 0; t < model.triangles().size(); ++t) {
-    const Triangle& triangle = model.triangles()[t];
-    const Face face{hand.vertices[triangle.vertices[0]], hand.vertices[triangle.vertices[1]],
-                    hand.vertices[triangle.vertices[2]], t};
+  const Eigen::Vector3f* const vertices = hand.vertices.data();  // a model names none that it lacks
+  uint32_t next = 0;
+  for (const Triangle& triangle : model.triangles()) {
+    const Face face{vertices[triangle.vertices[0]], vertices[triangle.vertices[1]], vertices[triangle.vertices[2]],
+                    next++};
     const Eigen::Vector3f normal = (face.b - face.a).cross(face.c - face.a);
     const Eigen::Vector3f to_viewer = viewpoint_hand - face.a;
     const float facing = normal.dot(to_viewer);

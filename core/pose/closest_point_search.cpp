@@ -162,8 +162,9 @@ class GroupSearch {
 
 HWY_INLINE Vectors gather(std::span<const LabeledPoint> points, const PointGroup& group) {
   alignas(64) float p[3][kLanes];
+  const LabeledPoint* const all = points.data();
   for (size_t i = 0; i < kLanes; ++i)
-    for (int axis = 0; axis < 3; ++axis) p[axis][i] = points[group.points[i]].p[axis];
+    for (int axis = 0; axis < 3; ++axis) p[axis][i] = all[group.points[i]].p[axis];
   return {hn::Load(kFloats, p[0]), hn::Load(kFloats, p[1]), hn::Load(kFloats, p[2])};
 }
 

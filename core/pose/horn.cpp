@@ -38,8 +38,9 @@ std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> f
   if (on_a_line(from, center_from) || on_a_line(to, center_to)) return {};
 
   Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+  const Eigen::Vector3f *a = from.data(), *b = to.data();  // hardened builds check every index of a span
   for (size_t i = 0; i < from.size(); ++i) {
-    S += (from[i].cast<double>() - center_from) * (to[i].cast<double>() - center_to).transpose();
+    S += (a[i].cast<double>() - center_from) * (b[i].cast<double>() - center_to).transpose();
   }
   Eigen::Matrix4d N;  // Horn 1987, section 4.A; quaternion order w, x, y, z
   N << S.trace(), S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0),                   //

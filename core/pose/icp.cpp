@@ -19,11 +19,12 @@ void make_pairs(const Matcher& matcher, const Eigen::Isometry3d& T_camera_hand, 
   pairs.cloud_camera.clear();
   const Eigen::Isometry3f T = T_camera_hand.cast<float>();
   double sum = 0;
-  for (size_t i = 0; i < matcher.cloud().size(); ++i) {
-    const ClosestPoint& closest = matcher.closest()[i];
+  const LabeledPoint* point = matcher.cloud().data();
+  for (const ClosestPoint& closest : matcher.closest()) {
+    const LabeledPoint& paired = *point++;
     if (closest.face < 0) continue;
     pairs.model_camera.push_back(T * closest.p_hand);
-    pairs.cloud_camera.push_back(matcher.cloud()[i].p);
+    pairs.cloud_camera.push_back(paired.p);
     sum += closest.distance;
   }
   pairs.mean_distance = pairs.cloud_camera.empty() ? 0 : sum / static_cast<double>(pairs.cloud_camera.size());

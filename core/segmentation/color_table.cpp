@@ -69,7 +69,7 @@ uint8_t majority(const uint8_t* corner, int stride) {
 }
 
 template <ColorSpace kSpace>
-LabelImage labels_of(const RegisteredImage& mapped, const std::vector<uint8_t>& cells) {
+LabelImage labels_of(const RegisteredImage& mapped, const uint8_t* cells) {
   LabelImage labels(mapped.color.width(), mapped.color.height());
   for (int v = 0; v < labels.height(); ++v) {
     for_each_nonzero(mapped.has_color, v,
@@ -79,17 +79,18 @@ LabelImage labels_of(const RegisteredImage& mapped, const std::vector<uint8_t>& 
 }
 
 template <ColorSpace kSpace>
-LabelImage labels_of(const ColorImage& color, const std::vector<uint8_t>& cells) {
+LabelImage labels_of(const ColorImage& color, const uint8_t* cells) {
   LabelImage labels(color.width(), color.height());
   for (size_t i = 0; i < labels.size(); ++i) labels[i] = cells[ColorTable::cell_of_rgb(color[i], kSpace)];
   return labels;
 }
 
-/// What the table's space asks for is decided before the loop over the pixels.
+/// What the table's space asks for is decided before the loop over the pixels. `ColorTable` has a cell for each
+/// color, so that none needs a check.
 template <typename ImageType>
 LabelImage labels_of(const ImageType& image, const ColorTable& table) {
-  return table.space() == ColorSpace::yuv ? labels_of<ColorSpace::yuv>(image, table.labels())
-                                          : labels_of<ColorSpace::rgb>(image, table.labels());
+  return table.space() == ColorSpace::yuv ? labels_of<ColorSpace::yuv>(image, table.labels().data())
+                                          : labels_of<ColorSpace::rgb>(image, table.labels().data());
 }
 
 }  // namespace
