@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "bench/movements.h"
+#include "ci/build_paths.h"
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/database/database_cache.h"
@@ -21,7 +22,7 @@
 namespace glovebench::bench {
 namespace {
 
-const std::string kShareFolder = GLOVEBENCH_SHARE_DIR;
+const std::string kShareFolder = build_paths::share("");
 const std::string kTrajectoryFolder = kShareFolder + "/trajectories/data";
 
 std::optional<BenchData>& storage() {

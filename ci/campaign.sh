@@ -18,11 +18,7 @@ export_head() {
 # rebuild -- [CMAKE_OPTION...]
 rebuild() {
   shift
-  if command -v ccache >/dev/null; then
-    # The folder has another name each time, and a precompiled header counts as its content.
-    export CCACHE_BASEDIR="$work" CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=pch_defines,time_macros
-    export CMAKE_CXX_COMPILER_LAUNCHER=ccache
-  fi
+  use_compiler_cache "$source_folder"
   (
     cd "$source_folder"
     quietly cmake --preset release -DGLOVEBENCH_TESTS=OFF -DGLOVEBENCH_BENCHMARKS=OFF "$@"

@@ -17,6 +17,15 @@ quietly() {
   return "$status"
 }
 
+# Where ccache is installed, another clone's objects are found again, wherever it is. Call it after ci/setup.
+use_compiler_cache() { # [FOLDER of the sources]
+  if ! command -v ccache >/dev/null; then return; fi
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CCACHE_BASEDIR="${1:-$root}" CCACHE_NOHASHDIR=1
+  # What precompiled headers need.
+  export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
+}
+
 # build PRESET CONFIGURE_OPTIONS... [-- TARGETS...]
 build() {
   local preset="$1" options=()
@@ -26,6 +35,7 @@ build() {
     shift
   done
   shift $(($# > 0)) # the --
+  use_compiler_cache
   quietly cmake --preset "$preset" -DGLOVEBENCH_PEERS=OFF "${options[@]}"
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }

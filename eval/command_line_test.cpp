@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ci/build_paths.h"
 #include "core/hand/posture.h"
 #include "eval/test_program.h"
 
@@ -159,7 +160,8 @@ TEST_F(CommandLine, ConfigurationsThatCannotBe) {
 }
 
 TEST_F(CommandLine, MissingOrAlteredMesh) {
-  const fs::path share = fs::path(GLOVEBENCH_PROGRAM).parent_path().parent_path() / "share" / "glovebench";
+  const fs::path share =
+      fs::path(build_paths::program("glovebench")).parent_path().parent_path() / "share" / "glovebench";
   const std::string copy = path("share");
   fs::create_directories(copy);
   fs::create_directory_symlink(fs::canonical(share / "trajectories"), copy + "/trajectories");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ci/build_paths.h"
 #include "core/base/file.h"
 #include "core/database/test_damaged_database.h"
 #include "eval/command_test.h"
@@ -58,8 +59,9 @@ TEST_F(CommandsLong, LowMemoryChangesNoResult) {
 }
 
 TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
-  write_file(path("gestures.csv"), read_file(fs::path(GLOVEBENCH_PROGRAM).parent_path().parent_path() /
-                                             "share/glovebench/trajectories/data/gestures.csv"));
+  write_file(path("gestures.csv"),
+             read_file(fs::path(build_paths::program("glovebench")).parent_path().parent_path() /
+                       "share/glovebench/trajectories/data/gestures.csv"));
   std::string csv = read_file(path("gestures.csv"));
   const size_t third_line = csv.find('\n', csv.find('\n', csv.find("name,")) + 1) + 1;
   write_file(path("mine.csv"), csv.substr(0, third_line));

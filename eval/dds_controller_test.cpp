@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "ci/build_paths.h"
 #include "eval/command_test.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/angles.h"
@@ -29,7 +30,7 @@ using testing::IsEmpty;
 #ifdef GLOVEBENCH_DDS
 
 constexpr double kPeriod = 0.033334;  // s, between two frames of what is tracked here
-constexpr double kRounding = 1e-9;
+constexpr double kControllerRounding = 1e-9;
 
 class DdsController : public DdsBus {
  protected:
@@ -122,7 +123,7 @@ TEST_F(DdsController, IsLeftNoFasterThanTheLimitsFromWhereTheRobotStands) {
     EXPECT_THAT(lines_of("pose", heard), IsEmpty());
     std::map<std::string, double> before;
     for (size_t j = 0; j < standing().size(); ++j) before[hand_joint_names()[j]] = standing()[j];
-    const double farthest = CommandLimits().hand_joint_speed * kPeriod + kRounding;
+    const double farthest = CommandLimits().hand_joint_speed * kPeriod + kControllerRounding;
     for (size_t i = 0; i < hands.size(); ++i) {
       std::map<std::string, double> now = joints_of(hands[i]);
       now.merge(joints_of(wrists[i]));
@@ -130,12 +131,12 @@ TEST_F(DdsController, IsLeftNoFasterThanTheLimitsFromWhereTheRobotStands) {
       for (const auto& [name, angle] : now) {
         ASSERT_LE(std::abs(angle - before.at(name)), farthest) << name << " in message " << i;
         const bool coupled = name.ends_with("FJ1") || name.ends_with("FJ2");
-        const double most = coupled ? std::numbers::pi : std::abs(before.at(name)) + kRounding;
+        const double most = coupled ? std::numbers::pi : std::abs(before.at(name)) + kControllerRounding;
         ASSERT_LE(std::abs(angle), most) << name << " goes to 0";
       }
       for (const std::string finger : {"rh_FF", "rh_MF", "rh_RF", "rh_LF"}) {
         const auto motor = [&](const auto& joints) { return joints.at(finger + "J1") + joints.at(finger + "J2"); };
-        ASSERT_LE(motor(now), motor(before) + kRounding)
+        ASSERT_LE(motor(now), motor(before) + kControllerRounding)
             << finger << " goes to 0, each joint as the motor moves it";
       }
       before = now;
@@ -235,7 +236,7 @@ TEST_F(DdsControllerTrackLong, TrackNeedsAMeasuredState) {
   std::string script = "wait measured\nstate measured";
   for (const std::string& name : hand_joint_names()) script += fmt::format(" {}=0.1", name);
   write_file(path("script"), script + "\nagain 20000 10000\n");
-  const StartedProgram driver = start_program({GLOVEBENCH_DDS_PROBE, "talk", "7", path("script")});
+  const StartedProgram driver = start_program({build_paths::program("dds_probe"), "talk", "7", path("script")});
   std::vector<std::string> more = flags;
   more.insert(more.end(), {"--robot-out", path("r.jsonl")});
   expect_fine(track("dump", "DB_open_power", "e.jsonl", more));

@@ -1,6 +1,7 @@
 // DDS Security between processes: who has no right is neither followed nor believed.
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "eval/test_program.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/system_time.h"
@@ -178,7 +179,7 @@ TEST_F(DdsSecurity, TheProgramSendsAndServesWithItsKeys) {
 
 TEST_F(DdsSecurity, KeysAreMadeOnceAndCheckedBeforeTheyAreUsed) {
   const std::string made = path("made");
-  ProgramRun run = finish(start({GLOVEBENCH_PROGRAM, "robot-server", "keys", made, "--days", "2"}));
+  ProgramRun run = finish(start({build_paths::program("glovebench"), "robot-server", "keys", made, "--days", "2"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.out, made + ": keys of sender hand arm robot observer, for 2 days\n");
   const auto expect_refusal = [&](const ProgramRun& its, const std::string& what) {
@@ -186,10 +187,12 @@ TEST_F(DdsSecurity, KeysAreMadeOnceAndCheckedBeforeTheyAreUsed) {
     EXPECT_EQ(std::ranges::count(its.err, '\n'), 1) << its.err;
     EXPECT_THAT(its.err, HasSubstr(what));
   };
-  expect_refusal(finish(start({GLOVEBENCH_PROGRAM, "robot-server", "keys", made})), "keys are not replaced");
+  expect_refusal(finish(start({build_paths::program("glovebench"), "robot-server", "keys", made})),
+                 "keys are not replaced");
   for (const char* days : {"0", "-1", "x", "1e9"})
-    expect_refusal(finish(start({GLOVEBENCH_PROGRAM, "robot-server", "keys", path("no"), "--days", days})),
-                   "--days");
+    expect_refusal(
+        finish(start({build_paths::program("glovebench"), "robot-server", "keys", path("no"), "--days", days})),
+        "--days");
   const auto refusal_of = [&](const std::string& folder) {
     return finish(serve("hand", path("log"), {"--security", folder}));
   };
@@ -201,9 +204,10 @@ TEST_F(DdsSecurity, KeysAreMadeOnceAndCheckedBeforeTheyAreUsed) {
   expect_refusal(refusal_of(made), "/made/hand.p7s: ");
   make_security_keys(path("old"), {now_s() - 2 * kDay, now_s() - kDay});
   expect_refusal(refusal_of(path("old")), "/old/identity_ca.pem: certificate: found one that expired ");
-  expect_refusal(finish(start({GLOVEBENCH_PROGRAM, "track", "--source", "fakenect:x", "--database", "DB_open_power",
-                               "-o", path("e"), "--robot", "dds:7", "--security", path("nothing")})),
-                 "/nothing: folder: ");
+  expect_refusal(
+      finish(start({build_paths::program("glovebench"), "track", "--source", "fakenect:x", "--database",
+                    "DB_open_power", "-o", path("e"), "--robot", "dds:7", "--security", path("nothing")})),
+      "/nothing: folder: ");
 }
 
 #endif

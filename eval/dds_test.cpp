@@ -5,6 +5,7 @@
 #include <bit>
 #include <nlohmann/json.hpp>
 
+#include "ci/build_paths.h"
 #include "eval/command_test.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/angles.h"
@@ -87,7 +88,7 @@ TEST_F(Dds, AWholeStreamArrives) {
 }
 
 TEST_F(Dds, BytesAreThoseOfRos2) {
-  const StartedProgram listener = start({GLOVEBENCH_DDS_PROBE, "raw", domain_, "20"});
+  const StartedProgram listener = start({build_paths::program("dds_probe"), "raw", domain_, "20"});
   ASSERT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
   DdsSink sink(std::stoi(domain_));
   const RobotCommand sent = command(7);
@@ -216,7 +217,7 @@ TEST_F(DdsTrackLong, StreamsWhatItWrites) {
   use_loopback_dds();
   const std::string domain = "7";
   render_recording("good.json", "dump");
-  const StartedProgram listener = start_program({GLOVEBENCH_DDS_PROBE, "listen", domain, "20", "12"});
+  const StartedProgram listener = start_program({build_paths::program("dds_probe"), "listen", domain, "20", "12"});
   ASSERT_TRUE(comes_true([&] {
     return std::filesystem::exists(listener.out) && read_file(listener.out).find("ready") != std::string::npos;
   }));

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "ci/build_paths.h"
 #include "core/robot/dds/test_bus.h"
 #include "eval/test_program.h"
 
@@ -48,7 +49,7 @@ class DdsBus : public testing::Test {
 
   /// Prints what arrives until nothing has for a second and a half, or for longer, after the first.
   StartedProgram listen(const std::string& seconds = "1.5", const ProgramSetting& setting = {}) {
-    const StartedProgram listener = start({GLOVEBENCH_DDS_PROBE, "listen", domain_, seconds}, setting);
+    const StartedProgram listener = start({build_paths::program("dds_probe"), "listen", domain_, seconds}, setting);
     EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
     return listener;
   }
@@ -56,7 +57,7 @@ class DdsBus : public testing::Test {
   StartedProgram talk(const std::string& script, const ProgramSetting& setting = {}) {
     const std::string file = path("script-" + std::to_string(scripts_++));
     write_file(file, script);
-    return start({GLOVEBENCH_DDS_PROBE, "talk", domain_, file}, setting);
+    return start({build_paths::program("dds_probe"), "talk", domain_, file}, setting);
   }
   static std::string said(const StartedProgram& program) {
     return std::filesystem::exists(program.out) ? read_file(program.out) : "";

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "ci/build_paths.h"
 #include "core/base/file.h"
 #include "core/kinect/recording_files.h"
 #include "eval/test_program.h"
@@ -34,7 +35,7 @@ constexpr int kFrames = 24;
 class Freenect : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_TRUE(fs::exists(std::string(GLOVEBENCH_FAKENECT_DIR) + "/libfreenect.so.0.5"))
+    ASSERT_TRUE(fs::exists(build_paths::fakenect() + "/libfreenect.so.0.5"))
         << "libfreenect comes with fakenect (Debian: libfreenect0.5)";
     folder_ = make_test_folder();
   }
@@ -79,7 +80,7 @@ class Freenect : public testing::Test {
     return arguments;
   }
   ProgramSetting fakenect() const {
-    return {.environment = {{"LD_LIBRARY_PATH", GLOVEBENCH_FAKENECT_DIR}, {"FAKENECT_PATH", path("dump")}}};
+    return {.environment = {{"LD_LIBRARY_PATH", build_paths::fakenect()}, {"FAKENECT_PATH", path("dump")}}};
   }
   std::vector<std::string> live(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments =
@@ -177,7 +178,7 @@ TEST(FreenectUnplugged, IsAFailureThatKeepsWhatWasTracked) {
   const std::string folder = make_test_folder(), output = folder + "/live.jsonl";
   const ProgramRun run = run_glovebench(
       {"track", "--source", "freenect", "--database", "DB_open_power", "-o", output, "--every-frame"},
-      {.environment = {{"LD_LIBRARY_PATH", GLOVEBENCH_UNPLUGGED_DIR}}});
+      {.environment = {{"LD_LIBRARY_PATH", build_paths::unplugged_freenect()}}});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.out, HasSubstr("0 of 4 frames tracked\n"));
   EXPECT_EQ(run.err,

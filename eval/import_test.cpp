@@ -1,6 +1,7 @@
 // `glovebench import markers`: what it writes, that the other commands take it, and what it refuses.
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "eval/share.h"
 #include "eval/test_program.h"
 #include "trajectories/capture/csv_markers.h"
@@ -20,7 +21,7 @@ class ImportMarkers : public testing::Test {
     folder_ = make_test_folder();
     trajectories::Trajectory truth = trajectories::source_trajectory(trajectory_folder(), "Tr4");
     truth.frames.resize(3);
-    const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH);
+    const HandModel model = HandModel::load(build_paths::hand_mesh());
     write_file(path("joints.csv"), trajectories::csv_markers(trajectories::captured(
                                        truth, model, trajectories::webxr_names(), {.noise = 0.0005})));
   }

@@ -2,6 +2,7 @@
 // estimates."
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "core/kinect/recording.h"
 #include "core/tracker/estimate_line.h"
 #include "eval/replay.h"
@@ -12,12 +13,12 @@
 namespace glovebench::eval {
 namespace {
 
-constexpr int kFrames = 20;
+constexpr int kRecordedFrames = 20;
 
 /// The first frames of Tr4, as the command replays them.
 Replay make_replay() {
   trajectories::Trajectory truth = trajectories::source_trajectory(trajectory_folder(), "Tr4");
-  truth.frames.resize(kFrames);
+  truth.frames.resize(kRecordedFrames);
   Replay replay;
   replay.truth = std::make_shared<const trajectories::Trajectory>(std::move(truth));
   replay.databases = {"DB_open_power"};
@@ -35,7 +36,7 @@ TEST(TrackerIsolationLong, EqualsTheReplay) {
     expected += estimate_line(tracked, result) + "\n";
     tracked += result.status == TrackStatus::tracked;
   }
-  ASSERT_EQ(tracked, kFrames) << "nothing is shown by lost frames";
+  ASSERT_EQ(tracked, kRecordedFrames) << "nothing is shown by lost frames";
 
   workbench.database("DB_open_power")->save(folder + "/open_power.glovedb");
   workbench.color_table()->save(folder + "/colors.table");
@@ -44,8 +45,9 @@ TEST(TrackerIsolationLong, EqualsTheReplay) {
   while (const std::optional<DeviceFrame> frame = kinect.next_frame()) recording.write(*frame);
   recording.finish();
 
-  const ProgramRun run = run_program({TRACKER_ISOLATION, hand_mesh_path(), folder + "/open_power.glovedb",
-                                      folder + "/colors.table", folder + "/recording"});
+  const ProgramRun run =
+      run_program({build_paths::program("tracker_isolation"), hand_mesh_path(), folder + "/open_power.glovedb",
+                   folder + "/colors.table", folder + "/recording"});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.err, "");
   EXPECT_TRUE(run.out == expected) << run.out.substr(0, 600) << "...\n" << expected.substr(0, 600) << "...";

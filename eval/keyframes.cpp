@@ -15,7 +15,7 @@ using trajectories::TrajectoryFrame;
 constexpr int kColumns = 16;
 // Multiples of 16: a JPEG shares its colors in blocks of 16 x 16 px, which no two tiles then have in common.
 constexpr int kTileWidth = 240, kTileHeight = 192;
-constexpr int kJpegQuality = 80;
+constexpr int kKeyframeQuality = 80;
 
 /// Where the hand is in the image, and its margin.
 Eigen::AlignedBox2d box_of_hand(const PinholeCamera& camera, const HandModel& hand,
@@ -95,9 +95,10 @@ FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
     paste(sheet, painter.truth(frames[i]), i % kColumns, 2 * (i / kColumns));
     paste(sheet, painter.difference(frames[i], estimates[i]), i % kColumns, 2 * (i / kColumns) + 1);
   }
-  return {
-      figure, render::encode_jpeg(sheet, kJpegQuality), kColumns, kTileWidth, kTileHeight, estimates.front().frame,
-      count};
+  return {figure,      render::encode_jpeg(sheet, kKeyframeQuality),
+          kColumns,    kTileWidth,
+          kTileHeight, estimates.front().frame,
+          count};
 }
 
 }  // namespace glovebench::eval

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/random.h"
 #include "core/hand/skeleton.h"
@@ -19,7 +20,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1e-6;
 
 const HandModel& hand() {
-  static const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH);
+  static const HandModel model = HandModel::load(build_paths::hand_mesh());
   return model;
 }
 

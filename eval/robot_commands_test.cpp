@@ -24,8 +24,8 @@ std::vector<trajectories::TrajectoryFrame> slow_movement(int count) {
   return frames;
 }
 
-reports::CommandResult measure(std::span<const TrackResult> results,
-                               std::span<const trajectories::TrajectoryFrame> truth) {
+reports::CommandResult measure_commands(std::span<const TrackResult> results,
+                                        std::span<const trajectories::TrajectoryFrame> truth) {
   CommandMeasurement measurement;
   measurement.add(make_commands(results, {}, {}), make_commands(true_results(truth), {}, {}),
                   static_cast<int>(truth.size()));
@@ -34,7 +34,7 @@ reports::CommandResult measure(std::span<const TrackResult> results,
 
 TEST(RobotCommands, OfTheTruthHaveNoError) {
   const auto truth = slow_movement(20);
-  const reports::CommandResult result = measure(true_results(truth), truth);
+  const reports::CommandResult result = measure_commands(true_results(truth), truth);
   EXPECT_EQ(result.frames, 20);
   EXPECT_EQ(result.sent, (std::array<int, kCommandStateCount>{20, 0, 0}));
   EXPECT_NEAR(*result.rate_hz, 30, 1e-3);
@@ -56,7 +56,7 @@ TEST(RobotCommands, ErrorsAreThoseOfTheTargets) {
     result.T_camera_hand.translation().y() += 0.004;
     result.T_camera_hand.rotate(Eigen::AngleAxisd(radians_from_degrees(5), Eigen::Vector3d::UnitZ()));
   }
-  const reports::CommandErrors errors = measure(results, truth).errors;
+  const reports::CommandErrors errors = measure_commands(results, truth).errors;
   EXPECT_NEAR(*errors.joints_deg.mean, 12 / std::sqrt(24.0), 1e-9) << "one of 24 joints";
   EXPECT_NEAR(*errors.position_mm.mean, 4, 1e-9);
   EXPECT_NEAR(*errors.rotation_deg.mean, 5, 1e-9);
@@ -66,7 +66,7 @@ TEST(RobotCommands, LostFramesHoldAndHaveNoError) {
   const auto truth = slow_movement(40);
   std::vector<TrackResult> results = true_results(truth);
   for (int i = 10; i < 40; ++i) results[static_cast<size_t>(i)].status = TrackStatus::no_hand;
-  const reports::CommandResult result = measure(results, truth);
+  const reports::CommandResult result = measure_commands(results, truth);
   EXPECT_EQ(result.sent[static_cast<size_t>(CommandState::following)], 10);
   EXPECT_EQ(result.sent[static_cast<size_t>(CommandState::holding)], 15) << "half a second, from frame 9 on";
   EXPECT_EQ(result.sent[static_cast<size_t>(CommandState::stopped)], 15);
@@ -80,7 +80,7 @@ TEST(RobotCommands, NothingTrackedIsCountedAndHasNoValues) {
   const auto truth = slow_movement(5);
   std::vector<TrackResult> results = true_results(truth);
   for (TrackResult& result : results) result.status = TrackStatus::no_hand;
-  const reports::CommandResult result = measure(results, truth);
+  const reports::CommandResult result = measure_commands(results, truth);
   EXPECT_EQ(result.sent[static_cast<size_t>(CommandState::stopped)], 5);
   EXPECT_FALSE(result.jerk.joints_deg_s3.has_value());
   EXPECT_FALSE(result.truth_jerk.joints_deg_s3.has_value()) << "nothing to compare";
@@ -91,7 +91,7 @@ TEST(RobotCommands, DroppedOnesMissAndTheOthersKeepTheirTruth) {
   const auto truth = slow_movement(10);
   std::vector<TrackResult> results = true_results(truth);
   results[4].timestamp_us = results[3].timestamp_us;  // a clock that stands still
-  const reports::CommandResult result = measure(results, truth);
+  const reports::CommandResult result = measure_commands(results, truth);
   EXPECT_EQ(result.frames, 10);
   EXPECT_EQ(result.sent[0], 9);
   EXPECT_EQ(result.interventions[Intervention::stale], 1);
@@ -107,7 +107,7 @@ TEST(RobotCommands, JerkOfACubicIsItsThirdDerivative) {
     truth.push_back(frame_at(i, 0.5 * t * t * t, 0.25 * t * t * t));
     truth.back().timestamp_us = std::llround(t * 1e6);
   }
-  const reports::CommandResult result = measure(true_results(truth), truth);
+  const reports::CommandResult result = measure_commands(true_results(truth), truth);
   ASSERT_TRUE(result.interventions.none()) << "nothing is slowed down";
   EXPECT_NEAR(*result.jerk.position_m_s3, 6 * 0.25, 1e-3);
   EXPECT_NEAR(*result.jerk.joints_deg_s3, degrees_from_radians(6 * 0.5) / std::sqrt(24.0), 0.05);
@@ -120,8 +120,8 @@ TEST(RobotCommands, LosingTheHandIsNoSmoothness) {
     results[i].T_camera_hand.translation().y() += i % 2 == 0 ? 0.001 : 0;
     if (i >= 10) results[i].status = TrackStatus::no_hand;
   }
-  const reports::CommandResult lost = measure(results, truth);
-  const reports::CommandResult whole = measure(std::span(results).first(10), std::span(truth).first(10));
+  const reports::CommandResult lost = measure_commands(results, truth);
+  const reports::CommandResult whole = measure_commands(std::span(results).first(10), std::span(truth).first(10));
   EXPECT_EQ(lost.jerk, whole.jerk) << "what it held does not count";
   EXPECT_EQ(lost.truth_jerk, whole.truth_jerk) << "nor what the truth did meanwhile";
   EXPECT_GT(*lost.jerk.position_m_s3, 100 * *lost.truth_jerk.position_m_s3);

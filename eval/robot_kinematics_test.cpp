@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/hand/hand_model.h"
 #include "core/robot/fingertip_mapping.h"
@@ -13,7 +14,7 @@ namespace glovebench::eval {
 namespace {
 
 const Skeleton& skeleton() {
-  static const Skeleton skeleton = HandModel::load(GLOVEBENCH_HAND_MESH).skeleton();
+  static const Skeleton skeleton = HandModel::load(build_paths::hand_mesh()).skeleton();
   return skeleton;
 }
 Posture gesture(const char* name) {

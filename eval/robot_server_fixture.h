@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/file.h"
 #include "core/base/system_time.h"
@@ -73,8 +74,8 @@ class RobotServer : public DdsBus {
   using json = nlohmann::json;
   StartedProgram serve(const std::string& side, const std::string& log, const std::vector<std::string>& more = {},
                        const ProgramSetting& setting = {}) {
-    std::vector<std::string> command = {GLOVEBENCH_PROGRAM, "robot-server", side, "--robot",
-                                        "dds:" + domain_,   "--log",        log};
+    std::vector<std::string> command = {
+        build_paths::program("glovebench"), "robot-server", side, "--robot", "dds:" + domain_, "--log", log};
     command.insert(command.end(), more.begin(), more.end());
     return start(command, setting);
   }

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "ci/build_paths.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {
@@ -42,7 +43,7 @@ class SoakJudge : public testing::Test {
     write_file(folder_ + "/estimates.jsonl", estimates);
     write_file(folder_ + "/hand.jsonl", received({"fingers", "wrist"}, latency_us));
     write_file(folder_ + "/arm.jsonl", received({"pose"}, [](int) { return 4000; }));
-    return run_program({"/usr/bin/python3", GLOVEBENCH_SOAK_JUDGE, folder_, "6"});
+    return run_program({"/usr/bin/python3", build_paths::source("ci/soak_judge.py"), folder_, "6"});
   }
 
   static constexpr int kFrames = 200, kLost = 100;
@@ -72,7 +73,7 @@ TEST_F(SoakJudge, TellsMissedFromLate) {
 #ifdef GLOVEBENCH_SOAK
 
 TEST(SoakLong, NoCommandIsMissed) {
-  const ProgramRun run = run_program({GLOVEBENCH_SOAK, "4", GLOVEBENCH_PROGRAM},
+  const ProgramRun run = run_program({build_paths::source("ci/soak"), "4", build_paths::program("glovebench")},
                                      {.environment = {{"GLOVEBENCH_CACHE", test_cache_folder()}}});
   EXPECT_THAT(run.out, testing::StartsWith("soak: 4 s, 120 frames at 30.0 Hz, 120 tracked; commands expected 120, "
                                            "received fingers 120, wrist 120, pose 120, missed 0, stale "))

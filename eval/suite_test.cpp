@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "eval/plan_overview.h"
@@ -47,8 +48,9 @@ class SuitePlan : public testing::Test {
     json left = make_trajectory_json("left", 4);
     left["side"] = "left";
     write_file(folder_ + "/left.json", left.dump());
-    const std::string gestures = read_file(std::filesystem::path(GLOVEBENCH_PROGRAM).parent_path().parent_path() /
-                                           "share/glovebench/trajectories/data/gestures.csv");
+    const std::string gestures =
+        read_file(std::filesystem::path(build_paths::program("glovebench")).parent_path().parent_path() /
+                  "share/glovebench/trajectories/data/gestures.csv");
     write_file(folder_ + "/own.csv", gestures);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "ci/build_paths.h"
 #include "core/base/file.h"
 #include "core/hand/posture.h"
 #include "core/test_folder.h"
@@ -114,7 +115,7 @@ inline ProgramRun run_program(const std::vector<std::string>& command, const Pro
 
 /// Starts the glovebench command with the tests' cache.
 inline StartedProgram start_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
-  arguments.insert(arguments.begin(), GLOVEBENCH_PROGRAM);
+  arguments.insert(arguments.begin(), build_paths::program("glovebench"));
   setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());
   return start_program(arguments, setting);
 }

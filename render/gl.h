@@ -1,7 +1,6 @@
 #pragma once
 
 // OpenGL for the sources of this module only; its headers do not show it.
-#define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
 #include <GL/glcorearb.h>
 

@@ -7,9 +7,9 @@
 namespace glovebench::render {
 namespace {
 
-constexpr int kPosition = 0;
+constexpr int kLabelPosition = 0;
 constexpr int kLabel = 1;
-constexpr int kPatch = 2;
+constexpr int kLabelPatch = 2;
 
 constexpr const char* kVertexShader = R"(#version 450 core
 layout(location = 0) in vec3 position;
@@ -65,7 +65,7 @@ struct LabelRenderer::State {
     if (model.hash() == model_hash) return;
     mesh = make_hand_mesh(model);
     vertices.set_bytes(kLabel, mesh.labels);
-    vertices.set_bytes(kPatch, mesh.patches);
+    vertices.set_bytes(kLabelPatch, mesh.patches);
     vertices.set_indices(mesh.indices);
     model_hash = model.hash();
   }
@@ -73,7 +73,7 @@ struct LabelRenderer::State {
   void draw(const gl::Program& program, gl::Framebuffer& target, const HandModel& model, const PosedHand& hand,
             const PinholeCamera& camera, const Eigen::Isometry3d& T_camera_hand) {
     load(model);
-    vertices.set_floats(kPosition, spread(mesh, hand.vertices), GL_STREAM_DRAW);
+    vertices.set_floats(kLabelPosition, spread(mesh, hand.vertices), GL_STREAM_DRAW);
     gl::set_pass_state();
     target.bind(camera.width, camera.height);
     const std::array<GLuint, 4> no_id{};

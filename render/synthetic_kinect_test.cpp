@@ -9,7 +9,7 @@
 namespace glovebench::render {
 namespace {
 
-std::shared_ptr<const HandModel> shared_hand() {
+std::shared_ptr<const HandModel> hand_of_the_device() {
   return {&test_hand(), [](const HandModel*) {}};
 }
 
@@ -31,7 +31,7 @@ TEST(SyntheticKinect, DepthComesBackThroughElevenBits) {
   SyntheticKinectConfig config;
   config.noise.depth = DepthNoise::none;
   config.noise.color_sigma_gray = 0;
-  SyntheticKinect kinect(synthetic_calibration(), shared_hand(), three_frames(), config);
+  SyntheticKinect kinect(synthetic_calibration(), hand_of_the_device(), three_frames(), config);
   const DeviceFrame frame = *kinect.next_frame();
   const DepthImage depth = depth_from_disparity(frame.raw_disparity);
   const DepthImage& truth = kinect.truth().depth;
@@ -43,7 +43,7 @@ TEST(SyntheticKinect, DepthComesBackThroughElevenBits) {
 }
 
 TEST(SyntheticKinect, GivesEachFrameOnceWithItsTime) {
-  SyntheticKinect kinect(synthetic_calibration(), shared_hand(), three_frames(), {});
+  SyntheticKinect kinect(synthetic_calibration(), hand_of_the_device(), three_frames(), {});
   const std::vector<DeviceFrame> frames = all_frames(kinect);
   ASSERT_EQ(frames.size(), 3u);
   EXPECT_EQ(frames[2].depth_timestamp_us, 133'334);
@@ -56,7 +56,7 @@ TEST(SyntheticKinect, SameSeedSameFrames) {
   const auto frames_of = [](uint64_t seed) {
     SyntheticKinectConfig config;
     config.seed = seed;
-    SyntheticKinect kinect(synthetic_calibration(), shared_hand(), three_frames(), config);
+    SyntheticKinect kinect(synthetic_calibration(), hand_of_the_device(), three_frames(), config);
     return all_frames(kinect);
   };
   const std::vector<DeviceFrame> first = frames_of(1);
@@ -73,10 +73,11 @@ TEST(SyntheticKinect, SameSeedSameFrames) {
 TEST(SyntheticKinect, RefusesImpossibleConfigurations) {
   SyntheticKinectConfig config;
   config.noise.gain_factor = -1;
-  EXPECT_THROW(SyntheticKinect(synthetic_calibration(), shared_hand(), three_frames(), config), Error);
+  EXPECT_THROW(SyntheticKinect(synthetic_calibration(), hand_of_the_device(), three_frames(), config), Error);
   config = {};
   config.lighting.temperature_k = 0;
-  EXPECT_THROW(SyntheticKinect(synthetic_calibration(), shared_hand(), three_frames(), config).next_frame(), Error);
+  EXPECT_THROW(SyntheticKinect(synthetic_calibration(), hand_of_the_device(), three_frames(), config).next_frame(),
+               Error);
 }
 
 }  // namespace

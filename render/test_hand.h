@@ -2,12 +2,13 @@
 
 // The hand that the tests of this module draw.
 
+#include "ci/build_paths.h"
 #include "core/hand/hand_model.h"
 
 namespace glovebench::render {
 
 inline const HandModel& test_hand() {
-  static const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH);
+  static const HandModel model = HandModel::load(build_paths::hand_mesh());
   return model;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 /// Two seeds of three frames, one of them lost.
-ExperimentEstimates example() {
+ExperimentEstimates example_estimates() {
   ExperimentEstimates estimates{{"Tr4", "DB_open_power", TruthKind::source, 1, {}}, {}};
   for (const uint64_t seed : {1, 2}) {
     for (int frame = 4; frame < 7; ++frame) {
@@ -31,7 +31,7 @@ ExperimentEstimates example() {
   return estimates;
 }
 
-std::string error_of(const std::string& text) {
+std::string estimates_error(const std::string& text) {
   try {
     parse_estimates(text, "e.csv");
   } catch (const Error& error) {
@@ -48,7 +48,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 TEST(Estimates, ComeBackAsTheyWereWritten) {
-  const ExperimentEstimates written = example();
+  const ExperimentEstimates written = example_estimates();
   const std::string path = testing::TempDir() + "/estimates_test.csv";
   write_file(path, estimates_csv(written));
   const std::vector<Estimate> read = read_estimates(path);
@@ -65,43 +65,44 @@ TEST(Estimates, ComeBackAsTheyWereWritten) {
 }
 
 TEST(Estimates, NamesUnitsAndLostFrames) {
-  const std::string csv = estimates_csv(example());
+  const std::string csv = estimates_csv(example_estimates());
   EXPECT_THAT(csv, testing::StartsWith("seed,frame,timestamp_us,status,position_x_mm,"));
   EXPECT_THAT(csv, HasSubstr(",little_dip_flexion_deg\n1,4,266668,tracked,"));
   EXPECT_THAT(csv, HasSubstr("\n1,5,333335,poor_match,,,,"));
-  EXPECT_EQ(estimates_file(example().key), "estimates/Tr4_DB_open_power_source_subject1_gradient_1.csv");
+  EXPECT_EQ(estimates_file(example_estimates().key), "estimates/Tr4_DB_open_power_source_subject1_gradient_1.csv");
 }
 
 TEST(Estimates, ErrorsNameLineColumnAndExpectation) {
-  const std::string csv = estimates_csv(example());
-  EXPECT_THAT(error_of(""), HasSubstr("e.csv: line 1: found no line end"));
-  EXPECT_THAT(error_of("seed,frame\n"), HasSubstr("line 1: found 2 columns, expected 33"));
-  EXPECT_THAT(error_of(replaced(csv, "position_x_mm", "position_x_m")), HasSubstr("expected position_x_mm"));
-  EXPECT_THAT(error_of(csv.substr(0, csv.size() - 1)), HasSubstr("line 7: found no line end"));
-  EXPECT_THAT(error_of(replaced(csv, "\n1,4,", "\n-1,4,")), HasSubstr("line 2, column seed: found \"-1\""));
-  EXPECT_THAT(error_of(replaced(csv, "\n1,4,", "\n01,4,")), HasSubstr("line 2, column seed"));
-  EXPECT_THAT(error_of(replaced(csv, "\n1,4,", "\n1,-4,")), HasSubstr("line 2, column frame"));
-  EXPECT_THAT(error_of(replaced(csv, "\n1,6,", "\n1,7,")),
+  const std::string csv = estimates_csv(example_estimates());
+  EXPECT_THAT(estimates_error(""), HasSubstr("e.csv: line 1: found no line end"));
+  EXPECT_THAT(estimates_error("seed,frame\n"), HasSubstr("line 1: found 2 columns, expected 33"));
+  EXPECT_THAT(estimates_error(replaced(csv, "position_x_mm", "position_x_m")), HasSubstr("expected position_x_mm"));
+  EXPECT_THAT(estimates_error(csv.substr(0, csv.size() - 1)), HasSubstr("line 7: found no line end"));
+  EXPECT_THAT(estimates_error(replaced(csv, "\n1,4,", "\n-1,4,")), HasSubstr("line 2, column seed: found \"-1\""));
+  EXPECT_THAT(estimates_error(replaced(csv, "\n1,4,", "\n01,4,")), HasSubstr("line 2, column seed"));
+  EXPECT_THAT(estimates_error(replaced(csv, "\n1,4,", "\n1,-4,")), HasSubstr("line 2, column frame"));
+  EXPECT_THAT(estimates_error(replaced(csv, "\n1,6,", "\n1,7,")),
               HasSubstr("line 4, column frame: found \"7\", expected 6"));
-  EXPECT_THAT(error_of(replaced(csv, ",333335,", ",266668,")), HasSubstr("line 3, column timestamp_us"));
-  EXPECT_THAT(error_of(replaced(csv, "\n2,6,", "\n1,6,")), HasSubstr("line 7, column seed"));
-  EXPECT_THAT(error_of(replaced(csv, "poor_match,,", "poor_match,1.5,")),
+  EXPECT_THAT(estimates_error(replaced(csv, ",333335,", ",266668,")), HasSubstr("line 3, column timestamp_us"));
+  EXPECT_THAT(estimates_error(replaced(csv, "\n2,6,", "\n1,6,")), HasSubstr("line 7, column seed"));
+  EXPECT_THAT(estimates_error(replaced(csv, "poor_match,,", "poor_match,1.5,")),
               HasSubstr("line 3, column position_x_mm"));
-  EXPECT_THAT(error_of(replaced(csv, "poor_match", "bored")), HasSubstr("expected a frame's status"));
-  EXPECT_THAT(error_of(replaced(csv, "poor_match", "tracked")),
+  EXPECT_THAT(estimates_error(replaced(csv, "poor_match", "bored")), HasSubstr("expected a frame's status"));
+  EXPECT_THAT(estimates_error(replaced(csv, "poor_match", "tracked")),
               HasSubstr("line 3, column position_x_mm: found \"\""));
   for (const char* number : {"nan", "inf", "1e999", "2e6", "1.50", "0.12345678", "-0.0", " 1.0", "+1.0", "0x1p3"}) {
-    EXPECT_THAT(error_of(replaced(csv, "4,266668,tracked,", std::string("4,266668,tracked,") + number + ",")),
-                HasSubstr("34 columns"));
+    EXPECT_THAT(
+        estimates_error(replaced(csv, "4,266668,tracked,", std::string("4,266668,tracked,") + number + ",")),
+        HasSubstr("34 columns"));
     std::string cell = csv;
     const size_t begin = cell.find("tracked,") + 8;
     cell.replace(begin, cell.find(',', begin) - begin, number);
-    EXPECT_THAT(error_of(cell), HasSubstr("line 2, column position_x_mm: found")) << number;
+    EXPECT_THAT(estimates_error(cell), HasSubstr("line 2, column position_x_mm: found")) << number;
   }
 }
 
 TEST(Estimates, DamageGivesAnErrorOrValidEstimates) {
-  const ExperimentEstimates written = example();
+  const ExperimentEstimates written = example_estimates();
   const std::string csv = estimates_csv(written);
   int refused = 0, accepted = 0;
   for (int trial = 0; trial < 3000; ++trial) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "ci/build_paths.h"
 #include "core/base/file.h"
 #include "reports/claims/claims_report.h"
 #include "reports/comparison/example_comparison.h"
@@ -16,7 +17,7 @@ namespace {
 std::vector<std::string> page_scripts() {
   std::vector<std::string> scripts;
   for (const std::string name : {"vega", "vega-lite", "vega-embed"})
-    scripts.push_back(glovebench::read_file(std::string(GLOVEBENCH_PAGE_SCRIPTS) + "/" + name + ".min.js"));
+    scripts.push_back(glovebench::read_file(glovebench::build_paths::share("page/" + name + ".min.js")));
   return scripts;
 }
 

@@ -28,7 +28,7 @@ const std::string& example_text() {
   return text;
 }
 
-std::string error_of(const std::string& text) {
+std::string hostile_error(const std::string& text) {
   try {
     parse_results(text, "results.json");
   } catch (const Error& error) {
@@ -38,10 +38,10 @@ std::string error_of(const std::string& text) {
   return "no error";
 }
 
-std::string error_of_change(const std::function<void(json&)>& change) {
+std::string hostile_error_of_change(const std::function<void(json&)>& change) {
   json results = json::parse(example_text());
   change(results);
-  return error_of(results.dump());
+  return hostile_error(results.dump());
 }
 
 /// The first frame of the first seed of the first experiment.
@@ -60,21 +60,21 @@ std::string error_of_reading(const std::string& path) {
 
 TEST(HostileResults, NestedAMillionDeep) {
   constexpr size_t kDeep = 1'000'000;
-  EXPECT_THAT(error_of(std::string(kDeep, '[')), HasSubstr("results.json: nesting: found deeper nesting"));
+  EXPECT_THAT(hostile_error(std::string(kDeep, '[')), HasSubstr("results.json: nesting: found deeper nesting"));
   std::string objects;
   for (size_t i = 0; i < kDeep; ++i) objects += "{\"a\":";
-  EXPECT_THAT(error_of(objects), HasSubstr("deeper nesting"));
+  EXPECT_THAT(hostile_error(objects), HasSubstr("deeper nesting"));
   std::string text = example_text();
   const std::string key = "\"configuration\": ";
   text.insert(text.find(key) + key.size(),
               "{\"a\": " + std::string(kDeep, '[') + std::string(kDeep, ']') + "}, \"b\": ");
-  EXPECT_THAT(error_of(text), HasSubstr("deeper nesting"));
+  EXPECT_THAT(hostile_error(text), HasSubstr("deeper nesting"));
 }
 
 TEST(HostileResults, BracketsInATextAreNoNesting) {
   json results = json::parse(example_text());
   results["configuration"]["note"] = "\\\"" + std::string(100, '[');
-  EXPECT_EQ(error_of(results.dump()), "no error");
+  EXPECT_EQ(hostile_error(results.dump()), "no error");
 }
 
 TEST(HostileResults, NumbersThatNoErrorHas) {
@@ -82,7 +82,7 @@ TEST(HostileResults, NumbersThatNoErrorHas) {
     json results = json::parse(example_text());
     first_frame(results)[9] = "NUMBER";
     std::string text = results.dump();
-    return error_of(text.replace(text.find("\"NUMBER\""), 8, number));
+    return hostile_error(text.replace(text.find("\"NUMBER\""), 8, number));
   };
   EXPECT_THAT(with_number("1e999"), HasSubstr("expected a finite number"));
   EXPECT_THAT(with_number("NaN"), HasSubstr("expected JSON"));
@@ -92,30 +92,32 @@ TEST(HostileResults, NumbersThatNoErrorHas) {
 }
 
 TEST(HostileResults, NumbersBesideTheFramesThatWouldOverflow) {
-  EXPECT_THAT(
-      error_of_change([](json& r) { r["experiments"][0]["aggregates"]["position_error_mm"]["max"] = 1e308; }),
-      HasSubstr("aggregates.position_error_mm.max"));
-  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["noise"]["factor"] = -1; }),
+  EXPECT_THAT(hostile_error_of_change(
+                  [](json& r) { r["experiments"][0]["aggregates"]["position_error_mm"]["max"] = 1e308; }),
+              HasSubstr("aggregates.position_error_mm.max"));
+  EXPECT_THAT(hostile_error_of_change([](json& r) { r["experiments"][0]["noise"]["factor"] = -1; }),
               HasSubstr("noise.factor"));
-  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["joint_pck"]["shares"][3] = 1.5; }),
+  EXPECT_THAT(hostile_error_of_change([](json& r) { r["experiments"][0]["joint_pck"]["shares"][3] = 1.5; }),
               HasSubstr("joint_pck.shares[3]"));
-  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["sequence"]["latency_frames"] = 1e300; }),
+  EXPECT_THAT(hostile_error_of_change([](json& r) { r["experiments"][0]["sequence"]["latency_frames"] = 1e300; }),
               HasSubstr("sequence.latency_frames"));
 }
 
 TEST(HostileResults, MeansThatTheFramesDoNotHave) {
   const auto mean = [](json& r) -> json& { return r["experiments"][0]["aggregates"]["position_error_mm"]["mean"]; };
-  EXPECT_THAT(error_of_change([&](json& r) { mean(r) = 3.9; }),
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { mean(r) = 3.9; }),
               HasSubstr("aggregates.position_error_mm.mean: found 3.9, expected the mean of the frames"));
-  EXPECT_THAT(error_of_change([&](json& r) { mean(r) = nullptr; }), HasSubstr("position_error_mm.mean"));
-  EXPECT_THAT(error_of_change([](json& r) { first_frame(r)[9] = 3.5; }), HasSubstr("position_error_mm.mean"));
-  EXPECT_THAT(error_of_change([](json& r) { first_frame(r)[9] = nullptr; }), HasSubstr("position_error_mm.count"));
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { mean(r) = nullptr; }), HasSubstr("position_error_mm.mean"));
+  EXPECT_THAT(hostile_error_of_change([](json& r) { first_frame(r)[9] = 3.5; }),
+              HasSubstr("position_error_mm.mean"));
+  EXPECT_THAT(hostile_error_of_change([](json& r) { first_frame(r)[9] = nullptr; }),
+              HasSubstr("position_error_mm.count"));
 }
 
 TEST(HostileResults, WhatComesTwice) {
-  EXPECT_THAT(error_of_change([](json& r) { r["experiments"].push_back(r["experiments"][0]); }),
+  EXPECT_THAT(hostile_error_of_change([](json& r) { r["experiments"].push_back(r["experiments"][0]); }),
               HasSubstr("experiments[4]: found an object, expected an experiment that has not been before"));
-  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][1]["seed"] = 1; }),
+  EXPECT_THAT(hostile_error_of_change([](json& r) { r["experiments"][0]["runs"][1]["seed"] = 1; }),
               HasSubstr("runs[1].seed: found 1, expected a seed that has not been before"));
 }
 
@@ -123,11 +125,12 @@ TEST(HostileResults, FramesThatDoNotFollowEachOther) {
   const auto frame = [](json& r, int run, int row) -> json& {
     return r["experiments"][0]["runs"][run]["frames"][row];
   };
-  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[0] = 0; }),
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { frame(r, 0, 1)[0] = 0; }),
               HasSubstr("frames[1]: found an array of 23, expected a frame after 0"));
-  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 0, 1)[1] = 0; }), HasSubstr("expected a time stamp after 0"));
-  EXPECT_THAT(error_of_change([&](json& r) { frame(r, 1, 1)[1] = 7; }), HasSubstr("runs[1].frames[1]"));
-  EXPECT_THAT(error_of_change([&](json& r) {
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { frame(r, 0, 1)[1] = 0; }),
+              HasSubstr("expected a time stamp after 0"));
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { frame(r, 1, 1)[1] = 7; }), HasSubstr("runs[1].frames[1]"));
+  EXPECT_THAT(hostile_error_of_change([&](json& r) {
                 frame(r, 1, 0)[0] = 1;
                 frame(r, 1, 1)[0] = 2;
               }),
@@ -137,23 +140,25 @@ TEST(HostileResults, FramesThatDoNotFollowEachOther) {
 TEST(HostileResults, NamesThatLeadOutOfTheFolder) {
   for (const char* name :
        {"../../Tr4", "/Tr4", "..", "", "Tr4\n", "a\x7f", "=Tr4", "x/../../../escaped/evil", ".hidden"}) {
-    EXPECT_THAT(error_of_change([&](json& r) { r["experiments"][0]["trajectory"] = name; }),
+    EXPECT_THAT(hostile_error_of_change([&](json& r) { r["experiments"][0]["trajectory"] = name; }),
                 HasSubstr("trajectory"));
-    EXPECT_THAT(error_of_change([&](json& r) { r["experiments"][0]["database"] = name; }), HasSubstr("database"));
+    EXPECT_THAT(hostile_error_of_change([&](json& r) { r["experiments"][0]["database"] = name; }),
+                HasSubstr("database"));
   }
 }
 
 TEST(HostileResults, StudiesThatNoRunWrites) {
   const auto table = [](json& r) -> json& { return r["studies"][1]["tables"][0]; };
-  EXPECT_THAT(error_of_change([&](json& r) { table(r)["name"] = "../../figure8"; }),
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["name"] = "../../figure8"; }),
               HasSubstr("studies[1].tables[0].name"));
-  EXPECT_THAT(error_of_change([&](json& r) { table(r)["name"] = "figure7"; }),
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["name"] = "figure7"; }),
               HasSubstr("studies[1].tables[0].name: found \"figure7\", expected a name that no table has had"));
-  EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][3].push_back(nullptr); }),
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["rows"][3].push_back(nullptr); }),
               HasSubstr("rows[3]: found an array of 14, expected one cell for each of columns"));
-  EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][0][5] = 1e308; }), HasSubstr("rows[0][5]"));
-  EXPECT_THAT(error_of_change([&](json& r) { table(r)["rows"][0][5] = json::object(); }), HasSubstr("rows[0][5]"));
-  EXPECT_THAT(error_of_change([](json& r) { r["studies"] = nullptr; }), HasSubstr("studies: found null"));
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["rows"][0][5] = 1e308; }), HasSubstr("rows[0][5]"));
+  EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["rows"][0][5] = json::object(); }),
+              HasSubstr("rows[0][5]"));
+  EXPECT_THAT(hostile_error_of_change([](json& r) { r["studies"] = nullptr; }), HasSubstr("studies: found null"));
 }
 
 TEST(HostileResults, FilesThatCannotBeRead) {
@@ -184,10 +189,10 @@ TEST(HostileResults, FilesThatCannotBeRead) {
 TEST(HostileResults, TruncatedAnywhere) {
   const std::string& small = example_text();
   for (size_t length = 0; length < small.size(); length += 100)
-    EXPECT_THAT(error_of(small.substr(0, length)), HasSubstr("expected JSON")) << length;
+    EXPECT_THAT(hostile_error(small.substr(0, length)), HasSubstr("expected JSON")) << length;
   const std::string full = results_json(full_result());
   for (size_t length = 1000; length < full.size(); length += 99'000)
-    EXPECT_THAT(error_of(full.substr(0, length)), HasSubstr("expected JSON")) << length;
+    EXPECT_THAT(hostile_error(full.substr(0, length)), HasSubstr("expected JSON")) << length;
 }
 
 /// One of the document's values, all the way down.

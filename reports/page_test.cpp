@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Made once: its intervals take a while.
-const RunResult& example() {
+const RunResult& example_page() {
   static const RunResult result = full_result();
   return result;
 }
@@ -25,7 +25,7 @@ RunResult without_studies(RunResult result) {
 }
 
 TEST(Page, ShowsTablesAndPlacesForCharts) {
-  const std::string page = html_page(example(), paper_numbers());
+  const std::string page = html_page(example_page(), paper_numbers());
   EXPECT_THAT(page, HasSubstr("<td>3.88 / 2.60 / 2.70</td>"));
   EXPECT_THAT(page, HasSubstr("<h2>Figure 5: Tr4 with DB_open_power, recorded truth</h2>"));
   EXPECT_THAT(page, HasSubstr("<h2>Figure 6: Tr1 with DB_20_postures, recorded truth</h2>"));
@@ -49,7 +49,7 @@ TEST(Page, LeavesOutWhatWasNotRun) {
 }
 
 TEST(Page, ContentsLeadToEverySection) {
-  const std::string page = html_page(example(), paper_numbers());
+  const std::string page = html_page(example_page(), paper_numbers());
   size_t links = 0;
   for (size_t at = page.find("href=\"#"); at != std::string::npos; at = page.find("href=\"#", at + 1)) {
     const std::string id = page.substr(at + 7, page.find('"', at + 7) - at - 7);
@@ -63,9 +63,9 @@ TEST(Page, TimesAreShownWithStudiesAlone) {
   Timings timings, slower;
   timings.host = slower.host = "a <host>";
   slower.wall_s = 99;
-  const RunResult plain = without_studies(example());
+  const RunResult plain = without_studies(example_page());
   EXPECT_EQ(html_page(plain, paper_numbers(), timings), html_page(plain, paper_numbers(), slower));
-  const std::string page = html_page(example(), paper_numbers(), slower);
+  const std::string page = html_page(example_page(), paper_numbers(), slower);
   EXPECT_THAT(page, AllOf(HasSubstr("a &lt;host&gt;"), HasSubstr("99 s")));
 }
 

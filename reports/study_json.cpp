@@ -77,7 +77,7 @@ Json study_json(const StudyResult& study, const std::vector<const Table*>& table
           {"measures", measures_json(study.measures, of_times)}};
 }
 
-std::string read_name(const JsonReader& json, bool is_measure = false) {
+std::string read_key(const JsonReader& json, bool is_measure = false) {
   const std::string name = json.text();
   if (!is_name(name, is_measure)) json.fail("lower-case letters, digits and underscores");
   return name;
@@ -85,7 +85,7 @@ std::string read_name(const JsonReader& json, bool is_measure = false) {
 
 Column read_column(const JsonReader& json) {
   json.expect_keys({"key", "heading", "digits"});
-  return {read_name(json["key"]), json["heading"].text(), static_cast<int>(json["digits"].integer(0, kMostDigits)),
+  return {read_key(json["key"]), json["heading"].text(), static_cast<int>(json["digits"].integer(0, kMostDigits)),
           false};
 }
 
@@ -119,7 +119,7 @@ size_t cell_count(const std::vector<StudyResult>& studies) {
 Table read_table(const JsonReader& json, const std::vector<StudyResult>& studies) {
   json.expect_keys({"name", "title", "explanation", "columns", "name_columns", "rows"});
   Table table;
-  table.name = read_name(json["name"]);
+  table.name = read_key(json["name"]);
   if (find_table(studies, table.name) || is_taken(table.name))
     json["name"].fail("a name that no table has had before");
   table.title = json["title"].text();
@@ -141,7 +141,7 @@ Table read_table(const JsonReader& json, const std::vector<StudyResult>& studies
 Measure read_measure(const JsonReader& json, const std::vector<StudyResult>& studies) {
   json.expect_keys({"name", "unit", "value", "interval"});
   Measure measure;
-  measure.name = read_name(json["name"], true);
+  measure.name = read_key(json["name"], true);
   if (find_measure(studies, measure.name)) json["name"].fail("a name that no measure has had before");
   measure.unit = json["unit"].text();
   measure.value = json["value"].number_or_null(-kLargestCell, kLargestCell);
@@ -215,7 +215,7 @@ std::vector<StudyResult> read_studies(const JsonReader& json) {
   std::vector<StudyResult> studies;
   for (const JsonReader& item : json.items()) {
     item.expect_keys({"name", "title", "tables", "measures"});
-    studies.push_back({read_name(item["name"]), item["title"].text(), {}, {}});
+    studies.push_back({read_key(item["name"]), item["title"].text(), {}, {}});
     for (const JsonReader& table : item["tables"].items())
       studies.back().tables.push_back(read_table(table, studies));
     for (const JsonReader& measure : item["measures"].items())

@@ -34,7 +34,7 @@ std::vector<StudyResult> read(const json& document) {
   const std::string where = "results.json";
   return read_studies(JsonReader(document, where, "studies"));
 }
-std::string error_of_change(const std::function<void(json&)>& change) {
+std::string study_error(const std::function<void(json&)>& change) {
   json document = written(small_study());
   change(document);
   try {
@@ -91,39 +91,36 @@ TEST(StudyJson, RoundTrip) {
 
 TEST(StudyJson, ErrorsNameTheField) {
   const auto table = [](json& j) -> json& { return j[0]["tables"][0]; };
-  EXPECT_EQ(error_of_change([](json&) {}), "no error");
-  EXPECT_THAT(error_of_change([](json& j) { j[0]["extra"] = 1; }), HasSubstr("studies[0]: found unknown key"));
-  EXPECT_THAT(error_of_change([](json& j) { j[0]["name"] = "../x"; }), HasSubstr("studies[0].name"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["name"] = "../x"; }), HasSubstr("tables[0].name"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["name"] = "figure4"; }), HasSubstr("tables[0].name"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["extra"] = 1; }), HasSubstr("unknown key"));
-  EXPECT_THAT(error_of_change([&](json& j) { j[0]["tables"].push_back(table(j)); }),
+  EXPECT_EQ(study_error([](json&) {}), "no error");
+  EXPECT_THAT(study_error([](json& j) { j[0]["extra"] = 1; }), HasSubstr("studies[0]: found unknown key"));
+  EXPECT_THAT(study_error([](json& j) { j[0]["name"] = "../x"; }), HasSubstr("studies[0].name"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["name"] = "../x"; }), HasSubstr("tables[0].name"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["name"] = "figure4"; }), HasSubstr("tables[0].name"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["extra"] = 1; }), HasSubstr("unknown key"));
+  EXPECT_THAT(study_error([&](json& j) { j[0]["tables"].push_back(table(j)); }),
               HasSubstr("studies[0].tables[1].name: found \"sizes\", expected a name that no table has had"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["columns"][0]["unit"] = "mm"; }), HasSubstr("unknown key"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["columns"][0]["digits"] = 7; }), HasSubstr("digits"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["columns"][1]["key"] = "name"; }),
-              HasSubstr("columns[1].key"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["columns"] = json::array(); }),
-              HasSubstr("at least one column"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["name_columns"] = 3; }), HasSubstr("name_columns"));
-  EXPECT_THAT(error_of_change([&](json& j) { table(j)["name_columns"] = 0; }), HasSubstr("name_columns"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["columns"][0]["unit"] = "mm"; }), HasSubstr("unknown key"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["columns"][0]["digits"] = 7; }), HasSubstr("digits"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["columns"][1]["key"] = "name"; }), HasSubstr("columns[1].key"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["columns"] = json::array(); }), HasSubstr("at least one column"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["name_columns"] = 3; }), HasSubstr("name_columns"));
+  EXPECT_THAT(study_error([&](json& j) { table(j)["name_columns"] = 0; }), HasSubstr("name_columns"));
 }
 
 TEST(StudyJson, ErrorsInRowsAndMeasures) {
   const auto row = [](json& j) -> json& { return j[0]["tables"][0]["rows"][1]; };
   const auto measure = [](json& j) -> json& { return j[0]["measures"][0]; };
-  EXPECT_THAT(error_of_change([&](json& j) { row(j).push_back(1); }),
+  EXPECT_THAT(study_error([&](json& j) { row(j).push_back(1); }),
               HasSubstr("rows[1]: found an array of 3, expected one cell for each of columns"));
-  EXPECT_THAT(error_of_change([&](json& j) { row(j).erase(1); }), HasSubstr("rows[1]: found an array of 1"));
-  EXPECT_THAT(error_of_change([&](json& j) { row(j)[1] = true; }), HasSubstr("rows[1][1]: found true"));
-  EXPECT_THAT(error_of_change([&](json& j) { row(j)[1] = json::array(); }), HasSubstr("rows[1][1]"));
-  EXPECT_THAT(error_of_change([&](json& j) { row(j)[1] = 1e13; }), HasSubstr("rows[1][1]"));
-  EXPECT_THAT(error_of_change([&](json& j) { row(j)[1] = uint64_t{1} << 63; }), HasSubstr("rows[1][1]"));
-  EXPECT_THAT(error_of_change([&](json& j) { measure(j)["value"] = "3"; }), HasSubstr("measures[0].value"));
-  EXPECT_THAT(error_of_change([&](json& j) { measure(j)["interval"].erase("over"); }), HasSubstr("interval.over"));
-  EXPECT_THAT(error_of_change([&](json& j) { measure(j)["name"] = ""; }), HasSubstr("measures[0].name"));
-  EXPECT_THAT(error_of_change([&](json& j) { j[0]["measures"].push_back(measure(j)); }),
-              HasSubstr("measures[1].name"));
+  EXPECT_THAT(study_error([&](json& j) { row(j).erase(1); }), HasSubstr("rows[1]: found an array of 1"));
+  EXPECT_THAT(study_error([&](json& j) { row(j)[1] = true; }), HasSubstr("rows[1][1]: found true"));
+  EXPECT_THAT(study_error([&](json& j) { row(j)[1] = json::array(); }), HasSubstr("rows[1][1]"));
+  EXPECT_THAT(study_error([&](json& j) { row(j)[1] = 1e13; }), HasSubstr("rows[1][1]"));
+  EXPECT_THAT(study_error([&](json& j) { row(j)[1] = uint64_t{1} << 63; }), HasSubstr("rows[1][1]"));
+  EXPECT_THAT(study_error([&](json& j) { measure(j)["value"] = "3"; }), HasSubstr("measures[0].value"));
+  EXPECT_THAT(study_error([&](json& j) { measure(j)["interval"].erase("over"); }), HasSubstr("interval.over"));
+  EXPECT_THAT(study_error([&](json& j) { measure(j)["name"] = ""; }), HasSubstr("measures[0].name"));
+  EXPECT_THAT(study_error([&](json& j) { j[0]["measures"].push_back(measure(j)); }), HasSubstr("measures[1].name"));
 }
 
 TEST(StudyJson, WritersRefuseWhatReadersWould) {

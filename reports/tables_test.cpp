@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> lines_of_table(const std::string& text) {
   std::istringstream in(text);
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
@@ -34,7 +34,7 @@ Tr1  20_postures     |     -      -      -     -|     -      -      -     -|    
 TEST(Figure4Table, FitsA120ColumnTerminal) {
   RunResult result = full_result();
   result.experiments[0].aggregates[metric_index("position_error_mm")].mean = 12345.678;
-  for (const std::string& line : lines_of(figure4_table(result, paper_numbers(), {})))
+  for (const std::string& line : lines_of_table(figure4_table(result, paper_numbers(), {})))
     EXPECT_LE(line.size(), 120u) << line;
 }
 
@@ -46,7 +46,7 @@ TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
 }
 
 TEST(Figure4Csv, OneLineAnExperiment) {
-  const std::vector<std::string> lines = lines_of(figure4_csv(small_result(), paper_numbers(), {}));
+  const std::vector<std::string> lines = lines_of_table(figure4_csv(small_result(), paper_numbers(), {}));
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
             "trajectory,database,truth,subject,seeds,frames,coverage,"
@@ -62,7 +62,7 @@ TEST(Figure4Csv, OneLineAnExperiment) {
 }
 
 TEST(FramesCsv, LostFramesHaveEmptyCells) {
-  const std::vector<std::string> lines = lines_of(frames_csv(small_result().experiments[0]));
+  const std::vector<std::string> lines = lines_of_table(frames_csv(small_result().experiments[0]));
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_THAT(lines[0], testing::StartsWith("seed,frame,timestamp_us,status,covered,"));
   EXPECT_EQ(lines[1],
@@ -74,7 +74,7 @@ TEST(FramesCsv, LostFramesHaveEmptyCells) {
 TEST(CurveCsv, StandsBesideThePapersCurve) {
   PaperCurve paper = paper_numbers().figure_5;
   paper.frames.resize(1);
-  const std::vector<std::string> lines = lines_of(curve_csv(small_result().experiments[0], paper));
+  const std::vector<std::string> lines = lines_of_table(curve_csv(small_result().experiments[0], paper));
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[1], "1,0,0,tracked,3.0,2.0,1.0,3.48071,1.47e-13,4.35094");
   EXPECT_EQ(lines[2], "1,1,66666,poor_match,,,,,,") << "lost, and the paper's curve has ended";

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/random.h"
@@ -12,7 +13,7 @@
 namespace glovebench::trajectories {
 namespace {
 
-const std::string kFolder = GLOVEBENCH_TRAJECTORIES "/data";
+const std::string kCorruptedFolder = build_paths::source("trajectories/data");
 
 struct Token {
   size_t begin;
@@ -93,7 +94,7 @@ void expect_both(const Outcome& outcome) {
 }
 
 TEST(Corruption, of_trajectories) {
-  Trajectory trajectory = load_trajectory(kFolder + "/sources/Tr1.json");
+  Trajectory trajectory = load_trajectory(kCorruptedFolder + "/sources/Tr1.json");
   trajectory.frames.resize(6);
   expect_both(try_corruptions(canonical_text(trajectory), "trajectory", 3000, [](const std::string& text) {
     return canonical_text(parse_trajectory(text, "damaged"));
@@ -101,14 +102,14 @@ TEST(Corruption, of_trajectories) {
 }
 
 TEST(Corruption, of_posture_sets) {
-  const std::string text = read_file(kFolder + "/postures/DB_open_pinch.json");
+  const std::string text = read_file(kCorruptedFolder + "/postures/DB_open_pinch.json");
   expect_both(try_corruptions(text, "postures", 2000, [](const std::string& damaged) {
     return canonical_text(parse_postures_json(damaged, "damaged"));
   }));
 }
 
 TEST(Corruption, of_posture_tables) {
-  const std::string text = read_file(kFolder + "/gestures.csv");
+  const std::string text = read_file(kCorruptedFolder + "/gestures.csv");
   const auto parse = [](const std::string& damaged) {
     const PostureSet set = parse_postures_csv(damaged, "gestures", "damaged");
     parse_postures_json(canonical_text(set), "damaged");

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/file.h"
 #include "core/camera/rgbd_calibration.h"
@@ -17,10 +18,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kFolder = GLOVEBENCH_TRAJECTORIES "/data";
+const std::string kFolder = build_paths::source("trajectories/data");
 
 const HandModel& right_hand() {
-  static const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH);
+  static const HandModel model = HandModel::load(build_paths::hand_mesh());
   return model;
 }
 
@@ -210,7 +211,7 @@ TEST(DataFiles, are_what_the_generator_makes) {
 }
 
 TEST(DataFiles, can_be_written_like_the_example_of_the_readme) {
-  const std::string readme = read_file(GLOVEBENCH_TRAJECTORIES "/README.md");
+  const std::string readme = read_file(build_paths::source("trajectories/README.md"));
   const std::string begin = "```json\n";
   const size_t at = readme.find(begin) + begin.size();
   const Trajectory example = parse_trajectory(readme.substr(at, readme.find("```", at) - at), "README.md");
@@ -219,7 +220,8 @@ TEST(DataFiles, can_be_written_like_the_example_of_the_readme) {
 }
 
 TEST(DataFiles, are_described_by_the_table_of_the_readme) {
-  EXPECT_THAT(read_file(GLOVEBENCH_TRAJECTORIES "/README.md"), HasSubstr(source_properties_table(kFolder)));
+  EXPECT_THAT(read_file(build_paths::source("trajectories/README.md")),
+              HasSubstr(source_properties_table(kFolder)));
 }
 
 }  // namespace

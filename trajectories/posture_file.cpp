@@ -19,8 +19,8 @@
 namespace glovebench::trajectories {
 namespace {
 
-constexpr const char* kFormat = "glovebench-postures";
-constexpr int kVersion = 1;
+constexpr const char* kPostureSetFormat = "glovebench-postures";
+constexpr int kPostureSetVersion = 1;
 
 void expect_headings(const std::vector<std::string_view>& headings, const std::string& where) {
   constexpr size_t column_count = kAngleCount + 1;
@@ -50,7 +50,7 @@ void expect_new_name(const std::string& name, std::set<std::string>& names, cons
 std::string canonical_json(const PostureSet& set) {
   std::string json = fmt::format(
       "{{\n  \"format\": {},\n  \"version\": {},\n  \"name\": {},\n  \"joint_order\": {},\n  \"postures\": [\n",
-      in_quotes(kFormat), kVersion, in_quotes(set.name), joint_order_json());
+      in_quotes(kPostureSetFormat), kPostureSetVersion, in_quotes(set.name), joint_order_json());
   for (size_t i = 0; i < set.postures.size(); ++i) {
     if (i > 0) json += ",\n";
     json += fmt::format("    {{\"name\": {},\n     \"angles_deg\": {}}}", in_quotes(set.posture_names[i]),
@@ -65,7 +65,7 @@ PostureSet parse_postures_json(std::string_view text, const std::string& where) 
   const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "name", "joint_order", "postures"}, {"description"});
-  root.expect_format(kFormat, kVersion);
+  root.expect_format(kPostureSetFormat, kPostureSetVersion);
   expect_joint_order(root.member("joint_order"));
 
   PostureSet set{.name = root.member("name").name(), .posture_names = {}, .postures = {}};

@@ -15,7 +15,7 @@ using nlohmann::json;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-PostureSet example() {
+PostureSet example_postures() {
   Posture bent = Posture::Zero();
   bent[kIndexPipFlexion] = radians_from_degrees(45.125);
   return {.name = "mine", .posture_names = {"flat", "bent"}, .postures = {Posture::Zero(), bent}};
@@ -34,7 +34,7 @@ std::string row(const std::string& name, const std::string& first_cell = "0") {
 }
 
 template <typename Parse>
-std::string complaint(const Parse& parse) {
+std::string postures_complaint(const Parse& parse) {
   try {
     parse();
   } catch (const Error& e) {
@@ -44,26 +44,26 @@ std::string complaint(const Parse& parse) {
 }
 
 std::string json_complaint(const json& document) {
-  return complaint([&] { parse_postures_json(document.dump(), "my.json"); });
+  return postures_complaint([&] { parse_postures_json(document.dump(), "my.json"); });
 }
 
 std::string csv_complaint(const std::string& text) {
-  return complaint([&] { parse_postures_csv(text, "my", "my.csv"); });
+  return postures_complaint([&] { parse_postures_csv(text, "my", "my.csv"); });
 }
 
 TEST(PostureFile, json_is_a_fixed_point) {
-  const std::string text = canonical_text(example());
+  const std::string text = canonical_text(example_postures());
   const PostureSet parsed = parse_postures_json(text, "memory");
   EXPECT_EQ(parsed.name, "mine");
   EXPECT_THAT(parsed.posture_names, ElementsAre("flat", "bent"));
-  EXPECT_EQ(parsed.postures, example().postures);  // 45.125 is a multiple of the file's 0.001
+  EXPECT_EQ(parsed.postures, example_postures().postures);  // 45.125 is a multiple of the file's 0.001
   EXPECT_EQ(canonical_text(parsed), text);
 }
 
 TEST(PostureFile, loads_by_ending) {
   const std::string folder = ::testing::TempDir();
-  write_posture_set(example(), folder + "set.json");
-  EXPECT_EQ(load_posture_set(folder + "set.json").postures, example().postures);
+  write_posture_set(example_postures(), folder + "set.json");
+  EXPECT_EQ(load_posture_set(folder + "set.json").postures, example_postures().postures);
   write_file(folder + "hands.csv", headings() + row("a") + row("b"));
   const PostureSet csv = load_posture_set(folder + "hands.csv");
   EXPECT_EQ(csv.name, "hands");
@@ -97,7 +97,7 @@ TEST(PostureFile, refuses_bad_csv) {
 }
 
 TEST(PostureFile, refuses_bad_json) {
-  const json good = json::parse(canonical_text(example()));
+  const json good = json::parse(canonical_text(example_postures()));
   EXPECT_EQ(json_complaint(good), "no complaint");
   json bad = good;
   bad["postures"][1]["name"] = "flat";
@@ -114,8 +114,8 @@ TEST(PostureFile, refuses_bad_json) {
 }
 
 TEST(PostureFile, finds_postures_by_name) {
-  EXPECT_EQ(find_posture(example(), "bent"), example().postures[1]);
-  EXPECT_THROW(find_posture(example(), "fist"), Error);
+  EXPECT_EQ(find_posture(example_postures(), "bent"), example_postures().postures[1]);
+  EXPECT_THROW(find_posture(example_postures(), "fist"), Error);
 }
 
 }  // namespace

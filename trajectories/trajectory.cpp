@@ -16,8 +16,8 @@
 namespace glovebench::trajectories {
 namespace {
 
-constexpr const char* kFormat = "glovebench-trajectory";
-constexpr int kVersion = 1;
+constexpr const char* kTrajectoryFormat = "glovebench-trajectory";
+constexpr int kTrajectoryVersion = 1;
 constexpr double kQuaternionStep = 1e-7;
 
 std::string_view to_string(Side side) {
@@ -126,8 +126,8 @@ std::string frame_json(const TrajectoryFrame& frame) {
 }
 
 std::string canonical_json(const Trajectory& trajectory) {
-  std::string json = fmt::format("{{\n  \"format\": {},\n  \"version\": {},\n  \"name\": {},\n", in_quotes(kFormat),
-                                 kVersion, in_quotes(trajectory.name));
+  std::string json = fmt::format("{{\n  \"format\": {},\n  \"version\": {},\n  \"name\": {},\n",
+                                 in_quotes(kTrajectoryFormat), kTrajectoryVersion, in_quotes(trajectory.name));
   json +=
       fmt::format("  \"description\": {},\n  \"side\": {},\n  \"kind\": {},\n", in_quotes(trajectory.description),
                   in_quotes(to_string(trajectory.side)), in_quotes(to_string(trajectory.kind)));
@@ -148,7 +148,7 @@ Trajectory parse_trajectory(std::string_view text, const std::string& where) {
   const JsonField root(document, where);
   root.expect_members({"format", "version", "name", "side", "joint_order", "frames"},
                       {"description", "kind", "provenance"});
-  root.expect_format(kFormat, kVersion);
+  root.expect_format(kTrajectoryFormat, kTrajectoryVersion);
   expect_joint_order(root.member("joint_order"));
 
   Trajectory trajectory;

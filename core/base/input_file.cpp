@@ -13,7 +13,7 @@
 namespace glovebench {
 namespace {
 
-constexpr const char* kExpected = "a readable file";
+constexpr const char* kInputExpected = "a readable file";
 
 const char* kind_name(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
@@ -35,13 +35,13 @@ void wait_for_writer(int descriptor) {
 InputFile::InputFile(const std::string& path) : path_(path) {
   // Without waiting: a device may do so for as long as it likes before it can be refused.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-  if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), kExpected);
+  if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), kInputExpected);
   struct stat status = {};
   const int error = ::fstat(descriptor_, &status) == 0 ? 0 : errno;
   const bool is_file = S_ISREG(status.st_mode), is_pipe = S_ISFIFO(status.st_mode);
   if (error != 0 || (!is_file && !is_pipe)) {
     ::close(descriptor_);
-    throw Error(path, "file", error != 0 ? std::strerror(error) : kind_name(status.st_mode), kExpected);
+    throw Error(path, "file", error != 0 ? std::strerror(error) : kind_name(status.st_mode), kInputExpected);
   }
   if (is_file) size_ = static_cast<uint64_t>(status.st_size);
   if (is_pipe) wait_for_writer(descriptor_);
@@ -55,7 +55,7 @@ size_t InputFile::read(std::span<char> room) {
   while (true) {
     const ssize_t bytes = ::read(descriptor_, room.data(), room.size());
     if (bytes >= 0) return static_cast<size_t>(bytes);
-    if (errno != EINTR) throw Error(path_, "file", std::strerror(errno), kExpected);
+    if (errno != EINTR) throw Error(path_, "file", std::strerror(errno), kInputExpected);
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kExpected = "a file that can be written";
+constexpr const char* kOutputExpected = "a file that can be written";
 
 /// The open descriptor that a link in /proc/self/fd stands for.
 std::optional<int> descriptor_of(const fs::path& link) {
@@ -34,14 +34,14 @@ std::optional<int> descriptor_of(const fs::path& link) {
 
 OutputTarget find_output(const std::string& path) {
   if (path == "-") return {.is_stream = true, .descriptor = STDOUT_FILENO, .path = path};
-  if (path.empty() || path.back() == '/') throw Error(path, "file", "a folder", kExpected);
+  if (path.empty() || path.back() == '/') throw Error(path, "file", "a folder", kOutputExpected);
   constexpr int kMostLinks = 40;  // as the kernel follows
   fs::path at = path;
   for (int links = 0; links <= kMostLinks; ++links) {
     struct stat found {};
     if (::lstat(at.c_str(), &found) != 0) return {.path = at};
     if (S_ISREG(found.st_mode)) return {.path = at, .older = found};
-    if (S_ISDIR(found.st_mode)) throw Error(path, "file", "a folder", kExpected);
+    if (S_ISDIR(found.st_mode)) throw Error(path, "file", "a folder", kOutputExpected);
     if (!S_ISLNK(found.st_mode)) return {.is_stream = true, .path = at};
     if (const auto descriptor = descriptor_of(at))
       return {.is_stream = true, .descriptor = *descriptor, .path = at};
@@ -50,10 +50,10 @@ OutputTarget find_output(const std::string& path) {
     if (is_there && !S_ISREG(behind.st_mode) && !S_ISDIR(behind.st_mode)) return {.is_stream = true, .path = at};
     std::error_code error;
     const fs::path next = fs::read_symlink(at, error);
-    if (error) throw Error(path, "link", error.message(), kExpected);
+    if (error) throw Error(path, "link", error.message(), kOutputExpected);
     at = at.parent_path() / next;  // `next` alone if it is absolute
   }
-  throw Error(path, "link", std::strerror(ELOOP), kExpected);
+  throw Error(path, "link", std::strerror(ELOOP), kOutputExpected);
 }
 
 int open_stream(const OutputTarget& target, const std::string& path) {
@@ -63,7 +63,7 @@ int open_stream(const OutputTarget& target, const std::string& path) {
   };
   int opened = open();
   while (opened < 0 && errno == EINTR) opened = open();
-  if (opened < 0) throw Error(path, "file", std::strerror(errno), kExpected);
+  if (opened < 0) throw Error(path, "file", std::strerror(errno), kOutputExpected);
   return opened;
 }
 

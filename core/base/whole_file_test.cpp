@@ -20,7 +20,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-std::string bytes(size_t count) {
+std::string some_bytes(size_t count) {
   std::string content(count, '\0');
   for (size_t i = 0; i < count; ++i) content[i] = static_cast<char>(i * 131);
   return content;
@@ -40,7 +40,7 @@ TEST(WholeFile, leaves_nothing_without_commit) {
 
 TEST(WholeFile, is_written_through_memory) {
   const TestFolder folder;
-  const std::string path = folder / "file", content = bytes(10'000);
+  const std::string path = folder / "file", content = some_bytes(10'000);
   WholeFile file(path);
   MappedMemory memory = file.map(content.size());
   EXPECT_EQ(std::ranges::count(memory.bytes(), 0), std::ssize(content));
@@ -112,7 +112,7 @@ void expect_error_and_old_content(const std::function<void(const std::string& pa
 }
 
 TEST(WholeFile, a_full_disk_is_an_error_and_leaves_the_old_content) {
-  expect_error_and_old_content([](const std::string& path) { write_file(path, bytes(300'000)); });
+  expect_error_and_old_content([](const std::string& path) { write_file(path, some_bytes(300'000)); });
 }
 
 TEST(WholeFile, a_disk_without_room_to_map_is_an_error_at_once) {

@@ -12,7 +12,7 @@
 namespace glovebench {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfinitelyFar = std::numeric_limits<float>::infinity();
 
 Eigen::Matrix3d intrinsic_matrix(const PinholeCamera& camera) {
   Eigen::Matrix3d K;
@@ -34,16 +34,17 @@ struct Extent {
 
 /// Ranges are empty where there are no values.
 Extent extent_of(const DepthImage& depth) {
-  Extent extent{RecycledVector<Span>(depth.height()), depth.width(), 0, depth.height(), 0, kInfinity, 0};
+  Extent extent{RecycledVector<Span>(depth.height()), depth.width(), 0, depth.height(), 0, kInfinitelyFar, 0};
   // Of positive numbers the order is that of their bits, which compilers know to compare side by side.
   int32_t largest = 0;
-  uint32_t least = std::bit_cast<uint32_t>(kInfinity);
+  uint32_t least = std::bit_cast<uint32_t>(kInfinitelyFar);
   for (int v = 0; v < depth.height(); ++v) {
     const float* const row = &depth(0, v);
     int32_t row_largest = 0;
     for (int u = 0; u < depth.width(); ++u) {
       const auto of_value = std::bit_cast<int32_t>(row[u]);
-      const int32_t bits = of_value <= std::bit_cast<int32_t>(kInfinity) ? of_value : 0;  // 0 for what is no number
+      const int32_t bits =
+          of_value <= std::bit_cast<int32_t>(kInfinitelyFar) ? of_value : 0;  // 0 for what is no number
       row_largest = std::max(row_largest, bits);
       least = std::min(least, static_cast<uint32_t>(bits) - 1);  // neither zero nor what is negative
     }
@@ -160,7 +161,7 @@ class NearestSurface {
                  RowProjector& projector)
       : radius_(splat_radius(calibration)),
         cells_of_(cells_of(extent, calibration, projector)),
-        nearest_(cells_of_.right - cells_of_.left, cells_of_.bottom - cells_of_.top, kInfinity) {
+        nearest_(cells_of_.right - cells_of_.left, cells_of_.bottom - cells_of_.top, kInfinitelyFar) {
     // Cell (i, j) collects the samples with floor(u) = i - radius, floor(v) = j - radius, so that the minimum over
     // the cells i .. i + 2 radius - 1 is the one over u in [i - radius, i + radius).
     const float width = static_cast<float>(calibration.rgb.width + 2 * radius_ - 1),

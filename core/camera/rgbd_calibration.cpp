@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kVersion = 1;
+constexpr int kCalibrationVersion = 1;
 constexpr double kOrthonormalTolerance = 1e-6;        // calibration tools print at least seven digits
 constexpr uint64_t kLargestFile = uint64_t{1} << 16;  // bytes: fifty times ours
 
@@ -149,7 +149,8 @@ RgbdCalibration nominal_kinect_calibration() {
 RgbdCalibration calibration_from_json(const json& json, const std::string& where) {
   const Place root{where, ""};
   require_keys(json, root, {"version", "ir", "rgb", "T_rgb_ir"}, "disparity");
-  if (json["version"] != kVersion) throw(root / "version").error(json["version"].dump(), std::to_string(kVersion));
+  if (json["version"] != kCalibrationVersion)
+    throw(root / "version").error(json["version"].dump(), std::to_string(kCalibrationVersion));
   const auto& T = json["T_rgb_ir"];
   const Place T_place = root / "T_rgb_ir";
   require_keys(T, T_place, {"rotation", "translation_m"});
@@ -170,7 +171,7 @@ json to_json(const RgbdCalibration& calibration) {
   json rotation = json::array();
   for (int row = 0; row < 3; ++row) rotation.push_back(vector_to_json(R.row(row)));
   json written = {
-      {"version", kVersion},
+      {"version", kCalibrationVersion},
       {"ir", camera_to_json(calibration.ir, calibration.ir_lens)},
       {"rgb", camera_to_json(calibration.rgb, calibration.rgb_lens)},
       {"T_rgb_ir",

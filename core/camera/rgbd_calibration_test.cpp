@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string error_of(const json& content) {
+std::string calibration_error(const json& content) {
   try {
     calibration_from_json(content, "here.json");
   } catch (const Error& e) {
@@ -82,11 +82,14 @@ TEST(Calibration, HoldsLensesOrNone) {
 
   json bad = to_json(own);
   bad["rgb"]["distortion"].erase("k3");
-  EXPECT_TRUE(starts_with(error_of(bad), "here.json: rgb.distortion.k3: found nothing")) << error_of(bad);
+  EXPECT_TRUE(starts_with(calibration_error(bad), "here.json: rgb.distortion.k3: found nothing"))
+      << calibration_error(bad);
   bad["rgb"]["distortion"]["k3"] = "0";
-  EXPECT_TRUE(starts_with(error_of(bad), "here.json: rgb.distortion.k3: found \"0\"")) << error_of(bad);
+  EXPECT_TRUE(starts_with(calibration_error(bad), "here.json: rgb.distortion.k3: found \"0\""))
+      << calibration_error(bad);
   bad["rgb"]["distortion"] = json::array({0, 0, 0, 0, 0});
-  EXPECT_TRUE(starts_with(error_of(bad), "here.json: rgb.distortion: found an array of")) << error_of(bad);
+  EXPECT_TRUE(starts_with(calibration_error(bad), "here.json: rgb.distortion: found an array of"))
+      << calibration_error(bad);
 }
 
 TEST(Calibration, NominalKinectHasItsRgbCameraToTheRight) {
@@ -97,11 +100,11 @@ TEST(Calibration, NominalKinectHasItsRgbCameraToTheRight) {
 
 TEST(Calibration, NamesTheWrongField) {
   const json good = to_json(synthetic_calibration());
-  ASSERT_EQ(error_of(good), "");
+  ASSERT_EQ(calibration_error(good), "");
   const auto error_with = [&](const char* pointer, const json& value) {
     json bad = good;
     bad[json::json_pointer(pointer)] = value;
-    return error_of(bad);
+    return calibration_error(bad);
   };
   EXPECT_TRUE(starts_with(error_with("/version", 2), "here.json: version: found 2"));
   EXPECT_TRUE(starts_with(error_with("/baseline", 1), "here.json: baseline: found an unknown key"));
@@ -134,8 +137,8 @@ TEST(Calibration, NamesTheWrongField) {
   EXPECT_TRUE(starts_with(error_with("/disparity", nullptr), "here.json: disparity: found null"));
   json missing = good;
   missing["rgb"].erase("fy_px");
-  EXPECT_TRUE(starts_with(error_of(missing), "here.json: rgb.fy_px: found nothing"));
-  EXPECT_TRUE(starts_with(error_of(json::array()), "here.json: content: found an array of 0"));
+  EXPECT_TRUE(starts_with(calibration_error(missing), "here.json: rgb.fy_px: found nothing"));
+  EXPECT_TRUE(starts_with(calibration_error(json::array()), "here.json: content: found an array of 0"));
 }
 
 TEST(Calibration, RefusesFilesThatAreNotJson) {

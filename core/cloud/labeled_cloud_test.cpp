@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-const PinholeCamera kCamera{.width = 8, .height = 6, .fx = 10, .fy = 20, .cx = 3, .cy = 2};
+const PinholeCamera kSmallCamera{.width = 8, .height = 6, .fx = 10, .fy = 20, .cx = 3, .cy = 2};
 
 /// All glove (label 1) at 0.7 m where `picture` has a letter 'n', at 0.8 m where it has an 'f'.
 LabeledCloud cloud_of(const std::vector<std::string>& picture) {
@@ -25,7 +25,7 @@ LabeledCloud cloud_of(const std::vector<std::string>& picture) {
       labels(u, v) = picture[v][u] != '.';
       depth(u, v) = picture[v][u] == 'f' ? 0.8f : 0.7f;
     }
-  return build_cloud(depth, labels, kCamera, {});
+  return build_cloud(depth, labels, kSmallCamera, {});
 }
 
 TEST(Cloud, HoldsGlovePixelsInTheVolumeInRowMajorOrder) {
@@ -38,7 +38,7 @@ TEST(Cloud, HoldsGlovePixelsInTheVolumeInRowMajorOrder) {
   labels(3, 0) = 2, depth(3, 0) = 1.1f;  // too far
   labels(4, 0) = 2, depth(4, 0) = std::numeric_limits<float>::quiet_NaN();
   depth(7, 5) = 0.5f;  // not glove
-  const LabeledCloud cloud = build_cloud(depth, labels, kCamera, {.z_min = 0.4, .z_max = 1.0});
+  const LabeledCloud cloud = build_cloud(depth, labels, kSmallCamera, {.z_min = 0.4, .z_max = 1.0});
   ASSERT_EQ(cloud.points.size(), 2u);
   // ((5 - 3) / 10 * 0.5, (1 - 2) / 20 * 0.5, 0.5) and ((1 - 3) / 10 * 0.6, (4 - 2) / 20 * 0.6, 0.6); single
   // precision.

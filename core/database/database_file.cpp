@@ -28,9 +28,9 @@ namespace {
 using nlohmann::json;
 
 static_assert(kDatabaseVersion == 4);
-constexpr std::string_view kMagic = "glovebench-database-4\n", kAnyMagic = "glovebench-database-";
-constexpr size_t kHashLength = 32;
-constexpr size_t kHeaderBegin = kMagic.size() + sizeof(uint64_t) + kHashLength;
+constexpr std::string_view kDatabaseMagic = "glovebench-database-4\n", kAnyMagic = "glovebench-database-";
+constexpr size_t kDatabaseHashLength = 32;
+constexpr size_t kHeaderBegin = kDatabaseMagic.size() + sizeof(uint64_t) + kDatabaseHashLength;
 constexpr uint64_t kMaxHeader = 256 << 20;  // of 100 million entries: 70 MB
 constexpr uint64_t kPage = 4096;
 
@@ -119,7 +119,7 @@ std::string Section::name() const {
 
 DatabaseLayout::DatabaseLayout(DatabaseHeader header) : header_(std::move(header)) {
   place(0);  // the hashes' number, and with it the header's length, does not depend on the place
-  for (const Section& section : sections()) hashes_[section.name()] = std::string(kHashLength, '0');
+  for (const Section& section : sections()) hashes_[section.name()] = std::string(kDatabaseHashLength, '0');
   place(kHeaderBegin + header_text().size());
 }
 
@@ -130,15 +130,17 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
     }
     return std::string(reinterpret_cast<const char*>(file.data()) + offset, count);
   };
-  const std::string magic = text_at(0, std::min(kMagic.size(), file.size()), "magic");
-  if (magic != kMagic) {
-    throw Error(path, "magic", magic.starts_with(kAnyMagic) ? "a database of another version" : "another format",
-                fmt::format("{} (glovebench db build makes one)", kMagic.substr(0, kMagic.size() - 1)));
+  const std::string magic = text_at(0, std::min(kDatabaseMagic.size(), file.size()), "magic");
+  if (magic != kDatabaseMagic) {
+    throw Error(
+        path, "magic", magic.starts_with(kAnyMagic) ? "a database of another version" : "another format",
+        fmt::format("{} (glovebench db build makes one)", kDatabaseMagic.substr(0, kDatabaseMagic.size() - 1)));
   }
   uint64_t length = 0;
-  std::memcpy(&length, text_at(kMagic.size(), sizeof(length), "header length").data(), sizeof(length));
+  std::memcpy(&length, text_at(kDatabaseMagic.size(), sizeof(length), "header length").data(), sizeof(length));
   if (length > kMaxHeader) throw Error(path, "header length", fmt::format("{} bytes", length), "at most 256 MiB");
-  const std::string checksum = text_at(kMagic.size() + sizeof(length), kHashLength, "header checksum");
+  const std::string checksum =
+      text_at(kDatabaseMagic.size() + sizeof(length), kDatabaseHashLength, "header checksum");
   const std::string text = text_at(kHeaderBegin, length, "header");
   if (hash_text(text) != checksum) throw Error(path, "header checksum", hash_text(text), checksum);
 
@@ -226,7 +228,7 @@ void DatabaseLayout::seal(MappedMemory& file, const std::map<int, std::vector<st
   }
   const std::string text = header_text();
   const uint64_t length = text.size();
-  std::string header(kMagic);
+  std::string header(kDatabaseMagic);
   header.append(reinterpret_cast<const char*>(&length), sizeof(length));
   header += hash_text(text) + text;
   std::memcpy(file.writable().data(), header.data(), header.size());

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/database/test_block_database.h"
@@ -166,7 +167,7 @@ TEST(Database, the_input_hash_knows_every_input) {
   other.postures[0][kLittleDipFlexion] += 1e-15;
   hashes.insert(Database::input_hash(other, model, {}));
   hashes.insert(Database::input_hash(test_postures(), model, {}));
-  hashes.insert(Database::input_hash(set, HandModel::load(GLOVEBENCH_HAND_MESH, Side::left), {}));
+  hashes.insert(Database::input_hash(set, HandModel::load(build_paths::hand_mesh(), Side::left), {}));
   for (const ViewConfig& views : {ViewConfig{.distance = 0.76}, ViewConfig{.field_of_view_deg = 25},
                                   ViewConfig{.image_size = 193}, ViewConfig{.field_cap_share = 0.51}}) {
     hashes.insert(Database::input_hash(set, model, views));

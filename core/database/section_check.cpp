@@ -13,13 +13,13 @@ namespace glovebench {
 namespace {
 
 /// The largest error of a unit vector's squared length.
-constexpr double kRounding = 1e-9;
+constexpr double kRayTolerance = 1e-9;
 
 bool are_rays(std::span<const uint8_t> piece) {
   const std::span rays(reinterpret_cast<const Eigen::Vector3d*>(piece.data()),
                        piece.size() / sizeof(Eigen::Vector3d));
   return std::ranges::all_of(rays, [](const Eigen::Vector3d& ray) {
-    return std::abs(ray.squaredNorm() - 1) <= kRounding && ray.z() > 0;  // false for NaN
+    return std::abs(ray.squaredNorm() - 1) <= kRayTolerance && ray.z() > 0;  // false for NaN
   });
 }
 

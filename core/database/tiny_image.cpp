@@ -7,7 +7,7 @@ namespace glovebench {
 namespace {
 
 /// Pixels of each label; padded to the width of vector registers.
-using Votes = Eigen::Array<uint16_t, 16, 1>;
+using LabelVotes = Eigen::Array<uint16_t, 16, 1>;
 /// Cells up to this wide have no more pixels than a vote can count.
 constexpr int kMaxCell = 250;  // px
 
@@ -32,7 +32,7 @@ uint8_t winner(const Counts& votes, int unlabeled) {
 /// What lies in each pixel column of a square, over some of its rows.
 struct Columns {
   explicit Columns(int side) : votes(side), labeled(side), labeled_before(side + 1) {}
-  RecycledVector<Votes> votes;         ///< of the labels 1..; that of 0 means nothing
+  RecycledVector<LabelVotes> votes;    ///< of the labels 1..; that of 0 means nothing
   RecycledVector<uint16_t> labeled;    ///< pixels with any label
   RecycledVector<int> labeled_before;  ///< in all columns before this one
 };
@@ -56,7 +56,7 @@ void count_columns(const LabelImage& labels, const Square& square, const CellRan
   const int right = std::clamp(labels.width() - square.left, left, square.side);
   const int top = std::clamp(square.top + rows.first, 0, labels.height());
   const int bottom = std::clamp(square.top + rows.last, top, labels.height());
-  std::fill(columns.votes.begin(), columns.votes.end(), Votes::Zero());
+  std::fill(columns.votes.begin(), columns.votes.end(), LabelVotes::Zero());
   std::fill(columns.labeled.begin(), columns.labeled.end(), uint16_t{0});
   for (int v = top; v < bottom; ++v) {
     const ptrdiff_t start = static_cast<ptrdiff_t>(v) * labels.width() + square.left;
@@ -126,7 +126,7 @@ LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int s
       const int labeled = columns.labeled_before[range.last] - columns.labeled_before[range.first];
       const int unlabeled = (rows.last - rows.first) * (range.last - range.first) - labeled;
       if (labeled < unlabeled) continue;
-      Votes votes = Votes::Zero();
+      LabelVotes votes = LabelVotes::Zero();
       for (int c = range.first; c < range.last; ++c) votes += columns.votes[c];
       tiny(cu, cv) = winner(votes, unlabeled);
     }

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/image.h"
@@ -14,7 +15,7 @@ namespace glovebench {
 namespace {
 
 const HandModel& right_hand() {
-  static const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH);
+  static const HandModel model = HandModel::load(build_paths::hand_mesh());
   return model;
 }
 
@@ -45,7 +46,7 @@ double volume(const HandModel& model, const PosedHand& hand) {
 TEST(HandModel, is_closed_after_cutting_for_both_sides_and_subjects) {
   for (const Side side : {Side::right, Side::left}) {
     for (const HandShape& shape : {HandShape{}, second_subject()}) {
-      const HandModel model = HandModel::load(GLOVEBENCH_HAND_MESH, side, shape);
+      const HandModel model = HandModel::load(build_paths::hand_mesh(), side, shape);
       expect_closed(model);
       // Outward orientation; a hand with 6 cm of forearm holds 0.2 to 0.6 litres.
       const double litres = 1000 * volume(model, model.pose(Posture::Zero()));
@@ -56,7 +57,7 @@ TEST(HandModel, is_closed_after_cutting_for_both_sides_and_subjects) {
 }
 
 TEST(HandModel, cutting_adds_no_surface_and_loses_none) {
-  const RiggedMesh mesh = load_rigged_mesh(GLOVEBENCH_HAND_MESH);
+  const RiggedMesh mesh = load_rigged_mesh(build_paths::hand_mesh());
   std::vector<PatchScores> scores = patch_scores(mesh, 0);
   const GlovedMesh cut = cut_patches(mesh, scores);
   const auto area = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
@@ -163,7 +164,7 @@ TEST(HandModel, wrist_angles_move_only_forearm_and_cuff) {
 }
 
 TEST(HandModel, left_hand_is_the_mirror_image) {
-  const HandModel left = HandModel::load(GLOVEBENCH_HAND_MESH, Side::left);
+  const HandModel left = HandModel::load(build_paths::hand_mesh(), Side::left);
   Posture posture = Posture::Zero();
   posture[kThumbCmcAbduction] = 0.4;
   posture[kIndexMcpAbduction] = 0.2;
@@ -209,7 +210,7 @@ TEST(HandModel, its_hash_does_not_depend_on_the_instruction_set) {
 }
 
 TEST(HandModel, second_subject_is_five_percent_larger_with_other_segments) {
-  const HandModel other = HandModel::load(GLOVEBENCH_HAND_MESH, Side::right, second_subject());
+  const HandModel other = HandModel::load(build_paths::hand_mesh(), Side::right, second_subject());
   const PosedHand a = right_hand().pose(Posture::Zero()), b = other.pose(Posture::Zero());
   const auto length = [](const PosedHand& hand, int from, int to) {
     return (hand.T_hand_joint[from].translation() - hand.T_hand_joint[to].translation()).norm();
@@ -224,7 +225,7 @@ TEST(HandModel, refuses_a_missing_or_altered_mesh) {
   EXPECT_THROW(HandModel::load("no-such-file.glb"), Error);
   const std::string path = testing::TempDir() + "altered.glb";
   {
-    std::ifstream in(GLOVEBENCH_HAND_MESH, std::ios::binary);
+    std::ifstream in(build_paths::hand_mesh(), std::ios::binary);
     std::string content((std::istreambuf_iterator<char>(in)), {});
     content[5000] ^= 1;
     std::ofstream(path, std::ios::binary) << content;

@@ -6,12 +6,12 @@ namespace glovebench {
 namespace {
 
 /// Joint at the base of each of the 15 segments.
-constexpr std::array<int, 15> kSegmentJoint = {1, 2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23};
+constexpr std::array<int, 15> kScaledJoint = {1, 2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23};
 
 std::array<double, kJointCount> stretch_by_joint(const HandShape& shape) {
   std::array<double, kJointCount> stretch;
   stretch.fill(1.0);
-  for (size_t s = 0; s < kSegmentJoint.size(); ++s) stretch[kSegmentJoint[s]] = shape.segment_scale[s];
+  for (size_t s = 0; s < kScaledJoint.size(); ++s) stretch[kScaledJoint[s]] = shape.segment_scale[s];
   return stretch;
 }
 

@@ -6,16 +6,17 @@
 namespace glovebench {
 namespace {
 
-constexpr double kNumerator = 345.489;  // m; f * 75 mm baseline * 8 steps a px
-constexpr double kInfinity = 1089.41;   // disparity at infinite depth
+constexpr double kNumerator = 345.489;            // m; f * 75 mm baseline * 8 steps a px
+constexpr double kDisparityAtInfinity = 1089.41;  // disparity at infinite depth
 
-constexpr double kLeastInverse = (kInfinity - kMaxDisparity - 0.5) / kNumerator;  // 1/m
+constexpr double kLeastInverse = (kDisparityAtInfinity - kMaxDisparity - 0.5) / kNumerator;  // 1/m
 
 using DepthTable = std::array<float, 2048>;
 
 constexpr DepthTable kDepths = [] {
   DepthTable depths{};
-  for (int raw = 0; raw <= kMaxDisparity; ++raw) depths[raw] = static_cast<float>(kNumerator / (kInfinity - raw));
+  for (int raw = 0; raw <= kMaxDisparity; ++raw)
+    depths[raw] = static_cast<float>(kNumerator / (kDisparityAtInfinity - raw));
   return depths;
 }();
 
@@ -33,7 +34,7 @@ float depth_from_disparity(uint16_t raw) {
 
 uint16_t disparity_from_depth(double z) {
   if (!(z > 0) || !std::isfinite(z)) return kNoDisparity;
-  const double raw = std::round(kInfinity - kNumerator / z);
+  const double raw = std::round(kDisparityAtInfinity - kNumerator / z);
   return raw >= 0 && raw <= kMaxDisparity ? static_cast<uint16_t>(raw) : kNoDisparity;
 }
 

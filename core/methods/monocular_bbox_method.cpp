@@ -102,7 +102,7 @@ TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver
   return result;
 }
 
-std::unique_ptr<Method> make(const MethodInputs& inputs) {
+std::unique_ptr<Method> make_monocular_bbox(const MethodInputs& inputs) {
   return std::make_unique<MonocularBbox>(inputs);
 }
 
@@ -110,7 +110,7 @@ std::unique_ptr<Method> make(const MethodInputs& inputs) {
 
 MethodEntry monocular_bbox_method() {
   return {"monocular_bbox", "the color image alone: the paper's look-up, depth from the size of the bounding box",
-          make};
+          make_monocular_bbox};
 }
 
 }  // namespace glovebench

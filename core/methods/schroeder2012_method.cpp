@@ -15,14 +15,15 @@ class Schroeder2012 : public Method {
   Tracker tracker_;
 };
 
-std::unique_ptr<Method> make(const MethodInputs& inputs) {
+std::unique_ptr<Method> make_schroeder2012(const MethodInputs& inputs) {
   return std::make_unique<Schroeder2012>(inputs);
 }
 
 }  // namespace
 
 MethodEntry schroeder2012_method() {
-  return {"schroeder2012", "the paper's: look-up by color and depth, color-sensitive ICP on the point cloud", make};
+  return {"schroeder2012", "the paper's: look-up by color and depth, color-sensitive ICP on the point cloud",
+          make_schroeder2012};
 }
 
 }  // namespace glovebench

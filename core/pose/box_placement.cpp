@@ -6,7 +6,7 @@
 namespace glovebench {
 namespace {
 
-constexpr int kMaxIterations = 20;
+constexpr int kMaxPlacements = 20;
 constexpr double kTolerance_px = 0.01;  // at arm's length 0.05 mm of depth: far below what a pixel tells
 constexpr double kFirstGuess_m = 0.7;   // the middle of the working volume; three steps reach its ends
 constexpr double kNearest_m = 1e-3;     // nearer points have no useful projection
@@ -44,7 +44,7 @@ std::optional<BoxPlacement> place_in_square(std::span<const Eigen::Vector3f> poi
     const Eigen::Vector2d off_px = observed.middle_px - found->middle_px;
     result.converged =
         off_px.cwiseAbs().maxCoeff() < kTolerance_px && std::abs(observed.side_px - found->side_px) < kTolerance_px;
-    if (result.converged || result.iterations == kMaxIterations) return result;
+    if (result.converged || result.iterations == kMaxPlacements) return result;
     // Along the ray of the origin, which leaves the middle nearly where it is, then across.
     T.translation() *= found->side_px / observed.side_px;
     T.translation().x() += off_px.x() / camera.fx * T.translation().z();

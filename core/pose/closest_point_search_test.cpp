@@ -14,17 +14,17 @@ namespace {
 using render::test_hand;
 using Points = RecycledVector<LabeledPoint>;
 
-Eigen::Vector3f random_point(RandomStream& random, double reach) {
+Eigen::Vector3f point_within(RandomStream& random, double reach) {
   return {static_cast<float>(random.uniform(-reach, reach)), static_cast<float>(random.uniform(-reach, reach)),
           static_cast<float>(random.uniform(-reach, reach))};
 }
 
 /// Points of all labels in and around the hand.
-Points points_around_the_hand(int count) {
+Points points_of_all_labels(int count) {
   RandomStream random(1, "closest", 0, "points");
   Points points;
   for (int i = 0; i < count; ++i) {
-    points.push_back({random_point(random, 0.12), static_cast<uint8_t>(1 + random.index(kColorCount))});
+    points.push_back({point_within(random, 0.12), static_cast<uint8_t>(1 + random.index(kColorCount))});
   }
   return points;
 }
@@ -59,8 +59,8 @@ std::vector<Points> motions(Points points) {
   std::vector<Points> sequence;
   for (const double step : {0.0, 0.03, 0.01, 3e-3, 1e-3, 3e-4, 1e-4, 0.0, 1e-5, 1e-6, 0.1, 1e-4, 1e-4, 1e-7, 0.0}) {
     Eigen::Isometry3f T = Eigen::Isometry3f::Identity();
-    T.linear() = Eigen::AngleAxisf(static_cast<float>(5 * step), random_point(random, 1).normalized()).matrix();
-    T.translation() = random_point(random, step);
+    T.linear() = Eigen::AngleAxisf(static_cast<float>(5 * step), point_within(random, 1).normalized()).matrix();
+    T.translation() = point_within(random, step);
     for (LabeledPoint& point : points) point.p = T * point.p;
     sequence.push_back(points);
   }
@@ -72,17 +72,17 @@ Surface test_surface(Surface::Coloring coloring = Surface::Coloring::by_color) {
 }
 
 TEST(ClosestPointSearch, equals_the_plain_one_bit_for_bit_however_the_points_move) {
-  expect_plain_answers(test_surface(), motions(points_around_the_hand(400)));
+  expect_plain_answers(test_surface(), motions(points_of_all_labels(400)));
 }
 
 TEST(ClosestPointSearch, equals_the_plain_one_on_a_surface_of_any_color) {
-  Points points = points_around_the_hand(60);
+  Points points = points_of_all_labels(60);
   for (LabeledPoint& point : points) point.label = Surface::kAnyColor;
   expect_plain_answers(test_surface(Surface::Coloring::any_color), motions(points));
 }
 
 TEST(ClosestPointSearch, many_small_steps_do_not_add_up_to_an_error) {
-  Points points = points_around_the_hand(150);
+  Points points = points_of_all_labels(150);
   std::vector<Points> sequence;
   for (int i = 0; i < 100; ++i) {
     for (LabeledPoint& point : points) point.p += Eigen::Vector3f(4e-4f, -2e-4f, 3e-4f);
@@ -130,8 +130,8 @@ PosedHand collapsed_hand() {
     Eigen::Vector3f& c = hand.vertices[triangle.vertices[2]];
     const auto share = static_cast<float>(random.uniform(0, 1));
     if (i % 3 == 0) c = a + share * (b - a);                                   // in the middle of an edge
-    if (i % 3 == 1) c = a + 3 * share * (b - a) + random_point(random, 1e-7);  // beyond it, almost
-    if (i % 3 == 2) b = a + random_point(random, 1e-8);                        // nearly a spot
+    if (i % 3 == 1) c = a + 3 * share * (b - a) + point_within(random, 1e-7);  // beyond it, almost
+    if (i % 3 == 2) b = a + point_within(random, 1e-8);                        // nearly a spot
   }
   return hand;
 }
@@ -146,7 +146,7 @@ int thin_faces(const Surface& surface) {
 TEST(ClosestPointSearch, equals_the_plain_one_where_faces_have_collapsed) {
   const Surface surface(test_hand(), collapsed_hand(), {0.1f, 0.7f, 0.1f});
   ASSERT_GT(thin_faces(surface), 50);
-  Points points = points_around_the_hand(300);
+  Points points = points_of_all_labels(300);
   for (uint8_t label = 1; label <= kColorCount; ++label)
     for (const Surface::Face& face : surface.faces(label)) points.push_back({face.b, label});
   expect_plain_answers(surface, motions(points));
@@ -157,11 +157,11 @@ TEST(ClosestPointSearch, equals_the_plain_one_where_vertices_are_not_finite) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
   for (size_t i = 0; i < 60; ++i) hand.vertices[13 * i][i % 3] = i % 2 == 0 ? kNan : kInf;
   const Surface surface(test_hand(), hand, {0.1f, 0.7f, 0.1f});
-  expect_plain_answers(surface, motions(points_around_the_hand(200)));
+  expect_plain_answers(surface, motions(points_of_all_labels(200)));
 }
 
 TEST(ClosestPointSearch, a_point_that_is_not_finite_has_none_and_may_become_finite) {
-  const Points finite = points_around_the_hand(60);
+  const Points finite = points_of_all_labels(60);
   Points broken = finite;
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
   const float values[] = {kNan, kInf, -kInf, 1e30f, 1e19f, 1e15f, 1e6f};  // the last three have squares
@@ -176,13 +176,13 @@ TEST(ClosestPointSearch, no_points_no_faces_and_colors_without_faces) {
   // From inside the palm of the open hand no face of color 7 looks at the viewer.
   const Surface from_inside(test_hand(), test_hand().pose(Posture::Zero()), {0.0003f, -0.0091f, 0.0078f});
   ASSERT_TRUE(from_inside.faces(7).empty());
-  const Points points = points_around_the_hand(100);
+  const Points points = points_of_all_labels(100);
   expect_plain_answers(from_inside, {points, points, {}, points});
   expect_plain_answers(Surface(), {points, {}, points});
 }
 
 TEST(ClosestPointSearch, points_may_change_their_labels_and_their_number) {
-  const Points points = points_around_the_hand(150);
+  const Points points = points_of_all_labels(150);
   Points others = points;
   for (LabeledPoint& point : others) point.label = static_cast<uint8_t>(1 + point.label % kColorCount);
   const Points fewer(others.begin(), others.begin() + 50);
@@ -202,14 +202,14 @@ TEST(ClosestPointSearch, equals_the_plain_one_near_vertices_of_thin_faces) {
   std::vector<Points> sequence = {points};
   RandomStream random(1, "closest", 0, "nudges");
   for (const double nudge : {1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 1e-5, 0.0}) {
-    for (LabeledPoint& point : points) point.p += random_point(random, nudge);
+    for (LabeledPoint& point : points) point.p += point_within(random, nudge);
     sequence.push_back(points);
   }
   expect_plain_answers(surface, sequence);
 }
 
 TEST(ClosestPointSearch, starts_anew_on_another_surface) {
-  const Points points = points_around_the_hand(100);
+  const Points points = points_of_all_labels(100);
   const Surface first = test_surface(), second(test_hand(), test_hand().pose(Posture::Zero()), {0, -0.7f, 0});
   ClosestPointSearch search(first);
   search(points);
@@ -224,8 +224,8 @@ TEST(RoundingBlur, bounds_how_far_outside_a_face_its_closest_point_comes_to_lie)
   double largest = 0;
   for (int i = 0; i < 200'000; ++i) {
     const double thinness = std::pow(10, random.uniform(-4.5, 0));
-    const Eigen::Vector3f a = random_point(random, 0.1), along = random_point(random, 0.004);
-    const Eigen::Vector3f across = static_cast<float>(thinness) * random_point(random, 0.004);
+    const Eigen::Vector3f a = point_within(random, 0.1), along = point_within(random, 0.004);
+    const Eigen::Vector3f across = static_cast<float>(thinness) * point_within(random, 0.004);
     const auto share = static_cast<float>(random.uniform(-0.2, 1.2));
     const Surface::Face face{a, a + along, a + share * along + across, 0};
     const float blur = rounding_blur(face);

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-double angle_deg(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+double rotation_apart_deg(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return degrees_from_radians(Quaterniond(a).angularDistance(Quaterniond(b)));
 }
 
@@ -102,8 +102,8 @@ TEST(Interpolate, turns_the_view_to_the_ray_of_a_hand_beside_the_optical_axis) {
       const CoarseEstimate estimate = interpolate(database, matches, square_ray(square, kinect), 0.01);
       // A pixel of the box is 0.1 degrees, the stretch of a plane image at 17 degrees off the axis moves the box's
       // middle by less than one; without the correction the error is the whole turn, 14 to 18 degrees.
-      EXPECT_LT(angle_deg(estimate.R_camera_hand, T_camera_hand.linear()), 1.0);
-      EXPECT_GT(angle_deg(view_rotations()[Database::view(entry)], T_camera_hand.linear()), 10);
+      EXPECT_LT(rotation_apart_deg(estimate.R_camera_hand, T_camera_hand.linear()), 1.0);
+      EXPECT_GT(rotation_apart_deg(view_rotations()[Database::view(entry)], T_camera_hand.linear()), 10);
     }
   }
 }

@@ -29,19 +29,20 @@ void visit_fields(Limits& limits, Visit&& visit) {
   visit("stop_after_s", limits.stop_after_s);
 }
 
-void read(double& value, const json& found, const std::string& where, const std::string& field) {
+void read_limit(double& value, const json& found, const std::string& where, const std::string& field) {
   if (!found.is_number()) throw Error(where, field, excerpt(found), "a number");
   value = found;
 }
-void read(Eigen::Vector3d& value, const json& found, const std::string& where, const std::string& field) {
+void read_limit(Eigen::Vector3d& value, const json& found, const std::string& where, const std::string& field) {
   if (!found.is_array() || found.size() != 3) throw Error(where, field, excerpt(found), "x, y and z");
-  for (size_t i = 0; i < 3; ++i) read(value[static_cast<int>(i)], found[i], where, fmt::format("{}[{}]", field, i));
+  for (size_t i = 0; i < 3; ++i)
+    read_limit(value[static_cast<int>(i)], found[i], where, fmt::format("{}[{}]", field, i));
 }
 
-json written(double value) {
+json written_limit(double value) {
   return value;
 }
-json written(const Eigen::Vector3d& value) {
+json written_limit(const Eigen::Vector3d& value) {
   return {value.x(), value.y(), value.z()};
 }
 
@@ -53,7 +54,7 @@ CommandLimits command_limits_from_json(const json& j, const std::string& where) 
   std::vector<std::string> keys;
   visit_fields(limits, [&](const char* key, auto& value) {
     keys.emplace_back(key);
-    if (j.contains(key)) read(value, j[key], where, key);
+    if (j.contains(key)) read_limit(value, j[key], where, key);
   });
   for (const auto& [key, unused] : j.items())
     if (std::ranges::find(keys, key) == keys.end())
@@ -65,7 +66,7 @@ CommandLimits command_limits_from_json(const json& j, const std::string& where) 
 
 json to_json(const CommandLimits& limits) {
   json j;
-  visit_fields(limits, [&](const char* key, const auto& value) { j[key] = written(value); });
+  visit_fields(limits, [&](const char* key, const auto& value) { j[key] = written_limit(value); });
   return j;
 }
 

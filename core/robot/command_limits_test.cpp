@@ -14,7 +14,7 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string error_of(const json& limits) {
+std::string limits_error(const json& limits) {
   try {
     command_limits_from_json(limits, "limits.json");
   } catch (const Error& error) {
@@ -53,24 +53,26 @@ TEST(CommandLimitsJson, KeepsTheDefaultsOfWhatIsNotThere) {
 }
 
 TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
-  EXPECT_THAT(error_of(json::array()), HasSubstr("limits.json: limits: found an array of 0, expected an object"));
-  EXPECT_THAT(error_of({{"hand_sped_m_s", 1}}),
+  EXPECT_THAT(limits_error(json::array()),
+              HasSubstr("limits.json: limits: found an array of 0, expected an object"));
+  EXPECT_THAT(limits_error({{"hand_sped_m_s", 1}}),
               AllOf(HasSubstr("\"hand_sped_m_s\": found an unknown key"), HasSubstr("hand_speed_m_s")));
-  EXPECT_THAT(error_of({{"hand_speed_m_s", "fast"}}),
+  EXPECT_THAT(limits_error({{"hand_speed_m_s", "fast"}}),
               HasSubstr("limits.json: hand_speed_m_s: found \"fast\", expected a number"));
-  EXPECT_THAT(error_of({{"hand_speed_m_s", 0}}), HasSubstr("hand_speed is not above 0"));
-  EXPECT_THAT(error_of({{"arm_speed_share", 1.5}}), HasSubstr("arm_speed_share"));
-  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0}}}),
+  EXPECT_THAT(limits_error({{"hand_speed_m_s", 0}}), HasSubstr("hand_speed is not above 0"));
+  EXPECT_THAT(limits_error({{"arm_speed_share", 1.5}}), HasSubstr("arm_speed_share"));
+  EXPECT_THAT(limits_error({{"workspace_min_m", {0, 0}}}),
               HasSubstr("workspace_min_m: found an array of 2, expected x, y and z"));
-  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, nullptr}}}), HasSubstr("workspace_min_m[2]: found null"));
-  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, 3}}}), HasSubstr("the workspace is empty"));
-  EXPECT_THAT(error_of({{"workspace_min_m", {0, 0, 1.8}}}),
+  EXPECT_THAT(limits_error({{"workspace_min_m", {0, 0, nullptr}}}), HasSubstr("workspace_min_m[2]: found null"));
+  EXPECT_THAT(limits_error({{"workspace_min_m", {0, 0, 3}}}), HasSubstr("the workspace is empty"));
+  EXPECT_THAT(limits_error({{"workspace_min_m", {0, 0, 1.8}}}),
               HasSubstr("a side of the workspace is shorter than 0.3 m"));
-  EXPECT_THAT(error_of({{"fingertip_speed_m_s", -0.5}}), HasSubstr("fingertip_speed is not above 0"));
-  EXPECT_THAT(error_of({{"stop_after_s", 1e99}}), HasSubstr("stop_after_s is not silence_s to 60"));
-  EXPECT_THAT(error_of({{"longest_step_s", 3}}), HasSubstr("longest_step_s"));
-  EXPECT_THAT(error_of({{"silence_s", 2}}), HasSubstr("stop_after_s is not silence_s to 60"));
-  EXPECT_THAT(error_of({{"stop_after_s", std::numeric_limits<double>::infinity()}}), HasSubstr("limits.json: "));
+  EXPECT_THAT(limits_error({{"fingertip_speed_m_s", -0.5}}), HasSubstr("fingertip_speed is not above 0"));
+  EXPECT_THAT(limits_error({{"stop_after_s", 1e99}}), HasSubstr("stop_after_s is not silence_s to 60"));
+  EXPECT_THAT(limits_error({{"longest_step_s", 3}}), HasSubstr("longest_step_s"));
+  EXPECT_THAT(limits_error({{"silence_s", 2}}), HasSubstr("stop_after_s is not silence_s to 60"));
+  EXPECT_THAT(limits_error({{"stop_after_s", std::numeric_limits<double>::infinity()}}),
+              HasSubstr("limits.json: "));
 }
 
 }  // namespace

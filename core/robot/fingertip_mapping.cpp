@@ -20,7 +20,7 @@ constexpr double kPinched = 0.025, kApart = 0.09;  // m
 // `glovebench list mapping` shows what these lead to.
 constexpr double kDistanceScale = 0.002;                   // m
 constexpr double kAngleScale = 0.35, kSpreadScale = 0.08;  // rad
-constexpr int kMaxIterations = 50;
+constexpr int kMaxMappingIterations = 50;
 constexpr double kSmallStep = 1e-9;  // rad
 
 /// 1 if pinched, 0 if apart, smooth between.
@@ -164,7 +164,7 @@ Vector fitted(const Goal& goal, const Motion& motion, const Vector& start) {
   Vector motors = start.cwiseMax(motion.lowest).cwiseMin(motion.highest);
   Fit fit = evaluate(goal, motion, motors);
   double damping = 1e-4;
-  for (int iteration = 0; iteration < kMaxIterations && damping < 1e8; ++iteration) {
+  for (int iteration = 0; iteration < kMaxMappingIterations && damping < 1e8; ++iteration) {
     const Vector step = damped_step(fit, damping, motion, motors);
     const Vector next = (motors + step).cwiseMax(motion.lowest).cwiseMin(motion.highest);
     const Fit next_fit = evaluate(goal, motion, next);

@@ -13,33 +13,33 @@ namespace {
 
 using enum Intervention;
 
-constexpr int64_t kFrame_us = 66'667;
-constexpr double kFrame = 66'667e-6;  // s
-constexpr double kRounding = 1e-12;   // of sums and differences of numbers around 1
+constexpr int64_t kFingertipFrame_us = 66'667;
+constexpr double kFingertipFrame = 66'667e-6;  // s
+constexpr double kFingertipRounding = 1e-12;   // of sums and differences of numbers around 1
 
-double joint(const std::optional<RobotCommand>& command, ShadowJoint j) {
+double joint_of(const std::optional<RobotCommand>& command, ShadowJoint j) {
   return command->targets->hand.joints[j];
 }
 
 TEST(GuardedFingertips, HandFingersAndArmAreSlowedDownByOneFactor) {
   CommandGuard guard;
-  RobotCommand start = good_command(kFrame_us);
+  RobotCommand start = good_command(kFingertipFrame_us);
   start.targets->arm = ArmJoints{};
   guard.guard(start);
-  RobotCommand jump = good_command(2 * kFrame_us);
+  RobotCommand jump = good_command(2 * kFingertipFrame_us);
   set_joint(*jump.targets, kFFJ3, 1.5);
   set_joint(*jump.targets, kTHJ4, 0.5);
   jump.targets->T_base_hand.translation().x() -= 1;
   jump.targets->T_base_hand.linear() = Eigen::AngleAxisd(1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   jump.targets->arm = ArmJoints{0.4, 0, 0, 0.3, 0, 0, 0};
   const std::optional<RobotCommand> sent = guard.guard(jump);
-  const double share = CommandLimits().hand_speed * kFrame;  // of 1 m: nothing else is as slow
-  EXPECT_NEAR(0.5 - sent->targets->T_base_hand.translation().x(), share, kRounding);
+  const double share = CommandLimits().hand_speed * kFingertipFrame;  // of 1 m: nothing else is as slow
+  EXPECT_NEAR(0.5 - sent->targets->T_base_hand.translation().x(), share, kFingertipRounding);
   EXPECT_NEAR(Eigen::AngleAxisd(sent->targets->T_base_hand.linear()).angle(), share, 1e-9);
-  EXPECT_NEAR(joint(sent, kFFJ3), 1.5 * share, kRounding);
-  EXPECT_NEAR(joint(sent, kTHJ4), 0.5 * share, kRounding);
-  EXPECT_NEAR(sent->targets->arm->at(0), 0.4 * share, kRounding);
-  EXPECT_NEAR(sent->targets->arm->at(3), 0.3 * share, kRounding);
+  EXPECT_NEAR(joint_of(sent, kFFJ3), 1.5 * share, kFingertipRounding);
+  EXPECT_NEAR(joint_of(sent, kTHJ4), 0.5 * share, kFingertipRounding);
+  EXPECT_NEAR(sent->targets->arm->at(0), 0.4 * share, kFingertipRounding);
+  EXPECT_NEAR(sent->targets->arm->at(3), 0.3 * share, kFingertipRounding);
   for (const Intervention kind : {joint_speed, hand_speed, hand_turn_speed, fingertip_speed, arm_speed})
     EXPECT_EQ(sent->interventions[kind], 1) << to_string(kind);
 }
@@ -65,7 +65,7 @@ TEST(GuardedFingertips, AFingertipKeepsASpeedOfItsOwn) {
   EXPECT_EQ(sent->interventions[fingertip_speed], 1);
   for (const Intervention kind : {joint_speed, hand_speed, hand_turn_speed})
     EXPECT_EQ(sent->interventions[kind], 0);
-  EXPECT_NEAR(joint(sent, kFFJ3) / joint(fast, kFFJ3),
+  EXPECT_NEAR(joint_of(sent, kFFJ3) / joint_of(fast, kFFJ3),
               sent->targets->T_base_hand.translation().y() / fast.targets->T_base_hand.translation().y(), 1e-9)
       << "one factor";
 }
@@ -116,17 +116,17 @@ TEST(GuardedFingertips, MotorsFollowTheirJointsAndJointsTheirMotors) {
     command.targets->hand.joints[kLFJ1] = 0.6;  // above J2, and without its motor
     const bool even = model == ShadowCoupling::even;
     auto sent = guard.guard(command);
-    EXPECT_NEAR(joint(sent, kLFJ1), even ? 0.4 : 0, kRounding);
-    EXPECT_NEAR(joint(sent, kLFJ2), even ? 0.4 : 0.8, kRounding);
-    EXPECT_NEAR(sent->targets->hand.actuators[9], 0.8, kRounding) << shadow_actuator_infos()[9].name;
+    EXPECT_NEAR(joint_of(sent, kLFJ1), even ? 0.4 : 0, kFingertipRounding);
+    EXPECT_NEAR(joint_of(sent, kLFJ2), even ? 0.4 : 0.8, kFingertipRounding);
+    EXPECT_NEAR(sent->targets->hand.actuators[9], 0.8, kFingertipRounding) << shadow_actuator_infos()[9].name;
     EXPECT_EQ(sent->interventions[joint_limit], 1);
     EXPECT_EQ(sent->interventions[coupling], 0);
     command = good_command(1'000'000);
     set_joint(*command.targets, kLFJ2, 0.7);
     set_joint(*command.targets, kLFJ1, 0.1);  // under J2, but not where one motor can take both
     sent = CommandGuard(limits).guard(command);
-    EXPECT_NEAR(joint(sent, kLFJ1), even ? 0.4 : 0, kRounding);
-    EXPECT_NEAR(joint(sent, kLFJ2), even ? 0.4 : 0.8, kRounding);
+    EXPECT_NEAR(joint_of(sent, kLFJ1), even ? 0.4 : 0, kFingertipRounding);
+    EXPECT_NEAR(joint_of(sent, kLFJ2), even ? 0.4 : 0.8, kFingertipRounding);
     EXPECT_EQ(sent->interventions[joint_limit], 0);
     EXPECT_EQ(sent->interventions[coupling], 1);
     EXPECT_TRUE(sent->targets->hand.joint_clamped[kLFJ1]);
@@ -151,22 +151,22 @@ TEST(GuardedFingertips, AFingerThatTouchedSomethingComesToObeyItsCoupling) {
     set_joint(measured, kFFJ2, 0.9);
     set_joint(measured, kFFJ1, 0.3);
     guard.start_from(measured);
-    EXPECT_EQ(joint(guard.tick(0), kFFJ1), 0.3);
+    EXPECT_EQ(joint_of(guard.tick(0), kFFJ1), 0.3);
     RobotCommand goal = good_command(0);
     set_joint(*goal.targets, kFFJ2, 0.6);
     set_joint(*goal.targets, kFFJ1, 0.6);
     const CoupledJoints end = split_motor(1.2, model);
     double off = std::abs(0.3 - end.distal);
     std::optional<RobotCommand> sent;
-    for (int i = 1; i <= 60 && off > kRounding; ++i) {
+    for (int i = 1; i <= 60 && off > kFingertipRounding; ++i) {
       goal.timestamp_us = goal.frame_timestamp_us = 10'000 * i;
       sent = guard.guard(goal);
-      EXPECT_NEAR(sent->targets->hand.actuators[0], 1.2, kRounding) << "the motor stays";
-      EXPECT_LE(joint(sent, kFFJ1), joint(sent, kFFJ2));
-      const double before = std::exchange(off, std::abs(joint(sent, kFFJ1) - end.distal));
-      EXPECT_NEAR(off, std::max(0.0, before - 0.02), kRounding) << "as fast as a joint may";
+      EXPECT_NEAR(sent->targets->hand.actuators[0], 1.2, kFingertipRounding) << "the motor stays";
+      EXPECT_LE(joint_of(sent, kFFJ1), joint_of(sent, kFFJ2));
+      const double before = std::exchange(off, std::abs(joint_of(sent, kFFJ1) - end.distal));
+      EXPECT_NEAR(off, std::max(0.0, before - 0.02), kFingertipRounding) << "as fast as a joint may";
     }
-    EXPECT_LE(off, kRounding);
+    EXPECT_LE(off, kFingertipRounding);
     measured.hand.joints[kFFJ1] = 1;
     make_actuators(measured.hand);
     EXPECT_THROW(guard.start_from(measured), Error) << "J1 above J2";

@@ -7,9 +7,9 @@
 namespace glovebench {
 namespace {
 
-constexpr double kRounding = 1e-10;  // relative, of a way
-constexpr double kPrecision = 1e-3;  // of the largest share
-constexpr int kMostAttempts = 60;    // each halves what is left at least every other time
+constexpr double kWayTolerance = 1e-10;  // relative, of a way
+constexpr double kPrecision = 1e-3;      // of the largest share
+constexpr int kMostAttempts = 60;        // each halves what is left at least every other time
 
 /// Ways as multiples of the farthest that they may be: above 1 is too fast.
 struct Excess {
@@ -26,11 +26,6 @@ struct Excess {
 double between(double from, double to, double share) {
   const auto [lowest, highest] = std::minmax(from, to);
   return share < 1 ? std::clamp(from + share * (to - from), lowest, highest) : to;
-}
-
-double angle_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
-  if (from == to) return 0;
-  return Eigen::Quaterniond(from).normalized().angularDistance(Eigen::Quaterniond(to).normalized());
 }
 
 Eigen::Matrix3d turned(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, double share) {
@@ -126,8 +121,8 @@ double largest_share(const Way& way, double excess_at_end) {
   double share = 1 / excess_at_end, fine = 0, too_large = 1;
   for (int i = 0; i < kMostAttempts; ++i) {
     const double excess = way.excess(way.at(share)).largest();
-    if (excess <= 1 + kRounding && excess >= 1 - kPrecision) return share;
-    (excess <= 1 + kRounding ? fine : too_large) = share;
+    if (excess <= 1 + kWayTolerance && excess >= 1 - kPrecision) return share;
+    (excess <= 1 + kWayTolerance ? fine : too_large) = share;
     if (fine > 0 && too_large - fine <= kPrecision * fine) break;
     const double secant = share * (1 - kPrecision / 2) / excess;
     const bool is_inside = secant > fine && secant < too_large && i % 2 == 0;
@@ -144,9 +139,9 @@ RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, dou
   RobotTargets result = to;
   if (!to.arm) result.arm = from.arm;
   const Excess excess = way.excess(result);
-  if (excess.largest() <= 1 + kRounding) return result;
+  if (excess.largest() <= 1 + kWayTolerance) return result;
   for (int i = 0; i < kInterventionCount; ++i)
-    if (excess.by_kind[static_cast<size_t>(i)] > 1 + kRounding) done.add(static_cast<Intervention>(i));
+    if (excess.by_kind[static_cast<size_t>(i)] > 1 + kWayTolerance) done.add(static_cast<Intervention>(i));
   const double share = largest_share(way, excess.largest());
   result = share > 0 ? way.at(share) : from;
   result.hand.joint_clamped = to.hand.joint_clamped;

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kUnitTolerance = 1e-5;  // the four numbers are rounded to 1e-6
+constexpr double kWrittenUnitTolerance = 1e-5;  // the four numbers are rounded to 1e-6
 
 constexpr double kLargestNumber = 1e9;  // of any unit: no angle or place, but far from what overflows
 
@@ -130,7 +130,7 @@ Eigen::Isometry3d read_pose(const Field& field) {
   field.expect_keys(std::array<std::string_view, 2>{"position_m", "rotation_wxyz"});
   const std::vector<Field> p = field["position_m"].items(3), q = field["rotation_wxyz"].items(4);
   const Eigen::Quaterniond rotation(q[0].number(), q[1].number(), q[2].number(), q[3].number());
-  if (!(std::abs(rotation.norm() - 1) < kUnitTolerance))
+  if (!(std::abs(rotation.norm() - 1) < kWrittenUnitTolerance))
     field["rotation_wxyz"].fail(fmt::format("length {}", rotation.norm()), "a unit quaternion");
   return Eigen::Translation3d(p[0].number(), p[1].number(), p[2].number()) * rotation.normalized();
 }

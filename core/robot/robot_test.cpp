@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 // Sums and unit conversions of angles under 180 degrees lose at most a few units in the last place.
-constexpr double kRounding = 1e-12;
+constexpr double kLineRounding = 1e-12;
 
 Posture posture_with(std::initializer_list<std::pair<Angle, double>> angles_deg) {
   Posture posture = Posture::Zero();
@@ -86,16 +86,16 @@ TEST(ShadowHand, MapsAGraspByHand) {
                                                                      {kThumbIpFlexion, 35},
                                                                      {kWristFlexion, -25},
                                                                      {kWristAbduction, 5}}));
-  EXPECT_NEAR(actuator_deg(targets, "FFJ3"), 40, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "FFJ0"), 90, kRounding);
-  EXPECT_NEAR(joint_deg(targets, kFFJ2), 90, kRounding) << "J2 bends first";
-  EXPECT_NEAR(joint_deg(targets, kFFJ1), 0, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "THJ4"), 50, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "THJ5"), 20, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "THJ2"), 10, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "THJ1"), 35, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "WRJ1"), -25, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "WRJ2"), 5, kRounding);
+  EXPECT_NEAR(actuator_deg(targets, "FFJ3"), 40, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "FFJ0"), 90, kLineRounding);
+  EXPECT_NEAR(joint_deg(targets, kFFJ2), 90, kLineRounding) << "J2 bends first";
+  EXPECT_NEAR(joint_deg(targets, kFFJ1), 0, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "THJ4"), 50, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "THJ5"), 20, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "THJ2"), 10, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "THJ1"), 35, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "WRJ1"), -25, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "WRJ2"), 5, kLineRounding);
   EXPECT_EQ(actuator_deg(targets, "THJ3"), 0);
   EXPECT_EQ(actuator_deg(targets, "LFJ5"), 0);
   EXPECT_THAT(targets.joint_clamped, testing::Each(false));
@@ -105,20 +105,20 @@ TEST(ShadowHand, SpreadFingersAreNegativeJ4) {
   // A spread hand: index and middle turn towards the thumb, ring and little away from it.
   const ShadowHandTargets targets = map_to_shadow_hand(posture_with(
       {{kIndexMcpAbduction, 12}, {kMiddleMcpAbduction, 3}, {kRingMcpAbduction, -8}, {kLittleMcpAbduction, -15}}));
-  EXPECT_NEAR(actuator_deg(targets, "FFJ4"), -12, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "MFJ4"), -3, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "RFJ4"), -8, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "LFJ4"), -15, kRounding);
+  EXPECT_NEAR(actuator_deg(targets, "FFJ4"), -12, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "MFJ4"), -3, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "RFJ4"), -8, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "LFJ4"), -15, kLineRounding);
 }
 
 TEST(ShadowHand, ClampsToTheLimitsAndSaysWhichJoint) {
   const ShadowHandTargets targets = map_to_shadow_hand(posture_with(
       {{kWristFlexion, 45}, {kMiddlePipFlexion, 110}, {kMiddleDipFlexion, 75}, {kRingMcpFlexion, -30}}));
-  EXPECT_NEAR(joint_deg(targets, kWRJ1), 28, kRounding);
-  EXPECT_NEAR(joint_deg(targets, kMFJ2), 90, kRounding);
-  EXPECT_NEAR(joint_deg(targets, kMFJ1), 90, kRounding);
-  EXPECT_NEAR(joint_deg(targets, kRFJ3), -15, kRounding);
-  EXPECT_NEAR(actuator_deg(targets, "MFJ0"), 180, kRounding);
+  EXPECT_NEAR(joint_deg(targets, kWRJ1), 28, kLineRounding);
+  EXPECT_NEAR(joint_deg(targets, kMFJ2), 90, kLineRounding);
+  EXPECT_NEAR(joint_deg(targets, kMFJ1), 90, kLineRounding);
+  EXPECT_NEAR(joint_deg(targets, kRFJ3), -15, kLineRounding);
+  EXPECT_NEAR(actuator_deg(targets, "MFJ0"), 180, kLineRounding);
   EXPECT_EQ(std::ranges::count(targets.joint_clamped, true), 4);
   EXPECT_TRUE(targets.joint_clamped[kWRJ1] && targets.joint_clamped[kMFJ1] && targets.joint_clamped[kMFJ2] &&
               targets.joint_clamped[kRFJ3]);
@@ -135,12 +135,12 @@ TEST(ShadowHand, TheMotorKeepsItsSumAndTheCouplingSplitsIt) {
     const Posture posture = posture_with({{kLittlePipFlexion, c.pip}, {kLittleDipFlexion, c.dip}});
     const ShadowHandTargets series = map_to_shadow_hand(posture, ShadowCoupling::series),
                             even = map_to_shadow_hand(posture, ShadowCoupling::even);
-    EXPECT_NEAR(joint_deg(series, kLFJ2), c.series_j2, kRounding);
-    EXPECT_NEAR(joint_deg(series, kLFJ1), c.series_j1, kRounding);
-    EXPECT_NEAR(joint_deg(even, kLFJ2), c.even, kRounding);
-    EXPECT_NEAR(joint_deg(even, kLFJ1), c.even, kRounding);
+    EXPECT_NEAR(joint_deg(series, kLFJ2), c.series_j2, kLineRounding);
+    EXPECT_NEAR(joint_deg(series, kLFJ1), c.series_j1, kLineRounding);
+    EXPECT_NEAR(joint_deg(even, kLFJ2), c.even, kLineRounding);
+    EXPECT_NEAR(joint_deg(even, kLFJ1), c.even, kLineRounding);
     for (const ShadowHandTargets& targets : {series, even}) {
-      EXPECT_NEAR(actuator_deg(targets, "LFJ0"), c.pip + c.dip, kRounding) << "what the posture asked for";
+      EXPECT_NEAR(actuator_deg(targets, "LFJ0"), c.pip + c.dip, kLineRounding) << "what the posture asked for";
       EXPECT_THAT(targets.joint_clamped, testing::Each(false));
       EXPECT_THAT(targets.actuator_clamped, testing::Each(false));
     }
@@ -154,8 +154,8 @@ TEST(RobotCommander, TurnsThePoseIntoTheBaseFrame) {
   T_base_camera.translation() = Eigen::Vector3d(0, 0, 1);
   const RobotCommand command = RobotCommander(T_base_camera).command(tracked(5, Posture::Zero()));
   ASSERT_TRUE(command.targets);
-  EXPECT_TRUE(command.targets->T_base_hand.translation().isApprox(Eigen::Vector3d(0.1, -0.2, 0.3), kRounding));
-  EXPECT_TRUE(command.targets->T_base_hand.linear().isApprox(T_base_camera.linear(), kRounding));
+  EXPECT_TRUE(command.targets->T_base_hand.translation().isApprox(Eigen::Vector3d(0.1, -0.2, 0.3), kLineRounding));
+  EXPECT_TRUE(command.targets->T_base_hand.linear().isApprox(T_base_camera.linear(), kLineRounding));
 }
 
 TEST(RobotCommander, LooksDownOnTheWorkByDefault) {

@@ -13,7 +13,7 @@ namespace {
 
 using enum ShadowCoupling;
 
-constexpr double kRounding = 1e-12;
+constexpr double kCouplingRounding = 1e-12;
 
 CoupledJoints split_deg(double motor_deg, ShadowCoupling coupling) {
   const CoupledJoints joints = split_motor(radians_from_degrees(motor_deg), coupling);
@@ -30,10 +30,10 @@ TEST(ShadowCoupling, NamesReturn) {
 TEST(ShadowCoupling, SplitsByHand) {
   for (const auto& [motor, distal] :
        {std::pair(0.0, 0.0), {40.0, 0.0}, {90.0, 0.0}, {100.0, 10.0}, {180.0, 90.0}}) {
-    EXPECT_NEAR(split_deg(motor, series).distal, distal, kRounding) << motor;
-    EXPECT_NEAR(split_deg(motor, series).proximal, motor - distal, kRounding) << motor;
-    EXPECT_NEAR(split_deg(motor, even).distal, motor / 2, kRounding) << motor;
-    EXPECT_NEAR(split_deg(motor, even).proximal, motor / 2, kRounding) << motor;
+    EXPECT_NEAR(split_deg(motor, series).distal, distal, kCouplingRounding) << motor;
+    EXPECT_NEAR(split_deg(motor, series).proximal, motor - distal, kCouplingRounding) << motor;
+    EXPECT_NEAR(split_deg(motor, even).distal, motor / 2, kCouplingRounding) << motor;
+    EXPECT_NEAR(split_deg(motor, even).proximal, motor / 2, kCouplingRounding) << motor;
   }
 }
 
@@ -72,17 +72,17 @@ TEST(ShadowCoupling, BetweenTwoStatesTheMotorGoesStraightAndWhatIsOffTheModelFad
         const CoupledJoints joints = between(from, to, share, coupling);
         const double motor = joints.distal + joints.proximal, start = distal + proximal,
                      end = to.distal + to.proximal;
-        ASSERT_NEAR(motor, start + share * (end - start), kRounding);
+        ASSERT_NEAR(motor, start + share * (end - start), kCouplingRounding);
         ASSERT_GE(joints.distal, 0);
         ASSERT_LE(joints.distal, joints.proximal);
         ASSERT_LE(joints.proximal, right);
         const double was_off = std::exchange(off, std::abs(joints.distal - split_motor(motor, coupling).distal));
-        ASSERT_LE(off, was_off + kRounding);
+        ASSERT_LE(off, was_off + kCouplingRounding);
         if (share == 0) {
-          ASSERT_NEAR(joints.distal, distal, kRounding);
+          ASSERT_NEAR(joints.distal, distal, kCouplingRounding);
         }
         if (share == 1) {
-          ASSERT_NEAR(joints.distal, to.distal, kRounding);
+          ASSERT_NEAR(joints.distal, to.distal, kCouplingRounding);
         }
       }
     }

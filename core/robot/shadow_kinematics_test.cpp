@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/random.h"
 #include "core/hand/hand_model.h"
@@ -13,10 +14,10 @@ namespace {
 
 using Joints = std::array<double, kShadowJointCount>;
 
-constexpr double kRounding = 1e-12;  // of sums of lengths under 1 m
+constexpr double kKinematicsRounding = 1e-12;  // of sums of lengths under 1 m
 
 const Skeleton& skeleton() {
-  static const Skeleton skeleton = HandModel::load(GLOVEBENCH_HAND_MESH).skeleton();
+  static const Skeleton skeleton = HandModel::load(build_paths::hand_mesh()).skeleton();
   return skeleton;
 }
 
@@ -28,14 +29,14 @@ Eigen::Vector3d in_palm_mm(const Joints& joints, int finger) {
 TEST(ShadowKinematics, StraightFingersByHand) {
   const Joints zero{};
   const double thumb = 97.5 / std::sqrt(2);
-  EXPECT_TRUE(in_palm_mm(zero, 0).isApprox(Eigen::Vector3d(34 + thumb, -8.5, 29 + thumb), kRounding));
-  EXPECT_TRUE(in_palm_mm(zero, 1).isApprox(Eigen::Vector3d(33, 0, 191), kRounding));
-  EXPECT_TRUE(in_palm_mm(zero, 2).isApprox(Eigen::Vector3d(11, 0, 195), kRounding));
-  EXPECT_TRUE(in_palm_mm(zero, 3).isApprox(Eigen::Vector3d(-11, 0, 191), kRounding));
-  EXPECT_TRUE(in_palm_mm(zero, 4).isApprox(Eigen::Vector3d(-33, 0, 182.5), kRounding));
+  EXPECT_TRUE(in_palm_mm(zero, 0).isApprox(Eigen::Vector3d(34 + thumb, -8.5, 29 + thumb), kKinematicsRounding));
+  EXPECT_TRUE(in_palm_mm(zero, 1).isApprox(Eigen::Vector3d(33, 0, 191), kKinematicsRounding));
+  EXPECT_TRUE(in_palm_mm(zero, 2).isApprox(Eigen::Vector3d(11, 0, 195), kKinematicsRounding));
+  EXPECT_TRUE(in_palm_mm(zero, 3).isApprox(Eigen::Vector3d(-11, 0, 191), kKinematicsRounding));
+  EXPECT_TRUE(in_palm_mm(zero, 4).isApprox(Eigen::Vector3d(-33, 0, 182.5), kKinematicsRounding));
   // In the hand frame the fingers point to -z, the thumb's side is -x, and the origin is midway to the middle
   // knuckle.
-  EXPECT_TRUE(shadow_fingertips(zero).col(2).isApprox(Eigen::Vector3d(-0.0055, 0, -0.1455), kRounding));
+  EXPECT_TRUE(shadow_fingertips(zero).col(2).isApprox(Eigen::Vector3d(-0.0055, 0, -0.1455), kKinematicsRounding));
 }
 
 TEST(ShadowKinematics, BentFingersByHand) {
@@ -44,13 +45,14 @@ TEST(ShadowKinematics, BentFingersByHand) {
   joints[kTHJ4] = radians_from_degrees(70);
   joints[kLFJ4] = radians_from_degrees(20);
   // The first segment to the palm (-y), the others back to the wrist.
-  EXPECT_TRUE(in_palm_mm(joints, 1).isApprox(Eigen::Vector3d(33, -45, 95 - 51), kRounding));
+  EXPECT_TRUE(in_palm_mm(joints, 1).isApprox(Eigen::Vector3d(33, -45, 95 - 51), kKinematicsRounding));
   const double out = 97.5 * std::cos(radians_from_degrees(70)) / std::sqrt(2),
                down = 97.5 * std::sin(radians_from_degrees(70));
-  EXPECT_TRUE(in_palm_mm(joints, 0).isApprox(Eigen::Vector3d(34 + out, -8.5 - down, 29 + out), kRounding));
+  EXPECT_TRUE(
+      in_palm_mm(joints, 0).isApprox(Eigen::Vector3d(34 + out, -8.5 - down, 29 + out), kKinematicsRounding));
   EXPECT_TRUE(in_palm_mm(joints, 4).isApprox(Eigen::Vector3d(-33 + 96 * std::sin(radians_from_degrees(20)), 0,
                                                              86.5 + 96 * std::cos(radians_from_degrees(20))),
-                                             kRounding));
+                                             kKinematicsRounding));
 }
 
 TEST(ShadowKinematics, TheWristCarriesTheHand) {

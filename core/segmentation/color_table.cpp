@@ -16,11 +16,12 @@ namespace {
 
 // File: this line with the space ("yuv" or "rgb") at its end, the hash of the labels (32 hexadecimal digits) and a
 // line feed, then one byte a cell.
-constexpr std::string_view kMagic = "glovebench color table, version ";
-constexpr std::string_view kVersion = "2, ";
+constexpr std::string_view kTableMagic = "glovebench color table, version ";
+constexpr std::string_view kTableVersion = "2, ";
 constexpr size_t kSpaceLength = 3;
-constexpr size_t kHashLength = 32;
-constexpr size_t kHeaderLength = kMagic.size() + kVersion.size() + kSpaceLength + 1 + kHashLength + 1;
+constexpr size_t kTableHashLength = 32;
+constexpr size_t kHeaderLength =
+    kTableMagic.size() + kTableVersion.size() + kSpaceLength + 1 + kTableHashLength + 1;
 
 constexpr uint8_t kOutside = kColorCount + 1;  // pads the label image; has no vote
 
@@ -114,7 +115,7 @@ ColorTable::ColorTable(std::vector<uint8_t> labels, ColorSpace space) : labels_(
 
 void ColorTable::save(const std::string& path) const {
   const std::string cells(labels_.begin(), labels_.end());
-  write_file(path, std::string(kMagic) + std::string(kVersion) + std::string(to_string(space_)) + "\n" +
+  write_file(path, std::string(kTableMagic) + std::string(kTableVersion) + std::string(to_string(space_)) + "\n" +
                        hash_text(cells) + "\n" + cells);
 }
 
@@ -123,21 +124,21 @@ ColorTable ColorTable::load(const std::string& path) {
 }
 
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where) {
-  if (!bytes.starts_with(kMagic)) throw Error(where, "header", "something else", "a color table");
-  const std::string_view version = bytes.substr(kMagic.size());
-  if (!version.starts_with(kVersion))
+  if (!bytes.starts_with(kTableMagic)) throw Error(where, "header", "something else", "a color table");
+  const std::string_view version = bytes.substr(kTableMagic.size());
+  if (!version.starts_with(kTableVersion))
     throw Error(where, "version", "\"" + printable(version.substr(0, version.find('\n')).substr(0, 20)) + "\"",
                 "2");
   if (bytes.size() != kHeaderLength + ColorTable::kCells)
     throw Error(where, "size", std::to_string(bytes.size()) + " bytes",
                 std::to_string(kHeaderLength + ColorTable::kCells) + " bytes");
-  const std::string_view space_text = version.substr(kVersion.size(), kSpaceLength);
+  const std::string_view space_text = version.substr(kTableVersion.size(), kSpaceLength);
   const std::optional<ColorSpace> space = color_space_from_string(space_text);
-  if (!space || version[kVersion.size() + kSpaceLength] != '\n')
+  if (!space || version[kTableVersion.size() + kSpaceLength] != '\n')
     throw Error(where, "color space", "\"" + printable(space_text) + "\"", "yuv or rgb");
   const std::string_view cells = bytes.substr(kHeaderLength);
   const std::string expected = hash_text(cells) + "\n";
-  const std::string_view found = bytes.substr(kHeaderLength - kHashLength - 1, kHashLength + 1);
+  const std::string_view found = bytes.substr(kHeaderLength - kTableHashLength - 1, kTableHashLength + 1);
   if (found != expected) throw Error(where, "checksum", "another one", "that of the cells");
   return ColorTable(std::vector<uint8_t>(cells.begin(), cells.end()), *space);
 }

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 struct Range {
   double min;
@@ -24,12 +24,12 @@ struct Range {
 
   bool contains(double x) const { return (open_below ? x > min : x >= min) && x <= max; }
   std::string text() const {
-    if (max == kInfinity) return fmt::format("{} {}", open_below ? "above" : "at least", min);
+    if (max == kUnbounded) return fmt::format("{} {}", open_below ? "above" : "at least", min);
     return fmt::format("{}{}, {}]", open_below ? "(" : "[", min, max);
   }
 };
 
-constexpr Range kPositive{0, kInfinity, true};
+constexpr Range kPositive{0, kUnbounded, true};
 constexpr Range kShare{0, 1, true};
 
 /// Every field of a configuration, once: section, key, value and range. Reading, writing and checking go through

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/tracker/test_scene.h"
 
@@ -225,7 +226,7 @@ TEST(Tracker, garbage_frames_give_a_status) {
 }
 
 TEST(Tracker, refuses_a_hand_of_the_other_side) {
-  const HandModel left = HandModel::load(GLOVEBENCH_HAND_MESH, Side::left);
+  const HandModel left = HandModel::load(build_paths::hand_mesh(), Side::left);
   EXPECT_THAT(
       [&] {
         Tracker({}, synthetic_calibration(), borrowed(left), borrowed(test_database()), borrowed(ColorTable()));

@@ -23,8 +23,8 @@ using reports::ChangedFrame;
 using reports::Estimate;
 
 constexpr Rgb kTruth = {255, 255, 255}, kBaseline = {90, 170, 255}, kCandidate = {255, 150, 40};
-constexpr int kMargin = 20;      // px around the hand
-constexpr int kPanelSize = 300;  // px
+constexpr int kChangedFrameMargin = 20;  // px around the hand
+constexpr int kPanelSize = 300;          // px
 
 /// The estimates of a run's folder, read when they are asked for.
 class EstimateFolder {
@@ -80,7 +80,9 @@ class Scene {
     for (uint8_t& label : labels) label = label > 0;
     return labels;
   }
-  ColorImage cropped(const ColorImage& image) const { return render::crop_to_labels(image, true_hand_, kMargin); }
+  ColorImage cropped(const ColorImage& image) const {
+    return render::crop_to_labels(image, true_hand_, kChangedFrameMargin);
+  }
 
   Workbench& workbench_;
   PinholeCamera camera_;

@@ -18,7 +18,7 @@ using reports::RunResult;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr int kFrames = 33;  // two blocks
+constexpr int kGatedFrames = 33;  // two blocks
 
 class RegressionLong : public testing::Test {
  protected:
@@ -26,7 +26,7 @@ class RegressionLong : public testing::Test {
     folder_ = testing::TempDir() + "glovebench-regression-" + std::to_string(getpid());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    write_file(path("wave.json"), make_trajectory_json("wave", kFrames).dump());
+    write_file(path("wave.json"), make_trajectory_json("wave", kGatedFrames).dump());
     const nlohmann::json suite = {
         {"format", "glovebench-suite"},
         {"version", 1},

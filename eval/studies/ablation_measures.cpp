@@ -9,7 +9,7 @@ using reports::Cell;
 using reports::FrameRecord;
 using reports::Measure;
 
-constexpr const char* kDatabase = "DB_open_pinch_power";
+constexpr const char* kLatencyDatabase = "DB_open_pinch_power";
 const std::vector<std::string> kColorDatabases = {"DB_open_pinch_power", "DB_20_postures"};
 constexpr const char* kColorBlind = "color-blind";
 
@@ -104,8 +104,8 @@ Sample distinct_matches(const Passes& passes) {
 }  // namespace
 
 std::vector<Measure> lag_measures(const AblationRuns& runs) {
-  const auto with = latencies(runs.at(kDefaultSetting, kDatabase));
-  const auto without = latencies(runs.at("no filter", kDatabase));
+  const auto with = latencies(runs.at(kDefaultSetting, kLatencyDatabase));
+  const auto without = latencies(runs.at("no filter", kLatencyDatabase));
   const auto share = [&](std::span<const int> drawn) -> std::optional<double> {
     const auto all = mean_of(with, drawn), rest = mean_of(without, drawn);
     if (!all || !rest || *all <= 0) return std::nullopt;

@@ -14,7 +14,7 @@ using reports::SequenceMetrics;
 using reports::Table;
 using reports::TruthKind;
 
-constexpr const char* kDatabase = "DB_open_pinch_power";
+constexpr const char* kAblationDatabase = "DB_open_pinch_power";
 
 /// The movements that a database can follow.
 Movements movements_for(const StudyContext& context, const std::string& database) {
@@ -55,7 +55,7 @@ std::vector<Cell> row_of(const AblationRuns& runs, const Ablation& ablation, con
   return result;
 }
 
-Table empty_table() {
+Table empty_ablation_table() {
   Table table = {
       "ablations",
       "One change at a time",
@@ -118,21 +118,27 @@ std::vector<Setting> ablation_settings(const TrackerConfig& tracker) {
 
 std::vector<Ablation> ablations() {
   return {
-      {"alignment", {{"color-sensitive", kDefaultSetting, kDatabase}, {"color-blind", "color-blind", kDatabase}}},
+      {"alignment",
+       {{"color-sensitive", kDefaultSetting, kAblationDatabase},
+        {"color-blind", "color-blind", kAblationDatabase}}},
       {"filter",
-       {{"posture", kDefaultSetting, kDatabase},
-        {"none", "no filter", kDatabase},
-        {"posture and pose", "pose filtered", kDatabase}}},
-      {"culling", {{"once", kDefaultSetting, kDatabase}, {"in each iteration", "culled each", kDatabase}}},
-      neighbors_with(kDatabase),
+       {{"posture", kDefaultSetting, kAblationDatabase},
+        {"none", "no filter", kAblationDatabase},
+        {"posture and pose", "pose filtered", kAblationDatabase}}},
+      {"culling",
+       {{"once", kDefaultSetting, kAblationDatabase}, {"in each iteration", "culled each", kAblationDatabase}}},
+      neighbors_with(kAblationDatabase),
       neighbors_with("DB_open_power"),
       neighbors_with("DB_20_postures"),
       {"hand region",
-       {{"box of all labels", kDefaultSetting, kDatabase}, {"largest component", "component", kDatabase}}},
+       {{"box of all labels", kDefaultSetting, kAblationDatabase},
+        {"largest component", "component", kAblationDatabase}}},
       {"hand region, clutter in reach",
-       {{"box of all labels", "clutter", kDatabase}, {"largest component", "clutter, component", kDatabase}}},
-      {"labels", {{"as they are", kDefaultSetting, kDatabase}, {"3x3 majority", "majority", kDatabase}}},
-      {"subject", {{"1", kDefaultSetting, kDatabase}, {"2", "subject 2", kDatabase}}},
+       {{"box of all labels", "clutter", kAblationDatabase},
+        {"largest component", "clutter, component", kAblationDatabase}}},
+      {"labels",
+       {{"as they are", kDefaultSetting, kAblationDatabase}, {"3x3 majority", "majority", kAblationDatabase}}},
+      {"subject", {{"1", kDefaultSetting, kAblationDatabase}, {"2", "subject 2", kAblationDatabase}}},
   };
 }
 
@@ -169,7 +175,7 @@ const Passes& AblationRuns::at(const std::string& setting, const std::string& da
 }
 
 Table ablation_table(const AblationRuns& runs, const std::vector<Ablation>& ablations) {
-  Table table = empty_table();
+  Table table = empty_ablation_table();
   for (const Ablation& ablation : ablations)
     for (const AblationRow& row : ablation.rows) table.rows.push_back(row_of(runs, ablation, row));
   return table;

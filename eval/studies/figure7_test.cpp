@@ -36,7 +36,7 @@ TEST(Figure7, is_set_up_with_about_8000_images_and_500_queries) {
   }
 }
 
-StudyResult measure(int threads) {
+StudyResult tested_figure7(int threads) {
   Workbench workbench(test_workbench(threads));
   StudyOptions options;
   options.tracker = profile("paper");
@@ -60,7 +60,7 @@ double number(const Table& table, size_t row, std::string_view key) {
 }
 
 TEST(Figure7Long, ranks_lie_in_range_and_do_not_depend_on_threads) {
-  const StudyResult result = measure(1);
+  const StudyResult result = tested_figure7(1);
   EXPECT_EQ(result.name, "fig7");
   ASSERT_EQ(result.tables.size(), 1U);
   const Table& table = result.tables.front();
@@ -90,7 +90,7 @@ TEST(Figure7Long, ranks_lie_in_range_and_do_not_depend_on_threads) {
   EXPECT_LE(ratio->interval->low, *ratio->value);
   EXPECT_GE(ratio->interval->high, *ratio->value);
 
-  EXPECT_TRUE(without_times(result) == without_times(measure(2)));
+  EXPECT_TRUE(without_times(result) == without_times(tested_figure7(2)));
 }
 
 TEST(Figure7Long, a_clean_query_at_a_view_of_the_database_has_rank_1) {

@@ -35,7 +35,7 @@ const PaperCascade* paper_row(const std::string& database, const Cascade& cascad
   return it == rows.end() ? nullptr : &*it;
 }
 
-Table empty_errors_table() {
+Table empty_cascade_errors_table() {
   return {
       "figure8",
       "Matching cascades",
@@ -192,7 +192,7 @@ std::vector<Measure> time_measures(const Timed& timed, const Roles& roles) {
           {"frame.p95_ms_20_postures_plain", "ms", *plain_frame, {}, true}};
 }
 
-std::vector<Setting> settings_of(const TrackerConfig& tracker, const std::vector<Cascade>& cascades) {
+std::vector<Setting> cascade_settings(const TrackerConfig& tracker, const std::vector<Cascade>& cascades) {
   std::vector<Setting> settings;
   for (const Cascade& cascade : cascades) {
     settings.push_back({to_string(cascade), tracker});
@@ -206,9 +206,9 @@ std::vector<Setting> settings_of(const TrackerConfig& tracker, const std::vector
 reports::StudyResult run_figure8(const StudyContext& context) {
   const std::vector<Cascade> cascades =
       context.options.cascades.empty() ? paper_cascades() : context.options.cascades;
-  const std::vector<Setting> settings = settings_of(context.options.tracker, cascades);
+  const std::vector<Setting> settings = cascade_settings(context.options.tracker, cascades);
   reports::StudyResult result{
-      "fig8", "Figure 8: matching cascades", {empty_errors_table(), empty_stages_table()}, {}};
+      "fig8", "Figure 8: matching cascades", {empty_cascade_errors_table(), empty_stages_table()}, {}};
 
   Timed timed;
   for (size_t i = 0; i < kImplementations.size(); ++i)

@@ -12,10 +12,10 @@ using reports::TruthKind;
 
 constexpr std::array<int, 7> kFactors = {1, 2, 4, 8, 16, 32, 64};
 /// The grasp-specific database of the movements with a power grasp, as in the paper's Figure 5.
-constexpr const char* kDatabase = "DB_open_power";
+constexpr const char* kSamplingDatabase = "DB_open_power";
 const std::vector<std::string> kTrajectories = {"Tr3", "Tr4", "Tr5"};
 
-std::vector<Setting> settings_of(const TrackerConfig& tracker) {
+std::vector<Setting> sampling_settings(const TrackerConfig& tracker) {
   std::vector<Setting> settings;
   for (const int factor : kFactors) {
     Setting setting{std::to_string(factor), tracker};
@@ -25,7 +25,7 @@ std::vector<Setting> settings_of(const TrackerConfig& tracker) {
   return settings;
 }
 
-Table empty_errors_table() {
+Table empty_sampling_errors_table() {
   return {"figure9",
           "Sub-sampling of the point cloud",
           "Every n-th point of the cloud goes into the alignment (n = factor). Means over the frames of Tr3, Tr4 "
@@ -116,17 +116,18 @@ std::vector<Measure> error_measures(const PassesOfFactors& passes) {
 }  // namespace
 
 reports::StudyResult run_figure9(const StudyContext& context) {
-  reports::StudyResult result{"fig9", "Figure 9: sub-sampling", {empty_errors_table(), empty_times_table()}, {}};
+  reports::StudyResult result{
+      "fig9", "Figure 9: sub-sampling", {empty_sampling_errors_table(), empty_times_table()}, {}};
   // No claim rests on the recorded truth.
   const TruthKind truth = TruthKind::source;
   const Movements replayed = movements(context, truth, kTrajectories);
-  const std::vector<Setting> settings = settings_of(context.options.tracker);
+  const std::vector<Setting> settings = sampling_settings(context.options.tracker);
 
-  const PassesOfFactors passes = run_settings(context, replayed, settings, {kDatabase});
+  const PassesOfFactors passes = run_settings(context, replayed, settings, {kSamplingDatabase});
   add_errors(result.tables[0], truth, passes);
   result.measures = error_measures(passes);
   for (const Implementation implementation : {Implementation::plain, Implementation::fast}) {
-    const PassesOfFactors timed = time_settings(context, replayed, settings, {kDatabase}, implementation);
+    const PassesOfFactors timed = time_settings(context, replayed, settings, {kSamplingDatabase}, implementation);
     add_times(result.tables[1], implementation, timed);
     if (implementation == Implementation::plain)
       std::ranges::move(time_measures(timed.back()[0]), std::back_inserter(result.measures));

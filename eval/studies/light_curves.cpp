@@ -103,7 +103,7 @@ std::vector<LightPoint> points_of(const std::vector<double>& values, Make make) 
   return points;
 }
 
-Table empty_table(const LightAxis& axis) {
+Table empty_light_table(const LightAxis& axis) {
   return {
       axis.table,
       axis.title,
@@ -239,7 +239,7 @@ reports::StudyResult run_light_curves(const StudyContext& context) {
   });
   reports::StudyResult result{"light_curves", "Light", {}, mean_measures(axes, ways)};
   for (size_t a = 0; a < axes.size(); ++a) {
-    Table& table = result.tables.emplace_back(empty_table(axes[a]));
+    Table& table = result.tables.emplace_back(empty_light_table(axes[a]));
     for (size_t w = 0; w < ways[a].front().size(); ++w)
       for (size_t p = 0; p < axes[a].points.size(); ++p)
         table.rows.push_back(row_of(ways[a][p][w], axes[a].points[p].value));

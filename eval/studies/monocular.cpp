@@ -14,7 +14,7 @@ using reports::TruthKind;
 
 constexpr std::string_view kMonocular = "monocular_bbox";
 
-std::vector<Setting> settings_of(const TrackerConfig& tracker) {
+std::vector<Setting> monocular_settings(const TrackerConfig& tracker) {
   std::vector<Setting> settings;
   for (const int subject : {1, 2}) {
     for (const std::string_view method : {kMonocular, kPaperMethod}) {
@@ -53,7 +53,7 @@ std::optional<double> tracked_percent(const Passes& passes) {
   }));
 }
 
-Table empty_table() {
+Table empty_monocular_table() {
   return {
       "monocular",
       "Without depth",
@@ -97,9 +97,9 @@ std::vector<Cell> row_of(const Setting& setting, const std::string& database, co
 }  // namespace
 
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases) {
-  const std::vector<Setting> settings = settings_of(context.options.tracker);
+  const std::vector<Setting> settings = monocular_settings(context.options.tracker);
   const auto passes = run_settings(context, movements(context, TruthKind::source), settings, databases);
-  Table table = empty_table();
+  Table table = empty_monocular_table();
   for (size_t s = 0; s < settings.size(); ++s)
     for (size_t d = 0; d < databases.size(); ++d)
       table.rows.push_back(row_of(settings[s], databases[d], passes[s][d]));

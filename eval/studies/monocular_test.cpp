@@ -11,14 +11,14 @@ namespace {
 using reports::StudyResult;
 using reports::Table;
 
-StudyResult measure(int threads) {
+StudyResult tested_monocular(int threads) {
   Workbench workbench(test_workbench(threads));
   const StudyOptions options = quick_options();
   return measure_monocular({workbench, options}, {"DB_open_pinch_power"});
 }
 
 TEST(MonocularStudyLong, depth_tells_the_distance_that_the_color_image_does_not) {
-  const StudyResult result = measure(2);
+  const StudyResult result = tested_monocular(2);
   ASSERT_EQ(result.tables.size(), 1U);
   const Table& table = result.tables[0];
   ASSERT_EQ(table.rows.size(), 4U) << "two methods, two subjects";
@@ -41,7 +41,7 @@ TEST(MonocularStudyLong, depth_tells_the_distance_that_the_color_image_does_not)
 }
 
 TEST(MonocularStudyLong, does_not_depend_on_threads) {
-  EXPECT_EQ(measure(1), measure(2));
+  EXPECT_EQ(tested_monocular(1), tested_monocular(2));
 }
 
 }  // namespace

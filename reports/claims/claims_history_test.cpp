@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/test_folder.h"
@@ -38,7 +39,7 @@ ClaimSet changed_set(const std::function<void(json&)>& change) {
   change(document);
   return parse_claims(document.dump(), "claims.json");
 }
-std::string error_of_change(const std::function<void(json&)>& change) {
+std::string history_error(const std::function<void(json&)>& change) {
   try {
     changed_set(change);
   } catch (const Error& error) {
@@ -60,7 +61,7 @@ TEST(ClaimsHistory, AnotherFieldThanThatOfTheNewestEntryIsAnError) {
                                               {"if_not", "Pity."}};
   for (const auto& [field, other] : others) {
     const std::string error =
-        error_of_change([&](json& j) { find_in(j, "position-below-1-cm-source")[field] = other; });
+        history_error([&](json& j) { find_in(j, "position-below-1-cm-source")[field] = other; });
     EXPECT_THAT(error, HasSubstr("claims[1]." + field + ": found ")) << error;
     EXPECT_THAT(error, HasSubstr("expected that of the newest entry of its history")) << error;
   }
@@ -88,7 +89,7 @@ TEST(ClaimsHistory, AChangeThatIsToldIsTaken) {
 
 TEST(ClaimsHistory, ErrorsInEntries) {
   const auto error_of_entry = [](const std::function<void(json&)>& change) {
-    return error_of_change([&](json& j) { change(find_in(j, "15-hz-plain")["history"]); });
+    return history_error([&](json& j) { change(find_in(j, "15-hz-plain")["history"]); });
   };
   EXPECT_THAT(error_of_entry([](json& h) { h = json::array(); }), HasSubstr("at least the entry that writes"));
   EXPECT_THAT(error_of_entry([](json& h) { h[0]["set"].erase("rule"); }),
@@ -298,7 +299,7 @@ class Follower {
 };
 
 TEST(ClaimsHistory, NothingThatWasCommittedIsGoneOrAnother) {
-  const auto states = committed_states(GLOVEBENCH_SOURCE_FOLDER);
+  const auto states = committed_states(build_paths::source(""));
   if (states.empty()) GTEST_SKIP() << "the sources have no repository, or git is not installed";
   Follower follower;
   for (const auto& [commit, document] : states) {

@@ -33,18 +33,18 @@ ClaimVerdict example_verdict(ClaimOutcome outcome, std::optional<Measure> measur
 
 const Measure kLarge = {"size", "mm", 3.14159265, ConfidenceInterval{3, 3.25, 0.95, 1, 2, 15, "x"}, false};
 const std::vector<ClaimVerdict> kFailed = {example_verdict(ClaimOutcome::not_reproduced, kLarge)};
-const std::vector<ClaimVerdict> kNotRun = {example_verdict(ClaimOutcome::not_run, std::nullopt)};
+const std::vector<ClaimVerdict> kNotRunClaim = {example_verdict(ClaimOutcome::not_run, std::nullopt)};
 
 TEST(ClaimsReport, NumbersHaveFourDigitsAndTheirUnit) {
   EXPECT_EQ(measured_text(kFailed[0]), "3.142 [3, 3.25] mm");
   EXPECT_EQ(rule_text(kFailed[0]), "below 2.5 mm");
-  EXPECT_EQ(measured_text(kNotRun[0]), "-");
-  EXPECT_EQ(rule_text(kNotRun[0]), "below 2.5");
+  EXPECT_EQ(measured_text(kNotRunClaim[0]), "-");
+  EXPECT_EQ(rule_text(kNotRunClaim[0]), "below 2.5");
   EXPECT_EQ(measured_text(example_verdict(ClaimOutcome::inconclusive, Measure{"size", "", {}, {}, false})), "-");
 }
 
 TEST(ClaimsReport, CountsOutcomes) {
-  std::vector<ClaimVerdict> verdicts = {kFailed[0], kNotRun[0], kNotRun[0]};
+  std::vector<ClaimVerdict> verdicts = {kFailed[0], kNotRunClaim[0], kNotRunClaim[0]};
   EXPECT_EQ(count_text(verdicts), "3 claims: 1 not reproduced, 2 not run");
   EXPECT_EQ(required_text(verdicts), "3 required (*): 0 hold, 0 inconclusive, 1 failed, 2 not run");
   verdicts = {example_verdict(ClaimOutcome::reproduced, kLarge),
@@ -115,9 +115,9 @@ TEST(ClaimsReport, AWithdrawnClaimStaysInTheTables) {
 }
 
 TEST(ClaimsReport, RunsWithoutClaimsFoldThemAway) {
-  EXPECT_EQ(claims_markdown(kNotRun), "");
-  EXPECT_THAT(claims_section(kNotRun), HasSubstr("<details><summary>Not run: 1</summary>"));
-  const auto json = nlohmann::json::parse(claims_json(kNotRun));
+  EXPECT_EQ(claims_markdown(kNotRunClaim), "");
+  EXPECT_THAT(claims_section(kNotRunClaim), HasSubstr("<details><summary>Not run: 1</summary>"));
+  const auto json = nlohmann::json::parse(claims_json(kNotRunClaim));
   EXPECT_TRUE(json["verdicts"][0]["measure"].is_null());
   EXPECT_EQ(json["required_claim_failed"], false);
 }

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-std::string error_of_change(const std::function<void(json&)>& change) {
+std::string claims_error(const std::function<void(json&)>& change) {
   json document = json::parse(embedded_claims());
   change(document);
   try {
@@ -101,25 +101,25 @@ TEST(Claims, OtherMovementsMethodsAndMachinesShowConsistencyOnly) {
 
 TEST(Claims, ErrorsNameFileFieldAndExpectation) {
   const auto first = [](json& j) -> json& { return j["claims"][0]; };
-  EXPECT_EQ(error_of_change([](json&) {}), "no error");
-  EXPECT_THAT(error_of_change([](json& j) { j["version"] = 1; }), HasSubstr("claims.json: version: found 1"));
-  EXPECT_THAT(error_of_change([](json& j) { j["extra"] = 2; }), HasSubstr("unknown key \"extra\""));
-  EXPECT_THAT(error_of_change([&](json& j) { first(j).erase("if_not"); }),
+  EXPECT_EQ(claims_error([](json&) {}), "no error");
+  EXPECT_THAT(claims_error([](json& j) { j["version"] = 1; }), HasSubstr("claims.json: version: found 1"));
+  EXPECT_THAT(claims_error([](json& j) { j["extra"] = 2; }), HasSubstr("unknown key \"extra\""));
+  EXPECT_THAT(claims_error([&](json& j) { first(j).erase("if_not"); }),
               HasSubstr("claims[0].if_not: found nothing"));
-  EXPECT_THAT(error_of_change([&](json& j) { first(j)["mood"] = 1; }), HasSubstr("unknown key \"mood\""));
-  EXPECT_THAT(error_of_change([&](json& j) { j["claims"][1]["id"] = first(j)["id"]; }),
+  EXPECT_THAT(claims_error([&](json& j) { first(j)["mood"] = 1; }), HasSubstr("unknown key \"mood\""));
+  EXPECT_THAT(claims_error([&](json& j) { j["claims"][1]["id"] = first(j)["id"]; }),
               HasSubstr("claims[1].id: found \"position-below-1-cm-recorded\", expected an id that has not been"));
-  EXPECT_THAT(error_of_change([&](json& j) { first(j)["id"] = "Two Words"; }), HasSubstr("claims[0].id"));
-  EXPECT_THAT(error_of_change([&](json& j) { first(j)["claim"] = "two\nlines"; }), HasSubstr("a line of text"));
-  EXPECT_THAT(error_of_change([&](json& j) { first(j)["measure"] = ""; }), HasSubstr("claims[0].measure"));
-  EXPECT_THAT(error_of_change([&](json& j) { first(j)["kind"] = "guess"; }),
+  EXPECT_THAT(claims_error([&](json& j) { first(j)["id"] = "Two Words"; }), HasSubstr("claims[0].id"));
+  EXPECT_THAT(claims_error([&](json& j) { first(j)["claim"] = "two\nlines"; }), HasSubstr("a line of text"));
+  EXPECT_THAT(claims_error([&](json& j) { first(j)["measure"] = ""; }), HasSubstr("claims[0].measure"));
+  EXPECT_THAT(claims_error([&](json& j) { first(j)["kind"] = "guess"; }),
               HasSubstr("claims[0].kind: found \"guess\", expected reproduction or consistency"));
-  EXPECT_THAT(error_of_change([&](json& j) { first(j)["required"] = 1; }), HasSubstr("true or false"));
+  EXPECT_THAT(claims_error([&](json& j) { first(j)["required"] = 1; }), HasSubstr("true or false"));
 }
 
 TEST(Claims, ErrorsInRules) {
   const auto error_of_rule = [](const json& rule) {
-    return error_of_change([&](json& j) {
+    return claims_error([&](json& j) {
       j["claims"][0]["rule"] = rule;
       j["claims"][0]["history"][0]["set"]["rule"] = {{"within", {-1, 1}}};
     });

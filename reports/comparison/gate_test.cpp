@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr int kPosition = 0, kUncovered = 6;
+constexpr int kGatedPosition = 0, kGatedUncovered = 6;
 
 ComparisonRow row(int quantity, double difference, Verdict verdict) {
   ComparisonRow row;
@@ -36,14 +36,14 @@ Comparison of_rows(std::vector<ComparisonRow> rows) {
 }
 
 TEST(Gate, WorseStops) {
-  EXPECT_TRUE(stops(row(kPosition, 0.52, Verdict::worse)));
-  EXPECT_FALSE(stops(row(kPosition, -0.52, Verdict::better)));
-  EXPECT_FALSE(stops(row(kPosition, 0.01, Verdict::same)));
-  EXPECT_FALSE(stops(row(kPosition, 0.23, Verdict::not_enough_data)));
+  EXPECT_TRUE(stops(row(kGatedPosition, 0.52, Verdict::worse)));
+  EXPECT_FALSE(stops(row(kGatedPosition, -0.52, Verdict::better)));
+  EXPECT_FALSE(stops(row(kGatedPosition, 0.01, Verdict::same)));
+  EXPECT_FALSE(stops(row(kGatedPosition, 0.23, Verdict::not_enough_data)));
 }
 
 TEST(Gate, TwiceTheMinimumEffectStopsWithoutSignificance) {
-  ComparisonRow in_places = row(kPosition, 0.24, Verdict::not_enough_data);
+  ComparisonRow in_places = row(kGatedPosition, 0.24, Verdict::not_enough_data);
   EXPECT_TRUE(stops(in_places));
   EXPECT_THAT(decide(of_rows({in_places}), {}).failures,
               ElementsAre("Tr4_x, position_error_mm: worse in places, up by 0.24 mm [0.03, 0.45] (2.98 -> 3.22), "
@@ -51,7 +51,7 @@ TEST(Gate, TwiceTheMinimumEffectStopsWithoutSignificance) {
   in_places.low.reset();
   in_places.high.reset();
   EXPECT_TRUE(stops(in_places)) << "too short for an interval";
-  EXPECT_FALSE(stops(row(kPosition, -0.5, Verdict::not_enough_data)));
+  EXPECT_FALSE(stops(row(kGatedPosition, -0.5, Verdict::not_enough_data)));
 }
 
 TEST(Gate, AStretchThatWentWrongStops) {
@@ -67,11 +67,11 @@ TEST(Gate, AStretchThatWentWrongStops) {
 }
 
 TEST(Gate, AShareThatRoseByItsMinimumEffectStopsWithoutSignificance) {
-  EXPECT_TRUE(stops(row(kUncovered, 0.12, Verdict::not_enough_data)));
-  EXPECT_TRUE(stops(row(kUncovered, 0.12 - 4e-7, Verdict::not_enough_data))) << "rounded in a file";
-  EXPECT_FALSE(stops(row(kUncovered, 0.119, Verdict::not_enough_data)));
-  EXPECT_FALSE(stops(row(kUncovered, -0.5, Verdict::better)));
-  ComparisonRow brief = row(kUncovered, 5, Verdict::not_enough_data);
+  EXPECT_TRUE(stops(row(kGatedUncovered, 0.12, Verdict::not_enough_data)));
+  EXPECT_TRUE(stops(row(kGatedUncovered, 0.12 - 4e-7, Verdict::not_enough_data))) << "rounded in a file";
+  EXPECT_FALSE(stops(row(kGatedUncovered, 0.119, Verdict::not_enough_data)));
+  EXPECT_FALSE(stops(row(kGatedUncovered, -0.5, Verdict::better)));
+  ComparisonRow brief = row(kGatedUncovered, 5, Verdict::not_enough_data);
   brief.low.reset();
   brief.high.reset();
   EXPECT_TRUE(stops(brief)) << "too short for an interval";
@@ -80,10 +80,10 @@ TEST(Gate, AShareThatRoseByItsMinimumEffectStopsWithoutSignificance) {
 }
 
 TEST(Gate, LinesHoldTheNumbers) {
-  const GateDecision decision =
-      decide(of_rows({row(kPosition, 0.52, Verdict::worse), row(kPosition, 0.15, Verdict::not_enough_data),
-                      row(kPosition, 0.05, Verdict::not_enough_data), row(kPosition, -0.5, Verdict::better)}),
-             {});
+  const GateDecision decision = decide(
+      of_rows({row(kGatedPosition, 0.52, Verdict::worse), row(kGatedPosition, 0.15, Verdict::not_enough_data),
+               row(kGatedPosition, 0.05, Verdict::not_enough_data), row(kGatedPosition, -0.5, Verdict::better)}),
+      {});
   EXPECT_FALSE(decision.passed());
   EXPECT_THAT(decision.failures,
               ElementsAre("Tr4_x, position_error_mm: worse by 0.52 mm [0.31, 0.73] (2.98 -> 3.50), minimum effect "
@@ -95,7 +95,7 @@ TEST(Gate, LinesHoldTheNumbers) {
 
 TEST(Gate, NothingWorsePasses) {
   const GateDecision decision =
-      decide(of_rows({row(kPosition, 0.01, Verdict::same)}), {{"look_up", 4, 3.9, 2.8, false}});
+      decide(of_rows({row(kGatedPosition, 0.01, Verdict::same)}), {{"look_up", 4, 3.9, 2.8, false}});
   EXPECT_TRUE(decision.passed());
   EXPECT_THAT(decision.warnings, IsEmpty());
 }

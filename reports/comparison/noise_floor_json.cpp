@@ -12,7 +12,7 @@
 namespace glovebench::reports {
 namespace {
 
-constexpr std::string_view kFormat = "glovebench-noise-floor";
+constexpr std::string_view kNoiseFloorFormat = "glovebench-noise-floor";
 constexpr int kVersion = 1;
 
 double read_amount(const JsonReader& json) {
@@ -51,7 +51,7 @@ std::vector<NoiseFloorEntry> read_entries(const JsonReader& json) {
 }  // namespace
 
 std::string noise_floor_json(const NoiseFloor& floor) {
-  nlohmann::ordered_json json = {{"format", kFormat},
+  nlohmann::ordered_json json = {{"format", kNoiseFloorFormat},
                                  {"version", kVersion},
                                  {"suite", floor.suite},
                                  {"seeds", floor.seeds},
@@ -76,7 +76,7 @@ NoiseFloor read_noise_floor(const std::string& path) {
 NoiseFloor parse_noise_floor(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   const JsonReader json(document, where);
-  json["format"].expect_text(kFormat);
+  json["format"].expect_text(kNoiseFloorFormat);
   json["version"].integer(kVersion, kVersion);
   json.expect_keys(
       {"format", "version", "suite", "seeds", "seeds_per_result", "family_error", "commit", "date", "entries"});

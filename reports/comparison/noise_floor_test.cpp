@@ -43,7 +43,7 @@ const NoiseFloor& example_floor() {
   return floor;
 }
 
-std::string error_of(const std::function<void()>& action) {
+std::string noise_floor_error(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
@@ -123,13 +123,13 @@ TEST(NoiseFloorLong, WhatIsCalledDetectableIsDetectedMostly) {
 }
 
 TEST(NoiseFloor, NeedsEnoughSeedsThatAreTheSameEverywhere) {
-  EXPECT_EQ(error_of([] { measure_noise_floor(simulated(seeds_from(1, 7)), 2); }),
+  EXPECT_EQ(noise_floor_error([] { measure_noise_floor(simulated(seeds_from(1, 7)), 2); }),
             "noise floor: Tr1_DB_open_power_source_subject1_gradient_1.seeds: found 7, expected at least 8");
   RunResult result = simulated(seeds_from(1, 8));
   result.experiments[2].runs[3].seed = 99;
-  EXPECT_THAT(error_of([&] { measure_noise_floor(result, 2); }), HasSubstr("Tr3_"));
+  EXPECT_THAT(noise_floor_error([&] { measure_noise_floor(result, 2); }), HasSubstr("Tr3_"));
   result.experiments.clear();
-  EXPECT_THAT(error_of([&] { measure_noise_floor(result, 2); }), HasSubstr("experiments: found none"));
+  EXPECT_THAT(noise_floor_error([&] { measure_noise_floor(result, 2); }), HasSubstr("experiments: found none"));
 }
 
 TEST(NoiseFloor, WhatHasNoValuesHasNoEntry) {
@@ -167,7 +167,7 @@ TEST(NoiseFloor, ErrorsNameTheField) {
   const auto refused = [](const std::function<void(nlohmann::json&)>& change) {
     nlohmann::json json = nlohmann::json::parse(noise_floor_json(small_floor()));
     change(json);
-    return error_of([&] { read_text(json.dump()); });
+    return noise_floor_error([&] { read_text(json.dump()); });
   };
   using nlohmann::json;
   EXPECT_THAT(refused([](json& j) { j["format"] = "x"; }), HasSubstr("format: found \"x\""));

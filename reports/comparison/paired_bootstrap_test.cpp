@@ -21,7 +21,7 @@ PairedDifferences blockwise(const std::vector<std::vector<double>>& blocks_by_se
   return differences;
 }
 
-double error_of(const PairedDifferences& differences, int resamples) {
+double resampled_error(const PairedDifferences& differences, int resamples) {
   Draws draws(1, resamples);
   return *standard_error(resampled_means(block_sums(differences, 16), "Tr1", draws));
 }
@@ -73,13 +73,13 @@ TEST(PairedBootstrap, BlocksAreOfEqualLengthAndHaveAPair) {
 
 TEST(PairedBootstrap, VarianceIsThatOfAMeanOverBlocks) {
   // s^2 / n with s^2 over n - 1, not n: the usual bootstrap would be 20% short. 40,000 resamples: 0.4% sd.
-  EXPECT_NEAR(error_of(blockwise({{1, 2, 4, 8, 5}}), 40000), std::sqrt(7.5 / 5), 0.015 * std::sqrt(7.5 / 5));
-  EXPECT_NEAR(error_of(blockwise({{1, 3}}), 40000), 1, 0.015);
+  EXPECT_NEAR(resampled_error(blockwise({{1, 2, 4, 8, 5}}), 40000), std::sqrt(7.5 / 5), 0.015 * std::sqrt(7.5 / 5));
+  EXPECT_NEAR(resampled_error(blockwise({{1, 3}}), 40000), 1, 0.015);
 }
 
 TEST(PairedBootstrap, SeedsVaryToo) {
-  EXPECT_NEAR(error_of(blockwise({{1, 1, 1}, {3, 3, 3}}), 40000), 1, 0.015);
-  EXPECT_NEAR(error_of(blockwise({{1, 1, 1}, {1, 1, 1}}), 400), 0, 1e-12);
+  EXPECT_NEAR(resampled_error(blockwise({{1, 1, 1}, {3, 3, 3}}), 40000), 1, 0.015);
+  EXPECT_NEAR(resampled_error(blockwise({{1, 1, 1}, {1, 1, 1}}), 400), 0, 1e-12);
 }
 
 TEST(PairedBootstrap, OneTrajectoryHasOneSetOfDraws) {

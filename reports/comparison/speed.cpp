@@ -15,7 +15,7 @@
 namespace glovebench::reports {
 namespace {
 
-constexpr std::string_view kFormat = "glovebench-speed";
+constexpr std::string_view kSpeedFormat = "glovebench-speed";
 constexpr size_t kMinRepetitions = 3;
 /// No iteration takes less than a picosecond or more than a day: what lies beyond is no time, and the ratio of two
 /// times is a number.
@@ -31,7 +31,7 @@ bool is_ratio(double value) {
 }
 
 /// A name stands in messages of one line.
-std::string read_name(const JsonReader& json) {
+std::string read_benchmark_name(const JsonReader& json) {
   const std::string name = json.text();
   if (std::ranges::any_of(name, [](unsigned char c) { return c < ' '; }))
     json.fail("a name without control characters");
@@ -63,7 +63,7 @@ std::map<std::string, Repetitions> read_repetitions(const JsonReader& benchmarks
     if (type == "aggregate") continue;
     if (type != "iteration") run["run_type"].fail("iteration or aggregate");
     const int count = run["repetition_index"].count();
-    if (!repetitions[read_name(run["run_name"])].emplace(count, cpu_seconds(run)).second)
+    if (!repetitions[read_benchmark_name(run["run_name"])].emplace(count, cpu_seconds(run)).second)
       run["repetition_index"].fail("each repetition once");
   }
   return repetitions;
@@ -123,13 +123,13 @@ double read_ratio(const JsonReader& json) {
 
 std::vector<SpeedRatio> read_own(const JsonReader& json) {
   json.expect_keys({"format", "version", "ratios"});
-  json["format"].expect_text(kFormat);
+  json["format"].expect_text(kSpeedFormat);
   json["version"].integer(1, 1);
   std::vector<SpeedRatio> ratios;
   for (const JsonReader& item : json["ratios"].items()) {
     item.expect_keys({"name", "ratio", "low", "high"});
-    ratios.push_back(
-        {read_name(item["name"]), read_ratio(item["ratio"]), read_ratio(item["low"]), read_ratio(item["high"])});
+    ratios.push_back({read_benchmark_name(item["name"]), read_ratio(item["ratio"]), read_ratio(item["low"]),
+                      read_ratio(item["high"])});
     const SpeedRatio& read = ratios.back();
     if (read.low > read.ratio || read.ratio > read.high) item["ratio"].fail("one from low to high");
     if (ratios.size() > 1 && ratios[ratios.size() - 2].name >= read.name)
@@ -153,7 +153,8 @@ std::vector<SpeedRatio> parse_speed_ratios(const std::string& text, const std::s
 }
 
 std::string speed_json(const std::vector<SpeedRatio>& ratios) {
-  nlohmann::ordered_json json = {{"format", kFormat}, {"version", 1}, {"ratios", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json json = {
+      {"format", kSpeedFormat}, {"version", 1}, {"ratios", nlohmann::ordered_json::array()}};
   for (const SpeedRatio& ratio : ratios) {
     json["ratios"].push_back({{"name", ratio.name},
                               {"ratio", rounded(ratio.ratio)},

@@ -52,7 +52,7 @@ std::vector<SpeedRatio> parsed(const json& file) {
   return parse_speed_ratios(file.dump(), "bench.json");
 }
 
-std::string error_of(const std::string& text) {
+std::string speed_error(const std::string& text) {
   try {
     parse_speed_ratios(text, "bench.json");
   } catch (const Error& error) {
@@ -62,10 +62,10 @@ std::string error_of(const std::string& text) {
 }
 
 template <typename Change>
-std::string error_of_change(Change change) {
+std::string speed_error_of_change(Change change) {
   json file = benchmark_file();
   change(file["benchmarks"]);
-  return error_of(file.dump());
+  return speed_error(file.dump());
 }
 
 TEST(SpeedRatios, are_of_the_medians_of_cpu_times_whatever_their_units) {
@@ -91,7 +91,7 @@ TEST(SpeedRatios, do_not_depend_on_aggregates_or_the_order_of_runs) {
 
 TEST(SpeedRatios, need_three_repetitions_of_both) {
   const auto drop = [](const std::string& name, int index) {
-    return error_of_change([&](json& runs) {
+    return speed_error_of_change([&](json& runs) {
       for (size_t i = 0; i < runs.size(); ++i)
         if (runs[i]["run_name"] == name && runs[i].value("repetition_index", -1) == index) runs.erase(i--);
     });
@@ -100,7 +100,7 @@ TEST(SpeedRatios, need_three_repetitions_of_both) {
   EXPECT_THAT(drop("search/plain", 0), HasSubstr("search: found 2 repetitions"));
   EXPECT_THAT(drop("a/b/plain", 3), HasSubstr("a/b: found 3 and 4 repetitions, expected the same"));
   // --benchmark_report_aggregates_only leaves no repetition at all.
-  EXPECT_THAT(error_of_change([](json& runs) {
+  EXPECT_THAT(speed_error_of_change([](json& runs) {
                 for (size_t i = 0; i < runs.size(); ++i)
                   if (runs[i]["run_type"] == "iteration") runs.erase(i--);
               }),
@@ -108,19 +108,19 @@ TEST(SpeedRatios, need_three_repetitions_of_both) {
 }
 
 TEST(SpeedRatios, refuse_what_is_no_benchmark_file) {
-  EXPECT_THAT(error_of(""), HasSubstr("bench.json: column"));
-  EXPECT_THAT(error_of("[]"), HasSubstr("expected an object"));
-  EXPECT_THAT(error_of("{}"), HasSubstr("benchmarks: found nothing"));
-  EXPECT_THAT(error_of("{\"benchmarks\": []}"), HasSubstr("found no pair"));
-  EXPECT_THAT(error_of(std::string(100'000, '[')), HasSubstr("bench.json: nesting"));
-  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["time_unit"] = "h"; }),
+  EXPECT_THAT(speed_error(""), HasSubstr("bench.json: column"));
+  EXPECT_THAT(speed_error("[]"), HasSubstr("expected an object"));
+  EXPECT_THAT(speed_error("{}"), HasSubstr("benchmarks: found nothing"));
+  EXPECT_THAT(speed_error("{\"benchmarks\": []}"), HasSubstr("found no pair"));
+  EXPECT_THAT(speed_error(std::string(100'000, '[')), HasSubstr("bench.json: nesting"));
+  EXPECT_THAT(speed_error_of_change([](json& runs) { runs[0]["time_unit"] = "h"; }),
               HasSubstr("benchmarks[0].time_unit: found \"h\""));
-  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["run_type"] = "guess"; }), HasSubstr("run_type"));
-  EXPECT_THAT(error_of_change([](json& runs) { runs[1]["repetition_index"] = 0; }),
+  EXPECT_THAT(speed_error_of_change([](json& runs) { runs[0]["run_type"] = "guess"; }), HasSubstr("run_type"));
+  EXPECT_THAT(speed_error_of_change([](json& runs) { runs[1]["repetition_index"] = 0; }),
               HasSubstr("benchmarks[1].repetition_index: found 0, expected each repetition once"));
-  EXPECT_THAT(error_of_change([](json& runs) { runs.erase(6); }), HasSubstr("search: found"));
-  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["run_name"] = "two\nlines"; }), HasSubstr("run_name"));
-  EXPECT_THAT(error_of_change([](json& runs) {
+  EXPECT_THAT(speed_error_of_change([](json& runs) { runs.erase(6); }), HasSubstr("search: found"));
+  EXPECT_THAT(speed_error_of_change([](json& runs) { runs[0]["run_name"] = "two\nlines"; }), HasSubstr("run_name"));
+  EXPECT_THAT(speed_error_of_change([](json& runs) {
                 for (json& run : runs)
                   if (run["run_name"] == "search/fast") run["run_name"] = "search/other";
               }),
@@ -129,15 +129,15 @@ TEST(SpeedRatios, refuse_what_is_no_benchmark_file) {
 
 TEST(SpeedRatios, refuse_times_that_are_none) {
   for (const json& time : {json(0), json(-1), json(1e300), json(1e-30), json(nullptr), json("1")})
-    EXPECT_THAT(error_of_change([&](json& runs) { runs[0]["cpu_time"] = time; }),
+    EXPECT_THAT(speed_error_of_change([&](json& runs) { runs[0]["cpu_time"] = time; }),
                 HasSubstr("benchmarks[0].cpu_time: found " + time.dump()))
         << time;
-  EXPECT_THAT(error_of_change([](json& runs) { runs[0]["cpu_time"] = 8e7; }),  // 22 hours, against 4 ms
+  EXPECT_THAT(speed_error_of_change([](json& runs) { runs[0]["cpu_time"] = 8e7; }),  // 22 hours, against 4 ms
               HasSubstr("search: found ratios of"));
 }
 
 TEST(SpeedRatios, refuse_a_benchmark_whose_check_failed) {
-  EXPECT_THAT(error_of_change([](json& runs) {
+  EXPECT_THAT(speed_error_of_change([](json& runs) {
                 runs[5]["error_occurred"] = true;
                 runs[5]["cpu_time"] = 0;
               }),
@@ -160,7 +160,7 @@ TEST(SpeedRatios, refuse_a_kept_file_that_speed_json_does_not_write) {
   const auto error_with = [&](const std::string& pointer, const json& value) {
     json file = good;
     file[json::json_pointer(pointer)] = value;
-    return error_of(file.dump());
+    return speed_error(file.dump());
   };
   EXPECT_THAT(error_with("/format", "another"), HasSubstr("format: found \"another\""));
   EXPECT_THAT(error_with("/version", 2), HasSubstr("version: found 2"));

@@ -16,7 +16,7 @@ struct CurveError {
   std::string_view label;
   double PaperErrors::*paper;
 };
-constexpr std::array<CurveError, 3> kErrors = {
+constexpr std::array<CurveError, 3> kCurveErrors = {
     {{"position", "position_error_mm", "Position error (mm)", &PaperErrors::position_mm},
      {"posture", "posture_rms_deg", "Posture error (deg)", &PaperErrors::posture_deg},
      {"rotation", "rotation_error_deg", "Rotation error (deg)", &PaperErrors::rotation_deg}}};
@@ -25,7 +25,7 @@ Section figure4_section(const RunResult& result, const PaperNumbers& paper, cons
   std::string html =
       "<p>Mean errors with their 95% intervals. Diamonds are the means that the paper prints; it shows "
       "its other bars without numbers.</p>\n";
-  for (const CurveError& error : kErrors)
+  for (const CurveError& error : kCurveErrors)
     html += chart_place(fmt::format("figure4-{}", error.name), fmt::format("{} as bars", error.label));
   html += data_note("figure4");
   html += "<p>" + escape_html(fmt::format("{} Noise: {} x {}.", summary_explanation(), noise.model, noise.factor)) +
@@ -40,7 +40,7 @@ std::string largest(const std::vector<double>& values) {
 /// What the curves come to, beside the paper's: their means and largest values.
 TextTable curve_summary(const ExperimentResult& experiment, const PaperCurve& paper) {
   TextTable table{{"", "mean", "paper's mean", "largest", "paper's largest"}, {}, 1};
-  for (const CurveError& error : kErrors) {
+  for (const CurveError& error : kCurveErrors) {
     std::vector<double> ours, theirs;
     for (const FrameRecord& frame : experiment.runs.front().frames)
       if (const auto& value = frame.*metrics()[metric_index(error.metric)].value) ours.push_back(*value);
@@ -63,7 +63,7 @@ void add_curve_section(std::vector<Section>& sections, const std::string& figure
       "the same number have nothing in common</p>\n",
       experiment->runs.front().seed);
   html += fmt::format("<div class=\"curves\" data-figure=\"{}\">\n<div class=\"panels\">\n", figure);
-  for (const CurveError& error : kErrors)
+  for (const CurveError& error : kCurveErrors)
     html += chart_place(fmt::format("{}-{}", figure, error.name), fmt::format("{}, frame by frame", error.label));
   html += "</div>\n" + (sheet == sheets.end() ? "" : frame_viewer_html(*sheet)) + "</div>\n";
   if (sheet != sheets.end()) html += keyframes_html(*sheet);

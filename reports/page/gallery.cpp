@@ -40,7 +40,7 @@ bool may_join(const std::vector<WorstFrame>& chosen, const WorstFrame& candidate
 }
 
 /// A word for the shell, which trajectories of a user's file may need.
-std::string quoted(const std::string& text) {
+std::string shell_quoted(const std::string& text) {
   const bool is_plain = std::ranges::all_of(text, [](unsigned char c) {
     return std::isalnum(c) || std::string_view("_-.+/").find(c) != std::string::npos;
   });
@@ -72,7 +72,7 @@ std::vector<WorstFrame> worst_frames(const RunResult& result, int count) {
 
 std::string explain_command(const WorstFrame& worst) {
   return fmt::format("glovebench explain . {} --experiment {} --seed {}", worst.frame.frame,
-                     quoted(to_string(worst.key)), worst.seed);
+                     shell_quoted(to_string(worst.key)), worst.seed);
 }
 
 std::string caption(const WorstFrame& worst) {

@@ -9,13 +9,13 @@ namespace glovebench::trajectories {
 namespace {
 
 constexpr int kMaxIterations = 40;
-constexpr double kFirstDamping = 1e-3, kMostDamping = 1e6;
+constexpr double kFirstCalibrationDamping = 1e-3, kMostCalibrationDamping = 1e6;
 constexpr double kConstraintDeviation = 1e-5;  ///< m: as good as none
 /// What the points show badly stays about where the model's own hand put it; weak beside what they show well.
 constexpr double kPostureDeviation = radians_from_degrees(80);
 
 using StateMatrix = Eigen::Matrix<double, kStateSize, kStateSize>;
-using Points = std::vector<std::vector<Eigen::Vector3d>>;
+using PointsOfFrames = std::vector<std::vector<Eigen::Vector3d>>;
 
 /// One guess of everything.
 struct Guess {
@@ -38,7 +38,8 @@ struct System {
 
 class Problem {
  public:
-  Problem(const HandParameters& parameters, const Points& points, const std::vector<HandState>& start, double scale)
+  Problem(const HandParameters& parameters, const PointsOfFrames& points, const std::vector<HandState>& start,
+          double scale)
       : parameters_(parameters), points_(points), start_(start), robust_scale_(scale) {}
 
   double cost(const Guess& guess) const {
@@ -91,7 +92,7 @@ class Problem {
   }
 
   const HandParameters& parameters_;
-  const Points& points_;
+  const PointsOfFrames& points_;
   const std::vector<HandState>& start_;
   double robust_scale_;
 };
@@ -124,17 +125,17 @@ Guess stepped(const Guess& guess, const System& system, double damping) {
 
 }  // namespace
 
-Calibration calibrate_hand(const CaptureHand& start, const Points& points, const std::vector<HandState>& states,
-                           double robust_scale, double smallest_gain) {
+Calibration calibrate_hand(const CaptureHand& start, const PointsOfFrames& points,
+                           const std::vector<HandState>& states, double robust_scale, double smallest_gain) {
   const HandParameters parameters(start);
   const Problem problem(parameters, points, states, robust_scale);
   Guess guess{Eigen::VectorXd::Zero(parameters.size()), states};
   double cost = problem.cost(guess);
-  double damping = kFirstDamping;
+  double damping = kFirstCalibrationDamping;
   for (int i = 0; i < kMaxIterations; ++i) {
     const System system = problem.linearize(guess);
     double gain = 0;
-    while (gain <= 0 && damping < kMostDamping) {
+    while (gain <= 0 && damping < kMostCalibrationDamping) {
       Guess next = stepped(guess, system, damping);
       const double next_cost = problem.cost(next);
       gain = std::isfinite(next_cost) ? cost - next_cost : 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "trajectories/capture/bridge_gaps.h"
@@ -18,7 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 const HandModel& model() {
-  static const HandModel hand = HandModel::load(GLOVEBENCH_HAND_MESH);
+  static const HandModel hand = HandModel::load(build_paths::hand_mesh());
   return hand;
 }
 CaptureHand skin_hand() {

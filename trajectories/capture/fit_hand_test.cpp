@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/quantile.h"
@@ -14,22 +15,23 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-const HandModel& model() {
-  static const HandModel hand = HandModel::load(GLOVEBENCH_HAND_MESH);
+const HandModel& nominal_model() {
+  static const HandModel hand = HandModel::load(build_paths::hand_mesh());
   return hand;
 }
 /// The hand that is captured: 5% larger, other segments.
 const HandModel& subject() {
-  static const HandModel hand = HandModel::load(GLOVEBENCH_HAND_MESH, Side::right, second_subject());
+  static const HandModel hand = HandModel::load(build_paths::hand_mesh(), Side::right, second_subject());
   return hand;
 }
 Trajectory movement(const std::string& name, size_t frames = 1000) {
-  Trajectory trajectory = load_trajectory(GLOVEBENCH_TRAJECTORIES "/data/sources/" + name + ".json");
+  Trajectory trajectory = load_trajectory(build_paths::source("trajectories/data/sources/") + name + ".json");
   trajectory.frames.resize(std::min(frames, trajectory.frames.size()));
   return trajectory;
 }
 HandFit fit(const MarkerSequence& sequence) {
-  return fit_hand(sequence, place_markers(sequence.names, {}, model(), "capture"), model().skeleton(), "capture");
+  return fit_hand(sequence, place_markers(sequence.names, {}, nominal_model(), "capture"),
+                  nominal_model().skeleton(), "capture");
 }
 
 /// Absolute errors of all angles but those that no point shows, degrees.
@@ -58,7 +60,7 @@ AngleErrors angle_errors(const HandFit& fit, const Trajectory& truth) {
 
 TEST(FitHand, finds_the_angles_from_exact_joints_of_one_posture) {
   const Trajectory truth = movement("Tr1", 1);
-  const HandFit result = fit(captured(truth, model(), webxr_names(), {}));
+  const HandFit result = fit(captured(truth, nominal_model(), webxr_names(), {}));
   const AngleErrors errors = angle_errors(result, truth);
   EXPECT_LT(errors.p95, 1) << errors.table << "the prior of a hand's parts moves them a little";
 }
@@ -90,7 +92,7 @@ TEST(FitHand, says_what_no_point_shows) {
   std::erase_if(names, [](const std::string& name) {
     return name == "ring-finger-tip" || name == "thumb-tip" || name == "thumb-phalanx-distal";
   });
-  const HandFit result = fit(captured(truth, model(), names, {}));
+  const HandFit result = fit(captured(truth, nominal_model(), names, {}));
   std::vector<std::string_view> never;
   for (int a = 0; a < kAngleCount; ++a) {
     if (result.never_shown[a]) never.push_back(angle_infos()[a].name);
@@ -104,7 +106,7 @@ TEST(FitHand, says_what_no_point_shows) {
 
 TEST(FitHand, bridges_a_short_gap_and_leaves_a_long_one_out) {
   const Trajectory truth = movement("Tr4", 40);  // at 15 Hz
-  MarkerSequence sequence = captured(truth, model(), webxr_names(), {});
+  MarkerSequence sequence = captured(truth, nominal_model(), webxr_names(), {});
   for (const size_t f : {5, 6, 20, 21, 22, 23, 24, 25, 26, 27, 28, 39}) {
     sequence.frames[f].points.assign(sequence.names.size(), gap());
   }
@@ -130,7 +132,7 @@ std::string refusal(const MarkerSequence& sequence) {
 }
 
 TEST(FitHand, refuses_what_is_no_hand) {
-  const MarkerSequence good = captured(movement("Tr4", 3), model(), webxr_names(), {});
+  const MarkerSequence good = captured(movement("Tr4", 3), nominal_model(), webxr_names(), {});
   EXPECT_EQ(refusal(good), "accepted");
 
   MarkerSequence large = good;
@@ -148,7 +150,7 @@ TEST(FitHand, refuses_what_is_no_hand) {
   EXPECT_THAT(refusal(fingertip), HasSubstr("found no frame with three on the palm"));
 
   // Few frames of few points could be some hand's: the parts of a hand are fitted, too.
-  MarkerSequence nonsense = captured(movement("Tr4", 15), model(), webxr_names(), {});
+  MarkerSequence nonsense = captured(movement("Tr4", 15), nominal_model(), webxr_names(), {});
   for (size_t f = 0; f < nonsense.frames.size(); ++f) {
     RandomStream random(1, "nonsense", static_cast<int64_t>(f), "points");
     for (Eigen::Vector3d& p : nonsense.frames[f].points) {

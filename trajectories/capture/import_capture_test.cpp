@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
@@ -16,20 +17,20 @@ namespace {
 using testing::HasSubstr;
 
 Trajectory movement(size_t frames) {
-  Trajectory trajectory = load_trajectory(GLOVEBENCH_TRAJECTORIES "/data/sources/Tr4.json");
+  Trajectory trajectory = load_trajectory(build_paths::source("trajectories/data/sources/Tr4.json"));
   trajectory.frames.resize(frames);
   return trajectory;
 }
-const HandModel& model(Side side = Side::right) {
-  static const HandModel right = HandModel::load(GLOVEBENCH_HAND_MESH);
-  static const HandModel left = HandModel::load(GLOVEBENCH_HAND_MESH, Side::left);
+const HandModel& model_of_side(Side side = Side::right) {
+  static const HandModel right = HandModel::load(build_paths::hand_mesh());
+  static const HandModel left = HandModel::load(build_paths::hand_mesh(), Side::left);
   return side == Side::right ? right : left;
 }
 /// The joints of a movement of a hand of that side, through a file.
 HandFit imported(const Trajectory& truth, Side side) {
   const std::string path = testing::TempDir() + "glovebench-import-" + std::to_string(side == Side::left) + ".csv";
-  write_file(path, csv_markers(captured(truth, model(side), webxr_names(), {})));
-  HandFit fit = import_capture({path}, "csv", side, {}, model());
+  write_file(path, csv_markers(captured(truth, model_of_side(side), webxr_names(), {})));
+  HandFit fit = import_capture({path}, "csv", side, {}, model_of_side());
   std::filesystem::remove(path);
   return fit;
 }
@@ -87,11 +88,11 @@ TEST(ImportCapture, reports_each_frame_and_the_whole) {
 
 /// Poses that a headset captured (npm handy-work): another hand, whose lengths and palm the fit has to find.
 TEST(ImportCapture, fits_captured_poses_of_another_hand) {
-  const std::string folder = std::filesystem::path(GLOVEBENCH_HAND_MESH).parent_path().string();
+  const std::string folder = std::filesystem::path(build_paths::hand_mesh()).parent_path().string();
   const std::vector<std::string> paths = {folder + "/fist.handpose", folder + "/flat.handpose",
                                           folder + "/horns.handpose"};
   for (const Side side : {Side::right, Side::left}) {
-    const HandFit fit = import_capture(paths, "handpose", side, {}, model());
+    const HandFit fit = import_capture(paths, "handpose", side, {}, model_of_side());
     const PostureSet set = postures_of(fit, "captured", 3, {"fist", "flat", "horns"});
     const auto degrees = [&](int pose, int angle) { return degrees_from_radians(set.postures[pose][angle]); };
     for (const int pip : {kIndexPipFlexion, kMiddlePipFlexion, kRingPipFlexion, kLittlePipFlexion}) {

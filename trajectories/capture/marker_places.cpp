@@ -14,8 +14,8 @@
 namespace glovebench::trajectories {
 namespace {
 
-constexpr const char* kFormat = "glovebench-marker-layout";
-constexpr int kVersion = 1;
+constexpr const char* kLayoutFormat = "glovebench-marker-layout";
+constexpr int kLayoutVersion = 1;
 
 /// A marker on the skin in one direction from a point of a bone.
 struct Place {
@@ -118,7 +118,7 @@ MarkerLayout parse_marker_layout(std::string_view text, const std::string& where
   const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "markers"});
-  root.expect_format(kFormat, kVersion);
+  root.expect_format(kLayoutFormat, kLayoutVersion);
   const JsonField markers = root.member("markers");
   markers.expect_object();
   MarkerLayout layout;

@@ -93,8 +93,8 @@ Eigen::Vector3d point_or_gap(std::span<const std::string_view> cells, double uni
   return point == Eigen::Vector3d::Zero() ? gap() : point;
 }
 
-MarkerFrame frame_from(Cells cells, const About& about, const MarkerSequence& sequence, const std::string& where,
-                       const std::string& line) {
+MarkerFrame trc_frame(Cells cells, const About& about, const MarkerSequence& sequence, const std::string& where,
+                      const std::string& line) {
   without_empty_end(cells);
   const size_t columns = kLeading + 3 * about.markers;
   if (cells.size() > columns) {
@@ -132,7 +132,7 @@ MarkerSequence parse_trc_markers(std::string_view text, const std::string& where
   while (const std::optional<std::string_view> text_line = lines.next()) {
     if (split(*text_line, '\t').size() == 1 && trimmed(*text_line).empty()) continue;
     const std::string line = fmt::format("line {}", lines.number());
-    MarkerFrame frame = frame_from(split(*text_line, '\t'), about, sequence, where, line);
+    MarkerFrame frame = trc_frame(split(*text_line, '\t'), about, sequence, where, line);
     if (sequence.frames.empty()) first_us = frame.timestamp_us;
     add_frame(std::move(frame), first_us, text.size(), sequence, where, line + ", Time");
   }

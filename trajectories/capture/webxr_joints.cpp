@@ -16,8 +16,8 @@
 namespace glovebench::trajectories {
 namespace {
 
-constexpr const char* kFormat = "glovebench-webxr-joints";
-constexpr int kVersion = 1;
+constexpr const char* kWebxrFormat = "glovebench-webxr-joints";
+constexpr int kWebxrVersion = 1;
 constexpr int kWebxrJointCount = kForearmJoint;  ///< the forearm is ours
 
 MarkerSequence sequence_of_joints() {
@@ -33,7 +33,7 @@ Eigen::Vector3d position_from(const JsonField& field) {
   return p;
 }
 
-MarkerFrame frame_from(const JsonField& field) {
+MarkerFrame webxr_frame(const JsonField& field) {
   field.expect_members({"timestamp_us", "joints_m"});
   MarkerFrame frame;
   frame.timestamp_us = field.member("timestamp_us").integer(0, kMaxTimestampUs);
@@ -74,12 +74,12 @@ MarkerSequence parse_webxr_joints(std::string_view text, const std::string& wher
   const nlohmann::json document = parse_json(text, where);
   const JsonField root(document, where);
   root.expect_members({"format", "version", "frames"});
-  root.expect_format(kFormat, kVersion);
+  root.expect_format(kWebxrFormat, kWebxrVersion);
   MarkerSequence sequence = sequence_of_joints();
   const JsonField frames = root.member("frames");
   int64_t first_us = 0;
   for (size_t i = 0; i < frames.array_size(); ++i) {
-    MarkerFrame frame = frame_from(frames.element(i));
+    MarkerFrame frame = webxr_frame(frames.element(i));
     if (i == 0) first_us = frame.timestamp_us;
     add_frame(std::move(frame), first_us, text.size(), sequence, where, fmt::format("frames[{}].timestamp_us", i));
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -15,7 +16,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-const std::string kFolder = GLOVEBENCH_TRAJECTORIES "/data";
+const std::string kPostureFolder = build_paths::source("trajectories/data");
 
 /// All angles equal: posture_distance of two such postures is the difference of their values.
 Posture all(double angle) {
@@ -37,8 +38,8 @@ TEST(LowDispersion, covering_radius_is_the_worst_nearest_distance) {
 }
 
 TEST(DatabasePostures, cover_the_pool_better_than_the_median_random_choice) {
-  const std::vector<Posture> pool = movement_posture_pool(load_gestures(kFolder));
-  const PostureSet twenty = posture_set(kFolder, "DB_20_postures");
+  const std::vector<Posture> pool = movement_posture_pool(load_gestures(kPostureFolder));
+  const PostureSet twenty = posture_set(kPostureFolder, "DB_20_postures");
   ASSERT_EQ(twenty.postures.size(), kPostureCount20);
 
   constexpr int choices = 1000;
@@ -59,7 +60,7 @@ TEST(DatabasePostures, cover_the_pool_better_than_the_median_random_choice) {
 
 TEST(DatabasePostures, are_plausible) {
   for (const std::string& name : posture_set_names()) {
-    const PostureSet set = posture_set(kFolder, name);
+    const PostureSet set = posture_set(kPostureFolder, name);
     for (const Posture& posture : set.postures) {
       EXPECT_EQ(posture.head<2>(), Eigen::Vector2d::Zero());
       for (int pip = kIndexPipFlexion; pip < kAngleCount; pip += 4) {
@@ -71,7 +72,7 @@ TEST(DatabasePostures, are_plausible) {
 }
 
 TEST(DatabasePostures, differ) {
-  const PostureSet twenty = posture_set(kFolder, "DB_20_postures");
+  const PostureSet twenty = posture_set(kPostureFolder, "DB_20_postures");
   for (size_t i = 0; i < twenty.postures.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
       // Farther apart than the few degrees by which a hand varies around one posture.

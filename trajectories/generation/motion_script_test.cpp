@@ -20,7 +20,7 @@ PostureSet gestures() {
   return {"gestures", {"flat", "bent"}, {Posture::Zero(), bent}};
 }
 
-json example() {
+json example_script() {
   return json::parse(R"({
     "format": "glovebench-motion-script", "version": 1, "name": "s", "description": "d", "seed": 1, "frame_count": 31,
     "postures": [{"frame": 0, "blend": {"flat": 1}}, {"frame": 30, "blend": {"flat": 0.25, "bent": 0.75}}],
@@ -33,7 +33,7 @@ MotionScript parse(const json& document) {
   return parse_motion_script(document.dump(), gestures(), "script.json");
 }
 
-std::string complaint(const json& document) {
+std::string script_complaint(const json& document) {
   try {
     parse(document);
   } catch (const Error& e) {
@@ -63,7 +63,7 @@ TEST(HandRotation, shows_the_back_of_the_hand_with_fingers_up) {
 }
 
 TEST(MotionScript, plays_its_keyframes_up_to_drift) {
-  const Trajectory trajectory = perform(parse(example()));
+  const Trajectory trajectory = perform(parse(example_script()));
   ASSERT_EQ(trajectory.frames.size(), 31u);
   EXPECT_EQ(trajectory.frames[3].timestamp_us, 200'000);
   EXPECT_EQ(trajectory.frames[1].timestamp_us, 66'667);
@@ -78,30 +78,30 @@ TEST(MotionScript, plays_its_keyframes_up_to_drift) {
 }
 
 TEST(MotionScript, depends_on_its_seed_only) {
-  json other = example();
+  json other = example_script();
   other["seed"] = 2;
-  EXPECT_EQ(hash(perform(parse(example()))), hash(perform(parse(example()))));
-  EXPECT_NE(hash(perform(parse(example()))), hash(perform(parse(other))));
+  EXPECT_EQ(hash(perform(parse(example_script()))), hash(perform(parse(example_script()))));
+  EXPECT_NE(hash(perform(parse(example_script()))), hash(perform(parse(other))));
 }
 
 TEST(MotionScript, refuses_keys_that_do_not_span_the_frames) {
-  json bad = example();
+  json bad = example_script();
   bad["wrist"][1]["frame"] = 29;
-  EXPECT_EQ(complaint(bad), "script.json: wrist: found the last key at frame 29, expected 30");
-  bad = example();
+  EXPECT_EQ(script_complaint(bad), "script.json: wrist: found the last key at frame 29, expected 30");
+  bad = example_script();
   bad["poses"][0]["frame"] = 1;
-  EXPECT_THAT(complaint(bad), HasSubstr("poses[0].frame: found 1"));
-  bad = example();
+  EXPECT_THAT(script_complaint(bad), HasSubstr("poses[0].frame: found 1"));
+  bad = example_script();
   bad["postures"][1]["frame"] = 0;
-  EXPECT_THAT(complaint(bad), HasSubstr("postures[1].frame: found 0, expected an integer from 1 to 30"));
+  EXPECT_THAT(script_complaint(bad), HasSubstr("postures[1].frame: found 0, expected an integer from 1 to 30"));
 }
 
 TEST(MotionScript, refuses_impossible_blends) {
-  json bad = example();
+  json bad = example_script();
   bad["postures"][0]["blend"] = {{"fist", 1}};
-  EXPECT_THAT(complaint(bad), HasSubstr("found \"fist\", expected one of flat, bent"));
+  EXPECT_THAT(script_complaint(bad), HasSubstr("found \"fist\", expected one of flat, bent"));
   bad["postures"][0]["blend"] = {{"flat", 0.5}};
-  EXPECT_THAT(complaint(bad), HasSubstr("postures[0].blend: found weights with sum 0.5, expected sum 1"));
+  EXPECT_THAT(script_complaint(bad), HasSubstr("postures[0].blend: found weights with sum 0.5, expected sum 1"));
 }
 
 TEST(NaturalVariation, modes_have_one_degree_and_leave_the_wrist) {

@@ -39,10 +39,6 @@ ArmJoints arm_joints(const StartPlace& start) {
   return joints;
 }
 
-double angle_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return Eigen::Quaterniond(a).angularDistance(Eigen::Quaterniond(b));
-}
-
 }  // namespace
 
 std::vector<JointMotion> ArmServer::joint_motions(const CommandLimits& limits) {

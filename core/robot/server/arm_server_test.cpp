@@ -13,9 +13,9 @@
 namespace glovebench {
 namespace {
 
-constexpr int64_t kPeriodUs = 10'000;
+constexpr int64_t kArmPeriodUs = 10'000;
 constexpr uint64_t kSender = 3;
-constexpr double kRounding = 1e-9;  // of a pose that went through seven rotations
+constexpr double kArmRounding = 1e-9;  // of a pose that went through seven rotations
 
 /// Steps along the numerical Jacobian: slow, and good enough near a solution.
 class JacobianSolver : public ArmSolver {
@@ -70,25 +70,25 @@ class ArmServerTest : public testing::Test {
  protected:
   RobotState tick(ArmServer& server) {
     const Eigen::Isometry3d before = server.T_base_wrist();
-    now_us_ += kPeriodUs;
+    now_us_ += kArmPeriodUs;
     const RobotState state = server.tick({now_us_, now_us_});
     const Eigen::Isometry3d after = server.T_base_wrist();
-    const double seconds = kPeriodUs * 1e-6;
-    EXPECT_LE((after.translation() - before.translation()).norm(), limits_.hand_speed * seconds + kRounding);
+    const double seconds = kArmPeriodUs * 1e-6;
+    EXPECT_LE((after.translation() - before.translation()).norm(), limits_.hand_speed * seconds + kArmRounding);
     EXPECT_LE(Eigen::Quaterniond(before.linear()).angularDistance(Eigen::Quaterniond(after.linear())),
-              limits_.hand_turn_speed * seconds + kRounding);
+              limits_.hand_turn_speed * seconds + kArmRounding);
     // A fingertip may be anywhere within 0.23 m of the wrist.
     RandomStream random(1, "arm", now_us_, "fingertips");
     for (int i = 0; i < 20; ++i) {
       const Eigen::Vector3d tip =
           0.23 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
-      EXPECT_LE((after * tip - before * tip).norm(), 0.5 * seconds + kRounding);
+      EXPECT_LE((after * tip - before * tip).norm(), 0.5 * seconds + kArmRounding);
       EXPECT_GE(((after * tip) - limits_.workspace_min).minCoeff(), -1e-4);
       EXPECT_GE((limits_.workspace_max - after * tip).minCoeff(), -1e-4);
     }
     for (int j = 0; j < kArmJointCount; ++j) {
       EXPECT_LE(std::abs(state.position[j] - last_[j]),
-                radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds + kRounding);
+                radians_from_degrees(arm_joint_infos()[j].max_speed_deg_s) * seconds + kArmRounding);
     }
     last_ = state.position;
     return state;
@@ -207,7 +207,7 @@ TEST_F(ArmServerTest, AGapOrALogThatWaitsHoldsIt) {
   for (int i = 1; i <= 10; ++i, tick(server_))
     EXPECT_EQ(receive(server_, displaced({0, 0.2, 0}, i)), Receipt::accepted);
   const std::vector<double> stood = last_;
-  now_us_ += kPeriodUs;
+  now_us_ += kArmPeriodUs;
   EXPECT_EQ(receive(server_, displaced({0, 0.2, 0}, 11)), Receipt::accepted);
   EXPECT_EQ(server_.tick({now_us_, now_us_}, false).position, stood);
   tick(server_);
@@ -282,7 +282,7 @@ TEST(ArmServer, StartsAtTheEdgeOfTheWorkspace) {
       message.qx = q.x(), message.qy = q.y(), message.qz = q.z(), message.qw = q.w();
       int64_t now_us = 1;
       for (int i = 0; i <= 20; ++i) {
-        now_us += kPeriodUs;
+        now_us += kArmPeriodUs;
         message.stamp = test_stamp(now_us);
         server.receive(message, {kSender, now_us * 1000, now_us});
         server.tick({now_us + 1, now_us + 1});

@@ -14,8 +14,8 @@ namespace glovebench {
 namespace {
 
 constexpr uint32_t kNanosecondsOfASecond = 1'000'000'000;
-constexpr double kUnitTolerance = 1e-3;  // as tf2 admits it
-constexpr int kWristJointCount = 2;      // the last ones of ShadowJoint
+constexpr double kMessageUnitTolerance = 1e-3;  // as tf2 admits it
+constexpr int kWristJointCount = 2;             // the last ones of ShadowJoint
 static_assert(kWRJ1 == kShadowJointCount - 2 && kWRJ2 == kShadowJointCount - 1);
 
 bool is_time(const ros::Time& time) {
@@ -130,7 +130,7 @@ PoseRead read_pose(const ros::PoseStamped& message) {
   const Eigen::Vector3d p(message.x, message.y, message.z);
   const Eigen::Quaterniond q(message.qw, message.qx, message.qy, message.qz);
   if (!p.allFinite() || !q.coeffs().allFinite()) return {.receipt = Receipt::not_finite};
-  if (!(std::abs(q.norm() - 1) < kUnitTolerance)) return {.receipt = Receipt::not_rotation};
+  if (!(std::abs(q.norm() - 1) < kMessageUnitTolerance)) return {.receipt = Receipt::not_rotation};
   return {.receipt = Receipt::accepted, .T_base_wrist = Eigen::Translation3d(p) * q.normalized()};
 }
 

@@ -18,7 +18,7 @@ using testing::Each;
 constexpr int64_t kPeriodUs = 10'000;
 constexpr uint64_t kFirst = 11, kSecond = 22;
 constexpr int64_t kEpochUs = 1'800'000'000'000'000;
-constexpr double kRounding = 1e-12;
+constexpr double kHandRounding = 1e-12;
 
 /// A server and its clock; every state is checked against the limits.
 class HandServerTest : public testing::Test {
@@ -54,7 +54,7 @@ class HandServerTest : public testing::Test {
     const RobotState state = server_.tick({now_us_, kEpochUs + now_us_});
     for (size_t j = 0; j < state.position.size(); ++j) {
       EXPECT_LE(std::abs(state.position[j] - last_.position[j]),
-                limits_.hand_joint_speed * kPeriodUs * 1e-6 + kRounding)
+                limits_.hand_joint_speed * kPeriodUs * 1e-6 + kHandRounding)
           << hand_joint_names()[j];
       const ShadowJointInfo& info = shadow_joint_infos()[j];
       EXPECT_GE(state.position[j], radians_from_degrees(info.min_deg));
@@ -62,7 +62,7 @@ class HandServerTest : public testing::Test {
     }
     for (const int j1 : {kFFJ1, kMFJ1, kRFJ1, kLFJ1})
       EXPECT_NEAR(state.position[j1], std::max(0.0, state.position[j1] + state.position[j1 + 1] - M_PI / 2),
-                  kRounding);
+                  kHandRounding);
     const TestFingertips::Tips way = fingertips(state) - fingertips(last_);
     EXPECT_LE(way.colwise().norm().maxCoeff(), limits_.fingertip_speed * kPeriodUs * 1e-6 + 1e-9);
     return last_ = state;
@@ -103,7 +103,7 @@ TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
     EXPECT_LE(state.velocity[kFFJ3], 2 + 1e-9);
   }
   EXPECT_EQ(moving, 27) << "30 degrees at 2 rad/s are 0.262 s";
-  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kRounding);
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kHandRounding);
 }
 
 TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
@@ -116,10 +116,10 @@ TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
                 1e-9);
   }
   EXPECT_GT(server_.interventions()[Intervention::fingertip_speed], 0);
-  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kRounding);
-  EXPECT_NEAR(last_.position[kWRJ1], radians_from_degrees(8), kRounding);
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kHandRounding);
+  EXPECT_NEAR(last_.position[kWRJ1], radians_from_degrees(8), kHandRounding);
   EXPECT_GT(server_.interventions()[Intervention::coupling], 0) << "30 and 30 degrees are 60 of the motor, and 0";
-  EXPECT_NEAR(last_.position[kFFJ2], radians_from_degrees(60), kRounding);
+  EXPECT_NEAR(last_.position[kFFJ2], radians_from_degrees(60), kHandRounding);
 }
 
 TEST(HandServer, SplitsByTheCouplingThatItIsTold) {
@@ -160,7 +160,7 @@ TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
     EXPECT_EQ(fingers(10, 1000 * (i + 1), kSecond), Receipt::accepted);
     tick();
   }
-  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(10), kRounding);
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(10), kHandRounding);
   EXPECT_EQ(last_.position[kWRJ1], stood);
 }
 
@@ -182,7 +182,7 @@ TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
   EXPECT_THAT(last_.velocity, Each(0.0));
   EXPECT_EQ(first_finger(80, 2), Receipt::accepted);
   EXPECT_EQ(tick().state, CommandState::following);
-  EXPECT_NEAR(last_.position[kFFJ3] - held.position[kFFJ3], 0.02, kRounding) << "from where it stood";
+  EXPECT_NEAR(last_.position[kFFJ3] - held.position[kFFJ3], 0.02, kHandRounding) << "from where it stood";
 }
 
 TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
@@ -209,7 +209,7 @@ TEST_F(HandServerTest, ClampsWhatIsBeyondTheLimits) {
     EXPECT_EQ(fingers(i % 2 ? 1e6 : 500, i), Receipt::accepted);
     tick();  // checks the limits
   }
-  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(90), kRounding);
+  EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(90), kHandRounding);
   EXPECT_GT(server_.interventions()[Intervention::joint_limit], 0);
 }
 
@@ -221,7 +221,7 @@ TEST_F(HandServerTest, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
     EXPECT_EQ(wrist(5, i, kSecond), Receipt::foreign) << "also on a topic that the owner does not use";
     tick();
   }
-  EXPECT_LE(last_.position[kFFJ3], radians_from_degrees(10) + kRounding);
+  EXPECT_LE(last_.position[kFFJ3], radians_from_degrees(10) + kHandRounding);
   EXPECT_EQ(count(Receipt::foreign), 100);
   int refused = 0;
   while (fingers(20, 1, kSecond) == Receipt::foreign && refused < 1000) {
@@ -268,7 +268,7 @@ TEST_F(HandServerTest, AFloodMovesNothingFaster) {
     tick();
   }
   EXPECT_EQ(count(Receipt::accepted), 20'000);
-  EXPECT_NEAR(last_.position[kFFJ3], 20 * 0.02, kRounding) << "the last one before a tick counts";
+  EXPECT_NEAR(last_.position[kFFJ3], 20 * 0.02, kHandRounding) << "the last one before a tick counts";
 }
 
 TEST_F(HandServerTest, WhatWaitedThroughAStandstillMovesNothing) {
@@ -332,7 +332,7 @@ TEST_F(HandServerTest, HoldsWhileItMayNotMoveAndGoesOnThen) {
   for (int i = 0; i < 3; ++i, now_us_ += kPeriodUs)
     EXPECT_EQ(server_.tick({now_us_ + kPeriodUs, kEpochUs + now_us_ + kPeriodUs}, false).position, start_);
   EXPECT_EQ(tick().state, CommandState::following) << "without another message";
-  EXPECT_NEAR(last_.position[kFFJ3], 0.02, kRounding) << "and without making up for what it missed";
+  EXPECT_NEAR(last_.position[kFFJ3], 0.02, kHandRounding) << "and without making up for what it missed";
 }
 
 TEST_F(HandServerTest, AClockThatIsSetIsAGap) {

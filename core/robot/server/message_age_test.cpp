@@ -8,8 +8,8 @@
 namespace glovebench {
 namespace {
 
-constexpr int64_t kSecond = 1'000'000, kPeriod = 33'333, kTick = 10'000;
-constexpr int64_t kEpoch = 1'800'000'000 * kSecond;
+constexpr int64_t kSecondUs = 1'000'000, kPeriod = 33'333, kTick = 10'000;
+constexpr int64_t kEpoch = 1'800'000'000 * kSecondUs;
 constexpr double kLimit = 0.15;
 
 /// A server that ticks, and a sender whose clock is `offset_` ahead of the server's.
@@ -39,12 +39,12 @@ class MessageAgeTest : public testing::Test {
   }
 
   MessageAges ages_{kLimit};
-  int64_t now_ = 100 * kSecond, offset_ = -50 * kSecond;
+  int64_t now_ = 100 * kSecondUs, offset_ = -50 * kSecondUs;
   int gaps_ = 0;
 };
 
 TEST_F(MessageAgeTest, AStreamIsFollowedAfterAStart) {
-  pass(kSecond);
+  pass(kSecondUs);
   EXPECT_EQ(come().receipt, Receipt::starting);
   for (int i = 0; i < 6; ++i) {
     pass(kPeriod);
@@ -62,14 +62,14 @@ TEST_F(MessageAgeTest, ALateMessageIsStaleAndTheNextOneIsNot) {
   EXPECT_EQ(come(100'300).age_us, 100'000);
   EXPECT_EQ(come(150'300).receipt, Receipt::accepted);
   EXPECT_EQ(come(150'301).receipt, Receipt::stale);
-  pass(4 * kSecond);
-  EXPECT_EQ(come(3 * kSecond).receipt, Receipt::stale);
-  EXPECT_FALSE(come(3 * kSecond).jumped) << "lateness explains it";
+  pass(4 * kSecondUs);
+  EXPECT_EQ(come(3 * kSecondUs).receipt, Receipt::stale);
+  EXPECT_FALSE(come(3 * kSecondUs).jumped) << "lateness explains it";
   EXPECT_EQ(come().receipt, Receipt::accepted);
 }
 
 TEST_F(MessageAgeTest, OldMessagesOfAnUnknownSenderStartNothing) {
-  pass(kSecond);
+  pass(kSecondUs);
   for (const int64_t between :
        {int64_t{0}, int64_t{10}, int64_t{1000}, int64_t{10'000}, kPeriod, int64_t{90'000}}) {
     MessageAges ages(kLimit);
@@ -83,8 +83,8 @@ TEST_F(MessageAgeTest, OldMessagesOfAnUnknownSenderStartNothing) {
 TEST_F(MessageAgeTest, AQueueThatIsEmptiedSlowlyStartsNothing) {
   for (const double faster : {1.2, 1.5, 2.0, 3.0, 10.0}) {
     MessageAges ages(kLimit);
-    int64_t waited = 5 * kSecond;  // of the first one
-    for (int i = 0; waited > kSecond; ++i) {
+    int64_t waited = 5 * kSecondUs;  // of the first one
+    for (int i = 0; waited > kSecondUs; ++i) {
       const auto taken = static_cast<int64_t>(static_cast<double>(kPeriod) / faster);
       now_ += taken;
       waited -= kPeriod - taken;
@@ -95,7 +95,7 @@ TEST_F(MessageAgeTest, AQueueThatIsEmptiedSlowlyStartsNothing) {
 }
 
 TEST_F(MessageAgeTest, OldMessagesAfterAStandstillAreStaleHoweverLongItWas) {
-  for (const int64_t standstill : {kSecond / 5, 5 * kSecond, 9 * kSecond, 11 * kSecond, 3600 * kSecond}) {
+  for (const int64_t standstill : {kSecondUs / 5, 5 * kSecondUs, 9 * kSecondUs, 11 * kSecondUs, 3600 * kSecondUs}) {
     EXPECT_GT(stream(1), 10);
     now_ += standstill;
     gaps_ = 0;
@@ -109,7 +109,7 @@ TEST_F(MessageAgeTest, OldMessagesAfterAStandstillAreStaleHoweverLongItWas) {
     EXPECT_EQ(accepted, 0) << standstill;
     // Some come later still: a writer sends its last ten again.
     pass(200'000);
-    for (int i = 10; i > 0 && standstill > kSecond; --i)
+    for (int i = 10; i > 0 && standstill > kSecondUs; --i)
       EXPECT_EQ(come(300 + 200'000 + i * kPeriod).receipt, Receipt::stale) << "sent before the end of the gap";
     EXPECT_EQ(stream(0.2), 0) << "and a live stream starts anew";
     EXPECT_GT(stream(1), 28);
@@ -128,7 +128,7 @@ TEST_F(MessageAgeTest, TicksThatAreLateAreAGap) {
 }
 
 TEST_F(MessageAgeTest, AClockOfTheServerThatJumpsIsAGap) {
-  for (const int64_t jump : {100'001L, -100'001L, 3600 * kSecond, -3600 * kSecond}) {
+  for (const int64_t jump : {100'001L, -100'001L, 3600 * kSecondUs, -3600 * kSecondUs}) {
     MessageAges ages(kLimit);
     EXPECT_FALSE(ages.tick(kTick, kEpoch));
     EXPECT_FALSE(ages.tick(2 * kTick, kEpoch + kTick + 99'999)) << "corrected a little";
@@ -138,7 +138,7 @@ TEST_F(MessageAgeTest, AClockOfTheServerThatJumpsIsAGap) {
 }
 
 TEST_F(MessageAgeTest, AClockOfASenderThatJumpsStartsItAnew) {
-  for (const int64_t jump : {110'000L, -150'000L, 3600 * kSecond, -3600 * kSecond}) {
+  for (const int64_t jump : {110'000L, -150'000L, 3600 * kSecondUs, -3600 * kSecondUs}) {
     EXPECT_GT(stream(1), 10);
     offset_ += jump;
     pass(kPeriod);
@@ -168,10 +168,10 @@ TEST_F(MessageAgeTest, ClocksThatDriftAreFollowed) {
 
 TEST_F(MessageAgeTest, WhoWasSilentForLongStartsAnew) {
   EXPECT_GT(stream(1), 20);
-  pass(9 * kSecond);
+  pass(9 * kSecondUs);
   EXPECT_EQ(come().receipt, Receipt::accepted);
-  pass(12 * kSecond);
-  EXPECT_EQ(come(5 * kSecond).receipt, Receipt::starting);
+  pass(12 * kSecondUs);
+  EXPECT_EQ(come(5 * kSecondUs).receipt, Receipt::starting);
   EXPECT_TRUE(come().jumped) << "sooner than it can be: the first one was old";
   EXPECT_EQ(come().receipt, Receipt::starting);
 }
@@ -192,13 +192,13 @@ TEST_F(MessageAgeTest, NothingOldIsAcceptedWhateverHappens) {
   const auto any = [&](int64_t most) { return std::uniform_int_distribution<int64_t>(0, most)(random); };
   int accepted = 0;
   for (int round = 0; round < 300; ++round) {
-    const int64_t delay = any(3) == 0 ? any(8 * kSecond) : any(50'000);  // of the next messages
+    const int64_t delay = any(3) == 0 ? any(8 * kSecondUs) : any(50'000);  // of the next messages
     switch (any(4)) {
       case 0:
-        now_ += any(20 * kSecond);
+        now_ += any(20 * kSecondUs);
         break;  // the server stands still
       case 1:
-        pass(any(15 * kSecond));
+        pass(any(15 * kSecondUs));
         break;  // the sender is silent
       default:
         break;

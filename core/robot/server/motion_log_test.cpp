@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kPeriod = 0.01, kMaxAge = 600;
+constexpr double kLogPeriod = 0.01, kMaxAge = 600;
 
 /// A log of two joints.
 class MotionLogTest : public testing::Test {
@@ -24,13 +24,13 @@ class MotionLogTest : public testing::Test {
   void TearDown() override { std::filesystem::remove(path_); }
 
   MotionLog open(const std::string& path) const { return MotionLog(path, {"a", "b"}, joints_); }
-  LoggedStart start() const { return open(path_).start({0, 0}, system_us(), kMaxAge, kPeriod); }
+  LoggedStart start() const { return open(path_).start({0, 0}, system_us(), kMaxAge, kLogPeriod); }
   /// A tick of a server that has a command, or rests. Returns whether it may move.
   bool tick(MotionLog& log, const std::vector<double>& positions, bool at_rest) {
     clock_us_ += 10'000;
     const CommandState state = at_rest ? CommandState::stopped : CommandState::following;
     log.ticked({clock_us_, state, positions, {}}, system_us(), at_rest);
-    return log.may_move(positions, kPeriod);
+    return log.may_move(positions, kLogPeriod);
   }
   bool comes_to_move(MotionLog& log, const std::vector<double>& positions) {
     for (int i = 0; i < 2000; ++i) {
@@ -47,7 +47,7 @@ class MotionLogTest : public testing::Test {
 
 TEST_F(MotionLogTest, MovesOnlyAfterItsIntervalIsOnTheDisk) {
   MotionLog log = open(path_);
-  EXPECT_FALSE(log.may_move({0, 1}, kPeriod)) << "nothing was stated";
+  EXPECT_FALSE(log.may_move({0, 1}, kLogPeriod)) << "nothing was stated";
   ASSERT_TRUE(comes_to_move(log, {0, 1}));
   const auto interval = last_interval(read_file(path_), {"a", "b"}, path_);
   ASSERT_TRUE(interval) << "it is there when the first motion is allowed";
@@ -71,7 +71,7 @@ TEST_F(MotionLogTest, WithoutAFileEverythingMayMove) {
   EXPECT_TRUE(tick(log, {0, 1}, false));
   log.finish({1, CommandState::stopped, {0, 1}, {}}, 1);
   EXPECT_EQ(log.lost(), 0);
-  EXPECT_EQ(log.start({1, 2}, 0, 0, kPeriod).joints, (std::vector<double>{1, 2}));
+  EXPECT_EQ(log.start({1, 2}, 0, 0, kLogPeriod).joints, (std::vector<double>{1, 2}));
 }
 
 TEST_F(MotionLogTest, ACleanEndSaysWhereTheJointsAre) {

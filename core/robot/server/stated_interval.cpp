@@ -11,7 +11,7 @@ constexpr double kAhead = 0.5;             // s: what is stated
 constexpr double kLeft = 0.25;             // s: then it is stated anew
 constexpr int64_t kRestateUs = 1'000'000;  // so that the end of a log has one
 constexpr int64_t kRetryUs = 100'000;      // after a disk that failed
-constexpr double kRounding = radians_from_degrees(1e-5);
+constexpr double kStatedAngleTolerance = radians_from_degrees(1e-5);
 
 bool contains(const JointInterval& outer, const JointInterval& inner) {
   for (size_t j = 0; j < outer.min.size(); ++j)
@@ -23,7 +23,8 @@ bool contains(const JointInterval& outer, const JointInterval& inner) {
 
 bool is_one_step(const JointInterval& interval, const std::vector<JointMotion>& joints, double seconds) {
   for (size_t j = 0; j < joints.size(); ++j)
-    if (!(interval.max.at(j) - interval.min.at(j) <= joints[j].speed * seconds + kRounding)) return false;
+    if (!(interval.max.at(j) - interval.min.at(j) <= joints[j].speed * seconds + kStatedAngleTolerance))
+      return false;
   return true;
 }
 

@@ -8,12 +8,12 @@
 namespace glovebench {
 namespace {
 
-constexpr int64_t kTick = 10'000;
+constexpr int64_t kStatedTick = 10'000;
 
 class StatedIntervalTest : public testing::Test {
  protected:
   std::optional<JointInterval> state(bool at_rest) {
-    now_us_ += kTick;
+    now_us_ += kStatedTick;
     const std::optional<JointInterval> next = stated_.next(at_, at_rest, now_us_);
     if (next) stated_.stated(*next, ++line_, now_us_);
     return next;
