@@ -99,9 +99,6 @@ TEST(StoredStudy, HalfOfOneIsNone) {
 /// Figure 7 and the tracker without depth, quick, in processes of their own.
 class KilledReproductionLong : public testing::Test {
  protected:
-  KilledReproductionLong() : folder_(make_test_folder()) {}
-  ~KilledReproductionLong() override { fs::remove_all(folder_); }
-
   std::vector<std::string> reproduce_into(const std::string& name) const {
     return {"reproduce", "--quick", "--only", "fig5,fig7,monocular", "--output", folder_ + "/" + name};
   }
@@ -112,7 +109,7 @@ class KilledReproductionLong : public testing::Test {
     return false;
   }
 
-  std::string folder_;
+  const std::string folder_ = test_folder();
 };
 
 TEST_F(KilledReproductionLong, ResumesToTheSameResultsAndSaysWhatIsMadeAnew) {
