@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/kinect/recording_files.h"
+#include "core/test_folder.h"
 
 namespace glovebench::calibration {
 namespace {
@@ -22,15 +23,12 @@ constexpr Chessboard kBoard = {7, 4, 0.03};
 class BoardViewsTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = testing::TempDir() + "board_views_" + std::to_string(getpid());
-    fs::create_directories(folder_);
     const RgbdCalibration truth = kinect_with_lenses();
     RandomStream noise(1, "board views", 0, "picture");
     const Eigen::Isometry3d T_ir_board = poses_before(truth, kBoard, 1, 1).front();
     corners_ = true_corners(truth.ir, truth.ir_lens, T_ir_board, kBoard);
     picture_ = BoardCamera(truth.ir, truth.ir_lens).picture(T_ir_board, kBoard, noise);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   static std::string pgm(const Image<uint8_t>& gray) {
@@ -47,7 +45,7 @@ class BoardViewsTest : public testing::Test {
     return "";
   }
 
-  std::string folder_;
+  const std::string folder_ = test_folder();
   Corners corners_;
   Image<uint8_t> picture_;
 };

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/segmentation/color_calibration.h"
+#include "core/test_folder.h"
 
 namespace glovebench::calibration {
 namespace {
@@ -100,13 +101,12 @@ TEST(ColorSeeds, of_a_table_lie_in_the_middle_of_its_colors) {
 }
 
 TEST(ColorSeeds, are_loaded_by_what_the_file_holds) {
-  const std::string folder = testing::TempDir() + "color_seeds_" + std::to_string(getpid());
+  const std::string folder = test_folder();
   write_file(folder + "/glove", "\n " + kGlove.dump());
   EXPECT_EQ(load_seeds(folder + "/glove"), parse_glove_colors(kGlove.dump(), ""));
   write_file(folder + "/glove", "glovebench color table, version 2, yuv\n");
   EXPECT_THROW(load_seeds(folder + "/glove"), Error);
   EXPECT_THROW(load_seeds(folder + "/none"), Error);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

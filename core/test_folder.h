@@ -6,9 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -16,17 +16,9 @@
 
 namespace glovebench {
 
-/// A new folder whose name nobody could foresee, only for this user. Slashes, as tests with parameters have them in
-/// their names, become hyphens.
-inline std::string new_test_folder(std::string name) {
-  std::ranges::replace(name, '/', '-');
-  std::string path = testing::TempDir() + name + "-XXXXXX";
-  if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
-  return path;
-}
-
 /// A folder of a known name that test processes share. Throws if it is somebody else's, who could put files in it.
-inline std::string shared_folder(const std::string& path) {
+inline std::string shared_folder(const std::string& name) {
+  std::string path = testing::TempDir() + name;
   ::mkdir(path.c_str(), 0700);
   struct stat found {};
   const bool is_own = ::lstat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == ::geteuid() &&
@@ -35,13 +27,15 @@ inline std::string shared_folder(const std::string& path) {
   return path;
 }
 
-/// A folder of one test's own: empty at first, gone at the end.
+/// A folder of one test's own, for this user alone: empty at first, gone at the end.
 class TestFolder {
  public:
-  TestFolder() = default;
+  TestFolder() {
+    if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error(path_ + ": cannot be made");
+  }
   ~TestFolder() {
     std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
+    if (::getpid() == owner_) std::filesystem::remove_all(path_, ignored);
   }
   TestFolder(const TestFolder&) = delete;
   TestFolder& operator=(const TestFolder&) = delete;
@@ -54,16 +48,22 @@ class TestFolder {
   }
 
  private:
-  std::string path_ = new_test_folder("glovebench-test");
+  const pid_t owner_ = ::getpid();  ///< and no process that it forks
+  std::string path_ = testing::TempDir() + "glovebench-test-XXXXXX";
 };
+
+/// The folder of the running test, or of its suite while that is set up. It is gone when the program ends.
+inline const std::string& test_folder() {
+  static std::map<const testing::TestInfo*, TestFolder> folders;
+  return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
+}
 
 /// A folder that all test processes of this executable share, for what is expensive to make. Another build gets
 /// another one, so that no test is answered by the files of older code; those are removed.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path home =
-      shared_folder(testing::TempDir() + "glovebench-shared-" + hash_text(program.string()).substr(0, 16));
+  const fs::path home = shared_folder("glovebench-shared-" + hash_text(program.string()).substr(0, 16));
   const fs::path folder = home / std::to_string(fs::last_write_time(program).time_since_epoch().count());
   fs::create_directories(folder);
   for (const fs::directory_entry& entry : fs::directory_iterator(home)) {

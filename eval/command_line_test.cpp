@@ -31,7 +31,7 @@ std::string refusal(const std::vector<std::string>& arguments, const ProgramSett
 class CommandLine : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = make_test_folder();
+    folder_ = test_folder();
     output_ = path("out");
     write_file(output_ + "/results.json", "earlier");
   }

@@ -21,13 +21,12 @@ class CommandTest : public testing::Test {
   static constexpr int kFrames = 4;  ///< of each trajectory
 
   void SetUp() override {
-    folder_ = make_test_folder();
+    folder_ = test_folder();
     write_file(path("good.json"), make_trajectory_json("good", kFrames).dump());
     nlohmann::json left = make_trajectory_json("left", kFrames);
     left["side"] = "left";
     write_file(path("left.json"), left.dump());
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   static void expect_fine(const ProgramRun& run) {

@@ -223,9 +223,9 @@ TEST(MeasuredTargets, TakeNoiseAsTheLimit) {
 }
 
 /// From frames to a controller.
-class DdsControllerTrackLong : public CommandTest {};
+class DdsControllerTrack : public CommandTest {};
 
-TEST_F(DdsControllerTrackLong, TrackNeedsAMeasuredState) {
+TEST_F(DdsControllerTrack, TrackNeedsAMeasuredState) {
   use_loopback_dds();
   render_recording("good.json", "dump");
   const std::vector<std::string> flags = {"--robot",    "dds:7",       "--robot-topics",

@@ -147,11 +147,11 @@ TEST_F(DdsSecurity, StatesOfIntrudersAreNotBelieved) {
 }
 
 TEST_F(DdsSecurity, ACertificateThatExpiredIsNotFollowed) {
-  constexpr int64_t kLifetime = 8;  // s
+  constexpr int64_t kLifetime = 4;  // s
   const int64_t end_s = now_s() + kLifetime;
   make_security_keys(path("short"), valid_now(), {{"sender", {now_s() - kDay, end_s}}});
   const StartedProgram sender =
-      talk("sleep 12000\n" + fingers(80, 1) + "again 300 10000\n", as(files("short", "sender")));
+      talk("sleep 7000\n" + fingers(80, 1) + "again 300 10000\n", as(files("short", "sender")));
   while (now_s() <= end_s) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const std::string log = path("hand.jsonl");
   const StartedProgram server = serve_until_ready("hand", log, {"--security", path("short")});

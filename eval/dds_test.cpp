@@ -211,9 +211,9 @@ TEST_F(Dds, TheCommandLineNamesWhatItDoesNotKnow) {
 }
 
 /// From frames to messages.
-class DdsTrackLong : public CommandTest {};
+class DdsTrack : public CommandTest {};
 
-TEST_F(DdsTrackLong, StreamsWhatItWrites) {
+TEST_F(DdsTrack, StreamsWhatItWrites) {
   use_loopback_dds();
   const std::string domain = "7";
   render_recording("good.json", "dump");

@@ -22,14 +22,13 @@ class DdsBus : public testing::Test {
  protected:
   void SetUp() override {
     use_loopback_dds();
-    folder_ = make_test_folder();
+    folder_ = test_folder();
   }
   void TearDown() override {
     for (const StartedProgram& program : running_) {
       kill(program.process, SIGKILL);
       finish_program(program);
     }
-    std::filesystem::remove_all(folder_);
   }
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }

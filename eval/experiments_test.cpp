@@ -40,7 +40,7 @@ PlanRun run_plan(const std::string& folder, int threads) {
 }
 
 TEST(ExperimentsLong, ReportsDependOnNeitherThreadsNorTheDay) {
-  const std::string folder = make_test_folder();
+  const std::string folder = test_folder();
   const PlanRun one = run_plan(folder + "/one", 1);
   const PlanRun two = run_plan(folder + "/two", 2);
   const PlanRun again = run_plan(folder + "/again", 2);
@@ -52,11 +52,10 @@ TEST(ExperimentsLong, ReportsDependOnNeitherThreadsNorTheDay) {
       EXPECT_TRUE(content == other->files.at(name)) << name;
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ExperimentsLong, HoldWhatWasPlanned) {
-  const std::string folder = make_test_folder();
+  const std::string folder = test_folder();
   const PlanRun run = run_plan(folder, 2);
   ASSERT_EQ(run.result.experiments.size(), 2U) << "one a database; the seeds are runs of it";
   for (const reports::ExperimentResult& experiment : run.result.experiments) {
@@ -81,7 +80,6 @@ TEST(ExperimentsLong, HoldWhatWasPlanned) {
       EXPECT_EQ(std::count(run.files.at(robot).begin(), run.files.at(robot).end(), '\n'), 6) << "one a frame";
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(PlanFigure4, Holds15ExperimentsAgainstEachTruthAndSubject) {

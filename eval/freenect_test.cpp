@@ -37,10 +37,7 @@ class Freenect : public testing::Test {
   void SetUp() override {
     ASSERT_TRUE(fs::exists(build_paths::fakenect() + "/libfreenect.so.0.5"))
         << "libfreenect comes with fakenect (Debian: libfreenect0.5)";
-    folder_ = make_test_folder();
-  }
-  void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
+    folder_ = test_folder();
   }
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
@@ -175,7 +172,7 @@ TEST_F(Freenect, RefusesADumpThatWouldEndTheProgram) {
 }
 
 TEST(FreenectUnplugged, IsAFailureThatKeepsWhatWasTracked) {
-  const std::string folder = make_test_folder(), output = folder + "/live.jsonl";
+  const std::string folder = test_folder(), output = folder + "/live.jsonl";
   const ProgramRun run = run_glovebench(
       {"track", "--source", "freenect", "--database", "DB_open_power", "-o", output, "--every-frame"},
       {.environment = {{"LD_LIBRARY_PATH", build_paths::unplugged_freenect()}}});
@@ -186,7 +183,6 @@ TEST(FreenectUnplugged, IsAFailureThatKeepsWhatWasTracked) {
             "expected one that stays plugged in\n");
   const std::string lines = read_file(output);
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 4);
-  fs::remove_all(folder);
 }
 
 TEST_F(Freenect, RefusesACalibrationOfOtherImages) {

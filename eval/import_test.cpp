@@ -18,14 +18,13 @@ using testing::HasSubstr;
 class ImportMarkers : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = make_test_folder();
+    folder_ = test_folder();
     trajectories::Trajectory truth = trajectories::source_trajectory(trajectory_folder(), "Tr4");
     truth.frames.resize(3);
     const HandModel model = HandModel::load(build_paths::hand_mesh());
     write_file(path("joints.csv"), trajectories::csv_markers(trajectories::captured(
                                        truth, model, trajectories::webxr_names(), {.noise = 0.0005})));
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   ProgramRun import(const std::vector<std::string>& more, const std::string& file = "joints.csv") const {

@@ -26,7 +26,7 @@ Replay make_replay() {
 }
 
 TEST(TrackerIsolationLong, EqualsTheReplay) {
-  const std::string folder = make_test_folder();
+  const std::string folder = test_folder();
   Workbench workbench(test_workbench());
   const Replay pass = make_replay();
   std::string expected;
@@ -51,7 +51,6 @@ TEST(TrackerIsolationLong, EqualsTheReplay) {
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(run.err, "");
   EXPECT_TRUE(run.out == expected) << run.out.substr(0, 600) << "...\n" << expected.substr(0, 600) << "...";
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

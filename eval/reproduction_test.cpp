@@ -99,9 +99,6 @@ TEST(StoredStudy, HalfOfOneIsNone) {
 /// Figure 7 and the tracker without depth, quick, in processes of their own.
 class KilledReproductionLong : public testing::Test {
  protected:
-  KilledReproductionLong() : folder_(make_test_folder()) {}
-  ~KilledReproductionLong() override { fs::remove_all(folder_); }
-
   std::vector<std::string> reproduce_into(const std::string& name) const {
     return {"reproduce", "--quick", "--only", "fig5,fig7,monocular", "--output", folder_ + "/" + name};
   }
@@ -112,11 +109,19 @@ class KilledReproductionLong : public testing::Test {
     return false;
   }
 
-  std::string folder_;
+  const std::string folder_ = test_folder();
 };
 
-TEST_F(KilledReproductionLong, ResumesToTheSameResultsAndSaysWhatIsMadeAnew) {
-  ASSERT_EQ(run_glovebench(reproduce_into("undisturbed")).exit_code, 0);
+TEST_F(KilledReproductionLong, JudgesNoClaimAndResumesToTheSameResults) {
+  const ProgramRun undisturbed = run_glovebench(reproduce_into("undisturbed"));
+  ASSERT_EQ(undisturbed.exit_code, 0);
+  EXPECT_THAT(undisturbed.out, HasSubstr("no claim is judged"));
+  EXPECT_FALSE(fs::exists(folder_ + "/undisturbed/claims.json"));
+  const reports::RunResult result = reports::read_results(folder_ + "/undisturbed/results.json");
+  ASSERT_EQ(result.studies.size(), 2U);
+  EXPECT_EQ(result.studies[0].name, "fig7");
+  EXPECT_EQ(result.studies[1].name, "monocular");
+
   const StartedProgram started = start_glovebench(reproduce_into("out"));
   while (!has_stored("out") && !fs::exists(folder_ + "/out/results.json"))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -128,17 +133,6 @@ TEST_F(KilledReproductionLong, ResumesToTheSameResultsAndSaysWhatIsMadeAnew) {
   EXPECT_EQ(resumed.exit_code, 0);
   EXPECT_EQ(read_file(folder_ + "/out/results.json"), read_file(folder_ + "/undisturbed/results.json"));
   EXPECT_FALSE(fs::exists(folder_ + "/out/.unfinished"));
-}
-
-TEST_F(KilledReproductionLong, JudgesNoClaim) {
-  const ProgramRun run = run_glovebench(reproduce_into("out"));
-  EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.out, HasSubstr("no claim is judged"));
-  EXPECT_FALSE(fs::exists(folder_ + "/out/claims.json"));
-  const reports::RunResult result = reports::read_results(folder_ + "/out/results.json");
-  ASSERT_EQ(result.studies.size(), 2U);
-  EXPECT_EQ(result.studies[0].name, "fig7");
-  EXPECT_EQ(result.studies[1].name, "monocular");
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
             "glovebench: " + log + ": S1: found 177.5 degrees, expected -177 to 177\n");
 }
 
-TEST_F(RobotServerLong, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
+TEST_F(RobotServer, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
   const std::string log = path("arm.jsonl");
   const StartedProgram server = serve_until_ready("arm", log);
   finish(talk("wait pose\n" + pose({0, 0, 0}, 10) + "again 60 10000\n" + pose({0, 0.1, 0}, 11, "world") +
@@ -124,7 +124,7 @@ TEST_F(RobotServerLong, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
   expect_safe(log);
 }
 
-TEST_F(RobotServerLong, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
+TEST_F(RobotServer, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
   const std::string hand_log = path("hand.jsonl"), arm_log = path("arm.jsonl");
   const SimulatedRobot robot(std::stoi(domain_));
   StartedProgram hand = serve_until_ready("hand", hand_log), arm = serve_until_ready("arm", arm_log);

@@ -8,9 +8,9 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class RobotLimitsLong : public CommandTest {};
+class RobotLimits : public CommandTest {};
 
-TEST_F(RobotLimitsLong, SlowTheHandDownAndStandInTheResults) {
+TEST_F(RobotLimits, SlowTheHandDownAndStandInTheResults) {
   write_file(path("slow.json"), R"({"hand_speed_m_s": 0.001})");
   const json free = run_trajectory("good.json", "free", {"--robot-out", path("free_robot")});
   const json slow =
@@ -34,7 +34,7 @@ TEST_F(RobotLimitsLong, SlowTheHandDownAndStandInTheResults) {
   EXPECT_EQ(read_file(path("tracked.jsonl")), read_folder(path("slow_robot")).begin()->second);
 }
 
-TEST_F(RobotLimitsLong, TheCouplingSplitsWhatTheMotorsGet) {
+TEST_F(RobotLimits, TheCouplingSplitsWhatTheMotorsGet) {
   const auto first_line = [&](const std::string& name) {
     const std::string text = read_folder(path(name + "_robot")).begin()->second;
     return json::parse(text.substr(0, text.find('\n')));
@@ -54,7 +54,7 @@ TEST_F(RobotLimitsLong, TheCouplingSplitsWhatTheMotorsGet) {
               HasSubstr("--robot-coupling"));
 }
 
-TEST_F(RobotLimitsLong, ListedOnesAreTheDefaults) {
+TEST_F(RobotLimits, ListedOnesAreTheDefaults) {
   const ProgramRun listed = run_glovebench({"list", "limits"});
   expect_fine(listed);
   write_file(path("limits.json"), listed.out);
@@ -63,7 +63,7 @@ TEST_F(RobotLimitsLong, ListedOnesAreTheDefaults) {
             results["experiments"]);
 }
 
-TEST_F(RobotLimitsLong, ThatCannotBeAreRefused) {
+TEST_F(RobotLimits, ThatCannotBeAreRefused) {
   const auto refused = [&](const std::string& limits) {
     write_file(path("limits.json"), limits);
     return refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",

@@ -167,6 +167,4 @@ class RobotServer : public DdsBus {
   }
 };
 
-class RobotServerLong : public RobotServer {};
-
 }  // namespace glovebench::eval

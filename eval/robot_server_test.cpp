@@ -112,7 +112,7 @@ TEST_F(RobotServer, HoldsAndStopsWhenItsSenderDiesAndFollowsTheNext) {
   expect_safe(log);
 }
 
-TEST_F(RobotServerLong, GoesOnWhereItWasKilled) {
+TEST_F(RobotServer, GoesOnWhereItWasKilled) {
   const std::string log = path("hand.jsonl");
   const SimulatedRobot robot(std::stoi(domain_));
   StartedProgram server = serve_until_ready("hand", log);

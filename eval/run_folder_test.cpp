@@ -123,8 +123,7 @@ TEST(StoredReplay, WithAStatusThatNobodyKnowsIsNone) {
 
 class RunFolderTest : public testing::Test {
  protected:
-  RunFolderTest() : folder_(make_test_folder() + "/out") {}
-  ~RunFolderTest() override { fs::remove_all(fs::path(folder_).parent_path()); }
+  RunFolderTest() : folder_(test_folder() + "/out") {}
 
   bool is_marked() const {
     try {

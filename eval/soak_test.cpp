@@ -15,8 +15,6 @@ constexpr int kMissed = 4, kLate = 3;
 /// Logs as ci/soak leaves them: 200 frames, of which the first and another are lost.
 class SoakJudge : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   /// `latency_us(i)`: of the command of a frame; none: it was missed by that server.
   template <typename Latency>
   std::string received(const std::vector<std::string>& topics, const Latency& latency_us) {
@@ -48,7 +46,7 @@ class SoakJudge : public testing::Test {
 
   static constexpr int kFrames = 200, kLost = 100;
   static constexpr int64_t kSent = 1'795'363'200'000'000;
-  std::string folder_ = make_test_folder();
+  std::string folder_ = test_folder();
 };
 
 TEST_F(SoakJudge, IsContentWithAllInTime) {

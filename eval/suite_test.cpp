@@ -53,7 +53,6 @@ class SuitePlan : public testing::Test {
                   "share/glovebench/trajectories/data/gestures.csv");
     write_file(folder_ + "/own.csv", gestures);
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   Plan plan(const json& suite, const std::string& filter = "") const {
     WorkbenchConfig config = test_workbench();
@@ -75,7 +74,7 @@ class SuitePlan : public testing::Test {
     return "";
   }
 
-  const std::string folder_ = make_test_folder();
+  const std::string folder_ = test_folder();
 };
 
 TEST(Suite, ReadsWhatIsThere) {

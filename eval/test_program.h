@@ -25,17 +25,10 @@
 
 namespace glovebench::eval {
 
-/// A folder of the running test, empty at its start.
-inline std::string make_test_folder() {
-  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-  return new_test_folder(fmt::format("glovebench-eval-{}.{}", test.test_suite_name(), test.name()));
-}
-
 /// Databases and color tables, kept from test to test: their names hold the hashes of what they are made of. Those
 /// of another version would be rebuilt with a message.
 inline std::string test_cache_folder() {
-  return shared_folder(
-      fmt::format("{}glovebench-test-cache-{}-{}", testing::TempDir(), kDatabaseVersion, getuid()));
+  return shared_folder(fmt::format("glovebench-test-cache-{}-{}", kDatabaseVersion, getuid()));
 }
 
 /// For a workbench of this process.

@@ -232,14 +232,14 @@ std::vector<Reader> json_readers() {
   };
 }
 
-TEST(ReaderMemory, of_json_is_bounded_whatever_it_holds) {
+TEST(ReaderMemoryLong, of_json_is_bounded_whatever_it_holds) {
   for (const Reader& reader : json_readers()) {
     ASSERT_EQ(reading(reader, reader.valid).error, "") << reader.name;
     for (const auto& [what, value] : hostile_values()) expect_bounded(reader, value, what);
   }
 }
 
-TEST(ReaderMemory, of_json_is_bounded_at_each_place) {
+TEST(ReaderMemoryLong, of_json_is_bounded_at_each_place) {
   for (const Reader& reader : json_readers()) {
     const json document = json::parse(reader.valid);
     std::vector<json::json_pointer> places;
@@ -265,7 +265,7 @@ const Reader& named(const std::vector<Reader>& readers, const std::string& name)
 }
 
 // The shortest values that are taken, many of them: what they become is larger than they are.
-TEST(ReaderMemory, of_long_documents_of_small_values_is_bounded) {
+TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
   const std::vector<Reader> readers = json_readers();
   const auto check = [&](const std::string& name, const std::string& place, const auto& row, const char* refused) {
     const Reader& reader = named(readers, name);

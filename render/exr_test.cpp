@@ -6,17 +6,14 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 
 namespace glovebench::render {
 namespace {
 
 class Exr : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
-  const std::string path_ =
-      (std::filesystem::temp_directory_path() /
-       (std::string("glovebench_") + testing::UnitTest::GetInstance()->current_test_info()->name() + ".exr"))
-          .string();
+  const std::string path_ = test_folder() + "/layers.exr";
 };
 
 FrameLayers some_layers() {

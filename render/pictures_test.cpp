@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/base/error.h"
+#include "core/test_folder.h"
 #include "render/glove_colors.h"
 
 namespace glovebench::render {
@@ -72,12 +73,11 @@ TEST(Pictures, PaletteTellsLabelsApart) {
 }
 
 TEST(Pictures, PngReadsBackEqual) {
-  const std::string path = (std::filesystem::temp_directory_path() / "glovebench_pictures_test.png").string();
+  const std::string path = test_folder() + "/small.png";
   ColorImage image(6, 3, Rgb{1, 2, 3});
   image(4, 0) = {200, 100, 50};
   write_png(path, image);
   const cv::Mat read = cv::imread(path, cv::IMREAD_COLOR);
-  std::filesystem::remove(path);
   ASSERT_EQ(read.size(), cv::Size(6, 3));
   EXPECT_EQ(read.at<cv::Vec3b>(2, 3), cv::Vec3b(3, 2, 1));
   EXPECT_EQ(read.at<cv::Vec3b>(0, 4), cv::Vec3b(50, 100, 200));

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/random.h"
+#include "core/test_folder.h"
 
 namespace glovebench::reports {
 namespace {
@@ -49,7 +50,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 TEST(Estimates, ComeBackAsTheyWereWritten) {
   const ExperimentEstimates written = example_estimates();
-  const std::string path = testing::TempDir() + "/estimates_test.csv";
+  const std::string path = test_folder() + "/estimates.csv";
   write_file(path, estimates_csv(written));
   const std::vector<Estimate> read = read_estimates(path);
   ASSERT_EQ(read.size(), written.estimates.size());

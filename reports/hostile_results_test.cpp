@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/random.h"
+#include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/json_reader.h"
 #include "reports/results_json.h"
@@ -162,8 +163,7 @@ TEST(HostileResults, StudiesThatNoRunWrites) {
 }
 
 TEST(HostileResults, FilesThatCannotBeRead) {
-  const std::string folder = testing::TempDir() + "/hostile_results_test";
-  fs::remove_all(folder);
+  const std::string folder = test_folder();
   fs::create_directories(folder + "/results.json");
   EXPECT_THAT(error_of_reading(folder + "/results.json"), HasSubstr("found a folder"));
   EXPECT_THAT(error_of_reading(folder + "/none.json"), HasSubstr("No such file"));

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/results_json.h"
 
@@ -18,9 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string fresh_folder(const std::string& name) {
-  const std::string folder = testing::TempDir() + "/report_test_" + name;
-  fs::remove_all(folder);
-  return folder;
+  return test_folder() + "/" + name;
 }
 
 Timings example_timings() {

@@ -8,6 +8,7 @@
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 #include "reports/commands_json.h"
 #include "reports/example_result.h"
 #include "reports/json_text.h"
@@ -36,7 +37,7 @@ std::string error_of_change(const std::function<void(json&)>& change) {
 }
 
 TEST(ResultsJson, RoundTrip) {
-  const std::string path = testing::TempDir() + "/results_json_test.json";
+  const std::string path = test_folder() + "/results.json";
   const RunResult result = small_result();
   write_results(path, result);
   const RunResult read = read_results(path);
@@ -148,7 +149,7 @@ TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
 }
 
 TEST(ResultsJson, MissingFileIsAnError) {
-  EXPECT_THROW(read_results(testing::TempDir() + "/no_such_results.json"), Error);
+  EXPECT_THROW(read_results(test_folder() + "/no_such_results.json"), Error);
 }
 
 TEST(ResultsJson, DamageGivesAnErrorOrAReadableResultButNothingElse) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/base/file.h"
+#include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/report.h"
 
@@ -85,8 +86,7 @@ std::string as_shown(const std::string& csv, const Column& column, const Cell& c
 }
 
 TEST(StudyText, EveryCellIsTheSameInEveryFile) {
-  const std::string folder = testing::TempDir() + "/study_text_test";
-  std::filesystem::remove_all(folder);
+  const std::string folder = test_folder();
   const RunResult result = full_result();
   write_report(folder, result, {});
   const std::string summary = read_file(folder + "/summary.md");

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::trajectories {
@@ -16,10 +17,9 @@ using ::testing::HasSubstr;
 
 /// A fresh, empty folder for one test.
 std::string make_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / ("catalog_test_" + name);
-  std::filesystem::remove_all(folder);
+  std::string folder = test_folder() + "/" + name;
   std::filesystem::create_directories(folder);
-  return folder.string();
+  return folder;
 }
 
 Trajectory named(const std::string& name) {

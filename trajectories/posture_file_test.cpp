@@ -7,6 +7,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 
 namespace glovebench::trajectories {
 namespace {
@@ -61,7 +62,7 @@ TEST(PostureFile, json_is_a_fixed_point) {
 }
 
 TEST(PostureFile, loads_by_ending) {
-  const std::string folder = ::testing::TempDir();
+  const std::string folder = test_folder() + "/";
   write_posture_set(example_postures(), folder + "set.json");
   EXPECT_EQ(load_posture_set(folder + "set.json").postures, example_postures().postures);
   write_file(folder + "hands.csv", headings() + row("a") + row("b"));

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/random.h"
+#include "core/test_folder.h"
 
 namespace glovebench::trajectories {
 namespace {
@@ -92,7 +93,7 @@ TEST(Trajectory, writes_and_loads_a_file) {
   Trajectory recorded = example();
   recorded.kind = TrajectoryKind::recorded;
   recorded.provenance = Provenance{"Tr1", "00ff", "DB_open_pinch", "11ee", "paper", "22dd"};
-  const std::string path = ::testing::TempDir() + "recorded.json";
+  const std::string path = test_folder() + "/recorded.json";
   write_trajectory(recorded, path);
   const Trajectory loaded = load_trajectory(path);
   EXPECT_EQ(loaded.kind, TrajectoryKind::recorded);

@@ -9,6 +9,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -44,11 +45,10 @@ TEST(SyntheticCalibration, IsThatOfTheDesign) {
 }
 
 TEST(Calibration, ReturnsFromItsFileBitForBit) {
-  const std::string folder = testing::TempDir() + "calibration_" + std::to_string(getpid());
+  const std::string folder = test_folder();
   const RgbdCalibration saved = synthetic_calibration();
   save_calibration(saved, folder + "/calibration.json");
   const RgbdCalibration loaded = load_calibration(folder + "/calibration.json");
-  std::filesystem::remove_all(folder);
   EXPECT_EQ(loaded.ir, saved.ir);
   EXPECT_EQ(loaded.rgb, saved.rgb);
   EXPECT_EQ(loaded.T_rgb_ir.matrix(), saved.T_rgb_ir.matrix());
@@ -142,7 +142,7 @@ TEST(Calibration, NamesTheWrongField) {
 }
 
 TEST(Calibration, RefusesFilesThatAreNotJson) {
-  const std::string path = testing::TempDir() + "not_json_" + std::to_string(getpid());
+  const std::string path = test_folder() + "/not.json";
   for (const char* content : {"", "{\"ir\": NaN}", "[1, 2", "{\"version\": 1e999}", "\xff\xfe"}) {
     write_file(path, content);
     EXPECT_THROW(load_calibration(path), Error) << content;

@@ -10,6 +10,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/image.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -223,7 +224,7 @@ TEST(HandModel, second_subject_is_five_percent_larger_with_other_segments) {
 
 TEST(HandModel, refuses_a_missing_or_altered_mesh) {
   EXPECT_THROW(HandModel::load("no-such-file.glb"), Error);
-  const std::string path = testing::TempDir() + "altered.glb";
+  const std::string path = test_folder() + "/altered.glb";
   {
     std::ifstream in(build_paths::hand_mesh(), std::ios::binary);
     std::string content((std::istreambuf_iterator<char>(in)), {});

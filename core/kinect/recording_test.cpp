@@ -15,6 +15,7 @@
 #include "core/base/file.h"
 #include "core/base/random.h"
 #include "core/kinect/recording_index.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -56,7 +57,7 @@ class Recording : public testing::Test {
     return "";
   }
 
-  const std::string folder_ = testing::TempDir() + "recording_" + std::to_string(getpid());
+  const std::string folder_ = test_folder();
   RgbdCalibration calibration_ = synthetic_calibration();
 };
 

@@ -8,6 +8,7 @@
 #include "core/base/file.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/robot/test_commands.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -113,7 +114,7 @@ TEST(CommandLineReader, DamageIsRefusedOrHarmless) {
 }
 
 TEST(CommandLineReader, ReadsFilesInTimeOrder) {
-  const std::string path = testing::TempDir() + "/commands.jsonl";
+  const std::string path = test_folder() + "/commands.jsonl";
   write_file(path, to_json_line(lost_command(1)) + "\n" + to_json_line(full_command(2)) + "\n");
   ASSERT_EQ(read_command_lines(path).size(), 2U);
   EXPECT_EQ(read_command_lines(path)[1].timestamp_us, 2);

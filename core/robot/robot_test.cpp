@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/robot/json_lines_sink.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -208,8 +209,7 @@ TEST(RobotCommander, NothingThatIsNotFiniteLeaves) {
 }
 
 TEST(JsonLinesSink, WritesEachLineAsItComesAndKeepsThemWithoutAnEnd) {
-  const std::string folder = testing::TempDir() + "/robot_lines";
-  std::filesystem::remove_all(folder);
+  const std::string folder = test_folder();
   RobotCommander commander(Eigen::Isometry3d::Identity());
   const auto bytes_on_disk = [&] {
     uintmax_t bytes = 0;
@@ -232,8 +232,7 @@ TEST(JsonLinesSink, WritesEachLineAsItComesAndKeepsThemWithoutAnEnd) {
 }
 
 TEST(JsonLinesSink, WritesOneLineAFrame) {
-  const std::string path = testing::TempDir() + "/robot.jsonl";
-  std::filesystem::remove(path);
+  const std::string path = test_folder() + "/robot.jsonl";
   RobotCommander commander(Eigen::Isometry3d::Identity());
   JsonLinesSink sink(path);
   TrackResult lost;

@@ -7,18 +7,16 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/random.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that lives as long as the test.
 class ColorTableFile : public testing::Test {
  protected:
-  void TearDown() override { fs::remove_all(folder_); }
-
-  const fs::path folder_ = fs::path(testing::TempDir()) / ("color_table_" + std::to_string(getpid()));
+  const fs::path folder_ = test_folder();
   const std::string path_ = (folder_ / "glove.colors").string();
 };
 

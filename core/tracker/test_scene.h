@@ -6,6 +6,7 @@
 #include "core/base/random.h"
 #include "core/database/test_database.h"
 #include "core/segmentation/color_calibration.h"
+#include "core/test_folder.h"
 #include "core/tracker/tracker.h"
 #include "render/synthetic_kinect.h"
 

@@ -23,9 +23,7 @@ constexpr int kGatedFrames = 33;  // two blocks
 class RegressionLong : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = testing::TempDir() + "glovebench-regression-" + std::to_string(getpid());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    folder_ = test_folder();
     write_file(path("wave.json"), make_trajectory_json("wave", kGatedFrames).dump());
     const nlohmann::json suite = {
         {"format", "glovebench-suite"},
@@ -40,7 +38,6 @@ class RegressionLong : public testing::Test {
     ASSERT_EQ(run.exit_code, 0) << run.err;
     fs::copy(path("run"), path("same"), fs::copy_options::recursive);
   }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
 
   static std::string path(const std::string& name) { return folder_ + "/" + name; }
   static ProgramRun run_suite(const std::string& output, const std::vector<std::string>& more = {}) {

@@ -12,6 +12,7 @@
 #include "core/base/file.h"
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
+#include "core/test_folder.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/comparison/example_comparison.h"
 
@@ -246,8 +247,7 @@ TEST(ComparisonPage, ShowsVerdictsChartsAndPictures) {
 }
 
 TEST(WriteComparison, WritesEveryFileOrRefuses) {
-  const std::string folder = testing::TempDir() + "/comparison_report_test";
-  fs::remove_all(folder);
+  const std::string folder = test_folder();
   const std::vector<std::string> names = write_comparison(folder, hostile_comparison());
   EXPECT_THAT(names, testing::ElementsAre("comparison.json", "comparison.md", "comparison.csv", "comparison.tex",
                                           "junit.xml", "index.html"));
@@ -256,8 +256,7 @@ TEST(WriteComparison, WritesEveryFileOrRefuses) {
 }
 
 TEST(RemoveComparison, RemovesItsOwnFilesAndRefusesOtherSets) {
-  const std::string folder = testing::TempDir() + "/remove_comparison_test";
-  fs::remove_all(folder);
+  const std::string folder = test_folder();
   write_comparison(folder, small_comparison());
   write_file(folder + "/notes", "the user's");
   remove_comparison(folder);

@@ -4,6 +4,7 @@
 
 #include "core/base/damaged_text.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/example_runs.h"
 #include "reports/comparison/gate.h"
@@ -157,10 +158,10 @@ NoiseFloor read_text(const std::string& text) {
 }
 
 TEST(NoiseFloor, RoundTrip) {
-  const std::string path = testing::TempDir() + "/noise_floor_test.json";
+  const std::string path = test_folder() + "/noise_floor.json";
   write_file(path, noise_floor_json(small_floor()));
   EXPECT_EQ(read_noise_floor(path), small_floor());
-  EXPECT_THROW(read_noise_floor(testing::TempDir() + "/no_such_floor.json"), Error);
+  EXPECT_THROW(read_noise_floor(test_folder() + "/no_such_floor.json"), Error);
 }
 
 TEST(NoiseFloor, ErrorsNameTheField) {

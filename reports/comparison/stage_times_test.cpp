@@ -8,6 +8,7 @@
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 #include "reports/timings.h"
 
 namespace glovebench::reports {
@@ -17,14 +18,11 @@ using testing::HasSubstr;
 
 class StageTimesFile : public testing::Test {
  protected:
-  void SetUp() override { path_ = testing::TempDir() + "stage_times_" + std::to_string(getpid()) + ".json"; }
-  void TearDown() override { std::filesystem::remove(path_); }
-
   std::string write(const std::string& text) {
     write_file(path_, text);
     return path_;
   }
-  std::string path_;
+  const std::string path_ = test_folder() + "/timings.json";
 };
 
 Timings two_experiments() {

@@ -8,6 +8,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 #include "trajectories/capture/csv_markers.h"
 #include "trajectories/capture/test_capture.h"
 
@@ -28,11 +29,9 @@ const HandModel& model_of_side(Side side = Side::right) {
 }
 /// The joints of a movement of a hand of that side, through a file.
 HandFit imported(const Trajectory& truth, Side side) {
-  const std::string path = testing::TempDir() + "glovebench-import-" + std::to_string(side == Side::left) + ".csv";
+  const std::string path = test_folder() + "/joints.csv";
   write_file(path, csv_markers(captured(truth, model_of_side(side), webxr_names(), {})));
-  HandFit fit = import_capture({path}, "csv", side, {}, model_of_side());
-  std::filesystem::remove(path);
-  return fit;
+  return import_capture({path}, "csv", side, {}, model_of_side());
 }
 
 TEST(ImportCapture, gives_a_trajectory_before_the_camera_that_saw_it) {

@@ -19,6 +19,7 @@
 #include "core/robot/dds/topics.h"
 #include "core/robot/server/command_messages.h"
 #include "core/robot/test_commands.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -123,7 +124,7 @@ class DdsServer : public testing::Test {
     return last_state(read_file(log), names, log).value().positions;
   }
 
-  std::string folder_ = testing::TempDir() + "glovebench-dds-" + std::to_string(getpid());
+  std::string folder_ = test_folder();
 };
 
 TEST_F(DdsServer, TheHandFollowsAStreamOverTheNetwork) {

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -52,7 +53,7 @@ class SecurityKeys : public testing::Test {
     return static_cast<int>(its.st_mode & 07777);
   }
 
-  std::string folder_ = testing::TempDir() + "glovebench-keys-" + std::to_string(getpid());
+  std::string folder_ = test_folder();
 };
 
 TEST_F(SecurityKeys, AreCompleteAndPrivate) {

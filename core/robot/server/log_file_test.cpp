@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -15,9 +16,7 @@ using testing::HasSubstr;
 
 class LogFile : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::remove(path_); }
-  void TearDown() override { std::filesystem::remove(path_); }
-  std::string path_ = testing::TempDir() + "robot-server-" + std::to_string(getpid()) + ".jsonl";
+  std::string path_ = test_folder() + "/log.jsonl";
 };
 
 TEST_F(LogFile, IsWrittenByOneAtATime) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/base/file.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -17,16 +18,13 @@ using testing::HasSubstr;
 
 class LogWriterTest : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::remove(path_); }
-  void TearDown() override { std::filesystem::remove(path_); }
-
   template <typename Condition>
   static bool comes_true(const Condition& condition) {
     for (int i = 0; i < 2000 && !condition(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return condition();
   }
 
-  std::string path_ = testing::TempDir() + "log-writer-" + std::to_string(getpid());
+  std::string path_ = test_folder() + "/log";
 };
 
 TEST_F(LogWriterTest, WritesAtOnceAndSaysWhatIsOnTheDisk) {

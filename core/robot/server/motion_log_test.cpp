@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/system_time.h"
+#include "core/test_folder.h"
 
 namespace glovebench {
 namespace {
@@ -41,7 +42,7 @@ class MotionLogTest : public testing::Test {
   }
 
   std::vector<JointMotion> joints_ = {{-1, 1, 2}, {0, 3, 0.5}};
-  std::string path_ = testing::TempDir() + "motion-log-" + std::to_string(getpid()) + ".jsonl";
+  std::string path_ = test_folder() + "/log.jsonl";
   int64_t clock_us_ = 1;
 };
 
