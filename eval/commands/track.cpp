@@ -77,9 +77,9 @@ struct Track {
         find_method(config.method)
             .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
-    LineFile output(common.output);
-    const Interruption interruption;
     RobotSetup setup = robot.setup(workbench);
+    LineFile output(common.output);
+    const Interruption interruption;  // after all files were read: a pipe may never end, and a signal must end that
     setup.arm_start = outputs.arm_start().value_or(setup.arm_start);
     RobotCommander commander(setup);
     track_all(source, *method, output, [&](const TrackResult& result) {
