@@ -105,7 +105,8 @@ void add_robot_server(CLI::App& program, int& exit_code) {
   for (CLI::App* side : {hand, arm}) {
     state->bus.add(*side, "where from: dds[:DOMAIN]")->capture_default_str();
     side->add_option("--log", state->log,
-                     "log to append to (*.jsonl), which also tells the next server where the joints stood");
+                     "log to append to (*.jsonl), which also tells the next server where the joints stood")
+        ->check(named_file());
     side->add_option("--log-age", state->max_log_age_s,
                      "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
         ->check(number_within(0, 1e8))

@@ -199,8 +199,10 @@ void add_track(CLI::App& program) {
       ->required();
   command->add_option("--colors", state->colors,
                       "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
-  state->common.add_output(*command,
-                           "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)", true);
+  command
+      ->add_option("-o,--output", state->common.output,
+                   "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)")
+      ->required();
   state->robot.add(*command, "robot commands to write (*.jsonl)");
   CLI::Option* const stream =
       state->bus.add(*command, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
