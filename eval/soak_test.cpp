@@ -54,10 +54,12 @@ class SoakJudge : public testing::Test {
 TEST_F(SoakJudge, IsContentWithAllInTime) {
   const ProgramRun run = judge([](int i) { return std::optional(i == 7 ? 900'000 : 3000); });
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, testing::StartsWith(
-                           "soak: 6 s, 200 frames at 30.3 Hz, 198 tracked; commands expected 198, received "
-                           "fingers 198, wrist 198, pose 198, missed 0, stale 0, starting 7; frame to command 3.00 ms median, "
-                           "4.00 ms p99, 900.00 ms at most "));
+  EXPECT_THAT(
+      run.out,
+      testing::StartsWith(
+          "soak: 6 s, 200 frames at 30.3 Hz, 198 tracked; commands expected 198, received "
+          "fingers 198, wrist 198, pose 198, missed 0, stale 0, starting 7; frame to command 3.00 ms median, "
+          "4.00 ms p99, 900.00 ms at most "));
 }
 
 TEST_F(SoakJudge, TellsMissedFromLate) {
