@@ -96,7 +96,7 @@ class SmallImages : public cv::MatAllocator {
 
 /// Throws Error if it is no image.
 Image<uint8_t> read_gray(const std::string& path) {
-  return decode_gray(read_file(path, kLargestFile), path);
+  return decode_gray(read_regular_file(path, kLargestFile), path);
 }
 
 /// The first picture that can be read says the size of all.

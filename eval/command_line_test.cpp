@@ -85,6 +85,25 @@ TEST_F(CommandLine, FlagsOutOfRange) {
   EXPECT_THAT(refusal({"reproduce", "-o", output_, "--trajectory", "Tr9"}), HasSubstr("Tr9"));
 }
 
+TEST_F(CommandLine, StandardOutputIsNoFileWhereSomethingElseIsPrinted) {
+  const std::vector<std::vector<std::string>> commands = {
+      {"run", "--suite", "quick", "-o", "-"},
+      {"reproduce", "-o", "-"},
+      {"render", "--trajectory", "Tr4", "-o", "-"},
+      {"record", "--trajectory", "Tr4", "--database", "DB_open_power", "-o", "-"},
+      {"explain", ".", "0", "-o", "-"},
+      {"db", "build", "--postures", "DB_open_power", "-o", "-"},
+      {"compare", ".", ".", "-o", "-"},
+      {"gate", ".", "-o", "-"},
+      {"calibrate", "noise", "--suite", "quick", "-o", "-"},
+      {"calibrate", "cameras", "--ir", "a", "--rgb", "b", "-o", "-"},
+      {"calibrate", "colors", "--source", "fakenect:a", "-o", "-"},
+      {"robot-server", "hand", "--robot", "dds", "--log", "-"}};
+  for (const std::vector<std::string>& command : commands)
+    EXPECT_THAT(refusal(command), HasSubstr("found -, expected the name of a file or folder")) << command[0];
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
 TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(refusal(run_of("Tr9")), AllOf(HasSubstr("Tr9"), HasSubstr("Tr5")));
   EXPECT_THAT(refusal({"run", "--trajectory", good_trajectory(), "--database", "DB_none", "-o", output_}),

@@ -106,7 +106,7 @@ std::optional<std::string> RunFolder::load(const std::string& key) const {
   if (!fs::exists(fs::symlink_status(path, ignored))) return std::nullopt;
   std::string bytes;
   try {
-    if (fs::is_regular_file(path)) bytes = read_file(path, kLargestReplay);
+    if (fs::is_regular_file(path)) bytes = read_regular_file(path, kLargestReplay);
   } catch (const Error&) {  // what cannot be read is made anew, like what is damaged
   }
   const size_t content = bytes.find('\n') + 1;

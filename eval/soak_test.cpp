@@ -25,8 +25,8 @@ class SoakJudge : public testing::Test {
       for (const std::string& topic : topics) {
         if (!latency) continue;
         log += fmt::format(
-            R"({{"event":"received","time_us":{},"topic":"{}","receipt":"accepted","stamp_ns":{},"source_us":{}}})",
-            kSent + i + *latency, topic, int64_t{i} * 33'000'000, kSent + i);
+            R"({{"event":"received","time_us":{},"topic":"{}","receipt":"{}","stamp_ns":{},"source_us":{}}})",
+            kSent + i + *latency, topic, i <= refused_ ? receipt_ : "accepted", int64_t{i} * 33'000'000, kSent + i);
         log += "\n";
       }
     }
@@ -47,15 +47,19 @@ class SoakJudge : public testing::Test {
   static constexpr int kFrames = 200, kLost = 100;
   static constexpr int64_t kSent = 1'795'363'200'000'000;
   std::string folder_ = test_folder();
+  std::string receipt_ = "starting";  ///< of the first commands
+  int refused_ = 7;                   ///< how many; servers check a stream for 0.2 s before they follow it
 };
 
 TEST_F(SoakJudge, IsContentWithAllInTime) {
   const ProgramRun run = judge([](int i) { return std::optional(i == 7 ? 900'000 : 3000); });
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, testing::StartsWith(
-                           "soak: 6 s, 200 frames at 30.3 Hz, 198 tracked; commands expected 198, received "
-                           "fingers 198, wrist 198, pose 198, missed 0, stale 0; frame to command 3.00 ms median, "
-                           "4.00 ms p99, 900.00 ms at most "));
+  EXPECT_THAT(
+      run.out,
+      testing::StartsWith(
+          "soak: 6 s, 200 frames at 30.3 Hz, 198 tracked; commands expected 198, received "
+          "fingers 198, wrist 198, pose 198, missed 0, stale 0, starting 7; frame to command 3.00 ms median, "
+          "4.00 ms p99, 900.00 ms at most "));
 }
 
 TEST_F(SoakJudge, TellsMissedFromLate) {
@@ -66,6 +70,20 @@ TEST_F(SoakJudge, TellsMissedFromLate) {
   EXPECT_EQ(missed.exit_code, kMissed) << "late besides: " << missed.err;
   EXPECT_THAT(missed.out, testing::HasSubstr(", missed 2,"));
   EXPECT_EQ(judge([](int) { return std::optional(3000); }, "no_hand").exit_code, kMissed) << "nothing to judge";
+}
+
+TEST_F(SoakJudge, IsNotContentWhereNothingIsFollowed) {
+  const auto in_time = [](int) { return std::optional(3000); };
+  receipt_ = "stale";
+  EXPECT_EQ(judge(in_time).exit_code, kLate) << "7 of 198 on each topic";
+  refused_ = kFrames;
+  EXPECT_EQ(judge(in_time).exit_code, kLate) << "all came and none was followed";
+  receipt_ = "starting";
+  EXPECT_EQ(judge(in_time).exit_code, kMissed) << "a start takes 0.2 s, not all the time";
+  refused_ = 30;
+  EXPECT_EQ(judge(in_time).exit_code, 0) << "starts that add up to a second";
+  refused_ = 31;
+  EXPECT_EQ(judge(in_time).exit_code, kMissed);
 }
 
 #ifdef GLOVEBENCH_SOAK

@@ -175,6 +175,7 @@ TEST(HostileResults, FilesThatCannotBeRead) {
   EXPECT_THAT(error_of_reading(large),
               AllOf(HasSubstr("large.json: size: found more than"), HasSubstr("256000000")));
 
+  fs::permissions(folder, fs::perms::others_exec, fs::perm_options::add);  // or the folder would be what is refused
   const std::string secret = folder + "/secret.json";
   write_file(secret, example_text());
   fs::permissions(secret, fs::perms::none);

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -14,15 +13,14 @@
 
 namespace glovebench {
 
-namespace fs = std::filesystem;
+namespace {
 
-std::string read_file(const std::string& path, uint64_t max_bytes) {
+std::string read_all(InputFile& file, const std::string& path, uint64_t max_bytes) {
   const auto check_size = [&](uint64_t bytes) {
     if (bytes > max_bytes) {
       throw Error(path, "size", fmt::format("more than {} bytes", max_bytes), fmt::format("at most {}", max_bytes));
     }
   };
-  InputFile file(path);
   const uint64_t size = file.size().value_or(0);
   check_size(size);
   std::string content;
@@ -33,6 +31,18 @@ std::string read_file(const std::string& path, uint64_t max_bytes) {
     check_size(content.size());  // a pipe has no size of its own, and a file may grow
   }
   return content;
+}
+
+}  // namespace
+
+std::string read_file(const std::string& path, uint64_t max_bytes) {
+  InputFile file(path);
+  return read_all(file, path, max_bytes);
+}
+
+std::string read_regular_file(const std::string& path, uint64_t max_bytes) {
+  InputFile file(path, InputFile::Kind::regular);
+  return read_all(file, path, max_bytes);
 }
 
 }  // namespace glovebench

@@ -275,6 +275,21 @@ TEST(FileSet, removed_is_gone_but_for_others_files) {
   remove_set(folder / "none", kRunSet);
 }
 
+TEST(FileSet, refuses_a_pipe_instead_of_waiting_for_its_writer) {
+  const TestFolder folder;
+  const auto is_a_pipe = ThrowsMessage<Error>(HasSubstr("found a pipe"));
+  ASSERT_EQ(mkfifo((folder / "a").c_str(), 0600), 0);
+  EXPECT_THAT([&] { FileSet(folder.path()).read("a"); }, is_a_pipe);
+  fs::remove(folder / "a");
+  write_set(folder.path(), {"a"}, "");
+  fs::remove(folder / "a");
+  ASSERT_EQ(mkfifo((folder / "a").c_str(), 0600), 0);
+  EXPECT_THROW(FileSet(folder.path()).read("a"), BrokenSet);
+  fs::remove(folder / kManifest);
+  ASSERT_EQ(mkfifo((folder / kManifest).c_str(), 0600), 0);
+  EXPECT_THAT([&] { FileSet{folder.path()}; }, is_a_pipe);
+}
+
 TEST(Manifest, of_a_long_recording_can_be_written_and_read) {
   const TestFolder folder;
   constexpr int kImages = 5000;

@@ -18,6 +18,7 @@ constexpr const char* kInputExpected = "a readable file";
 const char* kind_name(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
+  if (S_ISFIFO(mode)) return "a pipe";
   return S_ISSOCK(mode) ? "a socket" : "no file";
 }
 
@@ -32,13 +33,14 @@ void wait_for_writer(int descriptor) {
 
 }  // namespace
 
-InputFile::InputFile(const std::string& path) : path_(path) {
+InputFile::InputFile(const std::string& path, Kind kind) : path_(path) {
   // Without waiting: a device may do so for as long as it likes before it can be refused.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), kInputExpected);
   struct stat status = {};
   const int error = ::fstat(descriptor_, &status) == 0 ? 0 : errno;
-  const bool is_file = S_ISREG(status.st_mode), is_pipe = S_ISFIFO(status.st_mode);
+  const bool is_file = S_ISREG(status.st_mode);
+  const bool is_pipe = kind == Kind::regular_or_pipe && S_ISFIFO(status.st_mode);
   if (error != 0 || (!is_file && !is_pipe)) {
     ::close(descriptor_);
     throw Error(path, "file", error != 0 ? std::strerror(error) : kind_name(status.st_mode), kInputExpected);

@@ -11,8 +11,10 @@ namespace glovebench {
 /// may never end. What is read is what was checked, even if the name means another file meanwhile.
 class InputFile {
  public:
+  enum class Kind { regular, regular_or_pipe };
+
   /// Waits for the writer of a named pipe. Throws Error.
-  explicit InputFile(const std::string& path);
+  explicit InputFile(const std::string& path, Kind kind = Kind::regular_or_pipe);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;

@@ -32,7 +32,7 @@ ManifestEntry entry_from(const nlohmann::json& json, const std::string& where) {
 std::optional<std::string> content_of(const std::string& path, const ManifestEntry& entry, uint64_t max_bytes) {
   std::error_code error;
   if (fs::file_size(path, error) != entry.bytes || error) return std::nullopt;
-  std::string content = read_file(path, max_bytes);
+  std::string content = read_regular_file(path, max_bytes);
   if (hash_text(content) != entry.hash) return std::nullopt;
   return content;
 }
@@ -77,7 +77,7 @@ std::optional<Manifest> read_manifest(const std::string& folder) {
   const bool is_there = fs::exists(path, error);
   if (error) throw Error(path, "file", error.message(), "a manifest that can be read, or none");
   if (!is_there) return std::nullopt;
-  return parse_manifest(read_file(path, kLargestManifest), path);
+  return parse_manifest(read_regular_file(path, kLargestManifest), path);
 }
 
 bool FileSet::has(const std::string& name) const {
@@ -87,7 +87,7 @@ bool FileSet::has(const std::string& name) const {
 }
 
 std::string FileSet::read(const std::string& name, uint64_t max_bytes) const {
-  if (!manifest_) return read_file(path(name), max_bytes);
+  if (!manifest_) return read_regular_file(path(name), max_bytes);
   const auto entry = std::ranges::find(manifest_->files, name, &ManifestEntry::name);
   if (entry == manifest_->files.end())
     throw BrokenSet(path(name), "file", "none that manifest.json names", "a file of the set");

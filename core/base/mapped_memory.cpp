@@ -23,8 +23,7 @@ MappedMemory MappedMemory::zeros(size_t bytes) {
 }
 
 MappedMemory MappedMemory::of_file(const std::string& path) {
-  const InputFile file(path);
-  if (!file.size()) throw Error(path, "file", "a pipe", "a file that can be mapped");
+  const InputFile file(path, InputFile::Kind::regular);
   const auto bytes = static_cast<size_t>(*file.size());
   if (bytes == 0) return {};
   void* const data = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file.descriptor(), 0);

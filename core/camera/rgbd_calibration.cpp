@@ -17,8 +17,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kCalibrationVersion = 1;
-constexpr double kOrthonormalTolerance = 1e-6;        // calibration tools print at least seven digits
-constexpr uint64_t kLargestFile = uint64_t{1} << 16;  // bytes: fifty times ours
+constexpr double kOrthonormalTolerance = 1e-6;  // calibration tools print at least seven digits
 
 /// A place in a file, for error messages: "calibration.json: ir.fx_px: found ..., expected ...".
 struct Place {
@@ -186,7 +185,7 @@ RgbdCalibration calibration_from_text(std::string_view text, const std::string& 
 }
 
 RgbdCalibration load_calibration(const std::string& path) {
-  return calibration_from_text(read_file(path, kLargestFile), path);
+  return calibration_from_text(read_file(path, kLargestCalibration), path);
 }
 
 void save_calibration(const RgbdCalibration& calibration, const std::string& path) {

@@ -58,6 +58,8 @@ RgbdCalibration calibration_from_json(const nlohmann::json& json, const std::str
 RgbdCalibration calibration_from_text(std::string_view text, const std::string& where);
 nlohmann::json to_json(const RgbdCalibration& calibration);
 
+inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes: fifty times ours
+
 /// A calibration file; what is saved is loaded again bit for bit. Both throw Error.
 RgbdCalibration load_calibration(const std::string& path);
 void save_calibration(const RgbdCalibration& calibration, const std::string& path);

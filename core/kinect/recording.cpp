@@ -21,10 +21,14 @@ void require_size(int width, int height, const PinholeCamera& camera, const std:
                 std::to_string(camera.width) + "x" + std::to_string(camera.height) + " as calibrated");
 }
 
+RgbdCalibration own_calibration(const std::string& path) {
+  return calibration_from_text(read_regular_file(path, kLargestCalibration), path);
+}
+
 }  // namespace
 
 RecordingDevice::RecordingDevice(const std::string& folder)
-    : RecordingDevice(folder, load_calibration(path_in_recording(folder, "calibration.json"))) {}
+    : RecordingDevice(folder, own_calibration(path_in_recording(folder, "calibration.json"))) {}
 
 RecordingDevice::RecordingDevice(const std::string& folder, const RgbdCalibration& calibration)
     : calibration_(calibration), files_(folder) {
@@ -71,8 +75,8 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
 std::string RecordingDevice::read_image(const std::string& name, const PinholeCamera& camera) const {
   // The most that the file of such an image holds, and a little: decoding tells of that, and no more is read.
   constexpr uint64_t kBytesPerPixel = 4, kOthers = 4096;
-  return read_file(files_.path(name),
-                   kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers);
+  return read_regular_file(files_.path(name),
+                           kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers);
 }
 
 RecordingWriter::RecordingWriter(const std::string& folder, const RgbdCalibration& calibration)

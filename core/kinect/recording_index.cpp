@@ -56,7 +56,7 @@ std::string path_in_recording(const std::string& folder, const std::string& name
 }
 
 std::vector<RecordingEntry> read_recording_index(const std::string& folder) {
-  return parse_recording_index(read_file(path_in_recording(folder, "INDEX.txt"), kLargestIndex), folder);
+  return parse_recording_index(read_regular_file(path_in_recording(folder, "INDEX.txt"), kLargestIndex), folder);
 }
 
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder) {
@@ -88,7 +88,7 @@ std::vector<RecordingEntry> parse_recording_index(std::string_view content, cons
 void check_fakenect_dump(const std::string& folder) {
   constexpr size_t kPixels = 640 * 480;
   const std::string index = path_in_recording(folder, "INDEX.txt");
-  std::istringstream lines(read_file(index, kLargestIndex));
+  std::istringstream lines(read_regular_file(index, kLargestIndex));
   int depths = 0;
   for (std::string line; std::getline(lines, line);) {
     const RecordedKind kind = parse_recorded_name(line, index).kind;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -197,6 +198,18 @@ TEST_F(Recording, NoticesAnImageThatIsAnother) {
   EXPECT_TRUE(mentions(play_error(), "r-1.001000-60060000.ppm: content: found a missing, changed or damaged file"));
   fs::remove(path("manifest.json"));
   EXPECT_EQ(play_error(), "") << "a recording of fakenect's own";
+}
+
+TEST_F(Recording, RefusesAPipeInsteadOfWaitingForItsWriter) {
+  record({frame(1'000'000, 1'001'000)});
+  for (const std::string name :
+       {"INDEX.txt", "calibration.json", "manifest.json", "d-1.000000-60000000.pgm", "r-1.001000-60060000.ppm"}) {
+    fs::rename(path(name), path("away"));
+    ASSERT_EQ(mkfifo(path(name).c_str(), 0600), 0);
+    EXPECT_TRUE(mentions(play_error(), name + ": file: found a pipe")) << play_error();
+    fs::remove(path(name));
+    fs::rename(path("away"), path(name));
+  }
 }
 
 TEST_F(Recording, TakesACalibrationFromElsewhere) {

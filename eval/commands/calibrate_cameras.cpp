@@ -110,8 +110,10 @@ void add_calibrate_cameras(CLI::App& calibrate) {
   command->add_option("--most", state->most, "of a recording, take at most that many pictures")
       ->check(CLI::Range(5, 10000))
       ->capture_default_str();
-  command->add_option("-o,--output", state->output, "calibration to write (*.json)")->required();
-  command->add_option("--report", state->report, "errors of every view, to write (*.json)");
+  command->add_option("-o,--output", state->output, "calibration to write (*.json)")
+      ->check(named_file())
+      ->required();
+  command->add_option("--report", state->report, "errors of every view, to write (*.json)")->check(named_file());
   command->add_flag("--quiet", state->quiet, "no progress");
   command->callback([state] { state->run(); });
 }

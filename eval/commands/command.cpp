@@ -21,7 +21,7 @@ namespace glovebench::eval {
 constexpr uint64_t kLargestConfig = uint64_t{1} << 20;  // bytes
 
 void CommonFlags::add_output(CLI::App& command, const std::string& what, bool required) {
-  CLI::Option* option = command.add_option("-o,--output", output, what);
+  CLI::Option* option = command.add_option("-o,--output", output, what)->check(named_file());
   if (required) option->required();
 }
 
@@ -129,6 +129,13 @@ void RobotFlags::add(CLI::App& command, const std::string& what) {
   mounting.add(command);
   limits.add_coupling(command);
   limits.add(command);
+}
+
+CLI::Validator named_file() {
+  return {[](const std::string& text) -> std::string {
+            return text == "-" ? "found -, expected the name of a file or folder" : "";
+          },
+          ""};
 }
 
 CLI::Validator number_within(double min, double max) {

@@ -41,6 +41,10 @@ struct CommonFlags {
   void check_output_folder() const;
 };
 
+/// Checks an option: the name of a file or folder, not `-`. For commands that print something else to standard
+/// output.
+CLI::Validator named_file();
+
 /// Checks an option: a number from `min` to `max`. CLI::Range lets pass what is no number.
 CLI::Validator number_within(double min, double max);
 

@@ -54,8 +54,10 @@ void add_compare(CLI::App& program) {
   const auto state = std::make_shared<Compare>();
   command->add_option("baseline", state->baseline_path, "folder of a run, or its results.json")->required();
   command->add_option("candidate", state->candidate_path, "the same, of the run to judge")->required();
-  command->add_option("-o,--output", state->output,
-                      "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures");
+  command
+      ->add_option("-o,--output", state->output,
+                   "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures")
+      ->check(named_file());
   command->add_option("--noise-floor", state->noise_floor_path,
                       "what other seeds do (`glovebench calibrate noise`) [noise_floor.json beside the baseline]");
   command->add_flag("--other-seeds", state->pairing.other_seeds,

@@ -144,8 +144,10 @@ void add_gate(CLI::App& program, int& exit_code) {
       "file of `glovebench_bench --benchmark_repetitions=5 --benchmark_out=FILE`: the ratios to the "
       "plain implementations are gated, too");
   command->add_option("--suite", state->suite, "with --update: the file of the suite, if it is one of your own");
-  command->add_option("-o,--output", state->output,
-                      "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures");
+  command
+      ->add_option("-o,--output", state->output,
+                   "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures")
+      ->check(named_file());
   command->add_flag("--other-seeds", state->pairing.other_seeds,
                     "the run has other noise seeds, as many: pair them in their order");
   command->add_flag("--update", state->update,

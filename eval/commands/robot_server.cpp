@@ -32,8 +32,9 @@ struct RobotServer {
   /// Serves until SIGINT or SIGTERM. Returns the exit code.
   int serve_hand() const {
 #ifdef GLOVEBENCH_DDS
+    const DdsServerOptions read = options("hand");  // before signals only ask: a pipe may never end
     const Interruption interruption;
-    return finish(glovebench::serve_hand(options("hand")));
+    return finish(glovebench::serve_hand(read));
 #else
     return bus.domain();  // throws
 #endif
@@ -41,8 +42,9 @@ struct RobotServer {
   int serve_arm() const {
 #if defined(GLOVEBENCH_DDS) && defined(GLOVEBENCH_ARM)
     const std::unique_ptr<ArmSolver> solver = make_kdl_arm_solver();
+    const DdsServerOptions read = options("arm");
     const Interruption interruption;
-    return finish(glovebench::serve_arm(options("arm"), *solver, mounting.T_flange_wrist(), kArmAtRest));
+    return finish(glovebench::serve_arm(read, *solver, mounting.T_flange_wrist(), kArmAtRest));
 #else
     bus.domain();         // throws where that is missing
     throw Error("robot-server", "arm", "a glovebench that was built without Orocos KDL",
@@ -103,7 +105,8 @@ void add_robot_server(CLI::App& program, int& exit_code) {
   for (CLI::App* side : {hand, arm}) {
     state->bus.add(*side, "where from: dds[:DOMAIN]")->capture_default_str();
     side->add_option("--log", state->log,
-                     "log to append to (*.jsonl), which also tells the next server where the joints stood");
+                     "log to append to (*.jsonl), which also tells the next server where the joints stood")
+        ->check(named_file());
     side->add_option("--log-age", state->max_log_age_s,
                      "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
         ->check(number_within(0, 1e8))

@@ -77,9 +77,9 @@ struct Track {
         find_method(config.method)
             .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
-    LineFile output(common.output);
-    const Interruption interruption;
     RobotSetup setup = robot.setup(workbench);
+    LineFile output(common.output);
+    const Interruption interruption;  // after all files were read: a pipe may never end, and a signal must end that
     setup.arm_start = outputs.arm_start().value_or(setup.arm_start);
     RobotCommander commander(setup);
     track_all(source, *method, output, [&](const TrackResult& result) {
@@ -199,8 +199,10 @@ void add_track(CLI::App& program) {
       ->required();
   command->add_option("--colors", state->colors,
                       "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
-  state->common.add_output(*command,
-                           "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)", true);
+  command
+      ->add_option("-o,--output", state->common.output,
+                   "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)")
+      ->required();
   state->robot.add(*command, "robot commands to write (*.jsonl)");
   CLI::Option* const stream =
       state->bus.add(*command, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
