@@ -223,13 +223,15 @@ RegisteredImage register_color(const DepthImage& depth, const ColorImage& color,
   for (int v = extent.top; v < extent.bottom; ++v) {
     const Span span = extent.rows[v];
     const ProjectedRow row = projector.project(depth, v, span);
+    Rgb* const mapped_color = mapped.color.row(v);
+    uint8_t* const has_color = mapped.has_color.row(v);
     for (int u = span.left; u < span.right; ++u) {
       const float i = row.u_px[u] + 0.5f, j = row.v_px[u] + 0.5f;  // truncated: the nearest pixel
       if (!(row.z[u] > 0 && i >= 0 && j >= 0 && i < width && j < height)) continue;
       const int u_rgb = static_cast<int>(i), v_rgb = static_cast<int>(j);
       if (row.z[u] > nearest(u_rgb, v_rgb) + tolerance) continue;
-      mapped.color(u, v) = color(u_rgb, v_rgb);
-      mapped.has_color(u, v) = 1;
+      mapped_color[u] = color.data()[static_cast<size_t>(v_rgb) * color.width() + u_rgb];
+      has_color[u] = 1;
     }
   }
   return mapped;

@@ -72,8 +72,10 @@ template <ColorSpace kSpace>
 LabelImage labels_of(const RegisteredImage& mapped, const uint8_t* cells) {
   LabelImage labels(mapped.color.width(), mapped.color.height());
   for (int v = 0; v < labels.height(); ++v) {
+    const Rgb* const colors = mapped.color.row(v);
+    uint8_t* const found = labels.row(v);
     for_each_nonzero(mapped.has_color, v,
-                     [&](int u) { labels(u, v) = cells[ColorTable::cell_of_rgb(mapped.color(u, v), kSpace)]; });
+                     [&](int u) { found[u] = cells[ColorTable::cell_of_rgb(colors[u], kSpace)]; });
   }
   return labels;
 }
@@ -81,7 +83,8 @@ LabelImage labels_of(const RegisteredImage& mapped, const uint8_t* cells) {
 template <ColorSpace kSpace>
 LabelImage labels_of(const ColorImage& color, const uint8_t* cells) {
   LabelImage labels(color.width(), color.height());
-  for (size_t i = 0; i < labels.size(); ++i) labels[i] = cells[ColorTable::cell_of_rgb(color[i], kSpace)];
+  std::transform(color.begin(), color.end(), labels.begin(),
+                 [&](const Rgb& rgb) { return cells[ColorTable::cell_of_rgb(rgb, kSpace)]; });
   return labels;
 }
 
