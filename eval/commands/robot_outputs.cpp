@@ -31,7 +31,7 @@ int BusFlags::domain() const {
   if (!known) throw Error("--robot", "middleware", middleware, "dds or dds:DOMAIN");
 #ifndef GLOVEBENCH_DDS
   throw Error("--robot", middleware, "a glovebench that was built without Cyclone DDS",
-              "one that was configured with it (Debian: cyclonedds-dev, cyclonedds-tools, libssl-dev)");
+              "one that was configured with it (Debian: cyclonedds-dev, cyclonedds-tools)");
 #endif
   return domain;
 }

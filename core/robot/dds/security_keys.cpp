@@ -14,6 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/robot/dds/openssl.h"
 #include "core/robot/dds/topics.h"
 
 namespace glovebench {
@@ -53,27 +54,185 @@ void write_new_file(const std::string& path, std::string_view content, mode_t mo
   if (!fine) refuse(path, "file", "room for it");
 }
 
+// Working files of `openssl ca`, in a folder of their own that goes at the end.
+constexpr const char* kWork = "work";
+constexpr const char* kSettings = R"([ca]
+default_ca = own
+[own]
+database = work/index
+new_certs_dir = work
+default_md = sha256
+policy = name
+rand_serial = yes
+unique_subject = no
+[name]
+commonName = supplied
+[req]
+distinguished_name = no_more_than_the_name
+prompt = no
+[no_more_than_the_name]
+[authority]
+basicConstraints = critical,CA:TRUE
+keyUsage = critical,keyCertSign,digitalSignature
+[holder]
+basicConstraints = critical,CA:FALSE
+keyUsage = critical,digitalSignature
+)";
+
+/// What `openssl` prints. Throws Error if it fails.
+std::string made_by_openssl(const std::string& folder, const std::vector<std::string>& arguments,
+                            std::string_view input = "") {
+  const OpensslResult result = run_openssl(folder, arguments, input);
+  if (!result.is_success)
+    throw Error("openssl", arguments.front(), result.reason, "a key, certificate or signature");
+  return result.output;
+}
+
+/// Makes keys with certificates, and signs documents, in a folder.
+class Authority {
+ public:
+  /// Its own certificate is NAME.pem.
+  Authority(const std::string& folder, const std::string& name, const std::string& common_name,
+            const Validity& validity)
+      : folder_(folder), certificate_(name + ".pem"), key_(new_key()) {
+    certify(certificate_, common_name, validity, key_, {"-selfsign", "-extensions", "authority"});
+  }
+
+  /// NAME.pem and NAME.key.
+  void issue(const std::string& name, const std::string& common_name, const Validity& validity) const {
+    const std::string key = new_key();
+    write_new_file(folder_ + "/" + name + ".key", key, kSecret);
+    certify(name + ".pem", common_name, validity, key, {"-cert", certificate_, "-extensions", "holder"});
+  }
+
+  /// The document as S/MIME: in the clear, with a signature beside it.
+  void sign(const std::string& file, const std::string& document) const {
+    const std::string clear = fmt::format("{}/{}", kWork, file);
+    write_new_file(folder_ + "/" + clear, document, kPublic);
+    // DDS Security wants a text/plain part.
+    write_new_file(folder_ + "/" + file,
+                   made_by_openssl(folder_,
+                                   {"smime", "-sign", "-text", "-md", "sha256", "-signer", certificate_, "-inkey",
+                                    "/dev/stdin", "-in", clear},
+                                   key_),
+                   kPublic);
+  }
+
+ private:
+  std::string new_key() const {
+    return made_by_openssl(folder_, {"genpkey", "-algorithm", "EC", "-pkeyopt", "ec_paramgen_curve:P-256"});
+  }
+
+  void certify(const std::string& file, const std::string& common_name, const Validity& validity,
+               const std::string& key, const std::vector<std::string>& how) const {
+    const std::string settings = fmt::format("{}/settings", kWork), request = fmt::format("{}/{}", kWork, file);
+    write_new_file(
+        folder_ + "/" + request,
+        made_by_openssl(folder_,
+                        {"req", "-new", "-config", settings, "-subj", "/CN=" + common_name, "-key", "/dev/stdin"},
+                        key),
+        kPublic);
+    std::vector<std::string> arguments = {"ca",
+                                          "-batch",
+                                          "-notext",
+                                          "-config",
+                                          settings,
+                                          "-keyfile",
+                                          "/dev/stdin",
+                                          "-in",
+                                          request,
+                                          "-startdate",
+                                          date(validity.begin_s),
+                                          "-enddate",
+                                          date(validity.end_s)};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    write_new_file(folder_ + "/" + file, made_by_openssl(folder_, arguments, key_), kPublic);
+  }
+
+  static std::string date(int64_t time_s) {
+    return fmt::format("{:%Y%m%d%H%M%S}Z", fmt::gmtime(static_cast<time_t>(time_s)));
+  }
+
+  static constexpr mode_t kPublic = 0644, kSecret = 0600;
+  std::string folder_, certificate_, key_;
+};
+
 void write_all(const std::string& folder, const Validity& validity, const std::map<std::string, Validity>& others) {
-  const Authority identities("glovebench identities", validity), permissions("glovebench permissions", validity);
-  constexpr mode_t kPublic = 0644, kSecret = 0600;
-  write_new_file(folder + "/identity_ca.pem", identities.certificate(), kPublic);
-  write_new_file(folder + "/permissions_ca.pem", permissions.certificate(), kPublic);
-  write_new_file(folder + "/governance.p7s", permissions.sign(governance_document()), kPublic);
+  const std::string work = folder + "/" + kWork;
+  fs::create_directory(work);
+  write_new_file(work + "/settings", kSettings, 0600);
+  write_new_file(work + "/index", "", 0600);
+  const Authority identities(folder, "identity_ca", "glovebench identities", validity);
+  const Authority permissions(folder, "permissions_ca", "glovebench permissions", validity);
+  permissions.sign("governance.p7s", governance_document());
   for (const SecurityRole& role : security_roles()) {
     const auto other = others.find(role.name);
     const Validity& its = other == others.end() ? validity : other->second;
-    const Identity identity = identities.issue("glovebench-" + role.name, its);
-    const std::string base = folder + "/" + role.name;
-    write_new_file(base + ".pem", identity.certificate, kPublic);
-    write_new_file(base + ".key", identity.private_key, kSecret);
-    write_new_file(base + ".p7s", permissions.sign(permissions_document(role, its)), kPublic);
+    identities.issue(role.name, "glovebench-" + role.name, its);
+    permissions.sign(role.name + ".p7s", permissions_document(role, its));
   }
+  fs::remove_all(work);
 }
 
-PemFile read_pem(const fs::path& folder, const std::string& name) {
-  const std::string path = (folder / name).string();
-  return {path, read_file(path, kLargestFile)};
-}
+/// The files of a folder of keys, which `openssl` reads there.
+class KeyFolder {
+ public:
+  explicit KeyFolder(fs::path folder) : folder_(std::move(folder)) {}
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// Throws Error unless it is a certificate that holds at `now_s`.
+  void check_certificate(const std::string& name, int64_t now_s) const {
+    check_readable(name);
+    const OpensslResult dates =
+        run({"x509", "-in", name, "-noout", "-startdate", "-enddate", "-dateopt", "iso_8601"});
+    const size_t from = dates.output.find("notBefore="), until = dates.output.find("notAfter=");
+    if (!dates.is_success || from == std::string::npos || until == std::string::npos)
+      throw Error(path(name), "certificate", "none that can be read", "one of X.509, as PEM");
+    const auto date_at = [&](size_t place) {
+      const size_t begin = dates.output.find('=', place) + 1;
+      return dates.output.substr(begin, dates.output.find('\n', begin) - begin);
+    };
+    // Dates of this form have the order of their texts.
+    const std::string begin = date_at(from), end = date_at(until),
+                      now = fmt::format("{:%Y-%m-%d %H:%M:%S}Z", fmt::gmtime(static_cast<time_t>(now_s)));
+    if (begin > now) throw Error(path(name), "certificate", "one that begins " + begin, "one that holds now");
+    if (end < now) throw Error(path(name), "certificate", "one that expired " + end, "one that holds now");
+  }
+
+  /// Throws Error unless the authority has issued the certificate, and the private key is the certificate's.
+  void check_identity(const std::string& certificate, const std::string& key, const std::string& authority) const {
+    check_readable(key);
+    if (!run({"verify", "-no_check_time", "-no-CApath", "-no-CAstore", "-CAfile", authority, certificate})
+             .is_success)
+      throw Error(path(certificate), "certificate", "one of another authority", "one of " + path(authority));
+    const OpensslResult own = run({"pkey", "-in", key, "-passin", "pass:", "-pubout"});
+    if (!own.is_success)
+      throw Error(path(key), "private key", "none that can be read", "one as PEM, without a password");
+    if (own.output != run({"x509", "-in", certificate, "-noout", "-pubkey"}).output)
+      throw Error(path(key), "private key", "another one", "that of " + path(certificate));
+  }
+
+  /// Throws Error unless the authority has signed the document.
+  void check_signature(const std::string& document, const std::string& authority) const {
+    check_readable(document);
+    // The time is check_certificate's.
+    if (!run({"smime", "-verify", "-text", "-no_check_time", "-no-CApath", "-no-CAstore", "-CAfile", authority,
+              "-in", document})
+             .is_success)
+      throw Error(path(document), "signature", "none that fits",
+                  "a document that " + path(authority) + " has signed");
+  }
+
+ private:
+  OpensslResult run(const std::vector<std::string>& arguments) const {
+    return run_openssl(folder_.string(), arguments);
+  }
+  /// Throws Error unless it is a file of a small size.
+  void check_readable(const std::string& name) const { read_regular_file(path(name), kLargestFile); }
+
+  fs::path folder_;
+};
 
 }  // namespace
 
@@ -164,8 +323,10 @@ void make_security_keys(const std::string& folder, const Validity& validity,
   if (!mkdtemp(made.data())) refuse(folder, "folder", "a place for a new folder");  // mode 0700
   try {
     write_all(made, validity, others);
+    sync_folder(made);
     if (rename(made.c_str(), whole.c_str()) != 0)
       refuse(folder, "folder", "none, or an empty one: keys are not replaced");
+    sync_folder(whole.parent_path().string());
   } catch (...) {
     std::error_code ignored;
     fs::remove_all(made, ignored);
@@ -181,18 +342,20 @@ std::string security_configuration(const std::string& folder, const std::string&
   // The path becomes part of a document in which Cyclone DDS replaces ${...}.
   if (from.string().find_first_of("<>&\"'$") != std::string::npos)
     throw Error(from.string(), "folder", "one of < > & \" ' $ in its path", "none of them");
-  const PemFile identities = read_pem(from, "identity_ca.pem"), permissions = read_pem(from, "permissions_ca.pem"),
-                governance = read_pem(from, "governance.p7s"), certificate = read_pem(from, role + ".pem"),
-                key = read_pem(from, role + ".key"), rights = read_pem(from, role + ".p7s");
-  for (const PemFile* file : {&identities, &permissions, &certificate}) check_certificate(*file, now_s);
-  check_identity(certificate, key, identities);
-  for (const PemFile* file : {&governance, &rights}) check_signature(*file, permissions);
+  const KeyFolder keys(from);
+  const std::string certificate = role + ".pem", key = role + ".key", rights = role + ".p7s";
+  for (const std::string& file : {std::string("identity_ca.pem"), std::string("permissions_ca.pem"), certificate})
+    keys.check_certificate(file, now_s);
+  keys.check_identity(certificate, key, "identity_ca.pem");
+  for (const std::string& file : {std::string("governance.p7s"), rights})
+    keys.check_signature(file, "permissions_ca.pem");
   return fmt::format(
       "<Security><Authentication><Library/><IdentityCA>file:{}</IdentityCA><IdentityCertificate>file:{}"
       "</IdentityCertificate><PrivateKey>file:{}</PrivateKey></Authentication><AccessControl><Library/>"
       "<PermissionsCA>file:{}</PermissionsCA><Governance>file:{}</Governance><Permissions>file:{}</Permissions>"
       "</AccessControl><Cryptographic><Library/></Cryptographic></Security>",
-      identities.path, certificate.path, key.path, permissions.path, governance.path, rights.path);
+      keys.path("identity_ca.pem"), keys.path(certificate), keys.path(key), keys.path("permissions_ca.pem"),
+      keys.path("governance.p7s"), keys.path(rights));
 }
 
 }  // namespace glovebench

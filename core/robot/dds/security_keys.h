@@ -5,10 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "core/robot/dds/certificates.h"
-
 /// DDS Security among `track`, the servers, a robot's driver and those who watch: files that say who may do what.
+/// X.509 certificates and S/MIME signatures by the program `openssl`: EC P-256 keys, SHA-256, PEM.
 namespace glovebench {
+
+/// From when until when a certificate holds, seconds since 1970.
+struct Validity {
+  int64_t begin_s = 0;
+  int64_t end_s = 0;
+};
 
 /// A part in the play: topics that it may write and read (patterns of fnmatch).
 struct SecurityRole {
@@ -25,7 +30,7 @@ std::string permissions_document(const SecurityRole& role, const Validity& valid
 
 /// Makes a folder, mode 0700, with two authorities' certificates (`identity_ca.pem`, `permissions_ca.pem`), their
 /// signed `governance.p7s`, and for each role NAME.pem, NAME.key (mode 0600) and NAME.p7s. The authorities' private
-/// keys are not kept: who needs another role or more time makes another folder. `others`: roles with another
+/// keys are never on a disk: who needs another role or more time makes another folder. `others`: roles with another
 /// validity. Throws Error if the folder exists and is not empty, or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});

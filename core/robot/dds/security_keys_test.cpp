@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "core/base/error.h"
@@ -79,6 +80,13 @@ TEST_F(SecurityKeys, AreNeverReplaced) {
   fs::create_directory(path("empty"));
   make_security_keys(path("empty/"), kGood);
   EXPECT_EQ(mode(path("empty")), 0700);
+}
+
+TEST_F(SecurityKeys, NameTheProgramWhereItIsMissing) {
+  setenv("PATH", folder_.c_str(), 1);
+  EXPECT_THAT(fault(), AllOf(HasSubstr("openssl: program: found No such file"), HasSubstr("Debian: openssl")));
+  EXPECT_THROW(make_security_keys(path("more"), kGood), Error);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left over";
 }
 
 TEST_F(SecurityKeys, HoldForTheirTime) {
