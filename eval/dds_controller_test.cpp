@@ -29,7 +29,7 @@ using testing::IsEmpty;
 
 #ifdef GLOVEBENCH_DDS
 
-constexpr double kPeriod = 0.033334;  // s, between two frames of what is tracked here
+constexpr double kPeriod = 0.033334;  // s, of the first step
 constexpr double kControllerRounding = 1e-9;
 
 class DdsController : public DdsBus {
@@ -65,6 +65,10 @@ class DdsController : public DdsBus {
         joints[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
     return joints;
   }
+  /// In which the controller shall reach the targets of a message, s: a microsecond more than it says.
+  static double time_of(const std::string& line) {
+    return std::stod(line.substr(line.find(" point ") + std::string_view(" point ").size())) + 1e-6;
+  }
   RobotStream stream(bool arm) const {
     RobotStream stream;
     stream.bus.middleware = "dds:" + domain_;
@@ -78,8 +82,7 @@ class DdsController : public DdsBus {
   static void send(RobotOutputs& outputs, int count) {
     CommandGuard guard;
     for (int i = 0; i < count; ++i) {
-      outputs.start(guard, command(i));
-      outputs.send(guard.guard(command(i)).value(), system_us());
+      outputs.send(guard, command(i), system_us());
       std::this_thread::sleep_for(std::chrono::milliseconds(33));
     }
     outputs.finish();
@@ -123,10 +126,10 @@ TEST_F(DdsController, IsLeftNoFasterThanTheLimitsFromWhereTheRobotStands) {
     EXPECT_THAT(lines_of("pose", heard), IsEmpty());
     std::map<std::string, double> before;
     for (size_t j = 0; j < standing().size(); ++j) before[hand_joint_names()[j]] = standing()[j];
-    const double farthest = CommandLimits().hand_joint_speed * kPeriod + kControllerRounding;
     for (size_t i = 0; i < hands.size(); ++i) {
       std::map<std::string, double> now = joints_of(hands[i]);
       now.merge(joints_of(wrists[i]));
+      const double farthest = CommandLimits().hand_joint_speed * time_of(hands[i]) + kControllerRounding;
       ASSERT_EQ(now.size(), size_t{kShadowJointCount});
       for (const auto& [name, angle] : now) {
         ASSERT_LE(std::abs(angle - before.at(name)), farthest) << name << " in message " << i;
@@ -168,9 +171,33 @@ TEST_F(DdsController, IsNotSpokenToAfterItsDriverFellSilent) {
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const StartedProgram listener = listen_to_controller();
   CommandGuard guard;
-  EXPECT_NO_THROW(outputs.start(guard, lost_command(1)));  // sends nothing anyway
-  EXPECT_THROW(outputs.start(guard, command(1)), Error);
+  EXPECT_NO_THROW(outputs.send(guard, lost_command(1), system_us()));  // says nothing anyway
+  EXPECT_THROW(outputs.send(guard, command(2), system_us()), Error);
   EXPECT_EQ(stop(listener, SIGTERM).out, "ready\n");
+}
+
+TEST_F(DdsController, IsAskedAgainWhereTheRobotStandsAfterAStop) {
+  const StartedProgram listener = listen_to_controller();
+  const StartedProgram before = drive("measured", hand_joint_names(), std::vector<double>(kShadowJointCount, 0.0));
+  RobotOutputs outputs(stream(false));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  CommandGuard guard;
+  for (int i = 0; i < 5; ++i) outputs.send(guard, command(i), system_us());
+  stop(before, SIGKILL);
+  // Meanwhile somebody bends the fingers, and no hand is seen.
+  const StartedProgram after = drive("measured", hand_joint_names(), standing());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  outputs.send(guard, command(6), system_us());
+  outputs.finish();
+  stop(after, SIGKILL);
+  const std::vector<std::string> hands = lines_of("hand", finish(listener).out);
+  ASSERT_GE(hands.size(), 2U);
+  const double farthest = CommandLimits().hand_joint_speed * CommandLimits().longest_step_s + kControllerRounding;
+  for (const auto& [name, angle] : joints_of(hands.back())) {
+    const auto joint = std::find(hand_joint_names().begin(), hand_joint_names().end(), name);
+    ASSERT_NE(joint, hand_joint_names().end());
+    EXPECT_LE(std::abs(angle - standing()[joint - hand_joint_names().begin()]), farthest) << name;
+  }
 }
 
 TEST_F(DdsController, StartsTheArmWhereItStands) {
@@ -185,20 +212,22 @@ TEST_F(DdsController, StartsTheArmWhereItStands) {
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   send(outputs, 3);
   stop(hand, SIGKILL), stop(arm, SIGKILL);
-  const std::vector<std::string> poses = lines_of("pose", finish(listener).out);
+  const std::string heard = finish(listener).out;
+  const std::vector<std::string> poses = lines_of("pose", heard), hands = lines_of("hand", heard);
   ASSERT_EQ(poses.size(), 3U);
+  ASSERT_EQ(hands.size(), 3U);
   Eigen::Vector3d before = (arm_flange_pose(rest) * default_T_flange_wrist()).translation();
   const Eigen::Vector3d goal =
       Eigen::Vector3d(0.5, 0, 0.5) + shadow_T_wrist_hand(command(0).targets->hand.joints).inverse().translation();
-  for (const std::string& line : poses) {
-    std::istringstream words(line.substr(line.find('"')));
+  for (size_t i = 0; i < poses.size(); ++i) {
+    std::istringstream words(poses[i].substr(poses[i].find('"')));
     std::string frame;
     Eigen::Vector3d now;
     words >> frame >> now.x() >> now.y() >> now.z();
     // The wrist turns about the hand's origin, which the limits are of.
     constexpr double kWristFromHand = 0.15;
     EXPECT_LE((now - before).norm(),
-              (CommandLimits().hand_speed + kWristFromHand * CommandLimits().hand_turn_speed) * kPeriod);
+              (CommandLimits().hand_speed + kWristFromHand * CommandLimits().hand_turn_speed) * time_of(hands[i]));
     before = now;
   }
   EXPECT_GT((before - goal).norm(), 0.01) << "it is still on its way";
@@ -224,6 +253,44 @@ TEST(MeasuredTargets, TakeNoiseAsTheLimit) {
 
 /// From frames to a controller.
 class DdsControllerTrack : public CommandTest {};
+
+/// A recording that is tracked faster than it was taken.
+class DdsControllerRecording : public DdsController {
+ protected:
+  static constexpr int kLength = 46;
+  static constexpr double kSpan = (kLength - 1) / 30.0;  // s
+};
+
+TEST_F(DdsControllerRecording, IsNoFasterByTheClockOfTheWall) {
+  write_file(path("closing.json"), make_trajectory_json("closing", kLength).dump());
+  ASSERT_EQ(
+      run_glovebench({"render", "--trajectory", path("closing.json"), "--format", "fakenect", "-o", path("dump")})
+          .exit_code,
+      0);
+  const StartedProgram driver = drive("measured", hand_joint_names(), standing());
+  const StartedProgram listener = listen_to_controller();
+  const ProgramRun tracked = run_glovebench({"track", "--source", "fakenect:" + path("dump"), "--database",
+                                             "DB_open_power", "-o", path("e.jsonl"), "--robot", "dds:" + domain_,
+                                             "--robot-topics", "controller", "--robot-arm", "none"});
+  EXPECT_EQ(tracked.exit_code, 0) << tracked.err;
+  stop(driver, SIGKILL);
+  const std::vector<std::string> hands = lines_of("hand", finish(listener).out);
+  ASSERT_GE(hands.size(), 3U);
+  const auto received_s = [](const std::string& line) {
+    return static_cast<double>(std::stoll(line.substr(line.rfind(' ') + 1))) * 1e-9;
+  };
+  // A busy machine may deliver the first message late.
+  constexpr double kLate = kSpan / 3;
+  const double elapsed = received_s(hands.back()) - received_s(hands.front()) + kLate;
+  EXPECT_GE(elapsed, kSpan);
+  std::map<std::string, double> ways, before = joints_of(hands.front());
+  for (const std::string& line : hands) {
+    const std::map<std::string, double> now = joints_of(line);
+    for (const auto& [name, angle] : now) ways[name] += std::abs(angle - before.at(name));
+    before = now;
+  }
+  for (const auto& [name, way] : ways) EXPECT_LE(way, CommandLimits().hand_joint_speed * elapsed) << name;
+}
 
 TEST_F(DdsControllerTrack, TrackNeedsAMeasuredState) {
   use_loopback_dds();

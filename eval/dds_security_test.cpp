@@ -7,6 +7,7 @@
 #include "core/base/system_time.h"
 #include "core/robot/dds/dds_sink.h"
 #include "core/robot/dds/measured_robot.h"
+#include "core/robot/dds/openssl.h"
 #include "core/robot/dds/security_keys.h"
 #include "core/robot/test_commands.h"
 #include "eval/robot_server_fixture.h"
@@ -62,13 +63,21 @@ class DdsSecurity : public RobotServer {
   }
   ProgramSetting as(const std::string& role) const { return as(files("keys", role)); }
 
+  void openssl(const std::vector<std::string>& arguments, const std::string& input = "") const {
+    const OpensslResult result = run_openssl(folder_, arguments, input);
+    ASSERT_TRUE(result.is_success) << result.reason;
+  }
+  void sign_as_own(const std::string& file, const std::string& document) const {
+    openssl({"smime", "-sign", "-text", "-signer", "own_ca.pem", "-inkey", "own.key", "-out", file}, document);
+  }
+
   /// An observer with a true identity whose rights are signed by itself.
   ProgramSetting as_presumptuous_observer() {
-    const Authority own("its own", valid_now());
+    openssl({"req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-subj",
+             "/CN=its own", "-keyout", "own.key", "-out", "own_ca.pem"});
     const SecurityRole wanted = {"observer", {"*"}, {"*"}};
-    write_file(path("own_ca.pem"), own.certificate());
-    write_file(path("own_governance.p7s"), own.sign(governance_document()));
-    write_file(path("own_rights.p7s"), own.sign(permissions_document(wanted, valid_now())));
+    sign_as_own("own_governance.p7s", governance_document());
+    sign_as_own("own_rights.p7s", permissions_document(wanted, valid_now()));
     Files its = files("keys", "observer");
     its.permissions_ca = path("own_ca.pem");
     its.governance = path("own_governance.p7s");

@@ -72,6 +72,8 @@ class CommandGuard {
   /// if time did not go on.
   std::optional<RobotCommand> tick(int64_t now_us);
 
+  /// The state at a time if nothing arrives until then.
+  CommandState state_at(int64_t now_us) const;
   /// Of all that was given so far. Those of a command that is sent are in it, with those since the last one.
   const Interventions& interventions() const { return total_; }
   /// Those of the guarded part: an arm's workspace is that of the wrist, smaller by kShadowWristReach on all sides.
@@ -81,8 +83,6 @@ class CommandGuard {
   void note(Intervention kind);
   bool is_stale(const RobotCommand& command) const;
   void take(const RobotCommand& command, int64_t now_us);
-  /// The state at a time if nothing arrives until then.
-  CommandState state_at(int64_t now_us) const;
   void become(CommandState state);
   RobotCommand send(int64_t now_us);
 

@@ -21,7 +21,7 @@ struct RobotTargets {
 /// What is sent to hand and arm for one frame (section V).
 struct RobotCommand {
   int64_t frame_timestamp_us = 0;  ///< of the frame that was tracked
-  int64_t timestamp_us = 0;        ///< of the command: that of its frame, as nothing here reads a clock
+  int64_t timestamp_us = 0;        ///< of the command: that of its frame, or what a guard was told
   TrackStatus status = TrackStatus::no_hand;
   bool hold = true;  ///< the frame is lost: the targets are those of the last tracked frame
   CommandState state = CommandState::stopped;

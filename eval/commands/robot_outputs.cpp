@@ -1,6 +1,7 @@
 #include "eval/commands/robot_outputs.h"
 
 #include <charconv>
+#include <chrono>
 
 #include "core/base/error.h"
 #ifdef GLOVEBENCH_DDS
@@ -66,8 +67,10 @@ class RobotOutputs::Stream {
     if (!measured_) return std::nullopt;
     return measured_->state(kFirstWait);
   }
-  void start(CommandGuard& guard, const RobotCommand& command) {
-    if (!measured_ || command.hold || !command.targets) return;
+  /// Tells the guard where the robot stands if it has to know. Returns the time of the command.
+  int64_t start(CommandGuard& guard, const RobotCommand& command) {
+    const int64_t now = now_us(command);
+    if (!measured_ || command.hold || !command.targets || guard.state_at(now) != CommandState::stopped) return now;
     // Without an arm the pose is not sent, but the guard needs one: the hand's, so far inside that every fingertip
     // is.
     Eigen::Isometry3d T_base_hand = command.targets->T_base_hand;
@@ -78,15 +81,25 @@ class RobotOutputs::Stream {
                                     .cwiseMin(limits.workspace_max - reach)
                                     .eval();
     guard.start_from(targets_at(measured_->state(kStartWait), T_flange_wrist_, T_base_hand));
-    guard.tick(command.timestamp_us - kFirstStepUs);  // the first step is as long as the time that it is given
-    measured_.reset();
+    const int64_t measured_us = now_us(command);
+    guard.tick(measured_us - kFirstStepUs);  // the first step is as long as the time that it is given
+    return measured_us;
   }
 
   DdsSink sink;
 
  private:
+  /// Microseconds: the first frame's time stamp plus what has passed since then on the wall.
+  int64_t now_us(const RobotCommand& command) {
+    using namespace std::chrono;
+    const int64_t clock_us = duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
+    if (!first_us_) first_us_ = command.timestamp_us - clock_us;
+    return *first_us_ + clock_us;
+  }
+
   Eigen::Isometry3d T_flange_wrist_;
-  std::unique_ptr<MeasuredRobot> measured_;  ///< until the guard has started
+  std::unique_ptr<MeasuredRobot> measured_;
+  std::optional<int64_t> first_us_;  ///< of the first frame, less the clock at that time
 };
 #else
 class RobotOutputs::Stream {
@@ -97,7 +110,7 @@ class RobotOutputs::Stream {
     void send(const RobotCommand&) {}
     void finish() {}
   } sink;
-  void start(CommandGuard&, const RobotCommand&) {}
+  int64_t start(CommandGuard&, const RobotCommand& command) { return command.timestamp_us; }
 };
 #endif
 
@@ -113,16 +126,15 @@ RobotOutputs::RobotOutputs(const RobotStream& stream) {
 
 RobotOutputs::~RobotOutputs() = default;
 
-void RobotOutputs::start(CommandGuard& guard, const RobotCommand& command) {
-  if (stream_) stream_->start(guard, command);
-}
-
-void RobotOutputs::send(const RobotCommand& command, int64_t arrived_us) {
+void RobotOutputs::send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us) {
+  const int64_t now_us = stream_ ? stream_->start(guard, command) : command.timestamp_us;
+  const std::optional<RobotCommand> safe = guard.guard(command, now_us);
+  if (!safe) return;
   if (stream_) {  // first: a slow disk does not hold the robot up
     stream_->sink.frame_arrived(arrived_us);
-    stream_->sink.send(command);
+    stream_->sink.send(*safe);
   }
-  if (file_) file_->send(command);
+  if (file_) file_->send(*safe);
 }
 
 void RobotOutputs::finish(bool whole) {

@@ -45,11 +45,12 @@ class RobotOutputs {
   bool any() const { return file_ || stream_; }
   /// Where the arm stood at the start; empty unless a controller's arm is spoken to.
   const std::optional<ArmJoints>& arm_start() const { return arm_start_; }
-  /// Before the guard sees a command: for a controller's topics, the first one with targets makes the guard start
-  /// where the robot is measured to stand now. Throws Error if it is not measured.
-  void start(CommandGuard& guard, const RobotCommand& command);
-  /// `arrived_us`: when the frame was there, microseconds since 1970. Throws Error.
-  void send(const RobotCommand& command, int64_t arrived_us);
+  /// Sends what the guard lets pass of a command. What goes to a robot is guarded by the clock of the wall, whatever
+  /// the stamps of its frames say: its time stamp is that of the first frame plus the time since then. On a
+  /// controller's topics each motion after a stop, the first one too, starts where the robot is measured to stand
+  /// now. `arrived_us`: when the frame was there, microseconds since 1970. Throws Error, also if the robot is not
+  /// measured.
+  void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
   /// No more commands follow. The file gets its name if the session is `whole`; else its lines stay where `kept`
   /// says, and an older file stays. Throws Error.
   void finish(bool whole = true);

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <thread>
 
 #include "core/base/error.h"
 #include "core/base/line_file.h"
@@ -47,6 +49,25 @@ class StatusLine {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double last_ = 0;
   LiveStatus status_;
+};
+
+/// Plays the frames of a recording no faster than they were taken.
+class Pace {
+ public:
+  /// Returns when a frame is due, or when the end is wished.
+  void wait_for(int64_t timestamp_us) {
+    using namespace std::chrono;
+    constexpr milliseconds kLongestNap(50);
+    if (last_us_) due_ += microseconds(timestamp_us - *last_us_);
+    last_us_ = timestamp_us;
+    while (steady_clock::now() < due_ && !Interruption::wished())
+      std::this_thread::sleep_for(std::min<steady_clock::duration>(kLongestNap, due_ - steady_clock::now()));
+    due_ = steady_clock::now();
+  }
+
+ private:
+  std::optional<int64_t> last_us_;
+  std::chrono::steady_clock::time_point due_;
 };
 
 struct Track {
@@ -97,11 +118,14 @@ struct Track {
                  const std::function<void(const TrackResult&)>& command_robot) {
     Progress progress("tracking", common.quiet);
     StatusLine status(common.quiet || source.frame_count > 0);
+    Pace pace;
+    const bool drives_a_robot = !bus.middleware.empty();
     while (!failure && !Interruption::wished() && (limit == 0 || frames < limit)) {
       const int number = frames;
       const std::optional<DeviceFrame> frame = next_frame(*source.device);
       if (!frame && frames == number) return;
       if (frame) {
+        if (drives_a_robot && source.frame_count > 0) pace.wait_for(frame->depth_timestamp_us);
         const TrackResult result = method.track(*frame);
         command_robot(result);
         if_it_fails([&] { output.append(estimate_line(number, result)); });
@@ -114,11 +138,7 @@ struct Track {
 
   void command(const TrackResult& result, RobotCommander& commander, CommandGuard& guard, int64_t arrived_us,
                RobotOutputs& outputs) {
-    if_it_fails([&] {
-      const RobotCommand wanted = commander.command(result);
-      outputs.start(guard, wanted);
-      if (const std::optional<RobotCommand> safe = guard.guard(wanted)) outputs.send(*safe, arrived_us);
-    });
+    if_it_fails([&] { outputs.send(guard, commander.command(result), arrived_us); });
   }
 
   /// A session whose device failed is as long as it is, and its files get their names. One that lost a line

@@ -29,7 +29,7 @@ class DdsSink::Writers {
 
   void send(const RobotCommand& command) {
     const int64_t source_ns = std::exchange(arrived_ns_, std::nullopt).value_or(dds_time());
-    const int64_t period_us = next_period(command.frame_timestamp_us);
+    const int64_t period_us = next_period(command.timestamp_us);
     // What is sent is to be followed: a lost hand is silence, at which a server holds and then stops.
     if (command.hold || !command.targets) return;
     hand_.write(hand_message(command, period_us), source_ns);
@@ -53,17 +53,18 @@ class DdsSink::Writers {
   }
 
  private:
-  /// What lay between the last two frames: by then the targets shall be reached.
-  int64_t next_period(int64_t frame_us) {
-    if (frame_us_) period_us_ = std::clamp(frame_us - *frame_us_, kShortestPeriodUs, kLongestPeriodUs);
-    frame_us_ = frame_us;
+  /// What lay between the last two commands, which the guard took as the time of the step: by then the targets
+  /// shall be reached.
+  int64_t next_period(int64_t command_us) {
+    if (command_us_) period_us_ = std::clamp(command_us - *command_us_, kShortestPeriodUs, kLongestPeriodUs);
+    command_us_ = command_us;
     return period_us_;
   }
 
   DdsParticipant participant_;
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
   std::optional<DdsWriter<ros::PoseStamped>> arm_;
-  std::optional<int64_t> arrived_ns_, frame_us_;
+  std::optional<int64_t> arrived_ns_, command_us_;
   int64_t period_us_ = kFirstPeriodUs;
   int64_t sent_ = 0;
 };

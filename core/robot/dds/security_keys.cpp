@@ -181,9 +181,11 @@ class KeyFolder {
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
+  /// Throws Error unless it is a file of a small size.
+  void check_readable(const std::string& name) const { read_regular_file(path(name), kLargestFile); }
+
   /// Throws Error unless it is a certificate that holds at `now_s`.
   void check_certificate(const std::string& name, int64_t now_s) const {
-    check_readable(name);
     const OpensslResult dates =
         run({"x509", "-in", name, "-noout", "-startdate", "-enddate", "-dateopt", "iso_8601"});
     const size_t from = dates.output.find("notBefore="), until = dates.output.find("notAfter=");
@@ -202,7 +204,6 @@ class KeyFolder {
 
   /// Throws Error unless the authority has issued the certificate, and the private key is the certificate's.
   void check_identity(const std::string& certificate, const std::string& key, const std::string& authority) const {
-    check_readable(key);
     if (!run({"verify", "-no_check_time", "-no-CApath", "-no-CAstore", "-CAfile", authority, certificate})
              .is_success)
       throw Error(path(certificate), "certificate", "one of another authority", "one of " + path(authority));
@@ -215,7 +216,6 @@ class KeyFolder {
 
   /// Throws Error unless the authority has signed the document.
   void check_signature(const std::string& document, const std::string& authority) const {
-    check_readable(document);
     // The time is check_certificate's.
     if (!run({"smime", "-verify", "-text", "-no_check_time", "-no-CApath", "-no-CAstore", "-CAfile", authority,
               "-in", document})
@@ -228,8 +228,6 @@ class KeyFolder {
   OpensslResult run(const std::vector<std::string>& arguments) const {
     return run_openssl(folder_.string(), arguments);
   }
-  /// Throws Error unless it is a file of a small size.
-  void check_readable(const std::string& name) const { read_regular_file(path(name), kLargestFile); }
 
   fs::path folder_;
 };
@@ -344,6 +342,9 @@ std::string security_configuration(const std::string& folder, const std::string&
     throw Error(from.string(), "folder", "one of < > & \" ' $ in its path", "none of them");
   const KeyFolder keys(from);
   const std::string certificate = role + ".pem", key = role + ".key", rights = role + ".p7s";
+  for (const std::string& file : {std::string("identity_ca.pem"), std::string("permissions_ca.pem"),
+                                  std::string("governance.p7s"), certificate, key, rights})
+    keys.check_readable(file);
   for (const std::string& file : {std::string("identity_ca.pem"), std::string("permissions_ca.pem"), certificate})
     keys.check_certificate(file, now_s);
   keys.check_identity(certificate, key, "identity_ca.pem");

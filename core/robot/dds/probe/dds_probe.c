@@ -82,7 +82,7 @@ static void print_trajectory(const char* topic, const Trajectory* message, int64
     for (uint32_t j = 0; j < point->positions._length && j < message->joint_names._length; ++j)
       printf(" %s=%.17g", message->joint_names._buffer[j], point->positions._buffer[j]);
   }
-  printf("\n");
+  printf(" received %lld\n", (long long)dds_time());
 }
 
 static void print_pose(const Pose* message, int64_t source_ns) {
