@@ -45,9 +45,9 @@ class RobotOutputs {
   bool any() const { return file_ || stream_; }
   /// Where the arm stood at the start; empty unless a controller's arm is spoken to.
   const std::optional<ArmJoints>& arm_start() const { return arm_start_; }
-  /// Sends what the guard lets pass of a command. What goes to a robot is guarded by the clock of the wall, whatever
-  /// the stamps of its frames say: its time stamp is that of the first frame plus the time since then. On a
-  /// controller's topics each motion after a stop, the first one too, starts where the robot is measured to stand
+  /// Sends what the guard lets pass of a command. What goes to a robot is guarded by the clock of the wall,
+  /// whatever the stamps of its frames say: its time stamp is that of the first frame plus the time since then. On
+  /// a controller's topics each motion after a stop, the first one too, starts where the robot is measured to stand
   /// now. `arrived_us`: when the frame was there, microseconds since 1970. Throws Error, also if the robot is not
   /// measured.
   void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
