@@ -102,6 +102,12 @@ TEST(StoredReplay, HalfOfOneIsNone) {
     EXPECT_FALSE(replay_from_bytes(bytes.substr(0, at)).has_value()) << at;
 }
 
+TEST(StoredReplay, OfDeepNestingIsNone) {
+  const std::string nested(10'000'000, '\x81');  // each an array of one
+  EXPECT_FALSE(replay_from_bytes(nested).has_value());
+  EXPECT_FALSE(replay_from_bytes("\x41x").has_value()) << "bytes without a meaning";
+}
+
 TEST(StoredReplay, WithAStatusThatNobodyKnowsIsNone) {
   const std::string bytes = to_bytes(example_replay());
   for (const std::string status : {"tracked", "poor_match"}) {

@@ -1,6 +1,7 @@
 #include "eval/stored_replay.h"
 
-#include <nlohmann/json.hpp>
+#include "core/base/error.h"
+#include "core/base/parse_json.h"
 
 namespace glovebench::eval {
 namespace {
@@ -137,9 +138,11 @@ std::string to_bytes(const std::vector<TrackedReplay>& replay) {
 std::optional<std::vector<TrackedReplay>> replay_from_bytes(const std::string& bytes) {
   try {
     std::vector<TrackedReplay> replay;
-    for (const json& pass : json::from_cbor(bytes)) replay.push_back(replay_of(pass));
+    for (const json& pass : parse_cbor(bytes, "stored replay")) replay.push_back(replay_of(pass));
     return replay;
   } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const Error&) {
     return std::nullopt;
   }
 }

@@ -77,12 +77,14 @@ std::string to_bytes(const StudyResult& study) {
 
 std::optional<StudyResult> study_from_bytes(const std::string& bytes) {
   try {
-    const json content = json::from_cbor(bytes);
+    const json content = parse_cbor(bytes, "stored study");
     StudyResult study{content.at(0), content.at(1), {}, {}};
     for (const json& table : content.at(2)) study.tables.push_back(table_of(table));
     for (const json& measure : content.at(3)) study.measures.push_back(measure_of(measure));
     return study;
   } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const Error&) {
     return std::nullopt;
   }
 }

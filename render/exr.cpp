@@ -165,17 +165,20 @@ void write_exr(const std::string& path, const FrameLayers& layers) {
 }
 
 FrameLayers read_exr(const std::string& path) {
-  const std::string content = read_file(path, kLargestFile);
+  return parse_exr(read_file(path, kLargestFile), path);
+}
+
+FrameLayers parse_exr(const std::string& content, const std::string& where) {
   try {
     Imf::StdISStream stream;
     stream.str(content);
     Imf::InputFile file(stream);
     const Imath::Box2i window = file.header().dataWindow();
-    expect_size(window, content.size(), path);
+    expect_size(window, content.size(), where);
     Channels channels{window.max.x + 1, window.max.y + 1, {}, {}};
     for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it) {
       if (std::ranges::find(kChannels, it.name()) == kChannels.end()) {
-        throw Error(path, "channel", quoted_excerpt(it.name()), "those of a frame");
+        throw Error(where, "channel", quoted_excerpt(it.name()), "those of a frame");
       }
       if (it.channel().type == Imf::UINT) {
         channels.integers[it.name()] = Image<uint32_t>(channels.width, channels.height);
@@ -189,7 +192,7 @@ FrameLayers read_exr(const std::string& path) {
   } catch (const Error&) {
     throw;
   } catch (const std::exception& failure) {
-    throw Error(path, "content", failure.what(), "a readable OpenEXR file");
+    throw Error(where, "content", failure.what(), "a readable OpenEXR file");
   }
 }
 

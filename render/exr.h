@@ -21,5 +21,7 @@ struct FrameLayers {
 void write_exr(const std::string& path, const FrameLayers& layers);
 /// Reads what `write_exr` wrote; colors come back exactly. Throws Error if it is not such a file.
 FrameLayers read_exr(const std::string& path);
+/// The same of a file's content; `where` names it.
+FrameLayers parse_exr(const std::string& content, const std::string& where);
 
 }  // namespace glovebench::render

@@ -40,7 +40,8 @@ uint64_t text_bytes(const std::string& text) {
 /// take.
 class StrictDocument : public json::json_sax_t {
  public:
-  StrictDocument(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+  StrictDocument(std::string_view text, const std::string& where, uint64_t bytes_per_byte)
+      : text_(text), where_(where), bytes_per_byte_(bytes_per_byte) {}
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
@@ -117,9 +118,9 @@ class StrictDocument : public json::json_sax_t {
   }
   void charge(uint64_t bytes) {
     bytes_ += bytes;
-    if (bytes_ > kJsonBytes + kJsonBytesPerByte * text_.size())
+    if (bytes_ > kJsonBytes + bytes_per_byte_ * text_.size())
       throw Error(where_, path(), fmt::format("too many small values for a text of {} bytes", text_.size()),
-                  fmt::format("at most {} bytes of memory for each byte of text", kJsonBytesPerByte));
+                  fmt::format("at most {} bytes of memory for each byte of text", bytes_per_byte_));
   }
   /// As in frames[17].position_mm.
   std::string path() const {
@@ -137,6 +138,7 @@ class StrictDocument : public json::json_sax_t {
 
   std::string_view text_;
   const std::string& where_;
+  uint64_t bytes_per_byte_;
   json document_;
   std::vector<Level> levels_;
   uint64_t bytes_ = 0;
@@ -149,8 +151,15 @@ json parse_json(std::string_view text, const std::string& where) {
   // The library would take it for the end.
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
     throw Error(where, place_of(text, zero + 1), "a zero byte", "JSON");
-  StrictDocument document(text, where);
+  StrictDocument document(text, where, kJsonBytesPerByte);
   json::sax_parse(text, &document);
+  return document.take();
+}
+
+json parse_cbor(std::string_view bytes, const std::string& where) {
+  StrictDocument document(bytes, where, kCborBytesPerByte);
+  if (!json::sax_parse(bytes, &document, json::input_format_t::cbor))
+    throw Error(where, "content", "bytes without a meaning", "arrays, objects, texts and numbers");
   return document.take();
 }
 

@@ -56,14 +56,8 @@ std::string read_of(const FileSet& set, const std::string& name) {
   }
 }
 
-template <typename Read>
-auto read_provenance(const FileSet& set, const Read& read) {
-  const std::string path = set.path(kProvenance);
-  const nlohmann::json document = parse_json(read_of(set, kProvenance), path);
-  const reports::JsonReader json(document, path);
-  json["format"].expect_text(kProvenanceFormat);
-  json["version"].integer(1, 1);
-  return read(json);
+Provenance read_provenance(const FileSet& set) {
+  return parse_provenance(read_of(set, kProvenance), set.path(kProvenance));
 }
 
 /// The replaced baseline in a few words; null if there was none.
@@ -105,8 +99,7 @@ void require_same_truths(const std::string& folder, const reports::NamedResult& 
 void require_same_bytes(const std::string& folder) {
   const FileSet set(folder);
   if (!set.has(kProvenance)) return;
-  const std::string expected =
-      read_provenance(set, [](const reports::JsonReader& json) { return json["results_hash"].text(); });
+  const std::string expected = read_provenance(set).results_hash;
   const std::string found = hash_text(read_of(set, kResults));
   if (found != expected) {
     throw Incomparable(in(folder, kResults), "hash", found,
@@ -115,6 +108,14 @@ void require_same_bytes(const std::string& folder) {
 }
 
 }  // namespace
+
+Provenance parse_provenance(const std::string& text, const std::string& where) {
+  const nlohmann::json document = parse_json(text, where);
+  const reports::JsonReader json(document, where);
+  json["format"].expect_text(kProvenanceFormat);
+  json["version"].integer(1, 1);
+  return {json["results_hash"].text(), reports::stage_times_from(json["times"])};
+}
 
 std::string folder_of(const std::string& folder_or_file) {
   std::error_code error;
@@ -156,8 +157,7 @@ reports::StageTimes load_stage_times_beside(const std::string& folder_or_file) {
   const FileSet set(folder_of(folder_or_file));
   if (set.has(kTimings)) return reports::parse_stage_times(read_of(set, kTimings), set.path(kTimings));
   if (!set.has(kProvenance)) return {};
-  return read_provenance(set,
-                         [](const reports::JsonReader& json) { return reports::stage_times_from(json["times"]); });
+  return read_provenance(set).times;
 }
 
 Baseline load_baseline(const std::string& folder) {

@@ -27,6 +27,14 @@ struct Baseline {
   reports::StageTimes times;
 };
 
+/// What is read back of what a baseline was made by.
+struct Provenance {
+  std::string results_hash;  ///< of its results.json
+  reports::StageTimes times;
+};
+/// Throws Error(where, field, found, expected).
+Provenance parse_provenance(const std::string& text, const std::string& where);
+
 /// "ci/baselines/quick", below the current folder.
 std::string default_baseline_folder(const std::string& suite);
 
