@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-MODULES = ["core", "calibration", "render", "eval", "trajectories", "reports", "bench", "fuzz"]
+MODULES = ["core", "render", "eval", "trajectories", "reports", "bench"]
 FIXED_NAME = re.compile(r'TempDir\(\)|temp_directory_path|mkdtemp|tmpnam|gettempdir|"/(var/)?tmp')
 
 

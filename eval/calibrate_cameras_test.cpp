@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "calibration/test_board.h"
 #include "core/base/file.h"
+#include "core/calibration/test_board.h"
 #include "eval/command_test.h"
 #include "render/pictures.h"
 

@@ -4,10 +4,9 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
-#include "calibration/camera_report.h"
-#include "calibration/stereo_fit.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/calibration/stereo_fit.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
 #include "eval/progress.h"

@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "calibration/color_picture.h"
-#include "calibration/color_report.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/calibration/color_picture.h"
+#include "core/calibration/color_report.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
 #include "eval/commands/track_source.h"

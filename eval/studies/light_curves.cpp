@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "calibration/glove_colors.h"
 #include "core/base/error.h"
+#include "core/calibration/glove_colors.h"
 #include "core/kinect/disparity.h"
 #include "eval/share.h"
 #include "render/synthetic_kinect.h"

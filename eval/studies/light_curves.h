@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/color_samples.h"
+#include "core/calibration/color_samples.h"
 #include "eval/label_errors.h"
 #include "eval/studies/study.h"
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+
+namespace glovebench {
+
+/// A reader, or a state machine, that is tried with any bytes. `run` may return or throw Error of one line; the
+/// driver (eval/fuzz_main.cpp) counts everything else as a finding.
+struct FuzzTarget {
+  std::string_view name;                ///< X of the file X_fuzz.cpp and of the folder ci/corpora/X
+  void (*run)(std::string_view bytes);  ///< X_fuzz
+};
+
+/// Runs a reader that may throw Error of one line.
+template <typename Reader>
+void expect_value_or_error(const Reader& reader) {
+  try {
+    reader();
+  } catch (const Error& e) {
+    check(std::string_view(e.what()).find('\n') == std::string_view::npos, "an error is one line");
+  }
+}
+
+/// The input as values; zeros when it has ended.
+class FuzzInput {
+ public:
+  explicit FuzzInput(std::string_view bytes) : left_(bytes) {}
+  bool empty() const { return left_.empty(); }
+  template <typename Value>
+  Value next() {
+    Value value{};
+    const size_t size = std::min(sizeof value, left_.size());
+    std::memcpy(&value, left_.data(), size);
+    left_.remove_prefix(size);
+    return value;
+  }
+
+ private:
+  std::string_view left_;
+};
+
+}  // namespace glovebench

@@ -1,0 +1,160 @@
+#include "core/calibration/board_views.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <thread>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/camera/pinhole_camera.h"
+#include "core/kinect/recording_index.h"
+
+namespace glovebench::calibration {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kRecording = "fakenect:";
+constexpr uint64_t kLargestFile = uint64_t{16} << 20;
+
+struct Picture {
+  std::string name, path;
+};
+
+bool is_image(const fs::path& path) {
+  static constexpr std::array<std::string_view, 9> endings = {".png", ".jpg", ".jpeg", ".pgm", ".ppm",
+                                                              ".pnm", ".tif", ".tiff", ".bmp"};
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+std::vector<Picture> pictures_in_folder(const std::string& folder) {
+  std::error_code error;
+  const fs::directory_iterator entries(folder, error);
+  if (error) throw Error(folder, "folder", error.message(), "a folder of pictures, or fakenect:FOLDER");
+  std::vector<Picture> pictures;
+  for (const fs::directory_entry& entry : entries)
+    if (is_image(entry.path())) pictures.push_back({entry.path().stem().string(), entry.path().string()});
+  std::sort(pictures.begin(), pictures.end(), [](const Picture& a, const Picture& b) { return a.path < b.path; });
+  for (size_t i = 1; i < pictures.size(); ++i) {
+    if (pictures[i].name == pictures[i - 1].name)
+      throw Error(folder, "pictures", fmt::format("two of the name {}", pictures[i].name), "one of each name");
+  }
+  return pictures;
+}
+
+/// Of the color images, `most` evenly over the recording.
+std::vector<Picture> pictures_of_recording(const std::string& folder, size_t most) {
+  std::vector<RecordingEntry> colors = read_recording_index(folder);
+  std::erase_if(colors, [](const RecordingEntry& entry) { return entry.kind != RecordedKind::color; });
+  std::vector<Picture> pictures;
+  const size_t count = std::min(most, colors.size());
+  for (size_t i = 0; i < count; ++i) {
+    const size_t number = i * colors.size() / count;
+    pictures.push_back({fmt::format("{}", number), path_in_recording(folder, colors[number].name)});
+  }
+  return pictures;
+}
+
+/// Sixteen bits, of which a sensor uses a part, are stretched to eight.
+cv::Mat to_eight_bits(const cv::Mat& image) {
+  if (image.depth() == CV_8U) return image;
+  cv::Mat stretched;
+  cv::normalize(image, stretched, 0, 255, cv::NORM_MINMAX, CV_8U);
+  return stretched;
+}
+
+/// Gives OpenCV no room for an image that is too large: the header of a small file may claim one. As OpenCV has one
+/// allocator for a whole program, it looks at its own thread only.
+class SmallImages : public cv::MatAllocator {
+ public:
+  SmallImages() { cv::Mat::setDefaultAllocator(this); }
+  ~SmallImages() override { cv::Mat::setDefaultAllocator(standard_); }
+
+  cv::UMatData* allocate(int dimensions, const int* sizes, int type, void* data, size_t* step, cv::AccessFlag flags,
+                         cv::UMatUsageFlags usage) const override {
+    const int64_t pixels = std::accumulate(sizes, sizes + dimensions, int64_t{1}, std::multiplies<>());
+    if (std::this_thread::get_id() == thread_ && data == nullptr && pixels > kMostPixels)
+      throw Error(fmt::format("an image of {} pixels", pixels));
+    return standard_->allocate(dimensions, sizes, type, data, step, flags, usage);
+  }
+  bool allocate(cv::UMatData* data, cv::AccessFlag flags, cv::UMatUsageFlags usage) const override {
+    return standard_->allocate(data, flags, usage);
+  }
+  void deallocate(cv::UMatData* data) const override { standard_->deallocate(data); }
+
+ private:
+  cv::MatAllocator* standard_ = cv::Mat::getDefaultAllocator();
+  std::thread::id thread_ = std::this_thread::get_id();
+};
+
+/// Throws Error if it is no image.
+Image<uint8_t> read_gray(const std::string& path) {
+  return decode_gray(read_regular_file(path, kLargestFile), path);
+}
+
+/// The first picture that can be read says the size of all.
+void require_size(BoardViews& views, const Image<uint8_t>& gray, const std::string& path) {
+  if (views.width_px == 0) {
+    views.width_px = gray.width();
+    views.height_px = gray.height();
+  }
+  if (gray.width() != views.width_px || gray.height() != views.height_px)
+    throw Error(path, "size", fmt::format("{}x{}", gray.width(), gray.height()),
+                fmt::format("{}x{} like the pictures before it", views.width_px, views.height_px));
+}
+
+}  // namespace
+
+Image<uint8_t> decode_gray(std::string_view content, const std::string& path) {
+  const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
+  cv::Mat image;
+  try {
+    const SmallImages small;
+    if (!content.empty()) image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
+  } catch (const Error& error) {
+    throw Error(path, "size", error.what(), fmt::format("at most {} pixels", kMostPixels));
+  } catch (const cv::Exception&) {
+    // Larger than OpenCV takes: no picture of a camera.
+  }
+  if (image.empty()) throw Error(path, "content", "no image", "an image");
+  image = to_eight_bits(image);
+  Image<uint8_t> gray(image.cols, image.rows);
+  for (int v = 0; v < image.rows; ++v) std::copy_n(image.ptr(v), image.cols, &gray(0, v));
+  return gray;
+}
+
+BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked) {
+  const bool is_recording = source.starts_with(kRecording);
+  const std::vector<Picture> pictures =
+      is_recording ? pictures_of_recording(source.substr(kRecording.size()), most) : pictures_in_folder(source);
+  if (pictures.empty()) throw Error(source, "pictures", "none", "pictures of a chessboard");
+  BoardViews views;
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    const Picture& picture = pictures[i];
+    if (looked) looked(i, pictures.size());
+    Image<uint8_t> gray;
+    try {
+      gray = read_gray(picture.path);
+    } catch (const Error& e) {
+      views.left_out.push_back({picture.name, e.what()});
+      continue;
+    }
+    require_size(views, gray, picture.path);
+    if (auto corners = find_corners(gray, board)) {
+      views.views.push_back({picture.name, std::move(*corners)});
+    } else {
+      views.left_out.push_back(
+          {picture.name, fmt::format("no whole chessboard of {}x{} inner corners", board.columns, board.rows)});
+    }
+  }
+  return views;
+}
+
+}  // namespace glovebench::calibration

@@ -1,0 +1,98 @@
+#include "core/calibration/color_seeds.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/excerpt.h"
+#include "core/base/file.h"
+#include "core/base/parse_json.h"
+#include "core/segmentation/color_table_file.h"
+
+namespace glovebench::calibration {
+namespace {
+
+constexpr std::string_view kFormat = "glovebench-glove-colors";
+constexpr int kVersion = 1;
+constexpr uint64_t kMaxBytes = 1 << 20;
+
+/// The middle of a cell, gamma-coded R, G, B.
+Eigen::Array3d rgb_of_cell(size_t cell, ColorSpace space) {
+  constexpr size_t side = size_t{1} << ColorTable::kBits;
+  constexpr double width = 256.0 / side;
+  const auto middle = [](size_t index) { return width * (static_cast<double>(index) + 0.5) - 0.5; };
+  const Eigen::Array3d axes = {middle(cell / (side * side)), middle(cell / side % side), middle(cell % side)};
+  if (space == ColorSpace::rgb) return axes;
+  return axes[0] * rgb_of_chroma(Chroma(axes[1] - 128, axes[2] - 128) / axes[0]);
+}
+
+Chroma seed_from(const nlohmann::json& json, const std::string& where, const std::string& field) {
+  if (!json.is_array() || json.size() != 3) throw Error(where, field, excerpt(json), "an array of 3");
+  Eigen::Array3d rgb;
+  for (size_t i = 0; i < 3; ++i) {
+    const double value = json[i].is_number() ? json[i].get<double>() : -1;
+    if (!(value >= 0 && value <= 255))
+      throw Error(where, fmt::format("{}[{}]", field, i), excerpt(json[i]), "a number of 0..255");
+    rgb[static_cast<Eigen::Index>(i)] = value;
+  }
+  if (!(luma_of(rgb) >= 1)) throw Error(where, field, "black", "a color");
+  return chroma_of(rgb);
+}
+
+}  // namespace
+
+ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where) {
+  constexpr double kDark = 40, kBright = 200;  // Y between which a cell's chroma is sharp
+  std::array<int, kColorCount + 1> cells{};
+  ColorSeeds seeds;
+  seeds.fill(Chroma::Zero());
+  for (size_t cell = 0; cell < ColorTable::kCells; ++cell) {
+    const uint8_t label = table.labels()[cell];
+    if (label == 0) continue;
+    const Eigen::Array3d rgb = rgb_of_cell(cell, table.space());
+    if (luma_of(rgb) < kDark || luma_of(rgb) > kBright) continue;
+    seeds[label] += chroma_of(rgb);
+    ++cells[label];
+  }
+  for (int label = 1; label <= kColorCount; ++label) {
+    if (cells[label] == 0) throw Error(where, fmt::format("color {}", label), "no cell", "one at least");
+    seeds[label] /= cells[label];
+  }
+  return seeds;
+}
+
+ColorSeeds parse_glove_colors(std::string_view text, const std::string& where) {
+  const nlohmann::json root = parse_json(text, where);
+  if (!root.is_object()) throw Error(where, "content", excerpt(root), "an object");
+  for (const auto& [key, value] : root.items()) {
+    if (key != "format" && key != "version" && key != "colors_rgb")
+      throw Error(where, "key", excerpt(key), "format, version or colors_rgb");
+  }
+  const nlohmann::json format = root.value("format", nlohmann::json());
+  if (format != kFormat) throw Error(where, "format", excerpt(format), fmt::format("\"{}\"", kFormat));
+  const nlohmann::json version = root.value("version", nlohmann::json());
+  if (version != kVersion) throw Error(where, "version", excerpt(version), fmt::format("{}", kVersion));
+  const nlohmann::json colors = root.value("colors_rgb", nlohmann::json());
+  if (!colors.is_array() || colors.size() != kColorCount)
+    throw Error(where, "colors_rgb", colors.is_array() ? fmt::format("{} colors", colors.size()) : excerpt(colors),
+                fmt::format("{} colors", kColorCount));
+  ColorSeeds seeds;
+  seeds[0] = Chroma::Zero();
+  for (int label = 1; label <= kColorCount; ++label) {
+    const auto index = static_cast<size_t>(label - 1);
+    seeds[label] = seed_from(colors[index], where, fmt::format("colors_rgb[{}]", index));
+  }
+  return seeds;
+}
+
+ColorSeeds load_seeds(const std::string& path) {
+  const std::string content = read_file(path, kMaxBytes);
+  if (content.find_first_not_of(" \t\r\n") != std::string::npos &&
+      content[content.find_first_not_of(" \t\r\n")] == '{')
+    return parse_glove_colors(content, path);
+  return seeds_of_table(color_table_from_bytes(content, path), path);
+}
+
+}  // namespace glovebench::calibration

@@ -1,0 +1,276 @@
+// Cameras whose truth is known, from pictures of a board and from corners with noise.
+#include "core/calibration/stereo_fit.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/whole_file.h"
+#include "core/calibration/test_board.h"
+#include "core/test_folder.h"
+
+namespace glovebench::calibration {
+namespace {
+
+using testing::HasSubstr;
+
+/// The corners that were found in pictures of a board before both cameras.
+struct Session {
+  RgbdCalibration truth = kinect_with_lenses();
+  Chessboard board;
+  std::vector<Eigen::Isometry3d> T_ir_boards;
+  BoardViews ir{640, 480, {}, {}}, rgb{640, 480, {}, {}};
+
+  Session(const Chessboard& a_board, int poses)
+      : board(a_board), T_ir_boards(poses_before(truth, a_board, poses, 1)) {
+    const BoardCamera ir_camera(truth.ir, truth.ir_lens), rgb_camera(truth.rgb, truth.rgb_lens);
+    for (int i = 0; i < poses; ++i) {
+      add(ir, ir_camera, T_ir_boards[i], i, "ir");
+      add(rgb, rgb_camera, truth.T_rgb_ir * T_ir_boards[i], i, "rgb");
+    }
+  }
+  void add(BoardViews& views, const BoardCamera& camera, const Eigen::Isometry3d& T, int i, const char* of) const {
+    const std::string name = std::to_string(i);
+    // From one test process to the next: a picture takes a twentieth of a second, and its corners stay the same.
+    const std::string file = shared_test_folder() + "/corners-" + of + "-" + name;
+    Corners corners;
+    if (std::filesystem::exists(file)) {
+      const std::string bytes = read_file(file);
+      corners.resize(bytes.size() / sizeof(Eigen::Vector2d));
+      for (size_t c = 0; c < corners.size(); ++c)
+        std::memcpy(corners[c].data(), bytes.data() + c * sizeof(Eigen::Vector2d), sizeof(Eigen::Vector2d));
+    } else {
+      RandomStream noise(1, of, i, "picture");
+      corners = find_corners(camera.picture(T, board, noise), board).value_or(Corners{});
+      write_file(file, {reinterpret_cast<const char*>(corners.data()), corners.size() * sizeof(Eigen::Vector2d)});
+    }
+    if (!corners.empty())
+      views.views.push_back({name, std::move(corners)});
+    else
+      views.left_out.push_back({name, "not found"});
+  }
+};
+
+/// A board that fits on a sheet of A4.
+const Session& session() {
+  static const Session session({9, 6, 0.025}, 30);
+  return session;
+}
+
+/// The same poses before lenses that are also a little askew, with the corners where they are.
+Session askew_session() {
+  Session askew = session();
+  askew.truth.ir_lens.p1 = 0.0008;
+  askew.truth.ir_lens.p2 = 0.0003;
+  askew.truth.rgb_lens.p1 = -0.0019;
+  askew.truth.rgb_lens.p2 = 0.0014;
+  const RgbdCalibration& truth = askew.truth;
+  for (size_t i = 0; i < askew.T_ir_boards.size(); ++i) {
+    const Eigen::Isometry3d& T = askew.T_ir_boards[i];
+    askew.ir.views[i].corners = true_corners(truth.ir, truth.ir_lens, T, askew.board);
+    askew.rgb.views[i].corners = true_corners(truth.rgb, truth.rgb_lens, truth.T_rgb_ir * T, askew.board);
+  }
+  return askew;
+}
+
+BoardViews with_noise(BoardViews views, double sigma_px, uint64_t seed, const char* of) {
+  RandomStream noise(seed, of, 0, "corners");
+  for (BoardView& view : views.views)
+    for (Eigen::Vector2d& corner : view.corners)
+      corner += sigma_px * Eigen::Vector2d(noise.normal(), noise.normal());
+  return views;
+}
+
+struct Errors {
+  double focal = 0;  ///< the largest of four, as a share
+  double translation_mm = 0, rotation_deg = 0;
+};
+
+Errors errors_of(const RgbdCalibration& found, const RgbdCalibration& truth) {
+  const auto share = [](double a, double b) { return std::abs(a / b - 1); };
+  return {std::max({share(found.ir.fx, truth.ir.fx), share(found.ir.fy, truth.ir.fy),
+                    share(found.rgb.fx, truth.rgb.fx), share(found.rgb.fy, truth.rgb.fy)}),
+          1000 * (found.T_rgb_ir.translation() - truth.T_rgb_ir.translation()).norm(),
+          degrees_from_radians(
+              Eigen::AngleAxisd(found.T_rgb_ir.linear() * truth.T_rgb_ir.linear().transpose()).angle())};
+}
+
+/// Fits to eight times noise of 0.3 px in each coordinate; the largest of what the fits err by.
+Errors worst_with_noise(const Session& session, LensModel lens, const char* title) {
+  constexpr int kSeeds = 8;
+  Errors squares, worst;
+  for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const StereoFit fit = fit_stereo(with_noise(session.ir, 0.3, seed, "ir"),
+                                     with_noise(session.rgb, 0.3, seed, "rgb"), session.board, lens);
+    const Errors e = errors_of(fit.calibration, session.truth);
+    squares = {squares.focal + e.focal * e.focal, squares.translation_mm + e.translation_mm * e.translation_mm,
+               squares.rotation_deg + e.rotation_deg * e.rotation_deg};
+    worst = {std::max(worst.focal, e.focal), std::max(worst.translation_mm, e.translation_mm),
+             std::max(worst.rotation_deg, e.rotation_deg)};
+    EXPECT_NEAR(fit.ir.error_px, 0.3 * std::numbers::sqrt2, 0.03) << "two coordinates of 0.3 px each";
+    EXPECT_NEAR(fit.error_px, 0.3 * std::numbers::sqrt2, 0.03);
+  }
+  const Errors rms = {std::sqrt(squares.focal / kSeeds), std::sqrt(squares.translation_mm / kSeeds),
+                      std::sqrt(squares.rotation_deg / kSeeds)};
+  std::printf(
+      "%s: RMS (worst) of %d seeds: focal length %.3f%% (%.3f%%), translation %.2f mm (%.2f), rotation "
+      "%.3f degrees (%.3f)\n",
+      title, kSeeds, 100 * rms.focal, 100 * worst.focal, rms.translation_mm, worst.translation_mm, rms.rotation_deg,
+      worst.rotation_deg);
+  return worst;
+}
+
+std::string refusal(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board) {
+  try {
+    fit_stereo(ir, rgb, board, LensModel::radial);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(FindCorners, OfRenderedPicturesLieWithinAFractionOfAPixel) {
+  const Session& s = session();
+  ASSERT_EQ(s.ir.views.size(), s.T_ir_boards.size());
+  ASSERT_EQ(s.rgb.views.size(), s.T_ir_boards.size());
+  double sum = 0;
+  size_t count = 0;
+  for (size_t i = 0; i < s.T_ir_boards.size(); ++i) {
+    const Corners truth = true_corners(s.truth.ir, s.truth.ir_lens, s.T_ir_boards[i], s.board);
+    const Corners found = in_the_order_of(truth, s.ir.views[i].corners, s.board);
+    for (size_t c = 0; c < truth.size(); ++c) sum += (found[c] - truth[c]).squaredNorm();
+    count += truth.size();
+  }
+  const double rms = std::sqrt(sum / static_cast<double>(count));
+  std::printf("corners: RMS %.3f px\n", rms);
+  EXPECT_LT(rms, 0.1);
+}
+
+TEST(StereoFit, RecoversTheTruthFromPictures) {
+  const Session& s = session();
+  const StereoFit fit = fit_stereo(s.ir, s.rgb, s.board, LensModel::radial);
+  const Errors errors = errors_of(fit.calibration, s.truth);
+  std::printf("%sfocal %.3f%%, translation %.2f mm, rotation %.3f degrees\n", report_text(fit).c_str(),
+              100 * errors.focal, errors.translation_mm, errors.rotation_deg);
+  EXPECT_EQ(fit.pairs.size(), s.T_ir_boards.size());
+  EXPECT_LT(errors.focal, 0.005);
+  EXPECT_LT(errors.translation_mm, 1.0);
+  EXPECT_LT(errors.rotation_deg, 0.1);
+  // A lens is what it does to pixels: its coefficients trade with each other, and its center with a turn.
+  for (const double x : {-0.4, -0.2, 0.2, 0.4}) {
+    const Eigen::Vector3d p(x, 0.7 * x, 1);
+    const RgbdCalibration& c = fit.calibration;
+    EXPECT_LT((project(c.ir, c.ir_lens, p) - project(s.truth.ir, s.truth.ir_lens, p)).norm(), 2.0) << x;
+    EXPECT_LT((project(c.rgb, c.rgb_lens, p) - project(s.truth.rgb, s.truth.rgb_lens, p)).norm(), 2.0) << x;
+  }
+}
+
+TEST(StereoFit, RotationTakesPointsFromIrToRgb) {
+  const Session& s = session();
+  const Eigen::Matrix3d found = fit_stereo(s.ir, s.rgb, s.board, LensModel::radial).calibration.T_rgb_ir.linear();
+  const auto apart_deg = [&](const Eigen::Matrix3d& R) {
+    return degrees_from_radians(Eigen::AngleAxisd(found * R.transpose()).angle());
+  };
+  EXPECT_LT(apart_deg(s.truth.T_rgb_ir.linear()), 0.1);
+  EXPECT_GT(apart_deg(s.truth.T_rgb_ir.linear().transpose()), 2.5)
+      << "3 degrees lie between the rotation and its inverse";
+}
+
+TEST(StereoFitLong, RecoversTheTruthWithNoise) {
+  const Errors worst = worst_with_noise(session(), LensModel::radial, "radial lenses, fitted as such");
+  EXPECT_LT(worst.focal, 0.005);
+  EXPECT_LT(worst.translation_mm, 1.0);
+  EXPECT_LT(worst.rotation_deg, 0.1);
+}
+
+/// A lens that is askew looks nearly like a center that is elsewhere, and that like a camera that is turned: to
+/// tell them apart takes more than these corners, and to leave it away errs by as much.
+TEST(StereoFitLong, LensesThatAreAskewCostTheRotation) {
+  const Session askew = askew_session();
+  const Errors full = worst_with_noise(askew, LensModel::full, "lenses askew, fitted as such");
+  const Errors radial = worst_with_noise(askew, LensModel::radial, "lenses askew, fitted as radial");
+  for (const Errors& worst : {full, radial}) {
+    EXPECT_LT(worst.focal, 0.005);
+    EXPECT_LT(worst.translation_mm, 1.0);
+    EXPECT_LT(worst.rotation_deg, 0.5);
+  }
+}
+
+TEST(StereoFitLong, LeavesOutWhatDoesNotFit) {
+  const Session& s = session();
+  BoardViews ir = s.ir, rgb = s.rgb;
+  ir.views[3].corners[10] += Eigen::Vector2d(25, 0);      // one corner of one picture
+  std::swap(rgb.views[7].corners, rgb.views[8].corners);  // the board was moved in between
+  const StereoFit fit = fit_stereo(ir, rgb, s.board, LensModel::radial);
+  ASSERT_EQ(fit.ir.left_out.size(), 1U);
+  EXPECT_EQ(fit.ir.left_out[0].name, "3");
+  EXPECT_THAT(fit.ir.left_out[0].reason, HasSubstr("does not fit"));
+  std::vector<std::string> pairs;
+  for (const LeftOut& pair : fit.left_out) pairs.push_back(pair.name);
+  EXPECT_THAT(pairs, testing::UnorderedElementsAre("7", "8"));
+  EXPECT_LT(errors_of(fit.calibration, s.truth).rotation_deg, 0.15);
+  const nlohmann::json report = report_json(fit, s.board);
+  EXPECT_EQ(report.at("stereo").at("left_out").size(), 2U);
+  EXPECT_EQ(report.at("stereo").at("pairs").size(), 27U);
+  EXPECT_THAT(report_text(fit), HasSubstr("left out, pair 7: does not fit"));
+}
+
+TEST(StereoFit, ARowThatRunsTheOtherWayChangesNothing) {
+  const Session& s = session();
+  BoardViews rgb = s.rgb;
+  for (size_t i = 0; i < rgb.views.size(); i += 2) std::ranges::reverse(rgb.views[i].corners);
+  const StereoFit fit = fit_stereo(s.ir, rgb, s.board, LensModel::radial);
+  EXPECT_EQ(fit.pairs.size(), s.T_ir_boards.size());
+  EXPECT_LT(errors_of(fit.calibration, s.truth).rotation_deg, 0.1);
+}
+
+TEST(StereoFitLong, RefusesWhatTellsTooLittle) {
+  const Session& s = session();
+  const auto first = [](BoardViews views, size_t count) {
+    views.views.resize(count);
+    return views;
+  };
+  EXPECT_THAT(refusal(first(s.ir, 4), s.rgb, s.board),
+              HasSubstr("IR views: views with a whole chessboard: found 4"));
+  EXPECT_THAT(refusal(s.ir, first(s.rgb, 0), s.board),
+              HasSubstr("RGB views: views with a whole chessboard: found 0"));
+  BoardViews renamed = s.rgb;
+  for (BoardView& view : renamed.views) view.name += "_";
+  EXPECT_THAT(refusal(s.ir, renamed, s.board), HasSubstr("views of the same name that fit: found 0"));
+  BoardViews shifted = s.rgb;  // every picture has the name of the one before
+  for (size_t i = 0; i < shifted.views.size(); ++i)
+    shifted.views[i].corners = s.rgb.views[(i + 1) % shifted.views.size()].corners;
+  EXPECT_THAT(refusal(s.ir, shifted, s.board), HasSubstr("IR and RGB views: "));
+  // Boards that all face the camera tell the focal length from nothing.
+  BoardViews facing{640, 480, {}, {}};
+  for (int i = 0; i < 8; ++i) {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation() = Eigen::Vector3d(-0.1 + 0.01 * i, -0.06, 0.5 + 0.03 * i);
+    facing.views.push_back({std::to_string(i), true_corners(s.truth.ir, {}, T, s.board)});
+  }
+  EXPECT_THAT(refusal(with_noise(facing, 0.3, 1, "ir"), s.rgb, s.board),
+              HasSubstr("IR views: boards tilted by more than 10 degrees: found 0"));
+}
+
+TEST(StereoFit, AModelLeavesOtherCoefficientsAtZero) {
+  const Session& s = session();
+  const LensDistortion radial = fit_stereo(s.ir, s.rgb, s.board, LensModel::radial).calibration.ir_lens;
+  EXPECT_NE(radial.k1, 0);
+  EXPECT_NE(radial.k2, 0);
+  EXPECT_NE(radial.k3, 0);
+  EXPECT_EQ(radial.p1, 0);
+  EXPECT_EQ(radial.p2, 0);
+  EXPECT_NE(fit_stereo(s.ir, s.rgb, s.board, LensModel::full).calibration.ir_lens.p1, 0);
+  EXPECT_FALSE(fit_stereo(s.ir, s.rgb, s.board, LensModel::none).calibration.has_lens());
+  for (const LensModel model : {LensModel::none, LensModel::radial, LensModel::full})
+    EXPECT_EQ(lens_model_from_string(to_string(model)), model);
+  EXPECT_FALSE(lens_model_from_string("fisheye"));
+}
+
+}  // namespace
+}  // namespace glovebench::calibration

@@ -1,0 +1,408 @@
+// What readers ask of the heap for inputs that are made to need much: at most 16 MB and 20 bytes for each byte of
+// them.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <functional>
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/base/error.h"
+#include "core/base/parse_json.h"
+#include "core/base/sanitizers.h"
+#include "core/calibration/board_views.h"
+#include "core/calibration/color_seeds.h"
+#include "core/camera/rgbd_calibration.h"
+#include "core/kinect/recording_index.h"
+#include "core/robot/command_limits.h"
+#include "core/robot/server/server_log.h"
+#include "core/tracker/tracker_config.h"
+#include "eval/suite.h"
+#include "reports/comparison/noise_floor.h"
+#include "reports/comparison/speed.h"
+#include "reports/comparison/stage_times.h"
+#include "reports/estimates.h"
+#include "reports/example_result.h"
+#include "reports/results_json.h"
+#include "reports/timings.h"
+#include "trajectories/capture/import_capture.h"
+#include "trajectories/capture/marker_places.h"
+#include "trajectories/generation/motion_script.h"
+#include "trajectories/posture_file.h"
+#include "trajectories/trajectory.h"
+
+// The sanitizers put functions of their own in the place of these.
+#if !defined(GLOVEBENCH_ADDRESS_SANITIZER) && !defined(GLOVEBENCH_THREAD_SANITIZER)
+
+namespace {
+
+thread_local bool counting = false;
+thread_local int64_t now_bytes = 0, most_bytes = 0;
+
+void* taken(void* memory) {
+  if (!counting) return memory;
+  now_bytes += static_cast<int64_t>(malloc_usable_size(memory));
+  most_bytes = std::max(most_bytes, now_bytes);
+  return memory;
+}
+void given_back(void* memory) {
+  if (counting && memory) now_bytes -= static_cast<int64_t>(malloc_usable_size(memory));
+}
+
+}  // namespace
+
+// The C library's functions, in front of its own: they count, and pass on.
+extern "C" {
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* memory, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+void __libc_free(void* memory);
+
+void* malloc(size_t size) {
+  return taken(__libc_malloc(size));
+}
+void* calloc(size_t number, size_t size) {
+  return taken(__libc_calloc(number, size));
+}
+void* realloc(void* memory, size_t size) {
+  given_back(memory);
+  return taken(__libc_realloc(memory, size));
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  return taken(__libc_memalign(alignment, size));
+}
+int posix_memalign(void** memory, size_t alignment, size_t size) {
+  *memory = taken(__libc_memalign(alignment, size));
+  return *memory != nullptr ? 0 : ENOMEM;
+}
+void free(void* memory) {
+  given_back(memory);
+  __libc_free(memory);
+}
+}
+
+namespace glovebench {
+namespace {
+
+using nlohmann::json;
+namespace motion = trajectories;
+
+constexpr size_t kHostileBytes = 1'000'000;
+
+struct Reader {
+  std::string name;
+  std::function<void(const std::string&)> read;
+  std::string valid;  ///< what it reads
+};
+
+/// The most memory that a reader had at a time, beside its input; whether it took the input.
+struct Reading {
+  int64_t bytes = 0;
+  std::string error;
+};
+Reading reading(const Reader& reader, const std::string& input) {
+  Reading result;
+  now_bytes = most_bytes = 0;
+  counting = true;
+  try {
+    reader.read(input);
+  } catch (const Error& error) {
+    counting = false;
+    result.error = error.what();
+  }
+  counting = false;
+  result.bytes = most_bytes;
+  return result;
+}
+
+void expect_bounded(const Reader& reader, const std::string& input, const std::string& what) {
+  const auto size = static_cast<int64_t>(input.size());
+  const Reading read = reading(reader, input);
+  EXPECT_LE(read.bytes + size, (16 << 20) + 20 * size) << reader.name << " of " << what << ": " << read.error;
+}
+
+std::string repeated(const std::string& part, size_t bytes = kHostileBytes) {
+  std::string text;
+  while (text.size() < bytes) text += part;
+  return text;
+}
+/// An array of one value again and again.
+std::string array_of(const std::string& value) {
+  std::string text = "[" + repeated(value + ",");
+  text.back() = ']';
+  return text;
+}
+/// An object of many keys.
+std::string object_of(const std::string& value) {
+  std::string text = "{";
+  for (int i = 0; text.size() < kHostileBytes; ++i) text += fmt::format("\"{}\":{},", i, value);
+  text.back() = '}';
+  return text;
+}
+
+const std::vector<std::pair<std::string, std::string>>& hostile_values() {
+  static const std::vector<std::pair<std::string, std::string>> values = {
+      {"zeros", array_of("0")},
+      {"empty arrays", array_of("[]")},
+      {"empty objects", array_of("{}")},
+      {"empty texts", array_of("\"\"")},
+      {"objects in objects", array_of(R"({"":{"":{"":{"":{}}}}})")},
+      {"arrays in arrays", array_of("[[[[[[[[]]]]]]]]")},
+      {"keys", object_of("0")},
+      {"keys of objects", object_of("{}")},
+      {"a text", "\"" + repeated("x") + "\""},
+      {"digits", repeated("1")},
+  };
+  return values;
+}
+
+/// The places in a document: of an array that of the first item only.
+void add_places(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& places) {
+  places.push_back(at);
+  if (value.is_array() && !value.empty()) add_places(value[0], at / 0, places);
+  if (!value.is_object()) return;
+  for (const auto& [key, member] : value.items()) add_places(member, at / key, places);
+}
+
+std::string with_value_at(json document, const json::json_pointer& place, const std::string& value) {
+  document[place] = "HERE";
+  std::string text = document.dump();
+  return text.replace(text.find("\"HERE\""), 6, value);
+}
+
+PostureSet gestures() {
+  return {.name = "gestures", .posture_names = {"open"}, .postures = {Posture::Zero()}};
+}
+
+motion::Trajectory small_trajectory() {
+  motion::Trajectory trajectory;
+  trajectory.name = "small";
+  trajectory.frames = {{0, Posture::Zero(), Eigen::Isometry3d::Identity()}};
+  return trajectory;
+}
+
+constexpr const char* kWebxr =
+    R"({"format": "glovebench-webxr-joints", "version": 1, "frames": [{"timestamp_us": 0, "joints_m": {"wrist": [0, 0, 0]}}]})";
+constexpr const char* kScript =
+    R"({"format": "glovebench-motion-script", "version": 1, "name": "S", "description": "", "seed": 1, "frame_count": 2,
+"postures": [{"frame": 0, "blend": {"open": 1}}, {"frame": 1, "blend": {"open": 1}}],
+"wrist": [{"frame": 0, "flexion_deg": 0, "abduction_deg": 0}, {"frame": 1, "flexion_deg": 0, "abduction_deg": 0}],
+"poses": [{"frame": 0, "position_mm": [0, 0, 700], "yaw_deg": 0, "pitch_deg": 0, "roll_deg": 0},
+{"frame": 1, "position_mm": [0, 0, 700], "yaw_deg": 0, "pitch_deg": 0, "roll_deg": 0}]})";
+constexpr const char* kSuite =
+    R"({"format": "glovebench-suite", "version": 1, "name": "s", "description": "", "seeds": [1],
+"experiments": [{"trajectory": "Tr4", "truth": "source", "databases": ["DB_open_power"], "subject": 1,
+"noise": {"model": "none", "factor": 1}, "frames": {"first": 0, "count": 1}}]})";
+constexpr const char* kColors =
+    R"({"format": "glovebench-glove-colors", "version": 1, "colors_rgb": [[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3],
+[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3]]})";
+
+std::vector<Reader> json_readers() {
+  const std::string w = "x.json";
+  reports::Timings timings;
+  timings.experiments = {{{"Tr1", "D", reports::TruthKind::source, 1, {}}, 1, {{"align", {1, 2, 3}}}}};
+  const reports::NoiseFloor floor = {"quick", 16, 2, 0.01, "0", "2026", {{"all", "position_error_mm", 0, 0, 0}}};
+  reports::RunResult result = reports::full_result();
+  result.experiments = reports::small_result().experiments;
+  const std::vector<reports::SpeedRatio> ratios = {{"a", 2, 1, 3}};
+  return {
+      {"configuration", [=](auto& text) { config_from_json(parse_json(text, w), {}, w); },
+       to_json(TrackerConfig()).dump()},
+      {"limits", [=](auto& text) { command_limits_from_json(parse_json(text, w), w); },
+       to_json(CommandLimits()).dump()},
+      {"calibration", [=](auto& text) { calibration_from_text(text, w); },
+       to_json(nominal_kinect_calibration()).dump()},
+      {"glove colors", [=](auto& text) { calibration::parse_glove_colors(text, w); }, kColors},
+      {"trajectory", [=](auto& text) { motion::parse_trajectory(text, w); }, canonical_text(small_trajectory())},
+      {"posture set", [=](auto& text) { motion::parse_postures_json(text, w); },
+       motion::canonical_text(gestures())},
+      {"marker layout", [=](auto& text) { motion::parse_marker_layout(text, w); },
+       R"({"format": "glovebench-marker-layout", "version": 1, "markers": {"a": "wrist"}})"},
+      {"webxr", [=](auto& text) { motion::parse_capture(text, "webxr", Side::right, w); }, kWebxr},
+      {"motion script", [=](auto& text) { motion::parse_motion_script(text, gestures(), w); }, kScript},
+      {"suite", [=](auto& text) { eval::parse_suite(text, w); }, kSuite},
+      {"results", [=](auto& text) { reports::parse_results(text, w); }, results_json(result)},
+      {"timings", [=](auto& text) { reports::parse_stage_times(text, w); }, timings_json(timings)},
+      {"noise floor", [=](auto& text) { reports::parse_noise_floor(text, w); }, noise_floor_json(floor)},
+      {"speed ratios", [=](auto& text) { reports::parse_speed_ratios(text, w); }, speed_json(ratios)},
+  };
+}
+
+TEST(ReaderMemoryLong, of_json_is_bounded_whatever_it_holds) {
+  for (const Reader& reader : json_readers()) {
+    ASSERT_EQ(reading(reader, reader.valid).error, "") << reader.name;
+    for (const auto& [what, value] : hostile_values()) expect_bounded(reader, value, what);
+  }
+}
+
+TEST(ReaderMemoryLong, of_json_is_bounded_at_each_place) {
+  for (const Reader& reader : json_readers()) {
+    const json document = json::parse(reader.valid);
+    std::vector<json::json_pointer> places;
+    add_places(document, json::json_pointer(), places);
+    for (size_t i = 1; i < places.size(); ++i) {
+      const auto& [what, value] = hostile_values()[i % hostile_values().size()];
+      expect_bounded(reader, with_value_at(document, places[i], value), what + " at " + places[i].to_string());
+    }
+  }
+}
+
+/// A document with as many values in one of its arrays as `row` makes, up to some megabytes.
+std::string with_rows(const json& document, const json::json_pointer& place,
+                      const std::function<std::string(int)>& row) {
+  std::string rows = "[";
+  for (int i = 0; rows.size() < 4 * kHostileBytes; ++i) rows += row(i) + ",";
+  rows.back() = ']';
+  return with_value_at(document, place, rows);
+}
+
+const Reader& named(const std::vector<Reader>& readers, const std::string& name) {
+  return *std::ranges::find(readers, name, &Reader::name);
+}
+
+// The shortest values that are taken, many of them: what they become is larger than they are.
+TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
+  const std::vector<Reader> readers = json_readers();
+  const auto check = [&](const std::string& name, const std::string& place, const auto& row, const char* refused) {
+    const Reader& reader = named(readers, name);
+    const std::string text = with_rows(json::parse(reader.valid), json::json_pointer(place), row);
+    const std::string error = reading(reader, text).error;
+    EXPECT_EQ(error.empty(), *refused == 0) << name << ": " << error;
+    EXPECT_NE(error.find(refused), std::string::npos) << name << ": " << error;
+    expect_bounded(reader, text, "many " + place);
+  };
+  const std::string zeros = "0" + repeated(",0", 2 * (kAngleCount - 1));
+  const auto frame = [&](int i) {
+    return fmt::format(
+        R"({{"timestamp_us":{},"position_mm":[0,0,0],"quaternion_wxyz":[1,0,0,0],"angles_deg":[{}]}})", i, zeros);
+  };
+  check("trajectory", "/frames", frame, "");
+  check(
+      "posture set", "/postures",
+      [&](int i) { return fmt::format(R"({{"name":"{}","angles_deg":[{}]}})", i, zeros); }, "");
+  check(
+      "webxr", "/frames", [](int i) { return fmt::format(R"({{"timestamp_us":{},"joints_m":{{}}}})", i); },
+      "points");
+  check(
+      "noise floor", "/entries",
+      [](int i) {
+        return fmt::format(
+            R"({{"experiment":"{}","quantity":"rotation_error_deg","spread":0,"minimum_effect":0,"detectable":0}})",
+            i);
+      },
+      "");
+  const std::string metrics = repeated(",0", 2 * reports::kMetricCount);
+  check(
+      "results", "/experiments/1/runs/0/frames",
+      [&](int i) { return fmt::format(R"([{0},{0},"lost",true,true,true,true,true,0{1}])", i, metrics); },
+      "status");
+  check(
+      "results", "/experiments/1/runs/0/frames",
+      [&](int i) { return fmt::format(R"([{0},{0},"no_hand",true,true,true,true,true,0{1}])", i, metrics); },
+      "counts of the frames");  // read to its end first
+}
+
+std::vector<Reader> text_readers() {
+  const std::string w = "x";
+  const auto capture = [=](const std::string& format) {
+    return [=](const std::string& text) { motion::parse_capture(text, format, Side::right, w); };
+  };
+  return {{"csv capture", capture("csv"), ""},
+          {"trc capture", capture("trc"), ""},
+          {"handpose", capture("handpose"), ""},
+          {"posture table", [=](auto& text) { motion::parse_postures_csv(text, "set", w); }, ""},
+          {"estimates", [=](auto& text) { reports::parse_estimates(text, w); }, ""},
+          {"recording index", [=](auto& text) { parse_recording_index(text, w); }, ""},
+          {"server log", [=](auto& text) { last_state(text, {"a"}, w); }, ""},
+          {"picture", [=](auto& text) { calibration::decode_gray(text, w); }, ""}};
+}
+
+TEST(ReaderMemory, of_texts_is_bounded_whatever_they_hold) {
+  const std::vector<std::string> parts = {
+      "\n", ",", "\t", "x", ",\n", "\t\n", "0,", "0\n", "{\"event\":\"state\",\n"};
+  for (const Reader& reader : text_readers())
+    for (const std::string& part : parts) expect_bounded(reader, repeated(part), json(part).dump());
+}
+
+std::string lines_from(const std::string& heading, const std::function<std::string(int)>& line) {
+  std::string text = heading;
+  for (int i = 0; text.size() < 4 * kHostileBytes; ++i) text += line(i) + "\n";
+  return text;
+}
+
+TEST(ReaderMemory, of_long_texts_of_short_lines_is_bounded) {
+  const std::vector<Reader> readers = text_readers();
+  const auto check = [&](const std::string& name, const std::string& text, const char* refused) {
+    const std::string error = reading(named(readers, name), text).error;
+    EXPECT_EQ(error.empty(), *refused == 0) << name << ": " << error;
+    EXPECT_NE(error.find(refused), std::string::npos) << name << ": " << error;
+    expect_bounded(named(readers, name), text, "short lines");
+  };
+  check("csv capture",
+        lines_from("time_s,wrist_x_m,wrist_y_m,wrist_z_m\n", [](int i) { return fmt::format("{},,,", 1e-5 * i); }),
+        "");
+  check(
+      "trc capture",
+      [] {
+        std::string names = "Frame#\tTime\t", axes = "\t\t";
+        for (int m = 1; m <= 200; ++m) {
+          names += fmt::format("m{}\t\t\t", m);
+          axes += fmt::format("X{0}\tY{0}\tZ{0}\t", m);
+        }
+        return lines_from(
+            "PathFileType\nNumFrames\tNumMarkers\tUnits\n1000000\t200\tmm\n" + names + "\n" + axes + "\n",
+            [](int i) { return fmt::format("1\t{}", 1e-5 * i); });
+      }(),
+      "points");
+  check("recording index", lines_from("", [](int i) { return fmt::format("d-0.{:06}-{}.pgm", i % 1'000'000, i); }),
+        "");
+  const auto commas = std::ranges::count(reports::estimates_csv({}), ',');
+  check("estimates",
+        lines_from(reports::estimates_csv({}),
+                   [&](int i) {
+                     return fmt::format("0,{0},{0},no_hand{1}", i,
+                                        std::string(static_cast<size_t>(commas) - 3, ','));
+                   }),
+        "");
+  std::string angles = reports::estimates_csv({});
+  angles = "name" + angles.substr(angles.find("quaternion_z") + 12);
+  while (angles.find("_deg") != std::string::npos) angles.erase(angles.find("_deg"), 4);
+  check("posture table",
+        lines_from(angles, [](int i) { return fmt::format("{}{}", i, repeated(",0", 2 * kAngleCount)); }), "");
+}
+
+/// A header that claims an image of that size, with nothing behind it.
+std::vector<std::string> claiming_pictures() {
+  const std::string png(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x75\x30\0\0\x75\x30\x10\0\0\0\0"
+      "\x13\xdc\x7b\x25",
+      33);
+  return {"P5 30000 30000 65535\n", "P6 30000 30000 255\n", png};
+}
+
+TEST(ReaderMemory, of_pictures_is_bounded_whatever_they_claim) {
+  const std::vector<Reader> readers = text_readers();
+  const Reader& reader = named(readers, "picture");
+  for (const std::string& picture : claiming_pictures()) {
+    expect_bounded(reader, picture, "a large claim");
+    EXPECT_NE(reading(reader, picture).error, "");
+  }
+  for (const char* ending : {".png", ".jpg", ".tif", ".bmp", ".pgm"}) {
+    for (const auto& [width, height] : {std::pair(1920, 1080), std::pair(2100, 1000)}) {
+      std::vector<uint8_t> bytes;
+      ASSERT_TRUE(cv::imencode(ending, cv::Mat(height, width, CV_8UC1, cv::Scalar(7)), bytes));
+      const std::string picture(bytes.begin(), bytes.end());
+      expect_bounded(reader, picture, ending);
+      EXPECT_EQ(reading(reader, picture).error.empty(), width == 1920) << ending;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace glovebench
+
+#endif

@@ -1,0 +1,14 @@
+#include "core/base/fuzz_target.h"
+#include "eval/stored_study.h"
+
+namespace glovebench {
+
+void stored_study_fuzz(std::string_view bytes) {
+  const auto study = eval::study_from_bytes(std::string(bytes));
+  if (!study) return;
+  const std::string bytes = eval::to_bytes(*study);
+  const auto again = eval::study_from_bytes(bytes);
+  check(again && eval::to_bytes(*again) == bytes, "a stored study returns");
+}
+
+}  // namespace glovebench
