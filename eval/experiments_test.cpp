@@ -69,7 +69,7 @@ TEST(ExperimentsLong, HoldWhatWasPlanned) {
     EXPECT_EQ(run.files.count("tables/frames_" + to_string(experiment.key) + ".csv"), 1U);
     ASSERT_TRUE(experiment.commands.has_value());
     EXPECT_EQ(experiment.commands->frames, 12);
-    EXPECT_EQ(experiment.commands->sent, (std::array<int, kCommandStateCount>{12, 0, 0}));
+    EXPECT_EQ(experiment.commands->sent, (std::array<int, kCountOf<CommandState>>{12, 0, 0}));
     EXPECT_NEAR(*experiment.commands->rate_hz, 15, 1e-3);
     EXPECT_EQ(experiment.commands->errors.joints_deg.count, 12);
     EXPECT_GT(*experiment.commands->errors.position_mm.mean, 0) << "the tracker is not that good";

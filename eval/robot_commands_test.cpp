@@ -36,7 +36,7 @@ TEST(RobotCommands, OfTheTruthHaveNoError) {
   const auto truth = slow_movement(20);
   const reports::CommandResult result = measure_commands(true_results(truth), truth);
   EXPECT_EQ(result.frames, 20);
-  EXPECT_EQ(result.sent, (std::array<int, kCommandStateCount>{20, 0, 0}));
+  EXPECT_EQ(result.sent, (std::array<int, kCountOf<CommandState>>{20, 0, 0}));
   EXPECT_NEAR(*result.rate_hz, 30, 1e-3);
   EXPECT_NEAR(*result.longest_gap_ms, 1e3 * kStep, 1e-2);
   EXPECT_TRUE(result.interventions.none());

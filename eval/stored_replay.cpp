@@ -50,7 +50,7 @@ json row_of(const TrackResult& r) {
 }
 
 TrackStatus status_of(const json& value) {
-  const std::optional<TrackStatus> status = reports::status_from_string(value.get<std::string>());
+  const std::optional<TrackStatus> status = from_name<TrackStatus>(value.get<std::string>());
   if (!status) throw json::other_error::create(501, "no status", &value);
   return *status;
 }

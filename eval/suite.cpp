@@ -36,21 +36,9 @@ bool is_database_file(const std::string& name) {
   return name.ends_with(".glovedb") || name.ends_with(".csv") || name.ends_with(".json");
 }
 
-/// One of some words.
-template <typename Value>
-Value one_of(const JsonField& field, const std::vector<std::pair<std::string, Value>>& words) {
-  std::vector<std::string> known;
-  for (const auto& [word, value] : words) {
-    if (field.value() == word) return value;
-    known.push_back(word);
-  }
-  field.fail(fmt::format("one of {}", fmt::join(known, ", ")));
-}
-
 reports::NoiseSetting noise_from(const JsonField& field) {
   field.expect_members({"model", "factor"});
-  const JsonField model = field.member("model");
-  return {one_of<std::string>(model, {{"gradient", "gradient"}, {"kinect", "kinect"}, {"none", "none"}}),
+  return {std::string(to_string(field.member("model").one_of<render::DepthNoise>())),
           field.member("factor").number(0, kMaxNoiseFactor)};
 }
 
@@ -66,8 +54,7 @@ SuiteEntry entry_from(const JsonField& field, const fs::path& folder) {
   const std::string trajectory = field.member("trajectory").text();
   SuiteEntry entry;
   entry.trajectory = is_trajectory_file(trajectory) ? (folder / trajectory).string() : trajectory;
-  entry.truth =
-      one_of<TruthKind>(field.member("truth"), {{"source", TruthKind::source}, {"recorded", TruthKind::recorded}});
+  entry.truth = field.member("truth").one_of<TruthKind>();
   const JsonField databases = field.member("databases");
   for (size_t i = 0; i < databases.array_size(); ++i) {
     const std::string database = databases.element(i).text();
@@ -136,7 +123,7 @@ class Truths {
  private:
   void require_new(const SuiteEntry& entry, const Trajectory& loaded) const {
     if (loaded.side != side_) {
-      throw Error(entry.trajectory, "side", loaded.side == Side::left ? "left" : "right",
+      throw Error(entry.trajectory, "side", std::string(to_string(loaded.side)),
                   "that of the run's other trajectories");
     }
     for (const auto& [place, other] : truths_) {

@@ -194,22 +194,9 @@ DepthImage add_kinect_noise(const DepthImage& depth, const PinholeCamera& camera
 }  // namespace
 
 DepthNoise depth_noise_from_string(std::string_view name) {
-  for (DepthNoise noise : {DepthNoise::none, DepthNoise::gradient, DepthNoise::kinect}) {
-    if (name == to_string(noise)) return noise;
-  }
-  throw Error("noise", "depth", "\"" + std::string(name) + "\"", "none, gradient or kinect");
-}
-
-std::string_view to_string(DepthNoise noise) {
-  switch (noise) {
-    case DepthNoise::none:
-      return "none";
-    case DepthNoise::gradient:
-      return "gradient";
-    case DepthNoise::kinect:
-      return "kinect";
-  }
-  return "?";
+  const auto noise = from_name<DepthNoise>(name);
+  if (!noise) throw Error("noise", "depth", "\"" + std::string(name) + "\"", known_names<DepthNoise>());
+  return *noise;
 }
 
 std::vector<std::string> NoiseConfig::problems() const {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.h"
 #include "core/base/image.h"
 #include "core/camera/pinhole_camera.h"
 
@@ -16,9 +17,11 @@ enum class DepthNoise {
   gradient,  ///< section IV: Gaussian, variance scaled with the gradient magnitude image
   kinect,    ///< in the disparity domain: lateral shift, disparity noise, dropouts, projector shadow
 };
-/// "none", "gradient" or "kinect"; throws Error for anything else.
+constexpr auto names_of(DepthNoise) {
+  return std::to_array<std::string_view>({"none", "gradient", "kinect"});
+}
+/// Throws Error for a name that is none.
 DepthNoise depth_noise_from_string(std::string_view name);
-std::string_view to_string(DepthNoise noise);
 
 /// The gain of `DepthNoise::gradient`, m px: variance = kGradientGain * |grad z|. It is set by one condition and
 /// not tuned: on a plane that slants by 45 degrees, 0.7 m in front of the camera on its axis, the standard

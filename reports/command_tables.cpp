@@ -31,8 +31,7 @@ int count_sent(const CommandResult& commands) {
 /// The kinds that happened in any of the experiments.
 std::vector<Intervention> interventions_of(const RunResult& result) {
   std::vector<Intervention> kinds;
-  for (int i = 0; i < kInterventionCount; ++i) {
-    const auto kind = static_cast<Intervention>(i);
+  for (const Intervention kind : all_values<Intervention>()) {
     if (std::ranges::any_of(result.experiments, [&](const ExperimentResult& experiment) {
           return experiment.commands && experiment.commands->interventions[kind] > 0;
         }))
@@ -130,10 +129,10 @@ TextTable command_latency_table(const RunResult& result, const Timings& timings)
 
 std::string commands_csv(const RunResult& result) {
   Json heading = {"trajectory", "database", "truth", "subject", "noise", "noise_factor", "frames"};
-  for (int s = 0; s < kCommandStateCount; ++s) heading.push_back(to_string(static_cast<CommandState>(s)));
+  for (const CommandState state : all_values<CommandState>()) heading.push_back(to_string(state));
   for (const char* column : {"rate_hz", "longest_gap_ms"}) heading.push_back(column);
-  for (int i = 0; i < kInterventionCount; ++i)
-    heading.push_back(fmt::format("interventions_{}", to_string(static_cast<Intervention>(i))));
+  for (const Intervention kind : all_values<Intervention>())
+    heading.push_back(fmt::format("interventions_{}", to_string(kind)));
   for (const CommandErrorInfo& info : command_error_infos())
     for (const char* part : {"mean", "p95", "max"}) heading.push_back(fmt::format("{}_{}", info.key, part));
   for (const char* column :
@@ -150,8 +149,7 @@ std::string commands_csv(const RunResult& result) {
     for (const int sent : commands.sent) cells.push_back(sent);
     cells.push_back(rounded_or_null(commands.rate_hz));
     cells.push_back(rounded_or_null(commands.longest_gap_ms));
-    for (int i = 0; i < kInterventionCount; ++i)
-      cells.push_back(commands.interventions[static_cast<Intervention>(i)]);
+    for (const Intervention kind : all_values<Intervention>()) cells.push_back(commands.interventions[kind]);
     for (const CommandErrorInfo& info : command_error_infos()) {
       const Aggregate& error = commands.errors.*info.value;
       for (const std::optional<double>& value : {error.mean, error.p95, error.max})

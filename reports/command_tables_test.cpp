@@ -41,8 +41,8 @@ TEST(CommandTables, CsvHasEveryIntervention) {
   const std::string csv = commands_csv(small_result());
   const std::string heading = csv.substr(0, csv.find('\n')), row = csv.substr(csv.find('\n') + 1);
   EXPECT_EQ(std::ranges::count(heading, ','), std::ranges::count(row, ','));
-  for (int i = 0; i < kInterventionCount; ++i)
-    EXPECT_THAT(heading, HasSubstr(fmt::format("interventions_{}", to_string(static_cast<Intervention>(i)))));
+  for (const Intervention kind : all_values<Intervention>())
+    EXPECT_THAT(heading, HasSubstr(fmt::format("interventions_{}", to_string(kind))));
   EXPECT_THAT(row, HasSubstr("Tr4,DB_open_power,recorded,1,gradient,1.0,4,2,2,0,30.0,33.333,"));
 }
 

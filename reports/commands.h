@@ -40,11 +40,11 @@ const std::array<CommandErrorInfo, 4>& command_error_infos();
 /// The robot commands of an experiment, of all its seeds.
 struct CommandResult {
   int frames = 0;
-  std::array<int, kCommandStateCount> sent{};  ///< commands, by their state
-  std::optional<double> rate_hz;               ///< commands a second, by their time stamps
-  std::optional<double> longest_gap_ms;        ///< between two commands
-  Interventions interventions;                 ///< of the guard and the arm
-  CommandErrors errors;                        ///< of those that follow
+  std::array<int, kCountOf<CommandState>> sent{};  ///< commands, by their state
+  std::optional<double> rate_hz;                   ///< commands a second, by their time stamps
+  std::optional<double> longest_gap_ms;            ///< between two commands
+  Interventions interventions;                     ///< of the guard and the arm
+  CommandErrors errors;                            ///< of those that follow
   Jerk jerk, truth_jerk;
 
   friend bool operator==(const CommandResult&, const CommandResult&) = default;

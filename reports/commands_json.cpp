@@ -21,16 +21,10 @@ Jerk read_jerk(const JsonReader& json) {
   return {json["joints_deg_s3"].number_or_null(0, kLargest), json["position_m_s3"].number_or_null(0, kLargest)};
 }
 
-std::optional<Intervention> intervention_from_string(std::string_view name) {
-  for (int i = 0; i < kInterventionCount; ++i)
-    if (const auto kind = static_cast<Intervention>(i); to_string(kind) == name) return kind;
-  return std::nullopt;
-}
-
 Interventions read_interventions(const JsonReader& json) {
   Interventions interventions;
   for (const auto& [name, count] : json.members()) {
-    const std::optional<Intervention> kind = intervention_from_string(name);
+    const std::optional<Intervention> kind = from_name<Intervention>(name);
     if (!kind) count.fail("a known intervention");
     interventions.add(*kind, count.integer(1, std::numeric_limits<int64_t>::max()));
   }
@@ -53,10 +47,10 @@ CommandErrors read_errors(const JsonReader& json, int followed) {
 
 Json commands_json(const CommandResult& commands) {
   Json sent = Json::object(), interventions = Json::object(), errors = Json::object();
-  for (int s = 0; s < kCommandStateCount; ++s)
-    sent[std::string(to_string(static_cast<CommandState>(s)))] = commands.sent[static_cast<size_t>(s)];
-  for (int i = 0; i < kInterventionCount; ++i)
-    if (const auto kind = static_cast<Intervention>(i); commands.interventions[kind] > 0)
+  for (const CommandState state : all_values<CommandState>())
+    sent[std::string(to_string(state))] = commands.sent[static_cast<size_t>(state)];
+  for (const Intervention kind : all_values<Intervention>())
+    if (commands.interventions[kind] > 0)
       interventions[std::string(to_string(kind))] = commands.interventions[kind];
   for (const CommandErrorInfo& info : command_error_infos())
     errors[std::string(info.key)] = aggregate_json(commands.errors.*info.value);
@@ -77,8 +71,8 @@ CommandResult read_commands(const JsonReader& json) {
   CommandResult commands;
   commands.frames = json["frames"].count();
   int64_t sent = 0;
-  for (int s = 0; s < kCommandStateCount; ++s)
-    sent += commands.sent[static_cast<size_t>(s)] = json["sent"][to_string(static_cast<CommandState>(s))].count();
+  for (const CommandState state : all_values<CommandState>())
+    sent += commands.sent[static_cast<size_t>(state)] = json["sent"][to_string(state)].count();
   if (sent > commands.frames) json["sent"].fail("no more commands than frames");
   commands.rate_hz = json["rate_hz"].number_or_null(0, kLargest);
   commands.longest_gap_ms = json["longest_gap_ms"].number_or_null(0, kLargest);

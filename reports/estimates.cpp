@@ -122,7 +122,7 @@ Estimate read_line(const Line& line) {
   estimate.seed = line.whole<uint64_t>(0);
   estimate.frame = line.whole<int>(1);
   estimate.timestamp_us = line.whole<int64_t>(2);
-  const std::optional<TrackStatus> status = status_from_string(line[3]);
+  const std::optional<TrackStatus> status = from_name<TrackStatus>(line[3]);
   if (!status) line.fail(3, "a frame's status");
   estimate.status = *status;
   if (*status != TrackStatus::tracked) {

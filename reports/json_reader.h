@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.h"
+
 namespace glovebench::reports {
 
 /// Larger results and estimates are refused before they take memory: 256 MB is the report of some million frames.
@@ -40,6 +42,13 @@ class JsonReader {
   bool is_integer() const { return value_.is_number_integer(); }
   const nlohmann::json& object() const;
   std::string text() const;
+  /// A text that names a value.
+  template <Named Enum>
+  Enum one_of() const {
+    const auto value = is_text() ? from_name<Enum>(value_.get_ref<const std::string&>()) : std::nullopt;
+    if (!value) fail(known_names<Enum>());
+    return *value;
+  }
   /// A text that is `expected`.
   void expect_text(std::string_view expected) const;
   bool boolean() const;

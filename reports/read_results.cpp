@@ -19,20 +19,6 @@ std::optional<double> read_value(const JsonReader& json) {
   return json.number_or_null(0, kLargestError);
 }
 
-template <typename Value>
-Value named(const JsonReader& json, std::initializer_list<Value> values) {
-  const std::string name = json.text();
-  for (const Value value : values)
-    if (to_string(value) == name) return value;
-  json.fail("a known name");
-}
-
-TrackStatus read_status(const JsonReader& json) {
-  const std::optional<TrackStatus> status = status_from_string(json.text());
-  if (!status) json.fail("a frame's status");
-  return *status;
-}
-
 /// Names of experiments become names of files, that of a suite the name of its baseline's folder.
 std::string read_name(const JsonReader& json) {
   const std::string name = json.text();
@@ -91,7 +77,7 @@ FrameRecord read_frame(const JsonReader& json) {
   FrameRecord frame;
   frame.frame = row[0].count();
   frame.timestamp_us = row[1].integer(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max());
-  frame.status = read_status(row[2]);
+  frame.status = row[2].one_of<TrackStatus>();
   frame.covered = row[3].boolean();
   frame.false_tracked = row[4].boolean();
   frame.false_lost = row[5].boolean();
@@ -177,7 +163,7 @@ ExperimentKey read_key(const JsonReader& json) {
   ExperimentKey key;
   key.trajectory = read_name(json["trajectory"]);
   key.database = read_name(json["database"]);
-  key.truth = named(json["truth"], {TruthKind::recorded, TruthKind::source});
+  key.truth = json["truth"].one_of<TruthKind>();
   key.subject = json["subject"].count();
   key.noise = {read_name(json["noise"]["model"]), json["noise"]["factor"].number(0, kLargestError)};
   return key;

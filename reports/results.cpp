@@ -37,16 +37,6 @@ int metric_index(std::string_view key) {
   return static_cast<int>(found - metrics().begin());
 }
 
-std::string_view to_string(TruthKind truth) {
-  return truth == TruthKind::recorded ? "recorded" : "source";
-}
-
-std::optional<TrackStatus> status_from_string(std::string_view name) {
-  for (int s = 0; s < kTrackStatusCount; ++s)
-    if (to_string(static_cast<TrackStatus>(s)) == name) return static_cast<TrackStatus>(s);
-  return std::nullopt;
-}
-
 std::string to_string(const ExperimentKey& key) {
   return fmt::format("{}_{}_{}_subject{}_{}_{}", key.trajectory, key.database, to_string(key.truth), key.subject,
                      key.noise.model, key.noise.factor);

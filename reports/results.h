@@ -58,7 +58,10 @@ const std::array<Metric, kMetricCount>& metrics();
 int metric_index(std::string_view key);
 
 enum class TruthKind { recorded, source };
-std::string_view to_string(TruthKind truth);
+constexpr auto names_of(TruthKind) {
+  return std::to_array<std::string_view>({"recorded", "source"});
+}
+using glovebench::to_string;
 
 struct NoiseSetting {
   std::string model = "gradient";  ///< "gradient" (the paper's), "kinect", "none"
@@ -68,7 +71,6 @@ struct NoiseSetting {
 };
 
 /// The status of that name; empty if there is none.
-std::optional<TrackStatus> status_from_string(std::string_view name);
 
 /// What makes one experiment: one trajectory replayed against one database.
 struct ExperimentKey {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/enum_names.h"
 #include "core/base/name.h"
 
 namespace glovebench::trajectories {
@@ -37,6 +38,13 @@ class JsonField {
   double number(double min, double max) const;
   int64_t integer(int64_t min, int64_t max) const;
   std::string text() const;
+  /// A text that names a value.
+  template <Named Enum>
+  Enum one_of() const {
+    const auto value = value_->is_string() ? from_name<Enum>(value_->get_ref<const std::string&>()) : std::nullopt;
+    if (!value) fail(known_names<Enum>());
+    return *value;
+  }
   /// A text that must equal `expected`.
   void expect_text(std::string_view expected) const;
   /// Of an object: its "format" and "version".

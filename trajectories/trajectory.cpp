@@ -20,10 +20,6 @@ constexpr const char* kTrajectoryFormat = "glovebench-trajectory";
 constexpr int kTrajectoryVersion = 1;
 constexpr double kQuaternionStep = 1e-7;
 
-std::string_view to_string(Side side) {
-  return side == Side::right ? "right" : "left";
-}
-
 Eigen::Quaterniond quaternion_from(const JsonField& field) {
   field.expect_array(4);
   std::array<double, 4> wxyz;
@@ -78,20 +74,6 @@ std::vector<TrajectoryFrame> frames_from(const JsonField& field) {
     }
   }
   return frames;
-}
-
-Side side_from(const JsonField& field) {
-  const std::string side = field.text();
-  if (side == to_string(Side::right)) return Side::right;
-  if (side == to_string(Side::left)) return Side::left;
-  field.fail("\"right\" or \"left\"");
-}
-
-TrajectoryKind kind_from(const JsonField& field) {
-  const std::string kind = field.text();
-  if (kind == to_string(TrajectoryKind::source)) return TrajectoryKind::source;
-  if (kind == to_string(TrajectoryKind::recorded)) return TrajectoryKind::recorded;
-  field.fail("\"source\" or \"recorded\"");
 }
 
 Provenance provenance_from(const JsonField& field) {
@@ -154,8 +136,8 @@ Trajectory parse_trajectory(std::string_view text, const std::string& where) {
   Trajectory trajectory;
   trajectory.name = root.member("name").name();
   if (root.has("description")) trajectory.description = root.member("description").text();
-  trajectory.side = side_from(root.member("side"));
-  if (root.has("kind")) trajectory.kind = kind_from(root.member("kind"));
+  trajectory.side = root.member("side").one_of<Side>();
+  if (root.has("kind")) trajectory.kind = root.member("kind").one_of<TrajectoryKind>();
   if (root.has("provenance")) trajectory.provenance = provenance_from(root.member("provenance"));
   if (trajectory.provenance.has_value() != (trajectory.kind == TrajectoryKind::recorded)) {
     throw Error(where, "provenance", trajectory.provenance ? "one with kind \"source\"" : "none",
@@ -182,10 +164,6 @@ void write_trajectory(const Trajectory& trajectory, const std::string& path) {
 
 std::string hash(const Trajectory& trajectory) {
   return hash_text(canonical_text(trajectory));
-}
-
-std::string_view to_string(TrajectoryKind kind) {
-  return kind == TrajectoryKind::source ? "source" : "recorded";
 }
 
 }  // namespace glovebench::trajectories

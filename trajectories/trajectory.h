@@ -21,6 +21,9 @@ struct TrajectoryFrame {
 /// `source`: the movement itself, which no tracker has seen. `recorded`: the output of the tracker when it
 /// followed a source (the paper's protocol, section IV).
 enum class TrajectoryKind { source, recorded };
+constexpr auto names_of(TrajectoryKind) {
+  return std::to_array<std::string_view>({"source", "recorded"});
+}
 
 /// What a recorded trajectory was made from: enough to record it again and to notice a change.
 struct Provenance {
@@ -64,7 +67,5 @@ void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
 /// The hash of the canonical content: identifies a truth in results.
 std::string hash(const Trajectory& trajectory);
-
-std::string_view to_string(TrajectoryKind kind);
 
 }  // namespace glovebench::trajectories

@@ -101,17 +101,6 @@ LeftOut misfit(const std::string& name, double error_px, double limit_px) {
   return {name, fmt::format("does not fit with the others: {:.2f} px, of at most {:.2f} px", error_px, limit_px)};
 }
 
-std::string_view to_string(LensModel model) {
-  if (model == LensModel::none) return "none";
-  return model == LensModel::radial ? "radial" : "full";
-}
-
-std::optional<LensModel> lens_model_from_string(std::string_view text) {
-  for (const LensModel model : {LensModel::none, LensModel::radial, LensModel::full})
-    if (text == to_string(model)) return model;
-  return std::nullopt;
-}
-
 CameraFit fit_camera(const BoardViews& boards, const Chessboard& board, LensModel lens, const std::string& where) {
   std::vector<BoardView> views = boards.views;
   std::vector<LeftOut> left_out = boards.left_out;

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/calibration/board_views.h"
@@ -20,9 +18,9 @@ LeftOut misfit(const std::string& name, double error_px, double limit_px);
 
 /// Which coefficients of LensDistortion are fitted; the others are zero.
 enum class LensModel { none, radial, full };  ///< nothing; k1, k2, k3; all five
-std::string_view to_string(LensModel model);
-/// Nothing if the text names none.
-std::optional<LensModel> lens_model_from_string(std::string_view text);
+constexpr auto names_of(LensModel) {
+  return std::to_array<std::string_view>({"none", "radial", "full"});
+}
 
 /// One camera. Errors are distances between corners as they were seen and as the fit says, RMS over corners, px.
 struct CameraFit {

@@ -268,8 +268,8 @@ TEST(StereoFit, AModelLeavesOtherCoefficientsAtZero) {
   EXPECT_NE(fit_stereo(s.ir, s.rgb, s.board, LensModel::full).calibration.ir_lens.p1, 0);
   EXPECT_FALSE(fit_stereo(s.ir, s.rgb, s.board, LensModel::none).calibration.has_lens());
   for (const LensModel model : {LensModel::none, LensModel::radial, LensModel::full})
-    EXPECT_EQ(lens_model_from_string(to_string(model)), model);
-  EXPECT_FALSE(lens_model_from_string("fisheye"));
+    EXPECT_EQ(from_name<LensModel>(to_string(model)), model);
+  EXPECT_FALSE(from_name<LensModel>("fisheye"));
 }
 
 }  // namespace

@@ -73,8 +73,8 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
   header.input_hash = text.at("input_hash");
   header.side = text.at("side") == side_name(Side::right) ? Side::right : Side::left;
   const std::string memory = text.at("memory");
-  const auto known = database_memory_from_string(memory);
-  if (!known) throw Error(path, "memory", quoted_excerpt(memory), "\"normal\" or \"low\"");
+  const auto known = from_name<DatabaseMemory>(memory);
+  if (!known) throw Error(path, "memory", quoted_excerpt(memory), known_names<DatabaseMemory>());
   header.memory = *known;
   header.field_cap_share = text.at("field_cap_share");
   if (!(header.field_cap_share > 0 && header.field_cap_share <= 1)) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "core/base/enum_names.h"
+
 namespace glovebench {
 
 /// The 22 joint angles of section III: 16 flexions and 6 abductions. Radians; in files degrees.
@@ -51,5 +53,8 @@ Posture clamp_to_limits(const Posture& posture);
 double posture_distance(const Posture& a, const Posture& b);
 
 enum class Side { right, left };
+constexpr auto names_of(Side) {
+  return std::to_array<std::string_view>({"right", "left"});
+}
 
 }  // namespace glovebench

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <optional>
 #include <span>
-#include <string_view>
 
 #include "core/base/implementation.h"
 #include "core/cloud/labeled_cloud.h"
@@ -14,14 +12,8 @@ namespace glovebench {
 /// How the closest points move the hand: Horn's alignment in each iteration (the paper), or the schedule of
 /// robust_icp.h.
 enum class IcpAlgorithm { horn, robust };
-
-constexpr std::string_view to_string(IcpAlgorithm algorithm) {
-  return algorithm == IcpAlgorithm::horn ? "horn" : "robust";
-}
-constexpr std::optional<IcpAlgorithm> icp_algorithm_from_string(std::string_view text) {
-  for (const IcpAlgorithm algorithm : {IcpAlgorithm::horn, IcpAlgorithm::robust})
-    if (text == to_string(algorithm)) return algorithm;
-  return std::nullopt;
+constexpr auto names_of(IcpAlgorithm) {
+  return std::to_array<std::string_view>({"horn", "robust"});
 }
 
 struct IcpConfig {

@@ -38,10 +38,8 @@ void shrink_workspace(CommandLimits& limits) {
 /// The kinds that keep targets from being a start.
 std::vector<std::string_view> problems_of_start(Interventions needed) {
   std::vector<std::string_view> problems;
-  for (int i = 0; i < kInterventionCount; ++i) {
-    const auto kind = static_cast<Intervention>(i);
+  for (const Intervention kind : all_values<Intervention>())
     if (kind != Intervention::coupling && needed[kind] > 0) problems.push_back(to_string(kind));
-  }
   return problems;
 }
 

@@ -11,8 +11,8 @@ void change(RobotCommand& command, FuzzInput& input) {
   const uint8_t field = input.next<uint8_t>();
   if (field >= 250) command.targets = field >= 253 ? good_command(0).targets : std::nullopt;
   if (field >= 240 && field < 250) command.hold = (field & 1) != 0;
-  if (field >= 230 && field < 240) command.state = static_cast<CommandState>(field % kCommandStateCount);
-  if (field >= 220 && field < 230) command.status = static_cast<TrackStatus>(field % kTrackStatusCount);
+  if (field >= 230 && field < 240) command.state = static_cast<CommandState>(field % kCountOf<CommandState>);
+  if (field >= 220 && field < 230) command.status = static_cast<TrackStatus>(field % kCountOf<TrackStatus>);
   if (field >= 210 && field < 220) command.frame_timestamp_us = input.next<int64_t>();
   if (field >= 200 || !command.targets) return;
   RobotTargets& targets = *command.targets;

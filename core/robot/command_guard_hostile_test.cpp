@@ -80,12 +80,12 @@ class HostileSender {
   }
 
   void spoil_state(RobotCommand& command) {
-    command.status = static_cast<TrackStatus>(random_.index(kTrackStatusCount));
-    command.state = static_cast<CommandState>(random_.index(kCommandStateCount));
+    command.status = static_cast<TrackStatus>(random_.index(kCountOf<TrackStatus>));
+    command.state = static_cast<CommandState>(random_.index(kCountOf<CommandState>));
     command.hold = random_.uniform() < 0.5;
     if (random_.uniform() < 0.3) command.targets.reset();
     if (random_.uniform() < 0.3)
-      command.interventions.add(static_cast<Intervention>(random_.index(kInterventionCount)),
+      command.interventions.add(static_cast<Intervention>(random_.index(kCountOf<Intervention>)),
                                 static_cast<int64_t>(random_.bits() >> 1));
   }
 
@@ -208,8 +208,7 @@ void run_stream(uint64_t seed, Tally& tally) {
     tally.followed += sent->state == CommandState::following;
     told.add(sent->interventions);
   }
-  for (int k = 0; k < kInterventionCount; ++k) {
-    const auto kind = static_cast<Intervention>(k);
+  for (const Intervention kind : all_values<Intervention>()) {
     ASSERT_LE(told[kind], guard.interventions()[kind]) << to_string(kind);
     // Only commands that came after time had ended were not told of.
     if (kind == Intervention::stale) continue;
@@ -227,8 +226,8 @@ void run_streams(uint64_t first, int count) {
   // The inputs are hostile, but not so much that the guard only refuses.
   EXPECT_GT(tally.sent, tally.inputs / 3);
   EXPECT_GT(tally.followed, tally.inputs / 10);
-  for (int k = 0; k < kInterventionCount; ++k)
-    EXPECT_GT(tally.interventions[static_cast<Intervention>(k)], 0) << to_string(static_cast<Intervention>(k));
+  for (const Intervention kind : all_values<Intervention>())
+    EXPECT_GT(tally.interventions[kind], 0) << to_string(kind);
 }
 
 TEST(CommandGuardHostile, NothingThatHurtsLeaves) {

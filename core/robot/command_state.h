@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <string_view>
+#include <limits>
+
+#include "core/base/enum_names.h"
 
 namespace glovebench {
 
@@ -12,8 +15,9 @@ enum class CommandState {
   holding,    ///< the hand is not seen: stay at the targets, those of the last line that was sent
   stopped,    ///< it has not been seen for too long: stay, and expect a slow start
 };
-inline constexpr int kCommandStateCount = 3;
-std::string_view to_string(CommandState state);
+constexpr auto names_of(CommandState) {
+  return std::to_array<std::string_view>({"following", "holding", "stopped"});
+}
 
 /// Why a command is not what was asked for.
 enum class Intervention {
@@ -34,21 +38,30 @@ enum class Intervention {
   hold,               ///< the targets were held
   stop,               ///< the stream came to a stop
 };
-inline constexpr int kInterventionCount = 16;
-std::string_view to_string(Intervention intervention);
+constexpr auto names_of(Intervention) {
+  return std::to_array<std::string_view>({"stale", "not_finite", "not_rigid", "joint_limit", "coupling",
+                                          "actuator_mismatch", "joint_speed", "workspace", "hand_speed",
+                                          "hand_turn_speed", "fingertip_speed", "arm_limit", "arm_speed",
+                                          "arm_unreachable", "hold", "stop"});
+}
 
 /// How often each kind happened. A kind counts once a command, however many joints it concerns.
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }
   /// Saturates at INT64_MAX; less than one adds nothing.
-  void add(Intervention kind, int64_t count = 1);
-  void add(const Interventions& others);
+  void add(Intervention kind, int64_t count = 1) {
+    int64_t& sum = counts_[static_cast<size_t>(kind)];
+    if (count > 0) sum += std::min(count, std::numeric_limits<int64_t>::max() - sum);
+  }
+  void add(const Interventions& others) {
+    for (const Intervention kind : all_values<Intervention>()) add(kind, others[kind]);
+  }
   bool none() const { return *this == Interventions(); }
   bool operator==(const Interventions&) const = default;
 
  private:
-  std::array<int64_t, kInterventionCount> counts_{};
+  std::array<int64_t, kCountOf<Intervention>> counts_{};
 };
 
 }  // namespace glovebench

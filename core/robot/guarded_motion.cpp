@@ -13,7 +13,7 @@ constexpr int kMostAttempts = 60;        // each halves what is left at least ev
 
 /// Ways as multiples of the farthest that they may be: above 1 is too fast.
 struct Excess {
-  std::array<double, kInterventionCount> by_kind{};
+  std::array<double, kCountOf<Intervention>> by_kind{};
 
   void add(Intervention kind, double way, double farthest) {
     double& excess = by_kind[static_cast<size_t>(kind)];
@@ -140,8 +140,8 @@ RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, dou
   if (!to.arm) result.arm = from.arm;
   const Excess excess = way.excess(result);
   if (excess.largest() <= 1 + kWayTolerance) return result;
-  for (int i = 0; i < kInterventionCount; ++i)
-    if (excess.by_kind[static_cast<size_t>(i)] > 1 + kWayTolerance) done.add(static_cast<Intervention>(i));
+  for (const Intervention kind : all_values<Intervention>())
+    if (excess.by_kind[static_cast<size_t>(kind)] > 1 + kWayTolerance) done.add(kind);
   const double share = largest_share(way, excess.largest());
   result = share > 0 ? way.at(share) : from;
   result.hand.joint_clamped = to.hand.joint_clamped;

@@ -39,10 +39,8 @@ Json targets_json(const Infos& infos, const Values& values, const Flags& clamped
 
 Json interventions_json(const Interventions& interventions) {
   Json counts = Json::object();
-  for (int i = 0; i < kInterventionCount; ++i) {
-    const auto kind = static_cast<Intervention>(i);
+  for (const Intervention kind : all_values<Intervention>())
     if (interventions[kind] > 0) counts[std::string(to_string(kind))] = interventions[kind];
-  }
   return counts;
 }
 

@@ -1,14 +1,11 @@
 #include "core/robot/shadow_coupling.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/base/angles.h"
 
 namespace glovebench {
 namespace {
-
-constexpr std::array<std::string_view, kShadowCouplingCount> kNames = {"series", "even"};
 
 double right_angle() {
   return radians_from_degrees(90);
@@ -20,20 +17,6 @@ double half(double motor) {
 }
 
 }  // namespace
-
-std::string_view to_string(ShadowCoupling coupling) {
-  return kNames.at(static_cast<size_t>(coupling));
-}
-
-std::vector<std::string> shadow_coupling_names() {
-  return {kNames.begin(), kNames.end()};
-}
-
-std::optional<ShadowCoupling> shadow_coupling_from_string(std::string_view name) {
-  const auto found = std::ranges::find(kNames, name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<ShadowCoupling>(found - kNames.begin());
-}
 
 CoupledJoints split_motor(double motor, ShadowCoupling coupling) {
   if (coupling == ShadowCoupling::even) return {half(motor), motor - half(motor)};

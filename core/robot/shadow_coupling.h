@@ -1,9 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "core/base/enum_names.h"
 
 namespace glovebench {
 
@@ -14,11 +11,9 @@ enum class ShadowCoupling {
            ///< of a real hand, not verified against the maker's manual
   even,    ///< both alike, as published simulation models do
 };
-inline constexpr int kShadowCouplingCount = 2;
-std::string_view to_string(ShadowCoupling coupling);
-/// All names, in the order of the enumeration.
-std::vector<std::string> shadow_coupling_names();
-std::optional<ShadowCoupling> shadow_coupling_from_string(std::string_view name);
+constexpr auto names_of(ShadowCoupling) {
+  return std::to_array<std::string_view>({"series", "even"});
+}
 
 /// The last two joints of a finger, rad.
 struct CoupledJoints {

@@ -21,10 +21,10 @@ CoupledJoints split_deg(double motor_deg, ShadowCoupling coupling) {
 }
 
 TEST(ShadowCoupling, NamesReturn) {
-  EXPECT_THAT(shadow_coupling_names(), testing::ElementsAre("series", "even"));
+  EXPECT_THAT(all_names<ShadowCoupling>(), testing::ElementsAre("series", "even"));
   for (const ShadowCoupling coupling : {series, even})
-    EXPECT_EQ(shadow_coupling_from_string(to_string(coupling)), coupling);
-  EXPECT_FALSE(shadow_coupling_from_string("Series"));
+    EXPECT_EQ(from_name<ShadowCoupling>(to_string(coupling)), coupling);
+  EXPECT_FALSE(from_name<ShadowCoupling>("Series"));
 }
 
 TEST(ShadowCoupling, SplitsByHand) {

@@ -98,16 +98,6 @@ LabelImage labels_of(const ImageType& image, const ColorTable& table) {
 
 }  // namespace
 
-std::string_view to_string(ColorSpace space) {
-  return space == ColorSpace::yuv ? "yuv" : "rgb";
-}
-
-std::optional<ColorSpace> color_space_from_string(std::string_view text) {
-  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb})
-    if (text == to_string(space)) return space;
-  return std::nullopt;
-}
-
 ColorTable::ColorTable(std::vector<uint8_t> labels, ColorSpace space) : labels_(std::move(labels)), space_(space) {
   if (labels_.size() != kCells)
     throw Error("color table", "cells", std::to_string(labels_.size()), std::to_string(kCells));
@@ -137,9 +127,9 @@ ColorTable color_table_from_bytes(std::string_view bytes, const std::string& whe
     throw Error(where, "size", std::to_string(bytes.size()) + " bytes",
                 std::to_string(kHeaderLength + ColorTable::kCells) + " bytes");
   const std::string_view space_text = version.substr(kTableVersion.size(), kSpaceLength);
-  const std::optional<ColorSpace> space = color_space_from_string(space_text);
+  const std::optional<ColorSpace> space = from_name<ColorSpace>(space_text);
   if (!space || version[kTableVersion.size() + kSpaceLength] != '\n')
-    throw Error(where, "color space", "\"" + printable(space_text) + "\"", "yuv or rgb");
+    throw Error(where, "color space", "\"" + printable(space_text) + "\"", known_names<ColorSpace>());
   const std::string_view cells = bytes.substr(kHeaderLength);
   const std::string expected = hash_text(cells) + "\n";
   const std::string_view found = bytes.substr(kHeaderLength - kTableHashLength - 1, kTableHashLength + 1);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.h"
 #include "core/base/image.h"
 #include "core/camera/registration.h"
 
@@ -25,9 +26,9 @@ constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
 
 /// The axes of a color table: the paper's (Y, U, V), or (R, G, B) to compare it with.
 enum class ColorSpace { yuv, rgb };
-std::string_view to_string(ColorSpace space);
-/// Nothing if the text names none.
-std::optional<ColorSpace> color_space_from_string(std::string_view text);
+constexpr auto names_of(ColorSpace) {
+  return std::to_array<std::string_view>({"yuv", "rgb"});
+}
 
 /// The look-up table of section III-A: 64 x 64 x 64 cells over (Y, U, V), or over (R, G, B), each holding a label
 /// 0..10.

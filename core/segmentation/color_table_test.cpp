@@ -71,9 +71,9 @@ TEST(ColorTable, LooksUpInItsOwnSpace) {
   EXPECT_EQ(ColorTable(cells, ColorSpace::yuv).label(color), 0);
   EXPECT_EQ(ColorTable(cells).space(), ColorSpace::yuv);
   for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb}) {
-    EXPECT_EQ(color_space_from_string(to_string(space)), space);
+    EXPECT_EQ(from_name<ColorSpace>(to_string(space)), space);
   }
-  EXPECT_EQ(color_space_from_string("hsv"), std::nullopt);
+  EXPECT_EQ(from_name<ColorSpace>("hsv"), std::nullopt);
 }
 
 TEST_F(ColorTableFile, LoadsWhatWasSaved) {

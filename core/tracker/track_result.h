@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <string_view>
 
+#include "core/base/enum_names.h"
 #include "core/database/look_up.h"
 #include "core/hand/posture.h"
 
@@ -23,8 +23,11 @@ enum class TrackStatus {
   poor_match,        ///< the nearest database entry is farther than `max_matching_error`
   poor_alignment,    ///< the mean distance after alignment is above `max_residual`
 };
-std::string_view to_string(TrackStatus status);
-inline constexpr int kTrackStatusCount = 10;
+constexpr auto names_of(TrackStatus) {
+  return std::to_array<std::string_view>({"tracked", "no_hand", "outside_volume", "cut_by_border", "several_hands",
+                                          "too_few_points", "degenerate_cloud", "no_shared_color", "poor_match",
+                                          "poor_alignment"});
+}
 
 /// The tracker's answer for one frame: (theta, R, P) of section III-C and what led to it.
 struct TrackResult {

@@ -25,13 +25,6 @@ TrackStatus status_of(AlignmentStatus status) {
 
 }  // namespace
 
-std::string_view to_string(TrackStatus status) {
-  static constexpr std::array<std::string_view, kTrackStatusCount> names = {
-      "tracked",        "no_hand",          "outside_volume",  "cut_by_border", "several_hands",
-      "too_few_points", "degenerate_cloud", "no_shared_color", "poor_match",    "poor_alignment"};
-  return names[static_cast<size_t>(status)];
-}
-
 void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
                   const ColorTable& table) {
   const std::vector<std::string> problems = config.problems();

@@ -89,20 +89,11 @@ void read(bool& value, const json& j, const std::string& where, const std::strin
   if (!j.is_boolean()) wrong_type(where, field, j, "true or false");
   value = j;
 }
-void read(ColorSpace& value, const json& j, const std::string& where, const std::string& field) {
-  const auto space = j.is_string() ? color_space_from_string(j.get<std::string>()) : std::nullopt;
-  if (!space) wrong_type(where, field, j, "\"yuv\" or \"rgb\"");
-  value = *space;
-}
-void read(Implementation& value, const json& j, const std::string& where, const std::string& field) {
-  const auto implementation = j.is_string() ? implementation_from_string(j.get<std::string>()) : std::nullopt;
-  if (!implementation) wrong_type(where, field, j, "\"plain\" or \"fast\"");
-  value = *implementation;
-}
-void read(IcpAlgorithm& value, const json& j, const std::string& where, const std::string& field) {
-  const auto algorithm = j.is_string() ? icp_algorithm_from_string(j.get<std::string>()) : std::nullopt;
-  if (!algorithm) wrong_type(where, field, j, "\"horn\" or \"robust\"");
-  value = *algorithm;
+template <Named Enum>
+void read(Enum& value, const json& j, const std::string& where, const std::string& field) {
+  const auto found = j.is_string() ? from_name<Enum>(j.get<std::string>()) : std::nullopt;
+  if (!found) wrong_type(where, field, j, known_names<Enum>());
+  value = *found;
 }
 void read(Cascade& value, const json& j, const std::string& where, const std::string& field) {
   if (!j.is_string()) wrong_type(where, field, j, "a cascade such as \"16:500,64:3\"");
@@ -122,13 +113,8 @@ json written(int value) {
 json written(bool value) {
   return value;
 }
-json written(ColorSpace value) {
-  return to_string(value);
-}
-json written(Implementation value) {
-  return to_string(value);
-}
-json written(IcpAlgorithm value) {
+template <Named Enum>
+json written(Enum value) {
   return to_string(value);
 }
 json written(const Cascade& value) {
@@ -142,9 +128,8 @@ void check_range(const std::string& field, Number value, const Range& range, std
 }
 template <>
 void check_range(const std::string&, bool, const Range&, std::vector<std::string>&) {}
-void check_range(const std::string&, ColorSpace, const Range&, std::vector<std::string>&) {}
-void check_range(const std::string&, Implementation, const Range&, std::vector<std::string>&) {}
-void check_range(const std::string&, IcpAlgorithm, const Range&, std::vector<std::string>&) {}
+template <Named Enum>
+void check_range(const std::string&, Enum, const Range&, std::vector<std::string>&) {}
 void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
   try {
     parse_cascade(to_string(value));

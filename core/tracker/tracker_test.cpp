@@ -196,7 +196,7 @@ TEST(Tracker, repeats_the_last_answer_over_lost_frames_and_goes_on_from_there) {
 }
 
 TEST(Tracker, garbage_frames_give_a_status) {
-  std::array<int, kTrackStatusCount> counts{};
+  std::array<int, kCountOf<TrackStatus>> counts{};
   Tracker tracker = make_tracker();
   for (int number = 0; number < 200; ++number) {
     RandomStream random(1, "garbage", number, "frame");

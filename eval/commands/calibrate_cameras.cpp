@@ -31,7 +31,7 @@ struct CalibrateCameras {
 
   void run() const {
     const calibration::Chessboard chessboard = parse_board();
-    const std::optional<calibration::LensModel> model = calibration::lens_model_from_string(lens);
+    const std::optional<calibration::LensModel> model = from_name<calibration::LensModel>(lens);
     if (!model) throw Error("--lens", "value", lens, "none, radial or full");
     const calibration::BoardViews ir_boards = boards_of(ir, chessboard, "IR");
     const calibration::BoardViews rgb_boards = boards_of(rgb, chessboard, "RGB");

@@ -34,7 +34,7 @@ struct CalibrateColors {
         .volume = common.tracker_config().volume, .registration = common.tracker_config().registration});
     const std::vector<calibration::VolumeView> views = take_frames(source, samples);
     const calibration::GloveColorFit fit = fit_glove_colors(samples, begin, from.source);
-    const ColorTable table = build_color_table(samples, fit, *color_space_from_string(space));
+    const ColorTable table = build_color_table(samples, fit, *from_name<ColorSpace>(space));
     const calibration::ColorSeparation separation = separate_colors(samples, fit, table);
     table.save(common.output);
     if (!report.empty())

@@ -99,14 +99,14 @@ void LimitsFlag::add_coupling(CLI::App& command) {
       .add_option(
           "--robot-coupling", coupling,
           "how one motor moves J1 and J2 of a finger: series, J2 to 90 degrees and then J1; even, both alike")
-      ->check(CLI::IsMember(shadow_coupling_names()))
+      ->check(CLI::IsMember(all_names<ShadowCoupling>()))
       ->capture_default_str();
 }
 
 CommandLimits LimitsFlag::limits() const {
   CommandLimits limits;
   if (!file.empty()) limits = command_limits_from_json(parse_json(read_file(file, kLargestConfig), file), file);
-  limits.coupling = shadow_coupling_from_string(coupling).value();
+  limits.coupling = from_name<ShadowCoupling>(coupling).value();
   return limits;
 }
 

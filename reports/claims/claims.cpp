@@ -36,10 +36,6 @@ std::string to_string(const Rule& rule) {
   return fmt::format("within {}..{}", rule.low, rule.high);
 }
 
-std::string_view to_string(ClaimKind kind) {
-  return kind == ClaimKind::reproduction ? "reproduction" : "consistency";
-}
-
 std::string field_text(const ClaimDefinition& definition, std::string_view field) {
   const ClaimDefinition& d = definition;
   if (field == "claim") return d.claim;

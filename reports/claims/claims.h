@@ -17,6 +17,10 @@ struct Rule {
 
   friend bool operator==(const Rule&, const Rule&) = default;
 };
+/// As claims.json says them.
+constexpr auto names_of(Rule::Kind) {
+  return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});
+}
 bool holds(const Rule& rule, double value);
 /// Whether any value from low to high satisfies the rule.
 bool meets(const Rule& rule, double low, double high);
@@ -25,7 +29,9 @@ std::string to_string(const Rule& rule);
 
 /// Reproduction: the experiment is the paper's. Consistency: it only shows that what the paper cites is plausible.
 enum class ClaimKind { reproduction, consistency };
-std::string_view to_string(ClaimKind kind);
+constexpr auto names_of(ClaimKind) {
+  return std::to_array<std::string_view>({"reproduction", "consistency"});
+}
 
 /// What the paper says, and what a run must have measured for it to hold.
 struct ClaimDefinition {

@@ -13,24 +13,13 @@ namespace {
 /// Rules are about millimetres, degrees, counts and ratios: a larger bound is a slip of the pen.
 constexpr double kLargestBound = 1e6;
 
-constexpr std::array<std::pair<std::string_view, Rule::Kind>, 5> kRules = {{{"below", Rule::Kind::below},
-                                                                            {"at_most", Rule::Kind::at_most},
-                                                                            {"above", Rule::Kind::above},
-                                                                            {"at_least", Rule::Kind::at_least},
-                                                                            {"within", Rule::Kind::within}}};
-
-Rule::Kind read_rule_kind(const JsonReader& json, const std::string& name) {
-  for (const auto& [known, kind] : kRules)
-    if (known == name) return kind;
-  json.fail("one of below, at_most, above, at_least, within");
-}
-
 Rule read_rule(const JsonReader& json) {
   const auto members = json.members();
   if (members.size() != 1) json.fail("an object with one rule");
   const auto& [name, bound] = members.front();
-  Rule rule;
-  rule.kind = read_rule_kind(json, name);
+  const std::optional<Rule::Kind> kind = from_name<Rule::Kind>(name);
+  if (!kind) json.fail(known_names<Rule::Kind>());
+  Rule rule{.kind = *kind};
   if (rule.kind == Rule::Kind::within) {
     const JsonItems bounds = bound.items();
     if (bounds.size() != 2) bound.fail("the lower and the upper bound");
@@ -44,10 +33,7 @@ Rule read_rule(const JsonReader& json) {
 }
 
 ClaimKind read_kind(const JsonReader& json) {
-  const std::string name = json.text();
-  for (const ClaimKind kind : {ClaimKind::reproduction, ClaimKind::consistency})
-    if (to_string(kind) == name) return kind;
-  json.fail("reproduction or consistency");
+  return json.one_of<ClaimKind>();
 }
 
 /// One line that is not empty.

@@ -48,26 +48,6 @@ bool is_of_the_paper(const nlohmann::json& configuration) {
 
 }  // namespace
 
-std::string_view to_string(ClaimOutcome outcome) {
-  switch (outcome) {
-    case ClaimOutcome::reproduced:
-      return "reproduced";
-    case ClaimOutcome::not_reproduced:
-      return "not reproduced";
-    case ClaimOutcome::consistent:
-      return "consistent";
-    case ClaimOutcome::not_consistent:
-      return "not consistent";
-    case ClaimOutcome::inconclusive:
-      return "inconclusive";
-    case ClaimOutcome::withdrawn:
-      return "withdrawn";
-    case ClaimOutcome::not_run:
-      break;
-  }
-  return "not run";
-}
-
 bool are_claims_judged(const RunResult& result) {
   return !result.configuration.value("quick", false) && is_of_the_paper(result.configuration);
 }

@@ -18,8 +18,10 @@ enum class ClaimOutcome {
   not_run,
   withdrawn  ///< not judged any more, still listed
 };
-/// "not reproduced"
-std::string_view to_string(ClaimOutcome outcome);
+constexpr auto names_of(ClaimOutcome) {
+  return std::to_array<std::string_view>(
+      {"reproduced", "not reproduced", "consistent", "not consistent", "inconclusive", "not run", "withdrawn"});
+}
 
 /// What a run says about a claim.
 struct ClaimVerdict {

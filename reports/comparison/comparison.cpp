@@ -75,20 +75,6 @@ std::vector<ConfigurationChange> configuration_changes(const RunResult& baseline
 
 }  // namespace
 
-std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::better:
-      return "better";
-    case Verdict::worse:
-      return "worse";
-    case Verdict::same:
-      return "same";
-    case Verdict::not_enough_data:
-      break;
-  }
-  return "not enough data";
-}
-
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing_options, const CompareConfig& config) {
   const Pairing pairing = pair_results(baseline, candidate, pairing_options);

@@ -17,7 +17,9 @@ enum class Verdict {
   same,             ///< the interval lies within the minimum effect on both sides
   not_enough_data,  ///< none of these can be said
 };
-std::string_view to_string(Verdict verdict);  ///< "better", "worse", "same", "not enough data"
+constexpr auto names_of(Verdict) {
+  return std::to_array<std::string_view>({"better", "worse", "same", "not enough data"});
+}
 
 /// Name of the rows over all experiments: the mean of the experiments' differences.
 inline constexpr std::string_view kAllExperiments = "all";

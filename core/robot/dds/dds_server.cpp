@@ -209,11 +209,11 @@ class Service {
     std::string text = fmt::format(
         "{}: messages: {}; streams: {}; interventions: {}; states: {}, the longest gap {:.1f} ms", Port::kName,
         counted(
-            kReceiptCount, [](int i) { return to_string(static_cast<Receipt>(i)); },
+            kCountOf<Receipt>, [](int i) { return to_string(static_cast<Receipt>(i)); },
             [&](int i) { return receipts[static_cast<size_t>(i)]; }),
         stream.owners(),
         counted(
-            kInterventionCount, [](int i) { return to_string(static_cast<Intervention>(i)); },
+            kCountOf<Intervention>, [](int i) { return to_string(static_cast<Intervention>(i)); },
             [&](int i) { return interventions[static_cast<Intervention>(i)]; }),
         states_sent_, static_cast<double>(longest_gap_us_) * 1e-3);
     if (stream.gaps() > 0) text += fmt::format("; gaps: {}", stream.gaps());

@@ -2,7 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <string_view>
+
+#include "core/base/enum_names.h"
 
 namespace glovebench {
 
@@ -20,10 +21,13 @@ enum class Receipt {
   starting,      ///< good, but its stream has not yet shown for 0.2 s that it is a live one
   stale,         ///< good, but older than the time of silence, or it waited through a gap (message_age.h)
 };
-inline constexpr int kReceiptCount = 11;
-std::string_view to_string(Receipt receipt);
+constexpr auto names_of(Receipt) {
+  return std::to_array<std::string_view>({"accepted", "foreign", "wrong_joints", "wrong_points", "not_finite",
+                                          "not_rotation", "wrong_frame", "bad_time", "went_back", "starting",
+                                          "stale"});
+}
 
 /// How often each has happened.
-using ReceiptCounts = std::array<int64_t, kReceiptCount>;
+using ReceiptCounts = std::array<int64_t, kCountOf<Receipt>>;
 
 }  // namespace glovebench

@@ -6,13 +6,6 @@
 
 namespace glovebench {
 
-std::string_view to_string(Receipt receipt) {
-  static constexpr std::array<std::string_view, kReceiptCount> names = {
-      "accepted",    "foreign",  "wrong_joints", "wrong_points", "not_finite", "not_rotation",
-      "wrong_frame", "bad_time", "went_back",    "starting",     "stale"};
-  return names.at(static_cast<size_t>(receipt));
-}
-
 StreamGate::StreamGate(double release_s) : release_us_(std::llround(release_s * 1e6)) {}
 
 Receipt StreamGate::admit(uint64_t sender, int topic, const ros::Time& stamp, int64_t now_us) {
