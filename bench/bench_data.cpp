@@ -39,7 +39,7 @@ ColorTable calibrate(const BenchData& data, const std::vector<Movement>& movemen
     for (const render::HandFrame& frame : movement.frames) {
       const PosedHand hand = data.model->pose(frame.posture);
       const ColorImage color = renderer.render(hand, frame.T_camera_hand, {}).color;
-      colors.add_view(render::add_color_noise(color, {}, {1, "color calibration", number++}),
+      colors.add_view(render::add_color_noise(color, render::kColorSigma_gray, {1, "color calibration", number++}),
                       renderer.render_color_labels(hand, frame.T_camera_hand));
     }
   }

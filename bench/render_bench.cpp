@@ -25,7 +25,7 @@ void rgbd_frame(benchmark::State& state) {
 }
 BENCHMARK(rgbd_frame)->Name("render/rgbd_frame")->Unit(benchmark::kMillisecond);
 
-void run_noise(benchmark::State& state, render::DepthNoise depth_noise) {
+void run_noise(benchmark::State& state, const char* depth_noise) {
   render::NoiseConfig noise;
   noise.depth = depth_noise;
   for (const BenchFrame& frame : data().frames) {
@@ -44,12 +44,12 @@ void run_noise(benchmark::State& state, render::DepthNoise depth_noise) {
 }
 
 void gradient_noise(benchmark::State& state) {
-  run_noise(state, render::DepthNoise::gradient);
+  run_noise(state, "gradient");
 }
 BENCHMARK(gradient_noise)->Name("render/depth_noise_gradient")->Unit(benchmark::kMillisecond);
 
 void kinect_noise(benchmark::State& state) {
-  run_noise(state, render::DepthNoise::kinect);
+  run_noise(state, "kinect");
 }
 BENCHMARK(kinect_noise)->Name("render/depth_noise_kinect")->Unit(benchmark::kMillisecond);
 
@@ -57,7 +57,8 @@ void color_noise(benchmark::State& state) {
   int64_t number = 0;
   for (auto _ : state) {
     for (const BenchFrame& frame : data().frames) {
-      benchmark::DoNotOptimize(render::add_color_noise(frame.images.color, {}, {1, "noise", number++}));
+      benchmark::DoNotOptimize(
+          render::add_color_noise(frame.images.color, render::kColorSigma_gray, {1, "noise", number++}));
     }
   }
   set_time_each(state, "frame", data().frames.size());

@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/random.h"
-#include "render/noise.h"
+#include "render/color_noise.h"
 #include "render/rgbd_renderer.h"
 
 namespace glovebench::eval {
@@ -83,7 +83,7 @@ ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCa
       const PosedHand hand = model->pose(postures[view % postures.size()]);
       const Eigen::Isometry3d T_camera_hand = random_pose(random);
       const ColorImage color = renderer.render(hand, T_camera_hand, lighting).color;
-      colors.add_view(render::add_color_noise(color, {}, {1, "color calibration", view}),
+      colors.add_view(render::add_color_noise(color, render::kColorSigma_gray, {1, "color calibration", view}),
                       renderer.render_color_labels(hand, T_camera_hand));
     }
   }

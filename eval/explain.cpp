@@ -4,7 +4,6 @@
 
 #include "core/base/error.h"
 #include "render/label_renderer.h"
-#include "render/montage.h"
 #include "render/pictures.h"
 
 namespace glovebench::eval {

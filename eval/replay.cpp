@@ -77,7 +77,7 @@ render::SyntheticKinectConfig kinect_config(const Replay& replay) {
   render::SyntheticKinectConfig config;
   config.scene.shader = replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
   config.scene.clutter_in_volume = replay.clutter_in_volume;
-  config.noise.depth = render::depth_noise_from_string(replay.noise.model);
+  config.noise.depth = replay.noise.model;
   config.noise.gain_factor = replay.noise.factor;
   config.seed = replay.seed;
   config.sequence = replay.truth->name;

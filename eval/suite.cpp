@@ -38,8 +38,11 @@ bool is_database_file(const std::string& name) {
 
 reports::NoiseSetting noise_from(const JsonField& field) {
   field.expect_members({"model", "factor"});
-  return {std::string(to_string(field.member("model").one_of<render::DepthNoise>())),
-          field.member("factor").number(0, kMaxNoiseFactor)};
+  const JsonField model = field.member("model");
+  const std::vector<std::string> known = render::depth_noise_names();
+  if (std::ranges::find(known, model.text()) == known.end())
+    model.fail(fmt::format("one of {}", fmt::join(known, ", ")));
+  return {model.text(), field.member("factor").number(0, kMaxNoiseFactor)};
 }
 
 FrameRange frames_from(const JsonField& field) {

@@ -1,5 +1,6 @@
 #include "render/lighting.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace glovebench::render {
@@ -16,6 +17,11 @@ Eigen::Vector3d planckian_rgb(double kelvin) {
   rgb_from_xyz << 3.2404542, -1.5371385, -0.4985314, -0.9692660, 1.8760108, 0.0415560, 0.0556434, -0.2040259,
       1.0572252;
   return rgb_from_xyz * Eigen::Vector3d(x / y, 1, (1 - x - y) / y);
+}
+
+/// The inverse of srgb_encode.
+double srgb_decode(double coded) {
+  return coded <= 0.04045 ? coded / 12.92 : std::pow((coded + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace
@@ -38,6 +44,19 @@ Eigen::Vector3d rgb_of_temperature(double temperature_k) {
 
 double srgb_encode(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+ColorImage with_white_balance(const ColorImage& color, const Eigen::Vector3d& gains) {
+  std::array<std::array<uint8_t, 256>, 3> table;
+  for (int channel = 0; channel < 3; ++channel)
+    for (int value = 0; value < 256; ++value) {
+      const double coded = srgb_encode(std::min(1.0, gains[channel] * srgb_decode(value / 255.0)));
+      table[channel][value] = static_cast<uint8_t>(std::lround(255 * coded));
+    }
+  ColorImage balanced = color;
+  for (Rgb& rgb : balanced)
+    for (int channel = 0; channel < 3; ++channel) rgb[channel] = table[channel][rgb[channel]];
+  return balanced;
 }
 
 }  // namespace glovebench::render

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/image.h"
+
 namespace glovebench::render {
 
 /// One distant lamp and an even ambient light of the same color. No shadows are cast.
@@ -24,5 +26,9 @@ Eigen::Vector3d rgb_of_temperature(double temperature_k);
 
 /// The sRGB transfer function: linear 0..1 to coded 0..1.
 double srgb_encode(double linear);
+
+/// The image of a camera whose white balance has drifted: gains on linear R, G, B (> 0), coded again, cut off at
+/// white.
+ColorImage with_white_balance(const ColorImage& color, const Eigen::Vector3d& gains);
 
 }  // namespace glovebench::render

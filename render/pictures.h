@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/base/image.h"
 
@@ -23,5 +24,18 @@ std::string encode_png(const ColorImage& image);
 std::string encode_jpeg(const ColorImage& image, int quality);
 /// Writes a PNG, whole or not at all. Throws Error if the file cannot be written.
 void write_png(const std::string& path, const ColorImage& image);
+
+/// One picture of a montage, with the line of text above it.
+struct Panel {
+  std::string title;
+  ColorImage image;
+};
+
+/// Panels in rows of `columns`, each scaled (nearest pixel) to fit a cell of the given size, on dark gray.
+ColorImage montage(const std::vector<Panel>& panels, int columns, int cell_width, int cell_height);
+
+/// The part of an image within the rectangle that holds all labeled pixels, with a margin; the whole image if there
+/// are none.
+ColorImage crop_to_labels(const ColorImage& image, const LabelImage& labels, int margin);
 
 }  // namespace glovebench::render

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "render/label_renderer.h"
-#include "render/noise.h"
+#include "render/noise/noise_model.h"
 #include "render/test_hand.h"
 
 namespace glovebench::render {

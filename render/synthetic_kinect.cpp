@@ -19,7 +19,7 @@ DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& c
   require_possible(noise);
   const DepthImage depth = add_depth_noise(images.depth, calibration.ir, noise, key);
   DeviceFrame frame{.raw_disparity = Image<uint16_t>(depth.width(), depth.height()),
-                    .color = add_color_noise(images.color, noise, key),
+                    .color = add_color_noise(images.color, noise.color_sigma_gray, key),
                     .depth_timestamp_us = timestamp_us,
                     .color_timestamp_us = timestamp_us};
   for (size_t i = 0; i < depth.size(); ++i)

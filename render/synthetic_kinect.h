@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/kinect/device.h"
-#include "render/noise.h"
+#include "render/noise/noise_model.h"
 #include "render/rgbd_renderer.h"
 
 namespace glovebench::render {

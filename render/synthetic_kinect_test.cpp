@@ -29,7 +29,7 @@ std::vector<DeviceFrame> all_frames(Device& device) {
 
 TEST(SyntheticKinect, DepthComesBackThroughElevenBits) {
   SyntheticKinectConfig config;
-  config.noise.depth = DepthNoise::none;
+  config.noise.depth = "none";
   config.noise.color_sigma_gray = 0;
   SyntheticKinect kinect(synthetic_calibration(), hand_of_the_device(), three_frames(), config);
   const DeviceFrame frame = *kinect.next_frame();

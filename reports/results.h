@@ -64,7 +64,7 @@ constexpr auto names_of(TruthKind) {
 using glovebench::to_string;
 
 struct NoiseSetting {
-  std::string model = "gradient";  ///< "gradient" (the paper's), "kinect", "none"
+  std::string model = "gradient";  ///< name of a depth noise (`glovebench list noises`); "gradient" is the paper's
   double factor = 1;               ///< of the noise's gain
 
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;

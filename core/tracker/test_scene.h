@@ -32,7 +32,7 @@ inline const ColorTable& test_color_table() {
           Eigen::Translation3d(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.65) * q.normalized();
       const PosedHand hand = render::test_hand().pose(view % 2 == 0 ? Posture(Posture::Zero()) : power_posture());
       const ColorImage color = renderer.render(hand, T_camera_hand, {}).color;
-      calibration.add_view(render::add_color_noise(color, {}, {1, "test colors", view}),
+      calibration.add_view(render::add_color_noise(color, render::kColorSigma_gray, {1, "test colors", view}),
                            renderer.render_color_labels(hand, T_camera_hand));
     }
     const ColorTable built = calibration.build();

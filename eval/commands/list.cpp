@@ -10,6 +10,7 @@
 #include "eval/share.h"
 #include "eval/studies/study.h"
 #include "eval/suite.h"
+#include "render/noise/noise_model.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -42,6 +43,11 @@ void list_methods() {
   for (const MethodEntry& method : methods()) fmt::print("{:<16} {}\n", method.name, method.description);
 }
 
+void list_noises() {
+  for (const render::DepthNoise& noise : render::depth_noises())
+    fmt::print("{:<16} {}\n", noise.name, noise.description);
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -64,6 +70,7 @@ void add_list(CLI::App& program) {
   list->add_subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.")
       ->callback(list_studies);
   list->add_subcommand("methods", "Ways to track, for --method.")->callback(list_methods);
+  list->add_subcommand("noises", "How the depth camera errs, for --noise.")->callback(list_noises);
   list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
   const auto limits = std::make_shared<LimitsFlag>();
   CLI::App* mapping = list->add_subcommand(

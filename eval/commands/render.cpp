@@ -103,7 +103,7 @@ void add_render(CLI::App& program) {
       ->check(CLI::IsMember({"png", "exr", "fakenect"}))
       ->capture_default_str();
   command->add_option("--noise", state->noise, "depth noise")
-      ->check(CLI::IsMember({"gradient", "kinect", "none"}))
+      ->check(CLI::IsMember(render::depth_noise_names()))
       ->capture_default_str();
   command->add_option("--subject", state->subject, "whose hand")->check(CLI::Range(1, 2))->capture_default_str();
   command->add_option("--database", state->database, "exr: track with this database and add the tracker's view");

@@ -142,7 +142,7 @@ void add_run(CLI::App& program) {
       ->check(CLI::IsMember({"source", "recorded"}))
       ->capture_default_str();
   command->add_option("--noise", state->noise, "depth noise")
-      ->check(CLI::IsMember({"gradient", "kinect", "none"}))
+      ->check(CLI::IsMember(render::depth_noise_names()))
       ->capture_default_str();
   command->add_option("--gain", state->gain, "factor on the noise's gain")
       ->check(number_within(0, 100))

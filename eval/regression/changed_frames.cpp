@@ -10,7 +10,6 @@
 #include "eval/replay.h"
 #include "eval/truths.h"
 #include "render/label_renderer.h"
-#include "render/montage.h"
 #include "render/pictures.h"
 #include "reports/estimates.h"
 #include "reports/json_reader.h"

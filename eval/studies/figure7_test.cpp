@@ -97,7 +97,7 @@ TEST(Figure7Long, a_clean_query_at_a_view_of_the_database_has_rank_1) {
   const Database& database = test_database();
   Workbench workbench(test_workbench());
   render::NoiseConfig clean;
-  clean.depth = render::DepthNoise::none;
+  clean.depth = "none";
   clean.color_sigma_gray = 0;
   TrialCamera camera(workbench, profile("paper"), clean);
   const TrueNeighborSearch search(*workbench.model(), database);

@@ -10,8 +10,8 @@
 #include "core/calibration/glove_colors.h"
 #include "core/kinect/disparity.h"
 #include "eval/share.h"
+#include "render/lighting.h"
 #include "render/synthetic_kinect.h"
-#include "render/white_balance.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

@@ -6,7 +6,7 @@
 
 #include "eval/studies/test_options.h"
 #include "eval/test_program.h"
-#include "render/white_balance.h"
+#include "render/lighting.h"
 
 namespace glovebench::eval {
 namespace {

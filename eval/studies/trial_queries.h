@@ -9,7 +9,7 @@
 #include "core/base/random.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/workbench.h"
-#include "render/noise.h"
+#include "render/noise/noise_model.h"
 #include "render/rgbd_renderer.h"
 
 namespace glovebench::eval {
