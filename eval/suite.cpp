@@ -7,19 +7,20 @@
 #include <filesystem>
 
 #include "core/base/error.h"
+#include "core/base/excerpt.h"
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
-#include "trajectories/json_field.h"
 
 namespace glovebench::eval {
 namespace {
 
 namespace fs = std::filesystem;
+using JsonCursor;
 using reports::ExperimentKey;
 using reports::TruthKind;
-using trajectories::JsonField;
 using trajectories::Trajectory;
 using trajectories::TrajectoryKind;
 
@@ -36,58 +37,57 @@ bool is_database_file(const std::string& name) {
   return name.ends_with(".glovedb") || name.ends_with(".csv") || name.ends_with(".json");
 }
 
-reports::NoiseSetting noise_from(const JsonField& field) {
-  field.expect_members({"model", "factor"});
-  const JsonField model = field.member("model");
+reports::NoiseSetting noise_from(const JsonCursor& field) {
+  field.expect_keys({"model", "factor"});
+  const JsonCursor model = field["model"];
   const std::vector<std::string> known = render::depth_noise_names();
   if (std::ranges::find(known, model.text()) == known.end())
     model.fail(fmt::format("one of {}", fmt::join(known, ", ")));
-  return {model.text(), field.member("factor").number(0, kMaxNoiseFactor)};
+  return {model.text(), field["factor"].number(0, kMaxNoiseFactor)};
 }
 
-FrameRange frames_from(const JsonField& field) {
-  field.expect_members({"first"}, {"count"});
-  FrameRange range{static_cast<int>(field.member("first").integer(0, kMaxFrame)), {}};
-  if (field.has("count")) range.count = static_cast<int>(field.member("count").integer(1, kMaxFrame));
+FrameRange frames_from(const JsonCursor& field) {
+  field.expect_keys({"first"}, {"count"});
+  FrameRange range{static_cast<int>(field["first"].integer(0, kMaxFrame)), {}};
+  if (field.has("count")) range.count = static_cast<int>(field["count"].integer(1, kMaxFrame));
   return range;
 }
 
-SuiteEntry entry_from(const JsonField& field, const fs::path& folder) {
-  field.expect_members({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
-  const std::string trajectory = field.member("trajectory").text();
+SuiteEntry entry_from(const JsonCursor& field, const fs::path& folder) {
+  field.expect_keys({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
+  const std::string trajectory = field["trajectory"].text();
   SuiteEntry entry;
   entry.trajectory = is_trajectory_file(trajectory) ? (folder / trajectory).string() : trajectory;
-  entry.truth = field.member("truth").one_of<TruthKind>();
-  const JsonField databases = field.member("databases");
-  for (size_t i = 0; i < databases.array_size(); ++i) {
-    const std::string database = databases.element(i).text();
+  entry.truth = field["truth"].one_of<TruthKind>();
+  for (const JsonCursor& item : field["databases"].some_items()) {
+    const std::string database = item.text();
     entry.databases.push_back(is_database_file(database) ? (folder / database).string() : database);
   }
-  if (field.has("subject")) entry.subject = static_cast<int>(field.member("subject").integer(1, 2));
-  if (field.has("noise")) entry.noise = noise_from(field.member("noise"));
-  if (field.has("frames")) entry.frames = frames_from(field.member("frames"));
+  if (field.has("subject")) entry.subject = static_cast<int>(field["subject"].integer(1, 2));
+  if (field.has("noise")) entry.noise = noise_from(field["noise"]);
+  if (field.has("frames")) entry.frames = frames_from(field["frames"]);
   return entry;
 }
 
-std::vector<uint64_t> seeds_from(const JsonField& field) {
+std::vector<uint64_t> seeds_from(const JsonCursor& field) {
   std::vector<uint64_t> seeds;
-  for (size_t i = 0; i < field.array_size(); ++i) {
-    const auto seed = static_cast<uint64_t>(field.element(i).integer(0, kMaxSeed));
-    if (std::ranges::count(seeds, seed) > 0) field.element(i).fail("each seed once");
+  for (const JsonCursor& item : field.some_items()) {
+    const auto seed = static_cast<uint64_t>(item.integer(0, kMaxSeed));
+    if (std::ranges::count(seeds, seed) > 0) item.fail("each seed once");
     seeds.push_back(seed);
   }
   return seeds;
 }
 
 /// An experiment counted twice would weigh double.
-void expect_each_once(const JsonField& experiments, const std::vector<SuiteEntry>& entries) {
+void expect_each_once(const JsonItems& experiments, const std::vector<SuiteEntry>& entries) {
   std::vector<ExperimentKey> seen;
   for (size_t i = 0; i < entries.size(); ++i) {
     for (size_t d = 0; d < entries[i].databases.size(); ++d) {
       const SuiteEntry& entry = entries[i];
       const ExperimentKey key{entry.trajectory, entry.databases[d], *entry.truth, entry.subject, entry.noise};
       if (std::ranges::count(seen, key) > 0) {
-        experiments.element(i).member("databases").element(d).fail("an experiment that is not yet in the suite");
+        experiments[i]["databases"].items()[d].fail("an experiment that is not yet in the suite");
       }
       seen.push_back(key);
     }
@@ -192,7 +192,7 @@ std::vector<Replay> replays_of(Workbench& workbench, const Suite& suite, const s
     const bool all = experiments.size() <= shown;
     experiments.resize(std::min(shown, experiments.size()));
     throw Error(
-        "--filter", "pattern", trajectories::in_quotes(filter),
+        "--filter", "pattern", quoted_excerpt(filter),
         fmt::format("one that matches {}{}", fmt::join(experiments, ", "), all ? "" : ", ... (see --list)"));
   }
   return replays;
@@ -202,15 +202,13 @@ std::vector<Replay> replays_of(Workbench& workbench, const Suite& suite, const s
 
 Suite parse_suite(std::string_view text, const std::string& path) {
   const nlohmann::json document = parse_json(text, path);
-  const JsonField root(document, path);
-  root.expect_members({"format", "version", "name", "description", "seeds", "experiments"});
-  root.member("format").expect_text("glovebench-suite");
-  root.member("version").integer(1, 1);
-  Suite suite{root.member("name").name(), root.member("description").text(), seeds_from(root.member("seeds")), {}};
-  const JsonField experiments = root.member("experiments");
-  for (size_t i = 0; i < experiments.array_size(); ++i) {
-    suite.entries.push_back(entry_from(experiments.element(i), fs::path(path).parent_path()));
-  }
+  const JsonCursor root(document, path);
+  root.expect_keys({"format", "version", "name", "description", "seeds", "experiments"});
+  root.expect_format("glovebench-suite", 1);
+  Suite suite{root["name"].name(), root["description"].text(), seeds_from(root["seeds"]), {}};
+  const JsonItems experiments = root["experiments"].some_items();
+  for (const JsonCursor& item : experiments)
+    suite.entries.push_back(entry_from(item, fs::path(path).parent_path()));
   expect_each_once(experiments, suite.entries);
   return suite;
 }

@@ -16,12 +16,12 @@ Json jerk_json(const Jerk& jerk) {
           {"position_m_s3", rounded_or_null(jerk.position_m_s3)}};
 }
 
-Jerk read_jerk(const JsonReader& json) {
+Jerk read_jerk(const JsonCursor& json) {
   json.expect_keys({"joints_deg_s3", "position_m_s3"});
   return {json["joints_deg_s3"].number_or_null(0, kLargest), json["position_m_s3"].number_or_null(0, kLargest)};
 }
 
-Interventions read_interventions(const JsonReader& json) {
+Interventions read_interventions(const JsonCursor& json) {
   Interventions interventions;
   for (const auto& [name, count] : json.members()) {
     const std::optional<Intervention> kind = from_name<Intervention>(name);
@@ -31,11 +31,11 @@ Interventions read_interventions(const JsonReader& json) {
   return interventions;
 }
 
-CommandErrors read_errors(const JsonReader& json, int followed) {
+CommandErrors read_errors(const JsonCursor& json, int followed) {
   if (json.members().size() != command_error_infos().size()) json.fail("as many errors as there are kinds");
   CommandErrors errors;
   for (const CommandErrorInfo& info : command_error_infos()) {
-    const JsonReader item = json[info.key];
+    const JsonCursor item = json[info.key];
     item.expect_keys({"count", "mean", "median", "rms", "p95", "max"});
     errors.*info.value = read_aggregate(item);
     if ((errors.*info.value).count > followed) item["count"].fail("no more than the commands that follow");
@@ -64,7 +64,7 @@ Json commands_json(const CommandResult& commands) {
           {"truth_jerk", jerk_json(commands.truth_jerk)}};
 }
 
-CommandResult read_commands(const JsonReader& json) {
+CommandResult read_commands(const JsonCursor& json) {
   json.expect_keys(
       {"frames", "sent", "rate_hz", "longest_gap_ms", "interventions", "errors", "jerk", "truth_jerk"});
   json["sent"].expect_keys({"following", "holding", "stopped"});

@@ -2,14 +2,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/json_cursor.h"
 #include "reports/commands.h"
-#include "reports/json_reader.h"
 
 namespace glovebench::reports {
 
 /// "commands" of an experiment in results.json.
 nlohmann::ordered_json commands_json(const CommandResult& commands);
 /// Reads it back. Throws Error for whatever commands_json does not write.
-CommandResult read_commands(const JsonReader& json);
+CommandResult read_commands(const JsonCursor& json);
 
 }  // namespace glovebench::reports

@@ -10,8 +10,9 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
+#include "core/base/read_limits.h"
 #include "core/hand/posture.h"
-#include "reports/json_reader.h"
 #include "reports/json_text.h"
 
 namespace glovebench::reports {
@@ -165,7 +166,7 @@ std::string estimates_csv(const ExperimentEstimates& estimates) {
 }
 
 std::vector<Estimate> read_estimates(const std::string& path) {
-  return parse_estimates(read_file(path, kLargestFile), path);
+  return parse_estimates(read_file(path, kLargestResults), path);
 }
 
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where) {

@@ -6,10 +6,10 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/random.h"
 #include "core/test_folder.h"
 #include "reports/example_result.h"
-#include "reports/json_reader.h"
 #include "reports/results_json.h"
 
 namespace glovebench::reports {

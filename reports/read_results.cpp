@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/name.h"
 #include "core/base/parse_json.h"
+#include "core/base/read_limits.h"
 #include "reports/commands_json.h"
-#include "reports/json_reader.h"
 #include "reports/results_json.h"
 #include "reports/statistics_json.h"
 #include "reports/study_json.h"
@@ -15,30 +16,30 @@
 namespace glovebench::reports {
 namespace {
 
-std::optional<double> read_value(const JsonReader& json) {
+std::optional<double> read_value(const JsonCursor& json) {
   return json.number_or_null(0, kLargestError);
 }
 
 /// Names of experiments become names of files, that of a suite the name of its baseline's folder.
-std::string read_name(const JsonReader& json) {
+std::string read_name(const JsonCursor& json) {
   const std::string name = json.text();
   if (!is_name(name)) json.fail(kNameExpected);
   return name;
 }
 
-std::vector<std::string> read_texts(const JsonReader& json) {
+std::vector<std::string> read_texts(const JsonCursor& json) {
   std::vector<std::string> texts;
-  for (const JsonReader& item : json.items()) texts.push_back(item.text());
+  for (const JsonCursor& item : json.items()) texts.push_back(item.text());
   return texts;
 }
 
-std::vector<double> read_numbers(const JsonReader& json, double max) {
+std::vector<double> read_numbers(const JsonCursor& json, double max) {
   std::vector<double> numbers;
-  for (const JsonReader& item : json.items()) numbers.push_back(item.number(0, max));
+  for (const JsonCursor& item : json.items()) numbers.push_back(item.number(0, max));
   return numbers;
 }
 
-Protocol read_protocol(const JsonReader& json) {
+Protocol read_protocol(const JsonCursor& json) {
   json.expect_keys({"id", "metric_definitions", "joint_order", "metric_keys", "association"});
   Protocol protocol;
   protocol.metric_definitions = json["metric_definitions"].count();
@@ -49,13 +50,13 @@ Protocol read_protocol(const JsonReader& json) {
   return protocol;
 }
 
-std::map<std::string, std::string> read_hashes(const JsonReader& json) {
+std::map<std::string, std::string> read_hashes(const JsonCursor& json) {
   std::map<std::string, std::string> hashes;
   for (const auto& [name, hash] : json.members()) hashes[name] = hash.text();
   return hashes;
 }
 
-InputHashes read_inputs(const JsonReader& json) {
+InputHashes read_inputs(const JsonCursor& json) {
   json.expect_keys({"truths", "databases", "hand_model", "color_table"});
   return {read_hashes(json["truths"]), read_hashes(json["databases"]), json["hand_model"].text(),
           json["color_table"].text()};
@@ -65,14 +66,14 @@ constexpr size_t kFirstMetric = 9;
 
 /// Rows that are as long as a frame's, so that there can be room for as many frames: they are larger than what a
 /// row must hold.
-JsonItems read_rows(const JsonReader& json) {
+JsonItems read_rows(const JsonCursor& json) {
   JsonItems rows = json.items();
-  for (const JsonReader& row : rows)
+  for (const JsonCursor& row : rows)
     if (row.items().size() != kFirstMetric + kMetricCount) row.fail("one value for each of frame_columns");
   return rows;
 }
 
-FrameRecord read_frame(const JsonReader& json) {
+FrameRecord read_frame(const JsonCursor& json) {
   const JsonItems row = json.items();
   FrameRecord frame;
   frame.frame = row[0].count();
@@ -90,7 +91,7 @@ FrameRecord read_frame(const JsonReader& json) {
 
 /// The frames of a run come in their order, and are those of the first run. Whether one is missing is for those to
 /// say who know what belongs there (comparison/pairing.h).
-void check_frame(const JsonReader& json, const std::vector<FrameRecord>& before, const FrameRecord& frame,
+void check_frame(const JsonCursor& json, const std::vector<FrameRecord>& before, const FrameRecord& frame,
                  const std::vector<SeedRun>& runs) {
   if (!before.empty() && frame.frame <= before.back().frame)
     json.fail("a frame after " + std::to_string(before.back().frame));
@@ -102,9 +103,9 @@ void check_frame(const JsonReader& json, const std::vector<FrameRecord>& before,
     json.fail("the frame and time stamp of the first seed");
 }
 
-std::vector<SeedRun> read_runs(const JsonReader& json) {
+std::vector<SeedRun> read_runs(const JsonCursor& json) {
   std::vector<SeedRun> runs;
-  for (const JsonReader& item : json.items()) {
+  for (const JsonCursor& item : json.items()) {
     item.expect_keys({"seed", "frames"});
     SeedRun run;
     run.seed = item["seed"].unsigned_integer();
@@ -112,7 +113,7 @@ std::vector<SeedRun> read_runs(const JsonReader& json) {
       item["seed"].fail("a seed that has not been before");
     const JsonItems rows = read_rows(item["frames"]);
     run.frames.reserve(rows.size());
-    for (const JsonReader& row : rows) {
+    for (const JsonCursor& row : rows) {
       const FrameRecord frame = read_frame(row);
       check_frame(row, run.frames, frame, runs);
       run.frames.push_back(frame);
@@ -124,7 +125,7 @@ std::vector<SeedRun> read_runs(const JsonReader& json) {
   return runs;
 }
 
-Coverage read_coverage(const JsonReader& json) {
+Coverage read_coverage(const JsonCursor& json) {
   json.expect_keys({"frames", "covered", "lost", "false_tracked", "false_lost", "share"});
   json["share"].number_or_null(0, 1);
   return {json["frames"].count(), json["covered"].count(), json["lost"].count(), json["false_tracked"].count(),
@@ -132,7 +133,7 @@ Coverage read_coverage(const JsonReader& json) {
 }
 
 /// A mean that its frames do not have was changed by hand, or the frames were.
-void check_aggregate(const JsonReader& json, const Aggregate& aggregate, int metric,
+void check_aggregate(const JsonCursor& json, const Aggregate& aggregate, int metric,
                      const std::vector<SeedRun>& runs) {
   constexpr double kRounding = 2e-6;  // frames and mean are written to 1e-6
   std::vector<double> values;
@@ -147,10 +148,10 @@ void check_aggregate(const JsonReader& json, const Aggregate& aggregate, int met
   if (!agrees) json["mean"].fail("the mean of the frames in runs");
 }
 
-void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
+void read_aggregates(const JsonCursor& json, ExperimentResult& experiment) {
   if (json.members().size() != kMetricCount) json.fail(std::to_string(kMetricCount) + " metrics");
   for (int m = 0; m < kMetricCount; ++m) {
-    const JsonReader item = json[metrics()[m].key];
+    const JsonCursor item = json[metrics()[m].key];
     item.expect_keys({"count", "mean", "median", "rms", "p95", "max", "interval"});
     experiment.aggregates[m] = read_aggregate(item);
     check_aggregate(item, experiment.aggregates[m], m, experiment.runs);
@@ -158,7 +159,7 @@ void read_aggregates(const JsonReader& json, ExperimentResult& experiment) {
   }
 }
 
-ExperimentKey read_key(const JsonReader& json) {
+ExperimentKey read_key(const JsonCursor& json) {
   json["noise"].expect_keys({"model", "factor"});
   ExperimentKey key;
   key.trajectory = read_name(json["trajectory"]);
@@ -169,8 +170,8 @@ ExperimentKey read_key(const JsonReader& json) {
   return key;
 }
 
-ExperimentResult read_experiment(const JsonReader& json) {
-  const bool has_commands = json.object().contains("commands");
+ExperimentResult read_experiment(const JsonCursor& json) {
+  const bool has_commands = json.has("commands");
   // A key of the others in its place where there is none.
   json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
                     "sequence", "runs", has_commands ? "commands" : "runs"});
@@ -183,7 +184,7 @@ ExperimentResult read_experiment(const JsonReader& json) {
   if (experiment.coverage != count_coverage(experiment.runs))
     json["coverage"].fail("the counts of the frames in runs");
   read_aggregates(json["aggregates"], experiment);
-  const JsonReader pck = json["joint_pck"], sequence = json["sequence"];
+  const JsonCursor pck = json["joint_pck"], sequence = json["sequence"];
   experiment.pck = {read_numbers(pck["thresholds_mm"], kLargestError), read_numbers(pck["shares"], 1),
                     pck["area"].number_or_null(0, 1)};
   if (experiment.pck.shares.size() != experiment.pck.thresholds_mm.size())
@@ -201,15 +202,15 @@ ExperimentResult read_experiment(const JsonReader& json) {
 }  // namespace
 
 RunResult read_results(const std::string& path) {
-  return parse_results(read_file(path, kLargestFile), path);
+  return parse_results(read_file(path, kLargestResults), path);
 }
 
 RunResult parse_results(const std::string& text, const std::string& where) {
   nlohmann::json document = parse_json(text, where);
-  const JsonReader json(document, where);
+  const JsonCursor json(document, where);
   json["format"].expect_text(kResultsFormat);
   json["version"].integer(kResultsVersion, kResultsVersion);
-  const bool has_studies = json.object().contains("studies");
+  const bool has_studies = json.has("studies");
   json.expect_keys({"format", "version", "protocol", "inputs", "suite", "program", "configuration", "frame_columns",
                     "experiments", has_studies ? "studies" : "experiments"});
   json["program"].expect_keys({"version", "commit"});
@@ -221,8 +222,8 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   if (!json["suite"].is_null()) result.suite = read_name(json["suite"]);
   result.program_version = json["program"]["version"].text();
   result.commit = json["program"]["commit"].text();
-  json["configuration"].object();
-  for (const JsonReader& item : json["experiments"].items()) {
+  json["configuration"].members();
+  for (const JsonCursor& item : json["experiments"].items()) {
     ExperimentResult experiment = read_experiment(item);
     if (find_experiment(result, experiment.key)) item.fail("an experiment that has not been before");
     result.experiments.push_back(std::move(experiment));

@@ -13,7 +13,7 @@ nlohmann::ordered_json aggregate_json(const Aggregate& aggregate) {
           {"max", rounded_or_null(aggregate.max)}};
 }
 
-Aggregate read_aggregate(const JsonReader& json) {
+Aggregate read_aggregate(const JsonCursor& json) {
   const auto value = [&](std::string_view key) { return json[key].number_or_null(0, kLargestError); };
   return {json["count"].count(), value("mean"), value("median"), value("rms"), value("p95"), value("max")};
 }
@@ -26,7 +26,7 @@ nlohmann::ordered_json interval_json(const std::optional<ConfidenceInterval>& in
       {"over", interval->over}};
 }
 
-std::optional<ConfidenceInterval> read_interval(const JsonReader& json, double min, double max) {
+std::optional<ConfidenceInterval> read_interval(const JsonCursor& json, double min, double max) {
   if (json.is_null()) return std::nullopt;
   json.expect_keys({"low", "high", "level", "seeds", "blocks", "block_frames", "over"});
   return ConfidenceInterval{json["low"].number(min, max), json["high"].number(min, max),

@@ -77,28 +77,28 @@ Json study_json(const StudyResult& study, const std::vector<const Table*>& table
           {"measures", measures_json(study.measures, of_times)}};
 }
 
-std::string read_key(const JsonReader& json, bool is_measure = false) {
+std::string read_key(const JsonCursor& json, bool is_measure = false) {
   const std::string name = json.text();
   if (!is_name(name, is_measure)) json.fail("lower-case letters, digits and underscores");
   return name;
 }
 
-Column read_column(const JsonReader& json) {
+Column read_column(const JsonCursor& json) {
   json.expect_keys({"key", "heading", "digits"});
   return {read_key(json["key"]), json["heading"].text(), static_cast<int>(json["digits"].integer(0, kMostDigits)),
           false};
 }
 
-Cell read_cell(const JsonReader& json) {
+Cell read_cell(const JsonCursor& json) {
   if (json.is_null()) return {};
   if (json.is_text()) return json.text();
   if (json.is_integer()) return json.integer(-kLargestCount, kLargestCount);
   return json.number(-kLargestCell, kLargestCell);
 }
 
-std::vector<Column> read_columns(const JsonReader& json) {
+std::vector<Column> read_columns(const JsonCursor& json) {
   std::vector<Column> columns;
-  for (const JsonReader& item : json.items()) {
+  for (const JsonCursor& item : json.items()) {
     Column column = read_column(item);
     if (std::ranges::find(columns, column.key, &Column::key) != columns.end())
       item["key"].fail("a key that has not been before");
@@ -116,7 +116,7 @@ size_t cell_count(const std::vector<StudyResult>& studies) {
 }
 
 /// `studies`: those before, and the one that the table belongs to.
-Table read_table(const JsonReader& json, const std::vector<StudyResult>& studies) {
+Table read_table(const JsonCursor& json, const std::vector<StudyResult>& studies) {
   json.expect_keys({"name", "title", "explanation", "columns", "name_columns", "rows"});
   Table table;
   table.name = read_key(json["name"]);
@@ -129,16 +129,16 @@ Table read_table(const JsonReader& json, const std::vector<StudyResult>& studies
   const JsonItems rows = json["rows"].items();
   if (cell_count(studies) + rows.size() * table.columns.size() > kMostCells)
     json["rows"].fail(fmt::format("at most {} cells in all tables", kMostCells));
-  for (const JsonReader& row : rows) {
+  for (const JsonCursor& row : rows) {
     const JsonItems cells = row.items();
     if (cells.size() != table.columns.size()) row.fail("one cell for each of columns");
     table.rows.emplace_back().reserve(cells.size());
-    for (const JsonReader& cell : cells) table.rows.back().push_back(read_cell(cell));
+    for (const JsonCursor& cell : cells) table.rows.back().push_back(read_cell(cell));
   }
   return table;
 }
 
-Measure read_measure(const JsonReader& json, const std::vector<StudyResult>& studies) {
+Measure read_measure(const JsonCursor& json, const std::vector<StudyResult>& studies) {
   json.expect_keys({"name", "unit", "value", "interval"});
   Measure measure;
   measure.name = read_key(json["name"], true);
@@ -211,14 +211,14 @@ Json study_times_json(const std::vector<StudyResult>& studies) {
   return json;
 }
 
-std::vector<StudyResult> read_studies(const JsonReader& json) {
+std::vector<StudyResult> read_studies(const JsonCursor& json) {
   std::vector<StudyResult> studies;
-  for (const JsonReader& item : json.items()) {
+  for (const JsonCursor& item : json.items()) {
     item.expect_keys({"name", "title", "tables", "measures"});
     studies.push_back({read_key(item["name"]), item["title"].text(), {}, {}});
-    for (const JsonReader& table : item["tables"].items())
+    for (const JsonCursor& table : item["tables"].items())
       studies.back().tables.push_back(read_table(table, studies));
-    for (const JsonReader& measure : item["measures"].items())
+    for (const JsonCursor& measure : item["measures"].items())
       studies.back().measures.push_back(read_measure(measure, studies));
   }
   return studies;

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "reports/json_reader.h"
+#include "core/base/json_cursor.h"
 #include "reports/study.h"
 
 namespace glovebench::reports {
@@ -17,7 +17,7 @@ nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies)
 /// Reads "studies" of results.json back. Throws Error for what studies_json does not write: names that are not
 /// lower-case letters, digits and underscores (a table's names a file), or that come twice, rows that do not have
 /// one cell a column, cells that are neither text, number nor null.
-std::vector<StudyResult> read_studies(const JsonReader& json);
+std::vector<StudyResult> read_studies(const JsonCursor& json);
 
 /// A cell as JSON and CSV hold it: numbers rounded to 1e-6.
 nlohmann::ordered_json cell_json(const Cell& cell);

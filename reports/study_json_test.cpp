@@ -32,7 +32,7 @@ json written(const StudyResult& study) {
 }
 std::vector<StudyResult> read(const json& document) {
   const std::string where = "results.json";
-  return read_studies(JsonReader(document, where, "studies"));
+  return read_studies(JsonCursor(document, where, "studies"));
 }
 std::string study_error(const std::function<void(json&)>& change) {
   json document = written(small_study());

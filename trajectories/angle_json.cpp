@@ -1,8 +1,13 @@
 #include "trajectories/angle_json.h"
 
 #include "core/base/angles.h"
+#include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
+
+std::string in_quotes(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 std::string joint_order_json() {
   std::string json = "[";
@@ -14,9 +19,9 @@ std::string joint_order_json() {
   return json + "\n  ]";
 }
 
-void expect_joint_order(const JsonField& field) {
-  field.expect_array(kAngleCount);
-  for (int a = 0; a < kAngleCount; ++a) field.element(a).expect_text(angle_infos()[a].name);
+void expect_joint_order(const JsonCursor& field) {
+  const JsonItems names = field.items(kAngleCount);
+  for (int a = 0; a < kAngleCount; ++a) names[a].expect_text(angle_infos()[a].name);
 }
 
 std::string angles_json(const Posture& posture) {
@@ -28,12 +33,12 @@ std::string angles_json(const Posture& posture) {
   return json + "]";
 }
 
-Posture angles_from(const JsonField& field) {
-  field.expect_array(kAngleCount);
+Posture angles_from(const JsonCursor& field) {
+  const JsonItems angles = field.items(kAngleCount);
   Posture posture;
   for (int a = 0; a < kAngleCount; ++a) {
     const AngleInfo& info = angle_infos()[a];
-    posture[a] = radians_from_degrees(field.element(a).number(info.min_deg, info.max_deg));
+    posture[a] = radians_from_degrees(angles[a].number(info.min_deg, info.max_deg));
   }
   return posture;
 }

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "trajectories/json_field.h"
+#include "core/base/json_cursor.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::trajectories {
@@ -42,9 +42,9 @@ Trajectory trajectory_of(const std::string& data_folder, TrajectoryKind kind, co
   expect_known(fs::path(data_folder) / folder_of(kind), name);
   const std::string path = trajectory_path(data_folder, kind, name);
   Trajectory trajectory = load_trajectory(path);
-  if (trajectory.name != name) throw Error(path, "name", in_quotes(trajectory.name), in_quotes(name));
+  if (trajectory.name != name) throw Error(path, "name", quoted_excerpt(trajectory.name), quoted_excerpt(name));
   if (trajectory.kind != kind) {
-    throw Error(path, "kind", in_quotes(to_string(trajectory.kind)), in_quotes(to_string(kind)));
+    throw Error(path, "kind", quoted_excerpt(to_string(trajectory.kind)), quoted_excerpt(to_string(kind)));
   }
   return trajectory;
 }
@@ -94,7 +94,7 @@ PostureSet posture_set(const std::string& data_folder, const std::string& name) 
   expect_known(folder, name);
   const std::string path = (folder / (name + ".json")).string();
   PostureSet set = load_posture_set(path);
-  if (set.name != name) throw Error(path, "name", in_quotes(set.name), in_quotes(name));
+  if (set.name != name) throw Error(path, "name", quoted_excerpt(set.name), quoted_excerpt(name));
   return set;
 }
 

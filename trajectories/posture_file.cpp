@@ -11,9 +11,10 @@
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/read_limits.h"
 #include "trajectories/angle_json.h"
-#include "trajectories/json_field.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
@@ -31,7 +32,8 @@ void expect_headings(const std::vector<std::string_view>& headings, const std::s
   for (size_t c = 0; c < column_count; ++c) {
     const std::string_view expected = c == 0 ? "name" : angle_infos()[c - 1].name;
     if (headings[c] != expected) {
-      throw Error(where, fmt::format("line 1, column {}", c + 1), quoted_excerpt(headings[c]), in_quotes(expected));
+      throw Error(where, fmt::format("line 1, column {}", c + 1), quoted_excerpt(headings[c]),
+                  quoted_excerpt(expected));
     }
   }
 }
@@ -44,7 +46,7 @@ double angle_from(std::string_view cell, const AngleInfo& info, const std::strin
 
 void expect_new_name(const std::string& name, std::set<std::string>& names, const std::string& where,
                      const std::string& field) {
-  if (!names.insert(name).second) throw Error(where, field, in_quotes(name) + " again", "names that differ");
+  if (!names.insert(name).second) throw Error(where, field, quoted_excerpt(name) + " again", "names that differ");
 }
 
 std::string canonical_json(const PostureSet& set) {
@@ -63,22 +65,23 @@ std::string canonical_json(const PostureSet& set) {
 
 PostureSet parse_postures_json(std::string_view text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonField root(document, where);
-  root.expect_members({"format", "version", "name", "joint_order", "postures"}, {"description"});
+  const JsonCursor root(document, where);
+  root.expect_keys({"format", "version", "name", "joint_order", "postures"}, {"description"});
   root.expect_format(kPostureSetFormat, kPostureSetVersion);
-  expect_joint_order(root.member("joint_order"));
+  expect_joint_order(root["joint_order"]);
 
-  PostureSet set{.name = root.member("name").name(), .posture_names = {}, .postures = {}};
+  PostureSet set{.name = root["name"].name(), .posture_names = {}, .postures = {}};
   std::set<std::string> names;
-  const JsonField postures = root.member("postures");
-  const size_t count = postures.array_size({"name", "angles_deg"});
-  set.posture_names.reserve(count);
-  set.postures.reserve(count);
-  for (size_t i = 0; i < count; ++i) {
-    const JsonField posture = postures.element(i);
-    set.posture_names.push_back(posture.member("name").name());
+  const JsonItems postures = root["postures"].some_items();
+  // Room is made for all only when each is known to be a posture.
+  for (const JsonCursor& posture : postures) posture.expect_keys({"name", "angles_deg"});
+  set.posture_names.reserve(postures.size());
+  set.postures.reserve(postures.size());
+  for (size_t i = 0; i < postures.size(); ++i) {
+    const JsonCursor posture = postures[i];
+    set.posture_names.push_back(posture["name"].name());
     expect_new_name(set.posture_names.back(), names, where, fmt::format("postures[{}].name", i));
-    set.postures.push_back(angles_from(posture.member("angles_deg")));
+    set.postures.push_back(angles_from(posture["angles_deg"]));
   }
   return set;
 }
@@ -110,9 +113,9 @@ PostureSet parse_postures_csv(std::string_view text, const std::string& set_name
 
 PostureSet load_posture_set(const std::string& path) {
   const std::filesystem::path file(path);
-  if (file.extension() == ".json") return parse_postures_json(read_file(path, kLargestFile), path);
+  if (file.extension() == ".json") return parse_postures_json(read_file(path, kLargestMovement), path);
   if (file.extension() == ".csv")
-    return parse_postures_csv(read_file(path, kLargestFile), file.stem().string(), path);
+    return parse_postures_csv(read_file(path, kLargestMovement), file.stem().string(), path);
   throw Error(path, "file name", quoted_excerpt(file.extension().string()), "the ending .json or .csv");
 }
 

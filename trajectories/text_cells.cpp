@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "trajectories/json_field.h"
 
 namespace glovebench::trajectories {
 
@@ -61,6 +61,12 @@ double number_from(std::string_view cell, double min, double max, const std::str
     throw Error(where, field, quoted_excerpt(cell), fmt::format("a number from {} to {}", min, max));
   }
   return *number;
+}
+
+std::string fixed(double value, int decimals) {
+  const double scale = std::pow(10.0, decimals);
+  // Adding zero turns a negative zero into a positive one.
+  return fmt::format("{:.{}f}", std::round(value * scale) / scale + 0.0, decimals);
 }
 
 }  // namespace glovebench::trajectories

@@ -35,4 +35,7 @@ std::optional<double> number_in(std::string_view cell);
 double number_from(std::string_view cell, double min, double max, const std::string& where,
                    const std::string& field);
 
+/// `value` with a fixed number of decimals; the same on every machine, never "-0.000".
+std::string fixed(double value, int decimals);
+
 }  // namespace glovebench::trajectories

@@ -9,9 +9,11 @@
 #include "core/base/excerpt.h"
 #include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/read_limits.h"
 #include "trajectories/angle_json.h"
-#include "trajectories/json_field.h"
+#include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
 namespace {
@@ -20,10 +22,10 @@ constexpr const char* kTrajectoryFormat = "glovebench-trajectory";
 constexpr int kTrajectoryVersion = 1;
 constexpr double kQuaternionStep = 1e-7;
 
-Eigen::Quaterniond quaternion_from(const JsonField& field) {
-  field.expect_array(4);
+Eigen::Quaterniond quaternion_from(const JsonCursor& field) {
+  const JsonItems items = field.items(4);
   std::array<double, 4> wxyz;
-  for (size_t i = 0; i < 4; ++i) wxyz[i] = field.element(i).number(-2, 2);
+  for (size_t i = 0; i < 4; ++i) wxyz[i] = items[i].number(-2, 2);
   const Eigen::Quaterniond quaternion(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
   if (std::abs(quaternion.norm() - 1) > kQuaternionNormTolerance) {
     field.fail(fmt::format("length {:.6f}", quaternion.norm()),
@@ -49,41 +51,39 @@ Eigen::Vector4d canonical_wxyz(const Eigen::Matrix3d& rotation) {
   return rounded;
 }
 
-TrajectoryFrame frame_from(const JsonField& field) {
+TrajectoryFrame frame_from(const JsonCursor& field) {
   TrajectoryFrame frame;
-  frame.timestamp_us = field.member("timestamp_us").integer(0, kMaxTimestampUs);
-  frame.posture = angles_from(field.member("angles_deg"));
-  const JsonField position = field.member("position_mm");
-  position.expect_array(3);
-  for (int i = 0; i < 3; ++i) {
-    frame.T_camera_hand.translation()[i] = position.element(i).number(-kMaxPositionMm, kMaxPositionMm) / 1000;
-  }
-  frame.T_camera_hand.linear() = quaternion_from(field.member("quaternion_wxyz")).toRotationMatrix();
+  frame.timestamp_us = field["timestamp_us"].integer(0, kMaxTimestampUs);
+  frame.posture = angles_from(field["angles_deg"]);
+  frame.T_camera_hand.translation() = field["position_mm"].vector3(kMaxPositionMm) / 1000;
+  frame.T_camera_hand.linear() = quaternion_from(field["quaternion_wxyz"]).toRotationMatrix();
   return frame;
 }
 
-std::vector<TrajectoryFrame> frames_from(const JsonField& field) {
+std::vector<TrajectoryFrame> frames_from(const JsonCursor& field) {
   std::vector<TrajectoryFrame> frames;
-  const size_t count = field.array_size({"timestamp_us", "angles_deg", "position_mm", "quaternion_wxyz"});
-  frames.reserve(count);
-  for (size_t i = 0; i < count; ++i) {
-    const JsonField element = field.element(i);
-    frames.push_back(frame_from(element));
-    if (i > 0 && frames[i].timestamp_us <= frames[i - 1].timestamp_us) {
-      element.member("timestamp_us").fail(fmt::format("more than {}", frames[i - 1].timestamp_us));
-    }
+  const JsonItems items = field.some_items();
+  // Room is made for all only when each is known to be a frame.
+  for (const JsonCursor& item : items)
+    item.expect_keys({"timestamp_us", "angles_deg", "position_mm", "quaternion_wxyz"});
+  frames.reserve(items.size());
+  for (const JsonCursor& item : items) {
+    const TrajectoryFrame frame = frame_from(item);
+    if (!frames.empty() && frame.timestamp_us <= frames.back().timestamp_us)
+      item["timestamp_us"].fail(fmt::format("more than {}", frames.back().timestamp_us));
+    frames.push_back(frame);
   }
   return frames;
 }
 
-Provenance provenance_from(const JsonField& field) {
-  field.expect_members({"source", "source_hash", "database", "database_hash", "profile", "profile_hash"});
-  return {.source = field.member("source").name(),
-          .source_hash = field.member("source_hash").name(),
-          .database = field.member("database").name(),
-          .database_hash = field.member("database_hash").name(),
-          .profile = field.member("profile").name(),
-          .profile_hash = field.member("profile_hash").name()};
+Provenance provenance_from(const JsonCursor& field) {
+  field.expect_keys({"source", "source_hash", "database", "database_hash", "profile", "profile_hash"});
+  return {.source = field["source"].name(),
+          .source_hash = field["source_hash"].name(),
+          .database = field["database"].name(),
+          .database_hash = field["database_hash"].name(),
+          .profile = field["profile"].name(),
+          .profile_hash = field["profile_hash"].name()};
 }
 
 std::string provenance_json(const Provenance& provenance) {
@@ -127,28 +127,28 @@ std::string canonical_json(const Trajectory& trajectory) {
 
 Trajectory parse_trajectory(std::string_view text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonField root(document, where);
-  root.expect_members({"format", "version", "name", "side", "joint_order", "frames"},
-                      {"description", "kind", "provenance"});
+  const JsonCursor root(document, where);
+  root.expect_keys({"format", "version", "name", "side", "joint_order", "frames"},
+                   {"description", "kind", "provenance"});
   root.expect_format(kTrajectoryFormat, kTrajectoryVersion);
-  expect_joint_order(root.member("joint_order"));
+  expect_joint_order(root["joint_order"]);
 
   Trajectory trajectory;
-  trajectory.name = root.member("name").name();
-  if (root.has("description")) trajectory.description = root.member("description").text();
-  trajectory.side = root.member("side").one_of<Side>();
-  if (root.has("kind")) trajectory.kind = root.member("kind").one_of<TrajectoryKind>();
-  if (root.has("provenance")) trajectory.provenance = provenance_from(root.member("provenance"));
+  trajectory.name = root["name"].name();
+  if (root.has("description")) trajectory.description = root["description"].text();
+  trajectory.side = root["side"].one_of<Side>();
+  if (root.has("kind")) trajectory.kind = root["kind"].one_of<TrajectoryKind>();
+  if (root.has("provenance")) trajectory.provenance = provenance_from(root["provenance"]);
   if (trajectory.provenance.has_value() != (trajectory.kind == TrajectoryKind::recorded)) {
     throw Error(where, "provenance", trajectory.provenance ? "one with kind \"source\"" : "none",
                 "one if and only if kind is \"recorded\"");
   }
-  trajectory.frames = frames_from(root.member("frames"));
+  trajectory.frames = frames_from(root["frames"]);
   return trajectory;
 }
 
 Trajectory load_trajectory(const std::string& path) {
-  return parse_trajectory(read_file(path, kLargestFile), path);
+  return parse_trajectory(read_file(path, kLargestMovement), path);
 }
 
 std::string canonical_text(const Trajectory& trajectory) {

@@ -107,9 +107,9 @@ TEST(Calibration, NamesTheWrongField) {
     return calibration_error(bad);
   };
   EXPECT_TRUE(starts_with(error_with("/version", 2), "here.json: version: found 2"));
-  EXPECT_TRUE(starts_with(error_with("/baseline", 1), "here.json: baseline: found an unknown key"));
-  EXPECT_TRUE(starts_with(error_with("/ir/k1", 0.1), "here.json: ir.k1: found an unknown key"));
-  EXPECT_TRUE(starts_with(error_with("/ir/k\n1", 0.1), "here.json: ir.k?1: found an unknown key")) << "one line";
+  EXPECT_TRUE(starts_with(error_with("/baseline", 1), "here.json: top level: found unknown key \"baseline\""));
+  EXPECT_TRUE(starts_with(error_with("/ir/k1", 0.1), "here.json: ir: found unknown key \"k1\""));
+  EXPECT_TRUE(starts_with(error_with("/ir/k\n1", 0.1), "here.json: ir: found unknown key \"k\\n1\"")) << "one line";
   EXPECT_TRUE(starts_with(error_with("/ir/fx_px", "575"), "here.json: ir.fx_px: found \"575\", expected a number"));
   EXPECT_TRUE(starts_with(error_with("/ir/fx_px", -1), "here.json: ir.fx_px: found -1"));
   EXPECT_TRUE(starts_with(error_with("/rgb/cx_px", std::numeric_limits<double>::quiet_NaN()),

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <nlohmann/json.hpp>
-
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/json_cursor.h"
 
 namespace glovebench {
 namespace {
@@ -29,14 +26,11 @@ void visit_fields(Limits& limits, Visit&& visit) {
   visit("stop_after_s", limits.stop_after_s);
 }
 
-void read_limit(double& value, const json& found, const std::string& where, const std::string& field) {
-  if (!found.is_number()) throw Error(where, field, excerpt(found), "a number");
-  value = found;
+void read_limit(double& value, const JsonCursor& json) {
+  value = json.number();
 }
-void read_limit(Eigen::Vector3d& value, const json& found, const std::string& where, const std::string& field) {
-  if (!found.is_array() || found.size() != 3) throw Error(where, field, excerpt(found), "x, y and z");
-  for (size_t i = 0; i < 3; ++i)
-    read_limit(value[static_cast<int>(i)], found[i], where, fmt::format("{}[{}]", field, i));
+void read_limit(Eigen::Vector3d& value, const JsonCursor& json) {
+  value = json.vector3();
 }
 
 json written_limit(double value) {
@@ -49,16 +43,14 @@ json written_limit(const Eigen::Vector3d& value) {
 }  // namespace
 
 CommandLimits command_limits_from_json(const json& j, const std::string& where) {
-  if (!j.is_object()) throw Error(where, "limits", excerpt(j), "an object");
+  const JsonCursor root(j, where);
   CommandLimits limits;
-  std::vector<std::string> keys;
+  std::vector<std::string_view> keys;
   visit_fields(limits, [&](const char* key, auto& value) {
     keys.emplace_back(key);
-    if (j.contains(key)) read_limit(value, j[key], where, key);
+    if (root.has(key)) read_limit(value, root[key]);
   });
-  for (const auto& [key, unused] : j.items())
-    if (std::ranges::find(keys, key) == keys.end())
-      throw Error(where, excerpt(key), "an unknown key", fmt::format("one of {}", fmt::join(keys, ", ")));
+  root.expect_keys({}, keys);
   if (const std::vector<std::string> problems = limits.problems(); !problems.empty())
     throw Error(fmt::format("{}: {}", where, fmt::join(problems, "; ")));
   return limits;

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
+#include <map>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/json_cursor.h"
 
 namespace glovebench {
 namespace {
@@ -70,37 +69,25 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("smoothing", "forget_after_frames", c.smoothing.forget_after, Range{1, 1e6});
 }
 
-[[noreturn]] void wrong_type(const std::string& where, const std::string& field, const json& found,
-                             const std::string& expected) {
-  throw Error(where, field, excerpt(found), expected);
+void read(double& value, const JsonCursor& json) {
+  value = json.number();
 }
-
-void read(double& value, const json& j, const std::string& where, const std::string& field) {
-  if (!j.is_number()) wrong_type(where, field, j, "a number");
-  value = j;
+void read(int& value, const JsonCursor& json) {
+  value = static_cast<int>(json.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
 }
-void read(int& value, const json& j, const std::string& where, const std::string& field) {
-  if (!j.is_number_integer() || j < std::numeric_limits<int>::min() || j > std::numeric_limits<int>::max()) {
-    wrong_type(where, field, j, "a whole number");
-  }
-  value = j;
-}
-void read(bool& value, const json& j, const std::string& where, const std::string& field) {
-  if (!j.is_boolean()) wrong_type(where, field, j, "true or false");
-  value = j;
+void read(bool& value, const JsonCursor& json) {
+  value = json.boolean();
 }
 template <Named Enum>
-void read(Enum& value, const json& j, const std::string& where, const std::string& field) {
-  const auto found = j.is_string() ? from_name<Enum>(j.get<std::string>()) : std::nullopt;
-  if (!found) wrong_type(where, field, j, known_names<Enum>());
-  value = *found;
+void read(Enum& value, const JsonCursor& json) {
+  value = json.one_of<Enum>();
 }
-void read(Cascade& value, const json& j, const std::string& where, const std::string& field) {
-  if (!j.is_string()) wrong_type(where, field, j, "a cascade such as \"16:500,64:3\"");
+void read(Cascade& value, const JsonCursor& json) {
+  if (!json.is_text()) json.fail("a cascade such as \"16:500,64:3\"");
   try {
-    value = parse_cascade(j.get<std::string>());
+    value = parse_cascade(json.text());
   } catch (const Error& e) {
-    throw Error(where + ": " + field + ": " + e.what());
+    throw Error(json.place() + ": " + e.what());
   }
 }
 
@@ -138,26 +125,18 @@ void check_range(const std::string& field, const Cascade& value, const Range&, s
   }
 }
 
-/// Every key of the object must be one that the fields name.
-void refuse_unknown_keys(const json& j, const std::string& where) {
-  std::set<std::string> sections = {"profile", "method"}, keys;
-  TrackerConfig any;
-  visit_fields(any, [&](const char* section, const char* key, auto&, const Range&) {
-    sections.insert(section);
-    keys.insert(fmt::format("{}.{}", section, key));
+/// Every key must be one that the fields name.
+void refuse_unknown_keys(const JsonCursor& root) {
+  std::vector<std::string_view> top = {"profile", "method"};
+  std::map<std::string_view, std::vector<std::string_view>> sections;
+  const TrackerConfig any;
+  visit_fields(any, [&](const char* section, const char* key, const auto&, const Range&) {
+    if (sections[section].empty()) top.emplace_back(section);
+    sections[section].emplace_back(key);
   });
-  const auto listed = [](const std::set<std::string>& names) {
-    return fmt::format("one of {}", fmt::join(names, ", "));
-  };
-  for (const auto& [section, content] : j.items()) {
-    if (!sections.contains(section)) throw Error(where, printable(section), "an unknown key", listed(sections));
-    if (section == "profile" || section == "method") continue;
-    if (!content.is_object()) wrong_type(where, section, content, "an object");
-    for (const auto& [key, value] : content.items()) {
-      const std::string field = section + "." + key;
-      if (!keys.contains(field)) throw Error(where, printable(field), "an unknown key", listed(keys));
-    }
-  }
+  root.expect_keys({}, top);
+  for (const auto& [section, keys] : sections)
+    if (root.has(section)) root[section].expect_keys({}, keys);
 }
 
 }  // namespace
@@ -184,24 +163,19 @@ TrackerConfig profile(const std::string& name) {
 }
 
 TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const std::string& where) {
-  if (!j.is_object()) wrong_type(where, "configuration", j, "an object");
-  refuse_unknown_keys(j, where);
+  const JsonCursor root(j, where);
+  refuse_unknown_keys(root);
   TrackerConfig config = base;
-  if (j.contains("profile")) {
-    if (!j["profile"].is_string()) wrong_type(where, "profile", j["profile"], "a name");
+  if (root.has("profile")) {
     try {
-      config = profile(j["profile"]);
+      config = profile(root["profile"].text());
     } catch (const Error& e) {
       throw Error(where + ": " + e.what());
     }
   }
-  if (j.contains("method")) {
-    if (!j["method"].is_string()) wrong_type(where, "method", j["method"], "a name");
-    config.method = j["method"];
-  }
+  if (root.has("method")) config.method = root["method"].text();
   visit_fields(config, [&](const char* section, const char* key, auto& value, const Range&) {
-    if (!j.contains(section) || !j[section].contains(key)) return;
-    read(value, j[section][key], where, fmt::format("{}.{}", section, key));
+    if (root.has(section) && root[section].has(key)) read(value, root[section][key]);
   });
   const std::vector<std::string> problems = config.problems();
   if (!problems.empty()) throw Error(fmt::format("{}: {}", where, fmt::join(problems, "; ")));

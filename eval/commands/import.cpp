@@ -4,10 +4,10 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
 #include "eval/commands/command.h"
 #include "eval/share.h"
 #include "trajectories/capture/import_capture.h"
-#include "trajectories/json_field.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::eval {

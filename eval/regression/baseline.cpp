@@ -7,11 +7,12 @@
 
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/read_limits.h"
 #include "eval/program_info.h"
 #include "eval/run_folder.h"
 #include "eval/suite.h"
-#include "reports/json_reader.h"
 #include "reports/json_text.h"
 #include "reports/results_json.h"
 
@@ -50,7 +51,7 @@ std::string provenance_json(const reports::NamedResult& run, const std::string& 
 /// Throws Incomparable unless the file is what the set's manifest says.
 std::string read_of(const FileSet& set, const std::string& name) {
   try {
-    return set.read(name, reports::kLargestFile);
+    return set.read(name, kLargestResults);
   } catch (const BrokenSet& e) {
     throw Incomparable(e.what());
   }
@@ -111,7 +112,7 @@ void require_same_bytes(const std::string& folder) {
 
 Provenance parse_provenance(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const reports::JsonReader json(document, where);
+  const JsonCursor json(document, where);
   json["format"].expect_text(kProvenanceFormat);
   json["version"].integer(1, 1);
   return {json["results_hash"].text(), reports::stage_times_from(json["times"])};

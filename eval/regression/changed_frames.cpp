@@ -5,6 +5,8 @@
 #include <map>
 
 #include "core/base/file_set.h"
+#include "core/base/json_cursor.h"
+#include "core/base/read_limits.h"
 #include "core/camera/registration.h"
 #include "core/kinect/disparity.h"
 #include "eval/replay.h"
@@ -12,7 +14,6 @@
 #include "render/label_renderer.h"
 #include "render/pictures.h"
 #include "reports/estimates.h"
-#include "reports/json_reader.h"
 #include "reports/tables.h"
 
 namespace glovebench::eval {
@@ -34,9 +35,8 @@ class EstimateFolder {
   std::optional<Estimate> find(const reports::ExperimentKey& key, uint64_t seed, int frame) {
     const std::string name = reports::estimates_file(key);
     if (!files_.contains(name)) {
-      files_[name] = set_.has(name)
-                         ? reports::parse_estimates(set_.read(name, reports::kLargestFile), set_.path(name))
-                         : std::vector<Estimate>{};
+      files_[name] = set_.has(name) ? reports::parse_estimates(set_.read(name, kLargestResults), set_.path(name))
+                                    : std::vector<Estimate>{};
     }
     for (const Estimate& estimate : files_[name]) {
       if (estimate.seed != seed || estimate.frame != frame) continue;

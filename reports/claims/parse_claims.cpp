@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "reports/claims/claims.h"
-#include "reports/json_reader.h"
 
 namespace glovebench::reports {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 /// Rules are about millimetres, degrees, counts and ratios: a larger bound is a slip of the pen.
 constexpr double kLargestBound = 1e6;
 
-Rule read_rule(const JsonReader& json) {
+Rule read_rule(const JsonCursor& json) {
   const auto members = json.members();
   if (members.size() != 1) json.fail("an object with one rule");
   const auto& [name, bound] = members.front();
@@ -32,12 +32,12 @@ Rule read_rule(const JsonReader& json) {
   return rule;
 }
 
-ClaimKind read_kind(const JsonReader& json) {
+ClaimKind read_kind(const JsonCursor& json) {
   return json.one_of<ClaimKind>();
 }
 
 /// One line that is not empty.
-std::string read_sentence(const JsonReader& json) {
+std::string read_sentence(const JsonCursor& json) {
   const std::string text = json.text();
   if (text.empty() || text.find_first_of("\r\n") != std::string::npos) json.fail("a line of text");
   return text;
@@ -47,7 +47,7 @@ bool consists_of(const std::string& text, size_t min, size_t max, std::string_vi
   return text.size() >= min && text.size() <= max && text.find_first_not_of(letters) == std::string::npos;
 }
 
-std::string read_id(const JsonReader& json, const std::vector<Claim>& before) {
+std::string read_id(const JsonCursor& json, const std::vector<Claim>& before) {
   const std::string id = json.text();
   if (!consists_of(id, 1, 40, "abcdefghijklmnopqrstuvwxyz0123456789-"))
     json.fail("lower-case letters, digits and hyphens, 40 at most");
@@ -58,20 +58,20 @@ std::string read_id(const JsonReader& json, const std::vector<Claim>& before) {
 /// The fields of a definition by their names.
 struct Field {
   std::string_view name;
-  void (*read)(ClaimDefinition& definition, const JsonReader& json);
+  void (*read)(ClaimDefinition& definition, const JsonCursor& json);
   bool (*equal)(const ClaimDefinition& a, const ClaimDefinition& b);
 };
 
 template <auto member, auto read_value>
 constexpr Field field(std::string_view name) {
-  return {name, [](ClaimDefinition& definition, const JsonReader& json) { definition.*member = read_value(json); },
+  return {name, [](ClaimDefinition& definition, const JsonCursor& json) { definition.*member = read_value(json); },
           [](const ClaimDefinition& a, const ClaimDefinition& b) { return a.*member == b.*member; }};
 }
 
-std::string read_text(const JsonReader& json) {
+std::string read_text(const JsonCursor& json) {
   return json.text();
 }
-bool read_boolean(const JsonReader& json) {
+bool read_boolean(const JsonCursor& json) {
   return json.boolean();
 }
 
@@ -86,7 +86,7 @@ constexpr std::array<Field, 10> kFields = {field<&ClaimDefinition::claim, read_s
                                            field<&ClaimDefinition::withdrawn, read_boolean>("withdrawn"),
                                            field<&ClaimDefinition::if_not, read_sentence>("if_not")};
 
-std::string read_date(const JsonReader& json, const std::string& before) {
+std::string read_date(const JsonCursor& json, const std::string& before) {
   const std::string date = json.text();
   const bool is_date = date.size() == 10 && date[4] == '-' && date[7] == '-' &&
                        consists_of(date.substr(0, 4) + date.substr(5, 2) + date.substr(8), 8, 8, "0123456789");
@@ -95,7 +95,7 @@ std::string read_date(const JsonReader& json, const std::string& before) {
   return date;
 }
 
-std::optional<std::string> read_commit(const JsonReader& json, bool is_newest) {
+std::optional<std::string> read_commit(const JsonCursor& json, bool is_newest) {
   if (json.is_null() && is_newest) return std::nullopt;
   const bool is_commit = json.is_text() && consists_of(json.text(), 7, 40, "0123456789abcdef");
   if (!is_commit) json.fail("a commit, 7 to 40 hexadecimal digits, or in the newest entry null");
@@ -103,7 +103,7 @@ std::optional<std::string> read_commit(const JsonReader& json, bool is_newest) {
 }
 
 /// Sets the fields that a change names: all of them in the first one, only others than before in a later one.
-void apply(const JsonReader& set, bool is_first, ClaimChange& change) {
+void apply(const JsonCursor& set, bool is_first, ClaimChange& change) {
   const ClaimDefinition before = change.definition;
   for (const auto& [name, value] : set.members()) {
     const auto known = std::ranges::find(kFields, name, &Field::name);
@@ -116,7 +116,7 @@ void apply(const JsonReader& set, bool is_first, ClaimChange& change) {
     for (const Field& field : kFields) set[field.name];
 }
 
-ClaimChange read_change(const JsonReader& json, const ClaimChange* before, bool is_newest) {
+ClaimChange read_change(const JsonCursor& json, const ClaimChange* before, bool is_newest) {
   json.expect_keys({"date", "commit", "set", "came_out", "why"});
   ClaimChange change;
   if (before) change.definition = before->definition;
@@ -128,17 +128,17 @@ ClaimChange read_change(const JsonReader& json, const ClaimChange* before, bool 
   return change;
 }
 
-std::vector<ClaimChange> read_history(const JsonReader& json) {
+std::vector<ClaimChange> read_history(const JsonCursor& json) {
   std::vector<ClaimChange> history;
   const JsonItems items = json.items();
   if (items.size() == 0) json.fail("at least the entry that writes the claim");
-  for (const JsonReader& item : items)
+  for (const JsonCursor& item : items)
     history.push_back(
         read_change(item, history.empty() ? nullptr : &history.back(), history.size() + 1 == items.size()));
   return history;
 }
 
-Claim read_claim(const JsonReader& json, const std::vector<Claim>& before) {
+Claim read_claim(const JsonCursor& json, const std::vector<Claim>& before) {
   json.expect_keys({"id", "claim", "source", "paper_value", "measured", "measure", "rule", "kind", "required",
                     "withdrawn", "if_not", "history"});
   Claim claim;
@@ -152,11 +152,11 @@ Claim read_claim(const JsonReader& json, const std::vector<Claim>& before) {
   return claim;
 }
 
-std::vector<JudgingChange> read_judging(const JsonReader& json) {
+std::vector<JudgingChange> read_judging(const JsonCursor& json) {
   std::vector<JudgingChange> judging;
   const JsonItems items = json.items();
   if (items.size() == 0) json.fail("at least one entry");
-  for (const JsonReader& item : items) {
+  for (const JsonCursor& item : items) {
     item.expect_keys({"date", "commit", "rule", "why"});
     judging.push_back({read_date(item["date"], judging.empty() ? "" : judging.back().date),
                        read_commit(item["commit"], judging.size() + 1 == items.size()), read_sentence(item["rule"]),
@@ -169,13 +169,13 @@ std::vector<JudgingChange> read_judging(const JsonReader& json) {
 
 ClaimSet parse_claims(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonReader json(document, where);
+  const JsonCursor json(document, where);
   json["format"].expect_text("glovebench-claims");
   json["version"].integer(2, 2);
   json.expect_keys({"format", "version", "judging", "claims"});
   ClaimSet set;
   set.judging = read_judging(json["judging"]);
-  for (const JsonReader& item : json["claims"].items()) set.claims.push_back(read_claim(item, set.claims));
+  for (const JsonCursor& item : json["claims"].items()) set.claims.push_back(read_claim(item, set.claims));
   return set;
 }
 

@@ -3,10 +3,11 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/read_limits.h"
 #include "reports/comparison/noise_floor.h"
 #include "reports/comparison/quantities.h"
-#include "reports/json_reader.h"
 #include "reports/json_text.h"
 
 namespace glovebench::reports {
@@ -15,14 +16,14 @@ namespace {
 constexpr std::string_view kNoiseFloorFormat = "glovebench-noise-floor";
 constexpr int kVersion = 1;
 
-double read_amount(const JsonReader& json) {
+double read_amount(const JsonCursor& json) {
   constexpr double kLargest = 1e6;  // of millimeters, degrees and percents: damage, and still fit to be rounded
   const double amount = json.number();
   if (amount < 0 || amount > kLargest) json.fail("a number in 0..1e6");
   return amount;
 }
 
-NoiseFloorEntry read_entry(const JsonReader& json) {
+NoiseFloorEntry read_entry(const JsonCursor& json) {
   json.expect_keys({"experiment", "quantity", "spread", "minimum_effect", "detectable"});
   NoiseFloorEntry entry = {json["experiment"].text(), json["quantity"].text(), read_amount(json["spread"]),
                            read_amount(json["minimum_effect"]), read_amount(json["detectable"])};
@@ -31,16 +32,16 @@ NoiseFloorEntry read_entry(const JsonReader& json) {
   return entry;
 }
 
-double read_family_error(const JsonReader& json) {
+double read_family_error(const JsonCursor& json) {
   const double error = json.number();
   if (error <= 0 || error >= 1) json.fail("a probability between 0 and 1");
   return error;
 }
 
-std::vector<NoiseFloorEntry> read_entries(const JsonReader& json) {
+std::vector<NoiseFloorEntry> read_entries(const JsonCursor& json) {
   std::vector<NoiseFloorEntry> entries;
   std::set<std::pair<std::string, std::string>> known;
-  for (const JsonReader& item : json.items()) {
+  for (const JsonCursor& item : json.items()) {
     entries.push_back(read_entry(item));
     if (!known.emplace(entries.back().experiment, entries.back().quantity).second)
       item.fail("an experiment and quantity that is not above");
@@ -75,7 +76,7 @@ NoiseFloor read_noise_floor(const std::string& path) {
 
 NoiseFloor parse_noise_floor(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonReader json(document, where);
+  const JsonCursor json(document, where);
   json["format"].expect_text(kNoiseFloorFormat);
   json["version"].integer(kVersion, kVersion);
   json.expect_keys(

@@ -7,9 +7,10 @@
 #include <map>
 
 #include "core/base/file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/read_limits.h"
 #include "reports/comparison/pairing.h"
-#include "reports/json_reader.h"
 #include "reports/json_text.h"
 
 namespace glovebench::reports {
@@ -31,14 +32,14 @@ bool is_ratio(double value) {
 }
 
 /// A name stands in messages of one line.
-std::string read_benchmark_name(const JsonReader& json) {
+std::string read_benchmark_name(const JsonCursor& json) {
   const std::string name = json.text();
   if (std::ranges::any_of(name, [](unsigned char c) { return c < ' '; }))
     json.fail("a name without control characters");
   return name;
 }
 
-double seconds_of_unit(const JsonReader& json) {
+double seconds_of_unit(const JsonCursor& json) {
   const std::string unit = json.text();
   if (unit == "ns") return 1e-9;
   if (unit == "us") return 1e-6;
@@ -47,17 +48,17 @@ double seconds_of_unit(const JsonReader& json) {
   json.fail("ns, us, ms or s");
 }
 
-double cpu_seconds(const JsonReader& run) {
+double cpu_seconds(const JsonCursor& run) {
   const double seconds = run["cpu_time"].number() * seconds_of_unit(run["time_unit"]);
   if (!(seconds >= kShortest_s && seconds <= kLongest_s)) run["cpu_time"].fail("a time above zero, up to a day");
   return seconds;
 }
 
 /// The runs by the benchmark's name. Aggregates carry the name of the runs they are made of, and are left out.
-std::map<std::string, Repetitions> read_repetitions(const JsonReader& benchmarks) {
+std::map<std::string, Repetitions> read_repetitions(const JsonCursor& benchmarks) {
   std::map<std::string, Repetitions> repetitions;
-  for (const JsonReader& run : benchmarks.items()) {
-    if (run.object().contains("error_occurred") && run["error_occurred"].boolean())
+  for (const JsonCursor& run : benchmarks.items()) {
+    if (run.has("error_occurred") && run["error_occurred"].boolean())
       run["error_occurred"].fail("a benchmark that did not fail");
     const std::string type = run["run_type"].text();
     if (type == "aggregate") continue;
@@ -101,7 +102,7 @@ SpeedRatio ratio_of(const std::string& name, const Repetitions& plain, const Rep
   return {name, ratio, std::min(ratio, of_pairs[1]), std::max(ratio, of_pairs[of_pairs.size() - 2])};
 }
 
-std::vector<SpeedRatio> read_benchmarks(const JsonReader& json, const std::string& where) {
+std::vector<SpeedRatio> read_benchmarks(const JsonCursor& json, const std::string& where) {
   constexpr std::string_view kPlain = "/plain";
   const std::map<std::string, Repetitions> repetitions = read_repetitions(json["benchmarks"]);
   std::vector<SpeedRatio> ratios;
@@ -115,18 +116,18 @@ std::vector<SpeedRatio> read_benchmarks(const JsonReader& json, const std::strin
   return ratios;
 }
 
-double read_ratio(const JsonReader& json) {
+double read_ratio(const JsonCursor& json) {
   const double ratio = json.number();
   if (!is_ratio(ratio)) json.fail(fmt::format("a ratio of {} to {}", kLeastRatio, kLargestRatio));
   return ratio;
 }
 
-std::vector<SpeedRatio> read_own(const JsonReader& json) {
+std::vector<SpeedRatio> read_own(const JsonCursor& json) {
   json.expect_keys({"format", "version", "ratios"});
   json["format"].expect_text(kSpeedFormat);
   json["version"].integer(1, 1);
   std::vector<SpeedRatio> ratios;
-  for (const JsonReader& item : json["ratios"].items()) {
+  for (const JsonCursor& item : json["ratios"].items()) {
     item.expect_keys({"name", "ratio", "low", "high"});
     ratios.push_back({read_benchmark_name(item["name"]), read_ratio(item["ratio"]), read_ratio(item["low"]),
                       read_ratio(item["high"])});
@@ -146,8 +147,8 @@ std::vector<SpeedRatio> read_speed_ratios(const std::string& path) {
 
 std::vector<SpeedRatio> parse_speed_ratios(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonReader json(document, where);
-  std::vector<SpeedRatio> ratios = json.object().contains("format") ? read_own(json) : read_benchmarks(json, where);
+  const JsonCursor json(document, where);
+  std::vector<SpeedRatio> ratios = json.has("format") ? read_own(json) : read_benchmarks(json, where);
   if (ratios.empty()) throw Error(where, "benchmarks", "no pair", "a pair NAME/plain, NAME/fast");
   return ratios;
 }

@@ -4,12 +4,13 @@
 
 #include "core/base/file.h"
 #include "core/base/parse_json.h"
+#include "core/base/read_limits.h"
 #include "reports/json_text.h"
 
 namespace glovebench::reports {
 namespace {
 
-double milliseconds(const JsonReader& json) {
+double milliseconds(const JsonCursor& json) {
   const double value = json.number();
   if (!(value >= 0 && value <= 1e9)) json.fail("milliseconds, 0 to 1e9");
   return value;
@@ -28,13 +29,13 @@ StageTimes read_stage_times(const std::string& timings_path) {
 
 StageTimes parse_stage_times(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonReader json(document, where);
+  const JsonCursor json(document, where);
   json["format"].expect_text("glovebench-timings");
   json["version"].integer(1, 1);
   StageTimes times{json["processor"].text(), json["threads"].count(), {}};
   const JsonItems experiments = json["experiments"].items();
   std::vector<int> counts;
-  for (const JsonReader& experiment : experiments) {
+  for (const JsonCursor& experiment : experiments) {
     for (const auto& [name, stage] : experiment["stages"].members()) {
       if (stage["median_ms"].is_null()) continue;
       StageTimes::Stage* known = find_stage(times.stages, name);
@@ -56,7 +57,7 @@ nlohmann::ordered_json stage_times_json(const StageTimes& times) {
   return {{"processor", times.processor}, {"threads", times.threads}, {"stage_median_ms", stages}};
 }
 
-StageTimes stage_times_from(const JsonReader& json) {
+StageTimes stage_times_from(const JsonCursor& json) {
   json.expect_keys({"processor", "threads", "stage_median_ms"});
   StageTimes times{json["processor"].text(), json["threads"].count(), {}};
   for (const auto& [name, value] : json["stage_median_ms"].members()) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/json_reader.h"
+#include "core/base/json_cursor.h"
 
 namespace glovebench::reports {
 
@@ -28,7 +28,7 @@ StageTimes parse_stage_times(const std::string& text, const std::string& where);
 
 /// As part of another file (a baseline's provenance).
 nlohmann::ordered_json stage_times_json(const StageTimes& times);
-StageTimes stage_times_from(const JsonReader& json);
+StageTimes stage_times_from(const JsonCursor& json);
 
 /// One stage in two runs; a stage that one of them does not have is left out.
 struct StageTimeChange {

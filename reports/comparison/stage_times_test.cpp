@@ -51,7 +51,7 @@ TEST_F(StageTimesFile, RoundTripsWithinAnotherFile) {
   const StageTimes times = read_stage_times(write(timings_json(two_experiments())));
   const nlohmann::json document = stage_times_json(times);
   const std::string where = "provenance.json";
-  const StageTimes again = stage_times_from(JsonReader(document, where));
+  const StageTimes again = stage_times_from(JsonCursor(document, where));
   EXPECT_EQ(stage_times_json(again), stage_times_json(times));
 }
 
@@ -83,7 +83,7 @@ TEST_F(StageTimesFile, DamageGivesAnErrorOrTimesButNothingElse) {
     write(damaged_text(timings_json(two_experiments()), random));
     try {
       const nlohmann::json document = stage_times_json(read_stage_times(path_));
-      EXPECT_NO_THROW(stage_times_from(JsonReader(document, path_)));
+      EXPECT_NO_THROW(stage_times_from(JsonCursor(document, path_)));
       ++accepted;
     } catch (const Error& error) {
       ++refused;

@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
+#include "core/base/json_cursor.h"
 #include "trajectories/capture/marker_cells.h"
-#include "trajectories/json_field.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
@@ -30,7 +30,7 @@ std::string_view point_name(std::string_view heading, std::string_view axis, std
 double read_headings(const std::vector<std::string_view>& headings, MarkerSequence& sequence,
                      const std::string& where) {
   if (headings.front() != kTime) {
-    throw Error(where, "line 1, column 1", quoted_excerpt(headings.front()), in_quotes(kTime));
+    throw Error(where, "line 1, column 1", quoted_excerpt(headings.front()), quoted_excerpt(kTime));
   }
   if (headings.size() < 4 || headings.size() % 3 != 1) {
     throw Error(where, "line 1", fmt::format("{} columns", headings.size()), "time_s and three for each point");

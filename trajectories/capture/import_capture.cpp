@@ -15,7 +15,7 @@
 #include "trajectories/capture/webxr_joints.h"
 #include "trajectories/generation/low_dispersion.h"
 #include "trajectories/generation/motion_script.h"
-#include "trajectories/json_field.h"
+#include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
 namespace {

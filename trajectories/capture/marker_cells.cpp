@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "trajectories/json_field.h"
+#include "core/base/json_cursor.h"
 #include "trajectories/text_cells.h"
 #include "trajectories/trajectory.h"
 

@@ -6,10 +6,10 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "trajectories/capture/marker_sequence.h"
 #include "trajectories/capture/webxr_joints.h"
-#include "trajectories/json_field.h"
 
 namespace glovebench::trajectories {
 namespace {
@@ -116,16 +116,14 @@ std::string known_places() {
 
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonField root(document, where);
-  root.expect_members({"format", "version", "markers"});
+  const JsonCursor root(document, where);
+  root.expect_keys({"format", "version", "markers"});
   root.expect_format(kLayoutFormat, kLayoutVersion);
-  const JsonField markers = root.member("markers");
-  markers.expect_object();
   MarkerLayout layout;
-  for (const auto& [name, value] : markers.value().items()) {
-    const std::string place = markers.member(name).text();
+  for (const auto& [name, marker] : root["markers"].members()) {
+    const std::string place = marker.text();
     if (!is_webxr_joint(place) && !places().contains(without_number(place))) {
-      markers.member(name).fail("one of " + known_places() + ", or a WebXR hand joint");
+      marker.fail("one of " + known_places() + ", or a WebXR hand joint");
     }
     layout[name] = place;
   }

@@ -8,8 +8,8 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
+#include "core/base/json_cursor.h"
 #include "trajectories/capture/marker_cells.h"
-#include "trajectories/json_field.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
@@ -25,7 +25,7 @@ void expect_cell(const Cells& cells, size_t column, std::string_view expected, c
   const std::string_view found = column < cells.size() ? cells[column] : std::string_view();
   if (found != expected) {
     throw Error(where, fmt::format("line {}, column {}", line, column + 1), quoted_excerpt(found),
-                in_quotes(expected));
+                quoted_excerpt(expected));
   }
 }
 

@@ -7,10 +7,10 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/hand/skeleton.h"
 #include "trajectories/capture/marker_cells.h"
-#include "trajectories/json_field.h"
 #include "trajectories/trajectory.h"
 
 namespace glovebench::trajectories {
@@ -26,23 +26,14 @@ MarkerSequence sequence_of_joints() {
   return sequence;
 }
 
-Eigen::Vector3d position_from(const JsonField& field) {
-  field.expect_array(3);
-  Eigen::Vector3d p;
-  for (int i = 0; i < 3; ++i) p[i] = field.element(static_cast<size_t>(i)).number(-kMaxCoordinate, kMaxCoordinate);
-  return p;
-}
-
-MarkerFrame webxr_frame(const JsonField& field) {
-  field.expect_members({"timestamp_us", "joints_m"});
+MarkerFrame webxr_frame(const JsonCursor& field) {
+  field.expect_keys({"timestamp_us", "joints_m"});
   MarkerFrame frame;
-  frame.timestamp_us = field.member("timestamp_us").integer(0, kMaxTimestampUs);
+  frame.timestamp_us = field["timestamp_us"].integer(0, kMaxTimestampUs);
   frame.points.assign(kWebxrJointCount, gap());
-  const JsonField joints = field.member("joints_m");
-  joints.expect_object();
-  for (const auto& [name, value] : joints.value().items()) {
-    if (!is_webxr_joint(name)) joints.member(name).fail(quoted_excerpt(name), "the name of a WebXR hand joint");
-    frame.points[static_cast<size_t>(joint_index(name))] = position_from(joints.member(name));
+  for (const auto& [name, position] : field["joints_m"].members()) {
+    if (!is_webxr_joint(name)) position.fail(quoted_excerpt(name), "the name of a WebXR hand joint");
+    frame.points[static_cast<size_t>(joint_index(name))] = position.vector3(kMaxCoordinate);
   }
   return frame;
 }
@@ -72,14 +63,14 @@ bool is_webxr_joint(const std::string& name) {
 
 MarkerSequence parse_webxr_joints(std::string_view text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonField root(document, where);
-  root.expect_members({"format", "version", "frames"});
+  const JsonCursor root(document, where);
+  root.expect_keys({"format", "version", "frames"});
   root.expect_format(kWebxrFormat, kWebxrVersion);
   MarkerSequence sequence = sequence_of_joints();
-  const JsonField frames = root.member("frames");
+  const JsonItems frames = root["frames"].some_items();
   int64_t first_us = 0;
-  for (size_t i = 0; i < frames.array_size(); ++i) {
-    MarkerFrame frame = webxr_frame(frames.element(i));
+  for (size_t i = 0; i < frames.size(); ++i) {
+    MarkerFrame frame = webxr_frame(frames[i]);
     if (i == 0) first_us = frame.timestamp_us;
     add_frame(std::move(frame), first_us, text.size(), sequence, where, fmt::format("frames[{}].timestamp_us", i));
   }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "core/base/angles.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "trajectories/generation/natural_variation.h"
-#include "trajectories/json_field.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::trajectories {
@@ -24,12 +24,11 @@ constexpr double kRotationTremorDeg = 0.1;
 constexpr double kDriftLowHz = 0.05, kDriftHighHz = 0.4;
 constexpr double kTremorLowHz = 2, kTremorHighHz = 5;
 
-Posture blend_from(const JsonField& field, const PostureSet& gestures) {
+Posture blend_from(const JsonCursor& field, const PostureSet& gestures) {
   Posture blend = Posture::Zero();
   double total = 0;
-  field.expect_object();
-  for (const auto& [gesture, unused] : field.value().items()) {
-    const double weight = field.member(gesture).number(0, 1);
+  for (const auto& [gesture, share] : field.members()) {
+    const double weight = share.number(0, 1);
     blend += weight * find_posture(gestures, gesture);
     total += weight;
   }
@@ -37,35 +36,32 @@ Posture blend_from(const JsonField& field, const PostureSet& gestures) {
   return blend;
 }
 
-WristAngles wrist_from(const JsonField& key) {
+WristAngles wrist_from(const JsonCursor& key) {
   const auto angle = [&](const char* name, Angle index) {
     const AngleInfo& info = angle_infos()[index];
-    return radians_from_degrees(key.member(name).number(info.min_deg, info.max_deg));
+    return radians_from_degrees(key[name].number(info.min_deg, info.max_deg));
   };
   return {angle("flexion_deg", kWristFlexion), angle("abduction_deg", kWristAbduction)};
 }
 
-HandPose pose_from(const JsonField& key) {
+HandPose pose_from(const JsonCursor& key) {
   HandPose pose;
-  const JsonField position = key.member("position_mm");
-  position.expect_array(3);
-  for (int i = 0; i < 3; ++i) pose.position[i] = position.element(i).number(-kMaxPositionMm, kMaxPositionMm) / 1000;
-  const auto angle = [&](const char* name) { return radians_from_degrees(key.member(name).number(-180, 180)); };
+  pose.position = key["position_mm"].vector3(kMaxPositionMm) / 1000;
+  const auto angle = [&](const char* name) { return radians_from_degrees(key[name].number(-180, 180)); };
   pose.rotation = hand_rotation(angle("yaw_deg"), angle("pitch_deg"), angle("roll_deg"));
   return pose;
 }
 
 /// The keys of one channel; `value_from` reads the value of one.
 template <typename Value, typename ValueFrom>
-std::vector<Keyframe<Value>> keys_from(const JsonField& field, int frame_count,
+std::vector<Keyframe<Value>> keys_from(const JsonCursor& field, int frame_count,
                                        std::initializer_list<std::string_view> members, ValueFrom value_from) {
   std::vector<Keyframe<Value>> keys;
-  for (size_t i = 0; i < field.array_size(); ++i) {
-    const JsonField key = field.element(i);
-    key.expect_members(members);
+  for (const JsonCursor& key : field.some_items()) {
+    key.expect_keys(members);
     const int first = keys.empty() ? 0 : keys.back().frame + 1;
     const int last = keys.empty() ? 0 : frame_count - 1;
-    const auto frame = static_cast<int>(key.member("frame").integer(first, last));
+    const auto frame = static_cast<int>(key["frame"].integer(first, last));
     keys.push_back({frame, value_from(key)});
   }
   if (keys.back().frame != frame_count - 1) {
@@ -150,23 +146,21 @@ HandPose pose_at(const MotionScript& script, int frame) {
 
 MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  const JsonField root(document, where);
-  root.expect_members(
+  const JsonCursor root(document, where);
+  root.expect_keys(
       {"format", "version", "name", "description", "seed", "frame_count", "postures", "wrist", "poses"});
-  root.member("format").expect_text("glovebench-motion-script");
-  root.member("version").integer(1, 1);
+  root.expect_format("glovebench-motion-script", 1);
 
   MotionScript script;
-  script.name = root.member("name").name();
-  script.description = root.member("description").text();
-  script.seed = static_cast<uint64_t>(root.member("seed").integer(0, 1'000'000));
-  script.frame_count = static_cast<int>(root.member("frame_count").integer(2, 100'000));
-  script.postures =
-      keys_from<Posture>(root.member("postures"), script.frame_count, {"frame", "blend"},
-                         [&](const JsonField& key) { return blend_from(key.member("blend"), gestures); });
-  script.wrist = keys_from<WristAngles>(root.member("wrist"), script.frame_count,
+  script.name = root["name"].name();
+  script.description = root["description"].text();
+  script.seed = static_cast<uint64_t>(root["seed"].integer(0, 1'000'000));
+  script.frame_count = static_cast<int>(root["frame_count"].integer(2, 100'000));
+  script.postures = keys_from<Posture>(root["postures"], script.frame_count, {"frame", "blend"},
+                                       [&](const JsonCursor& key) { return blend_from(key["blend"], gestures); });
+  script.wrist = keys_from<WristAngles>(root["wrist"], script.frame_count,
                                         {"frame", "flexion_deg", "abduction_deg"}, wrist_from);
-  script.poses = keys_from<HandPose>(root.member("poses"), script.frame_count,
+  script.poses = keys_from<HandPose>(root["poses"], script.frame_count,
                                      {"frame", "position_mm", "yaw_deg", "pitch_deg", "roll_deg"}, pose_from);
   return script;
 }

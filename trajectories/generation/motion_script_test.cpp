@@ -93,7 +93,7 @@ TEST(MotionScript, refuses_keys_that_do_not_span_the_frames) {
   EXPECT_THAT(script_complaint(bad), HasSubstr("poses[0].frame: found 1"));
   bad = example_script();
   bad["postures"][1]["frame"] = 0;
-  EXPECT_THAT(script_complaint(bad), HasSubstr("postures[1].frame: found 0, expected an integer from 1 to 30"));
+  EXPECT_THAT(script_complaint(bad), HasSubstr("postures[1].frame: found 0, expected a whole number in 1..30"));
 }
 
 TEST(MotionScript, refuses_impossible_blends) {

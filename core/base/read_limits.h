@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+namespace glovebench {
+
+// Larger files are refused before they take memory (core/README.md), bytes.
+/// Trajectories, posture sets, captures.
+inline constexpr uint64_t kLargestMovement = uint64_t{64} << 20;
+/// Results and estimates: the report of some million frames.
+inline constexpr uint64_t kLargestResults = 256'000'000;
+/// What does not grow with the frames: times, ratios, noise floors.
+inline constexpr uint64_t kLargestSmallFile = 16'000'000;
+
+}  // namespace glovebench
