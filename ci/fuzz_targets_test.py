@@ -17,6 +17,8 @@ def main() -> int:
     targets = [path.name.removesuffix("_fuzz.cpp") 
                for module in ("core", "trajectories", "render", "reports", "eval")
                for path in (root / module).rglob("*_fuzz.cpp")]
+    targets += [f"format_{path.name.removesuffix('_format.cpp')}"
+                for path in (root / "trajectories/formats").glob("*_format.cpp")]
     faults = [f"core/README.md: {row[0].strip()}: found no fuzz target, expected one" for row in rows if "`" not in row[2]]
     faults += [f"core/README.md: {name}: found no {name}_fuzz.cpp" for name in listed if name not in targets]
     faults += [f"{name}_fuzz.cpp: found {listed.count(name)} times in core/README.md, expected once"

@@ -12,18 +12,74 @@
 
 #include "core/base/file.h"
 #include "core/base/fuzz_target.h"
+#include "trajectories/formats/format.h"
+#include "trajectories/posture_file.h"
 
 namespace glovebench {
 
-std::span<const FuzzTarget> fuzz_targets();
+std::vector<FuzzTarget> fuzz_targets_of_files();
 
 namespace {
 
 namespace fs = std::filesystem;
 
-const FuzzTarget& find_target(std::string_view name) {
-  const auto found = std::ranges::find(fuzz_targets(), name, &FuzzTarget::name);
-  if (found == fuzz_targets().end())
+void check_trajectory(const trajectories::Trajectory& trajectory) {
+  const std::string text = canonical_text(trajectory);
+  check(canonical_text(trajectories::parse_trajectory(text, "again")) == text, "a trajectory returns");
+}
+
+void check_postures(const PostureSet& set) {
+  const std::string text = trajectories::canonical_text(set);
+  check(trajectories::canonical_text(trajectories::parse_postures_json(text, "again")) == text, "a set returns");
+}
+
+void check_markers(const trajectories::MarkerSequence& sequence) {
+  int64_t before_us = -1;
+  for (const trajectories::MarkerFrame& frame : sequence.frames) {
+    check(frame.timestamp_us > before_us, "times increase");
+    before_us = frame.timestamp_us;
+    check(frame.points.size() == sequence.names.size(), "a point for each name");
+    for (const Eigen::Vector3d& p : frame.points) {
+      const bool in_reach = p.cwiseAbs().maxCoeff() <= trajectories::kMaxCoordinate * (1 + 1e-12);
+      check(trajectories::is_seen(p) ? in_reach : p.array().isNaN().all(), "a point in reach or a gap");
+    }
+  }
+}
+
+/// Of a format that we also write.
+void check_csv_returns(const trajectories::Format& csv, std::string_view bytes) {
+  const auto text_of = [&](std::string_view text) {
+    return trajectories::csv_markers(csv.markers(text, Side::right, "capture.csv"));
+  };
+  const std::string text = text_of(bytes);
+  check(text_of(text) == text, "a capture returns");
+}
+
+/// Reads bytes in a format and checks what every format must keep to: what was read and written is read again as it
+/// was; points lie in reach or are gaps, one for each name, and times increase.
+void fuzz_format(const trajectories::Format& format, std::string_view bytes) {
+  const std::string where = "file" + std::string(format.ending);
+  if (format.trajectory) check_trajectory(format.trajectory(bytes, where));
+  if (format.postures) check_postures(format.postures(bytes, "set", where));
+  if (!format.markers) return;
+  if (format.name == "csv") check_csv_returns(format, bytes);
+  for (const Side side : {Side::right, Side::left})
+    expect_value_or_error([&] { check_markers(format.markers(bytes, side, where)); });
+}
+
+/// One for each file X_fuzz.cpp and each format of a file.
+std::vector<FuzzTarget> fuzz_targets() {
+  std::vector<FuzzTarget> targets = fuzz_targets_of_files();
+  for (const trajectories::Format& format : trajectories::formats())
+    targets.push_back(
+        {"format_" + std::string(format.name), [&format](std::string_view bytes) { fuzz_format(format, bytes); }});
+  return targets;
+}
+
+FuzzTarget find_target(std::string_view name) {
+  const std::vector<FuzzTarget> targets = fuzz_targets();
+  const auto found = std::ranges::find(targets, name, &FuzzTarget::name);
+  if (found == targets.end())
     throw Error("fuzz target", "name", std::string(name), "one that glovebench_fuzz --list prints");
   return *found;
 }
@@ -31,7 +87,7 @@ const FuzzTarget& find_target(std::string_view name) {
 #ifndef GLOVEBENCH_FUZZ
 
 int print_list() {
-  for (const FuzzTarget& target : fuzz_targets()) std::printf("%s\n", target.name.data());
+  for (const FuzzTarget& target : fuzz_targets()) std::printf("%s\n", target.name.c_str());
   return 0;
 }
 
@@ -52,7 +108,7 @@ std::vector<fs::path> files_of(std::span<char*> arguments) {
 int replay(std::string_view name, std::span<char*> arguments) {
   std::string current = "the list of files";
   try {
-    const FuzzTarget& target = find_target(name);
+    const FuzzTarget target = find_target(name);
     const std::vector<fs::path> files = files_of(arguments);
     for (const fs::path& file : files) {
       current = file.string();
@@ -74,7 +130,7 @@ int replay(std::string_view name, std::span<char*> arguments) {
 
 #ifdef GLOVEBENCH_FUZZ
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static const glovebench::FuzzTarget& target = [&]() -> const glovebench::FuzzTarget& {
+  static const glovebench::FuzzTarget target = [] {
     const char* name = std::getenv("GLOVEBENCH_FUZZ_TARGET");
     return glovebench::find_target(name != nullptr ? name : "");
   }();

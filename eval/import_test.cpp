@@ -4,9 +4,9 @@
 #include "ci/build_paths.h"
 #include "eval/share.h"
 #include "eval/test_program.h"
-#include "trajectories/capture/csv_markers.h"
 #include "trajectories/capture/test_capture.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {

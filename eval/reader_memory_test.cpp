@@ -28,8 +28,8 @@
 #include "reports/example_result.h"
 #include "reports/results_json.h"
 #include "reports/timings.h"
-#include "trajectories/capture/import_capture.h"
 #include "trajectories/capture/marker_places.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/generation/motion_script.h"
 #include "trajectories/posture_file.h"
 #include "trajectories/trajectory.h"
@@ -222,7 +222,7 @@ std::vector<Reader> json_readers() {
        motion::canonical_text(gestures())},
       {"marker layout", [=](auto& text) { motion::parse_marker_layout(text, w); },
        R"({"format": "glovebench-marker-layout", "version": 1, "markers": {"a": "wrist"}})"},
-      {"webxr", [=](auto& text) { motion::parse_capture(text, "webxr", Side::right, w); }, kWebxr},
+      {"webxr", [=](auto& text) { motion::find_marker_format("webxr").markers(text, Side::right, w); }, kWebxr},
       {"motion script", [=](auto& text) { motion::parse_motion_script(text, gestures(), w); }, kScript},
       {"suite", [=](auto& text) { eval::parse_suite(text, w); }, kSuite},
       {"results", [=](auto& text) { reports::parse_results(text, w); }, results_json(result)},
@@ -309,7 +309,7 @@ TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
 std::vector<Reader> text_readers() {
   const std::string w = "x";
   const auto capture = [=](const std::string& format) {
-    return [=](const std::string& text) { motion::parse_capture(text, format, Side::right, w); };
+    return [=](const std::string& text) { motion::find_marker_format(format).markers(text, Side::right, w); };
   };
   return {{"csv capture", capture("csv"), ""},
           {"trc capture", capture("trc"), ""},

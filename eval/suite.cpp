@@ -13,6 +13,7 @@
 #include "core/base/parse_json.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
@@ -29,12 +30,8 @@ constexpr int64_t kMaxSeed = 4'294'967'295;
 constexpr int kMaxFrame = 1'000'000;
 constexpr double kMaxNoiseFactor = 100;
 
-bool is_trajectory_file(const std::string& name) {
-  return name.ends_with(".json");
-}
-
 bool is_database_file(const std::string& name) {
-  return name.ends_with(".glovedb") || name.ends_with(".csv") || name.ends_with(".json");
+  return name.ends_with(kDatabaseEnding) || trajectories::is_posture_file(name);
 }
 
 reports::NoiseSetting noise_from(const JsonCursor& field) {
@@ -57,7 +54,7 @@ SuiteEntry entry_from(const JsonCursor& field, const fs::path& folder) {
   field.expect_keys({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
   const std::string trajectory = field["trajectory"].text();
   SuiteEntry entry;
-  entry.trajectory = is_trajectory_file(trajectory) ? (folder / trajectory).string() : trajectory;
+  entry.trajectory = trajectories::is_trajectory_file(trajectory) ? (folder / trajectory).string() : trajectory;
   entry.truth = field["truth"].one_of<TruthKind>();
   for (const JsonCursor& item : field["databases"].some_items()) {
     const std::string database = item.text();
@@ -100,7 +97,8 @@ class Truths {
   explicit Truths(Side side) : side_(side) {}
 
   std::shared_ptr<const Trajectory> get(const SuiteEntry& entry) {
-    const std::pair place{entry.trajectory, is_trajectory_file(entry.trajectory) ? std::nullopt : entry.truth};
+    const std::pair place{entry.trajectory,
+                          trajectories::is_trajectory_file(entry.trajectory) ? std::nullopt : entry.truth};
     std::shared_ptr<const Trajectory>& truth = truths_[place];
     if (!truth) {
       const auto loaded = std::make_shared<const Trajectory>(load(entry));
@@ -112,7 +110,7 @@ class Truths {
 
   static Trajectory load(const SuiteEntry& entry) {
     const std::string& name = entry.trajectory;
-    if (!is_trajectory_file(name)) {
+    if (!trajectories::is_trajectory_file(name)) {
       return entry.truth == TruthKind::recorded ? trajectories::recorded_trajectory(trajectory_folder(), name)
                                                 : trajectories::source_trajectory(trajectory_folder(), name);
     }

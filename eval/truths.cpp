@@ -2,6 +2,7 @@
 
 #include "eval/share.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 

@@ -11,6 +11,7 @@
 #include "eval/share.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::eval {
@@ -62,8 +63,8 @@ std::shared_ptr<const Database> Workbench::database(const PostureSet& postures) 
 }
 
 std::string Workbench::add_database(const std::string& name_or_file) {
-  const bool is_built = name_or_file.ends_with(".glovedb");
-  if (!is_built && !name_or_file.ends_with(".csv") && !name_or_file.ends_with(".json")) return name_or_file;
+  const bool is_built = name_or_file.ends_with(kDatabaseEnding);
+  if (!is_built && !trajectories::is_posture_file(name_or_file)) return name_or_file;
   const std::lock_guard lock(mutex_);
   std::shared_ptr<const Database> built;
   PostureSet postures;

@@ -7,8 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/json_cursor.h"
-#include "trajectories/posture_file.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::trajectories {
 namespace {

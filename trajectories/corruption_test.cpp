@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/random.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 #include "trajectories/trajectory.h"
 

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/test_folder.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -56,7 +56,6 @@ inline constexpr double kQuaternionNormTolerance = 1e-3;
 /// Reads the JSON format of README.md. `where` names the text in messages. Throws Error naming the field, what
 /// was found and what was expected.
 Trajectory parse_trajectory(std::string_view text, const std::string& where);
-Trajectory load_trajectory(const std::string& path);
 
 /// The canonical file content: angles to 0.001 deg, positions to 0.001 mm, quaternions to 1e-7 with w >= 0.
 /// Byte for byte the same for the same trajectory, and for the one parsed from it. Throws Error if the trajectory

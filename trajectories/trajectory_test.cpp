@@ -10,6 +10,7 @@
 #include "core/base/file.h"
 #include "core/base/random.h"
 #include "core/test_folder.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include "core/base/check.h"
@@ -12,8 +14,8 @@ namespace glovebench {
 /// A reader, or a state machine, that is tried with any bytes. `run` may return or throw Error of one line; the
 /// driver (eval/fuzz_main.cpp) counts everything else as a finding.
 struct FuzzTarget {
-  std::string_view name;                ///< X of the file X_fuzz.cpp and of the folder ci/corpora/X
-  void (*run)(std::string_view bytes);  ///< X_fuzz
+  std::string name;  ///< of the folder ci/corpora/NAME; X of a file X_fuzz.cpp, whose function X_fuzz is `run`
+  std::function<void(std::string_view bytes)> run;
 };
 
 /// Runs a reader that may throw Error of one line.

@@ -42,14 +42,14 @@ std::string stem(const DatabaseCache& cache, const PostureSet& postures, const s
 
 /// Removes what other code built of the same inputs: each change of the code would leave another large file.
 void remove_outdated(const DatabaseCache& cache, const std::string& stem, const std::string& file) {
-  constexpr std::string_view kEnding = ".glovedb";
   constexpr size_t kSourceHash = 17;  // with its hyphen
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(cache.folder, ignored)) {
     const std::string name = entry.path().filename();
-    const bool is_of_inputs = name.starts_with(stem) && name.ends_with(kEnding) &&
-                              (name.size() == stem.size() + kEnding.size() ||  // before there was a source hash
-                               name.size() == stem.size() + kSourceHash + kEnding.size());
+    const bool is_of_inputs =
+        name.starts_with(stem) && name.ends_with(kDatabaseEnding) &&
+        (name.size() == stem.size() + kDatabaseEnding.size() ||  // before there was a source hash
+         name.size() == stem.size() + kSourceHash + kDatabaseEnding.size());
     if (is_of_inputs && entry.path() != file && entry.is_regular_file(ignored))
       std::filesystem::remove(entry.path(), ignored);
   }
@@ -86,9 +86,9 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
 }
 
 std::string DatabaseCache::path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const {
-  return path_within(
-      folder, fmt::format("{}-{}.glovedb", stem(*this, postures, Database::input_hash(postures, model, views)),
-                          hash_text(source_hash).substr(0, 16)));
+  return path_within(folder,
+                     fmt::format("{}-{}{}", stem(*this, postures, Database::input_hash(postures, model, views)),
+                                 hash_text(source_hash).substr(0, 16), kDatabaseEnding));
 }
 
 }  // namespace glovebench

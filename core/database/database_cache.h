@@ -7,6 +7,9 @@
 
 namespace glovebench {
 
+/// Of the name of a database file.
+inline constexpr std::string_view kDatabaseEnding = ".glovedb";
+
 /// Loads the database of these inputs from `folder`, or builds and stores it there. The file's name holds the hash
 /// of all inputs and that of the code that builds: a change of either makes another file, as does low memory. Two
 /// processes that want the same one wait for each other; a damaged file is named through `message` and rebuilt. A

@@ -8,6 +8,7 @@
 #include "eval/share.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::eval {
@@ -18,7 +19,7 @@ struct Build {
   std::string postures;
 
   void run() {
-    const bool is_file = postures.ends_with(".csv") || postures.ends_with(".json");
+    const bool is_file = trajectories::is_posture_file(postures);
     const PostureSet set = is_file ? trajectories::load_posture_set(postures)
                                    : trajectories::posture_set(trajectory_folder(), postures);
     Workbench workbench = common.workbench();

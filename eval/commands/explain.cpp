@@ -8,6 +8,7 @@
 #include "eval/truths.h"
 #include "render/pictures.h"
 #include "reports/results_json.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {

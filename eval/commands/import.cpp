@@ -4,10 +4,10 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
-#include "core/base/json_cursor.h"
 #include "eval/commands/command.h"
 #include "eval/share.h"
 #include "trajectories/capture/import_capture.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 
 namespace glovebench::eval {
@@ -25,6 +25,7 @@ struct ImportMarkers {
 
   void run() const {
     const Side side = left ? Side::left : Side::right;
+    const trajectories::Format& read = trajectories::find_marker_format(format);
     const bool is_poses = format == "handpose";
     if (files.size() > 1 && !is_poses) {
       throw Error("import markers", "files", fmt::format("{}", files.size()),
@@ -42,7 +43,7 @@ struct ImportMarkers {
             ? trajectories::MarkerLayout{}
             : trajectories::parse_marker_layout(read_file(layout, trajectories::kLargestMarkerLayout), layout);
     const HandModel model = HandModel::load(hand_mesh_path());
-    const trajectories::HandFit fit = trajectories::import_capture(files, format, side, markers, model);
+    const trajectories::HandFit fit = trajectories::import_capture(files, read, side, markers, model);
     if (is_poses || postures > 0) {
       const size_t count = postures > 0 ? static_cast<size_t>(postures) : fit.frames.size();
       trajectories::write_posture_set(
@@ -83,7 +84,7 @@ void add_import(CLI::App& program) {
                                              "written beside it (trajectories/README.md).");
   const auto state = std::make_shared<ImportMarkers>();
   command->add_option("file", state->files, "capture; several of --format handpose are one set")->required();
-  command->add_option("--format", state->format, "csv, trc, webxr or handpose")->required();
+  command->add_option("--format", state->format, trajectories::marker_format_names())->required();
   command->add_option("-o,--output", state->output, "file to write (*.json); its name is the trajectory's")
       ->required();
   command->add_option("--layout", state->layout, "JSON file that says where the markers of other names sit");

@@ -12,6 +12,7 @@
 #include "eval/suite.h"
 #include "render/noise/noise_model.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {

@@ -5,6 +5,7 @@
 #include "eval/record.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
@@ -15,7 +16,7 @@ struct Record {
   std::string database;
 
   void run() {
-    const bool is_file = trajectory.ends_with(".json");
+    const bool is_file = trajectories::is_trajectory_file(trajectory);
     const trajectories::Trajectory source = is_file
                                                 ? trajectories::load_trajectory(trajectory)
                                                 : trajectories::source_trajectory(trajectory_folder(), trajectory);

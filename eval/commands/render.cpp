@@ -13,6 +13,7 @@
 #include "render/label_renderer.h"
 #include "render/pictures.h"
 #include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
@@ -57,7 +58,7 @@ struct Render {
   }
 
   Trajectory load() const {
-    if (trajectory.ends_with(".json")) return trajectories::load_trajectory(trajectory);
+    if (trajectories::is_trajectory_file(trajectory)) return trajectories::load_trajectory(trajectory);
     return truth == "recorded" ? trajectories::recorded_trajectory(trajectory_folder(), trajectory)
                                : trajectories::source_trajectory(trajectory_folder(), trajectory);
   }

@@ -8,6 +8,7 @@
 #include "eval/suite.h"
 #include "reports/study_text.h"
 #include "reports/summary.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
@@ -86,7 +87,7 @@ struct Run {
     Suite suite;
     for (const std::string& trajectory : trajectories) {
       SuiteEntry entry{trajectory, {}, databases, subject, {noise, gain}, {}};
-      if (!trajectory.ends_with(".json")) {
+      if (!trajectories::is_trajectory_file(trajectory)) {
         entry.truth = truth == "recorded" ? reports::TruthKind::recorded : reports::TruthKind::source;
       }
       suite.entries.push_back(entry);

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 
 #include "trajectories/capture/fit_frame.h"
-#include "trajectories/capture/posture_prior.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -7,10 +7,9 @@
 
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
-#include "trajectories/capture/csv_markers.h"
 #include "trajectories/capture/marker_places.h"
-#include "trajectories/capture/trc_markers.h"
-#include "trajectories/capture/webxr_joints.h"
+
+#include "trajectories/formats/format.h"
 
 namespace glovebench::trajectories {
 namespace {
@@ -57,6 +56,11 @@ std::string refusal_of(Parse parse) {
   return "accepted";
 }
 
+MarkerSequence parsed(std::string_view format, std::string_view bytes, const std::string& where,
+                      Side side = Side::right) {
+  return find_marker_format(format).markers(bytes, side, where);
+}
+
 void expect_three_frames(const MarkerSequence& sequence) {
   ASSERT_EQ(sequence.frames.size(), 3U);
   EXPECT_EQ(sequence.frames[0].timestamp_us, 0) << "times count from the first frame";
@@ -68,18 +72,18 @@ void expect_three_frames(const MarkerSequence& sequence) {
 }
 
 TEST(CaptureFiles, csv_holds_points_gaps_and_times) {
-  const MarkerSequence sequence = parse_csv_markers(kCsv, "file");
+  const MarkerSequence sequence = parsed("csv", kCsv, "file");
   EXPECT_THAT(sequence.names, testing::ElementsAre("index_tip", "unlabeled_1"));
   EXPECT_FALSE(is_unlabeled(sequence.names[0]));
   EXPECT_TRUE(is_unlabeled(sequence.names[1]));
   expect_three_frames(sequence);
   const std::string written = csv_markers(sequence);
-  EXPECT_EQ(csv_markers(parse_csv_markers(written, "file")), written);
-  EXPECT_EQ(parse_csv_markers("time_s,*1_x_m,*1_y_m,*1_z_m\n0,1,2,3\n", "file").frames[0].points[0].z(), 3.0);
+  EXPECT_EQ(csv_markers(parsed("csv", written, "file")), written);
+  EXPECT_EQ(parsed("csv", "time_s,*1_x_m,*1_y_m,*1_z_m\n0,1,2,3\n", "file").frames[0].points[0].z(), 3.0);
 }
 
 TEST(CaptureFiles, csv_refuses_in_one_line) {
-  const auto refused = [](const std::string& text) { return refusal_of([&] { parse_csv_markers(text, "file"); }); };
+  const auto refused = [](const std::string& text) { return refusal_of([&] { parsed("csv", text, "file"); }); };
   EXPECT_THAT(refused(""), HasSubstr("file: line 1, column 1: found \"\", expected \"time_s\""));
   EXPECT_THAT(refused("time_s\n"), HasSubstr("line 1: found 1 columns"));
   EXPECT_THAT(refused(replaced(kCsv, "index_tip_y_mm", "index_tip_y_m")), HasSubstr("line 1, column 3"));
@@ -95,14 +99,14 @@ TEST(CaptureFiles, csv_refuses_in_one_line) {
 }
 
 TEST(CaptureFiles, trc_holds_points_gaps_and_times) {
-  const MarkerSequence sequence = parse_trc_markers(kTrc, "file");
+  const MarkerSequence sequence = parsed("trc", kTrc, "file");
   EXPECT_THAT(sequence.names, testing::ElementsAre("index_tip", "wrist"));
   expect_three_frames(sequence);
-  EXPECT_EQ(parse_trc_markers(replaced(kTrc, "\tmm\t", "\tm\t"), "file").frames[2].points[0].z(), 9.0);
+  EXPECT_EQ(parsed("trc", replaced(kTrc, "\tmm\t", "\tm\t"), "file").frames[2].points[0].z(), 9.0);
 }
 
 TEST(CaptureFiles, trc_refuses_in_one_line) {
-  const auto refused = [](const std::string& text) { return refusal_of([&] { parse_trc_markers(text, "file"); }); };
+  const auto refused = [](const std::string& text) { return refusal_of([&] { parsed("trc", text, "file"); }); };
   EXPECT_THAT(refused(""), HasSubstr("file: lines: found 1"));
   EXPECT_THAT(refused(replaced(kTrc, "PathFileType", "Path")), HasSubstr("line 1, column 1: found \"Path\""));
   EXPECT_THAT(refused(replaced(kTrc, "\tmm\t", "\tcm\t")),
@@ -117,7 +121,7 @@ TEST(CaptureFiles, trc_refuses_in_one_line) {
 }
 
 TEST(CaptureFiles, webxr_joints_that_a_frame_does_not_name_are_gaps) {
-  const MarkerSequence sequence = parse_webxr_joints(kWebxr, "file");
+  const MarkerSequence sequence = parsed("webxr", kWebxr, "file");
   ASSERT_EQ(sequence.names.size(), 25U);
   ASSERT_EQ(sequence.frames.size(), 2U);
   EXPECT_EQ(sequence.frames[0].timestamp_us, 0);
@@ -126,9 +130,7 @@ TEST(CaptureFiles, webxr_joints_that_a_frame_does_not_name_are_gaps) {
   EXPECT_EQ(sequence.frames[0].points[24], Eigen::Vector3d(0, -1, 2));
   EXPECT_FALSE(is_seen(sequence.frames[0].points[5]));
 
-  const auto refused = [](const std::string& text) {
-    return refusal_of([&] { parse_webxr_joints(text, "file"); });
-  };
+  const auto refused = [](const std::string& text) { return refusal_of([&] { parsed("webxr", text, "file"); }); };
   EXPECT_THAT(refused(replaced(kWebxr, "\"wrist\"", "\"elbow\"")),
               AllOf(HasSubstr("file: frames[0].joints_m.elbow"), HasSubstr("WebXR hand joint")));
   EXPECT_THAT(refused(replaced(kWebxr, "0.1, ", "")), HasSubstr("frames[0].joints_m.wrist: found"));
@@ -159,10 +161,10 @@ std::string handpose_bytes(float joint_count = 25) {
 
 TEST(CaptureFiles, handposes_hold_both_hands) {
   const std::string bytes = handpose_bytes();
-  EXPECT_EQ(parse_handpose(bytes, Side::left, "file").frames[0].points[7], Eigen::Vector3d(7, 0, 0));
-  EXPECT_EQ(parse_handpose(bytes, Side::right, "file").frames[0].points[24], Eigen::Vector3d(24, 1, 0));
+  EXPECT_EQ(parsed("handpose", bytes, "file", Side::left).frames[0].points[7], Eigen::Vector3d(7, 0, 0));
+  EXPECT_EQ(parsed("handpose", bytes, "file", Side::right).frames[0].points[24], Eigen::Vector3d(24, 1, 0));
   const auto refused = [](const std::string& text) {
-    return refusal_of([&] { parse_handpose(text, Side::right, "file"); });
+    return refusal_of([&] { parsed("handpose", text, "file", Side::right); });
   };
   EXPECT_THAT(refused(bytes.substr(1)), HasSubstr("file: size: found 3403 bytes, expected 3404"));
   EXPECT_THAT(refused(handpose_bytes(24)), HasSubstr("float 0: found 24, expected 25"));
@@ -188,11 +190,11 @@ TEST(CaptureFiles, damage_is_refused_or_gives_a_sequence) {
     std::function<size_t(const std::string&)> frames;
   };
   const std::vector<Reader> readers = {
-      {kCsv, [](const std::string& text) { return parse_csv_markers(text, "damaged").frames.size(); }},
-      {kTrc, [](const std::string& text) { return parse_trc_markers(text, "damaged").frames.size(); }},
-      {kWebxr, [](const std::string& text) { return parse_webxr_joints(text, "damaged").frames.size(); }},
+      {kCsv, [](const std::string& text) { return parsed("csv", text, "damaged").frames.size(); }},
+      {kTrc, [](const std::string& text) { return parsed("trc", text, "damaged").frames.size(); }},
+      {kWebxr, [](const std::string& text) { return parsed("webxr", text, "damaged").frames.size(); }},
       {handpose_bytes(),
-       [](const std::string& text) { return parse_handpose(text, Side::left, "damaged").frames.size(); }},
+       [](const std::string& text) { return parsed("handpose", text, "damaged", Side::left).frames.size(); }},
       {R"({"format": "glovebench-marker-layout", "version": 1, "markers": {"a": "wrist_2", "b:": "index_tip"}})",
        [](const std::string& text) { return parse_marker_layout(text, "damaged").size() + 1; }},
   };

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/quantile.h"
 #include "trajectories/capture/test_capture.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -10,9 +10,6 @@
 #include "core/base/excerpt.h"
 #include "core/base/file.h"
 #include "core/base/quantile.h"
-#include "trajectories/capture/csv_markers.h"
-#include "trajectories/capture/trc_markers.h"
-#include "trajectories/capture/webxr_joints.h"
 #include "trajectories/generation/low_dispersion.h"
 #include "trajectories/generation/motion_script.h"
 #include "trajectories/text_cells.h"
@@ -38,11 +35,11 @@ Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T) {
   return result;
 }
 
-MarkerSequence load_captures(const std::vector<std::string>& paths, const std::string& format, Side side) {
+MarkerSequence load_captures(const std::vector<std::string>& paths, const Format& format, Side side) {
   constexpr int64_t step_us = 1'000'000;
   MarkerSequence all;
   for (const std::string& path : paths) {
-    MarkerSequence sequence = parse_capture(read_file(path, kLargestCapture), format, side, path);
+    MarkerSequence sequence = format.markers(read_file(path, kLargestCapture), side, path);
     if (all.frames.empty()) {
       all = std::move(sequence);
       continue;
@@ -95,16 +92,7 @@ std::string millimetres(const std::optional<double>& metres) {
 
 }  // namespace
 
-MarkerSequence parse_capture(std::string_view text, const std::string& format, Side side,
-                             const std::string& where) {
-  if (format == "csv") return parse_csv_markers(text, where);
-  if (format == "trc") return parse_trc_markers(text, where);
-  if (format == "webxr") return parse_webxr_joints(text, where);
-  if (format == "handpose") return parse_handpose(text, side, where);
-  throw Error("--format", "name", quoted_excerpt(format), "csv, trc, webxr or handpose");
-}
-
-HandFit import_capture(const std::vector<std::string>& paths, const std::string& format, Side side,
+HandFit import_capture(const std::vector<std::string>& paths, const Format& format, Side side,
                        const MarkerLayout& layout, const HandModel& right_hand) {
   if (paths.empty()) throw Error("capture", "files", "none", "at least one");
   MarkerSequence sequence = load_captures(paths, format, side);

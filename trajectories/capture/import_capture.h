@@ -6,16 +6,14 @@
 
 #include "core/database/database.h"
 #include "trajectories/capture/fit_hand.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/trajectory.h"
 
 namespace glovebench::trajectories {
 
-/// File formats of captures: "csv", "trc", "webxr", "handpose". Throws Error if `format` is none of them.
-MarkerSequence parse_capture(std::string_view text, const std::string& format, Side side, const std::string& where);
-
 /// Reads and fits a capture of a hand of that side; a left one is mirrored and fitted as a right one. The frames of
 /// several files, which must have the same points, follow each other a second apart. Throws Error.
-HandFit import_capture(const std::vector<std::string>& paths, const std::string& format, Side side,
+HandFit import_capture(const std::vector<std::string>& paths, const Format& format, Side side,
                        const MarkerLayout& layout, const HandModel& right_hand);
 
 /// Where the camera was.

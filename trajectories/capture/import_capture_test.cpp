@@ -9,8 +9,8 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/test_folder.h"
-#include "trajectories/capture/csv_markers.h"
 #include "trajectories/capture/test_capture.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::trajectories {
 namespace {
@@ -31,7 +31,7 @@ const HandModel& model_of_side(Side side = Side::right) {
 HandFit imported(const Trajectory& truth, Side side) {
   const std::string path = test_folder() + "/joints.csv";
   write_file(path, csv_markers(captured(truth, model_of_side(side), webxr_names(), {})));
-  return import_capture({path}, "csv", side, {}, model_of_side());
+  return import_capture({path}, find_marker_format("csv"), side, {}, model_of_side());
 }
 
 TEST(ImportCapture, gives_a_trajectory_before_the_camera_that_saw_it) {
@@ -91,7 +91,7 @@ TEST(ImportCapture, fits_captured_poses_of_another_hand) {
   const std::vector<std::string> paths = {folder + "/fist.handpose", folder + "/flat.handpose",
                                           folder + "/horns.handpose"};
   for (const Side side : {Side::right, Side::left}) {
-    const HandFit fit = import_capture(paths, "handpose", side, {}, model_of_side());
+    const HandFit fit = import_capture(paths, find_marker_format("handpose"), side, {}, model_of_side());
     const PostureSet set = postures_of(fit, "captured", 3, {"fist", "flat", "horns"});
     const auto degrees = [&](int pose, int angle) { return degrees_from_radians(set.postures[pose][angle]); };
     for (const int pip : {kIndexPipFlexion, kMiddlePipFlexion, kRingPipFlexion, kLittlePipFlexion}) {

@@ -8,8 +8,6 @@
 #include "core/base/excerpt.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "trajectories/capture/marker_sequence.h"
-#include "trajectories/capture/webxr_joints.h"
 
 namespace glovebench::trajectories {
 namespace {
@@ -113,6 +111,19 @@ std::string known_places() {
 }
 
 }  // namespace
+
+bool is_webxr_joint(const std::string& name) {
+  for (int j = 0; j < kWebxrJointCount; ++j) {
+    if (joint_name(j) == name) return true;
+  }
+  return false;
+}
+
+MarkerSequence sequence_of_joints() {
+  MarkerSequence sequence;
+  for (int j = 0; j < kWebxrJointCount; ++j) sequence.names.push_back(joint_name(j));
+  return sequence;
+}
 
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);

@@ -7,10 +7,19 @@
 #include <vector>
 
 #include "core/hand/hand_model.h"
+#include "core/hand/skeleton.h"
+#include "trajectories/capture/marker_sequence.h"
 
 namespace glovebench::trajectories {
 
 inline constexpr int kPalm = -1;  ///< instead of a joint: the hand frame
+
+/// WebXR names 25 joints ("wrist", ..., "pinky-finger-tip"). Points with these names are joint centers, unlike a
+/// marker on the skin, in every format.
+inline constexpr int kWebxrJointCount = kForearmJoint;  ///< the forearm is ours
+bool is_webxr_joint(const std::string& name);
+/// All of them, without a frame.
+MarkerSequence sequence_of_joints();
 
 /// Where a point of a capture sits: fixed in the frame of a joint, or of the hand (kPalm).
 struct PlacedMarker {

@@ -1,9 +1,7 @@
 #include "trajectories/posture_file.h"
 
 #include <fmt/format.h>
-
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
 #include "core/base/angles.h"
@@ -13,8 +11,7 @@
 #include "core/base/file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "core/base/read_limits.h"
-#include "trajectories/angle_json.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
@@ -22,32 +19,6 @@ namespace {
 
 constexpr const char* kPostureSetFormat = "glovebench-postures";
 constexpr int kPostureSetVersion = 1;
-
-void expect_headings(const std::vector<std::string_view>& headings, const std::string& where) {
-  constexpr size_t column_count = kAngleCount + 1;
-  if (headings.size() != column_count) {
-    throw Error(where, "line 1", fmt::format("{} columns", headings.size()),
-                fmt::format("{}: name and the {} angles", column_count, kAngleCount));
-  }
-  for (size_t c = 0; c < column_count; ++c) {
-    const std::string_view expected = c == 0 ? "name" : angle_infos()[c - 1].name;
-    if (headings[c] != expected) {
-      throw Error(where, fmt::format("line 1, column {}", c + 1), quoted_excerpt(headings[c]),
-                  quoted_excerpt(expected));
-    }
-  }
-}
-
-/// The angle in a cell, radians.
-double angle_from(std::string_view cell, const AngleInfo& info, const std::string& where, size_t line) {
-  return radians_from_degrees(
-      number_from(cell, info.min_deg, info.max_deg, where, fmt::format("line {}, {}", line, info.name)));
-}
-
-void expect_new_name(const std::string& name, std::set<std::string>& names, const std::string& where,
-                     const std::string& field) {
-  if (!names.insert(name).second) throw Error(where, field, quoted_excerpt(name) + " again", "names that differ");
-}
 
 std::string canonical_json(const PostureSet& set) {
   std::string json = fmt::format(
@@ -62,6 +33,49 @@ std::string canonical_json(const PostureSet& set) {
 }
 
 }  // namespace
+
+std::string in_quotes(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string joint_order_json() {
+  std::string json = "[";
+  constexpr int names_per_line = 4;
+  for (int a = 0; a < kAngleCount; ++a) {
+    json += a == 0 ? "\n    " : a % names_per_line == 0 ? ",\n    " : ", ";
+    json += in_quotes(angle_infos()[a].name);
+  }
+  return json + "\n  ]";
+}
+
+void expect_joint_order(const JsonCursor& field) {
+  const JsonItems names = field.items(kAngleCount);
+  for (int a = 0; a < kAngleCount; ++a) names[a].expect_text(angle_infos()[a].name);
+}
+
+std::string angles_json(const Posture& posture) {
+  std::string json = "[";
+  for (int a = 0; a < kAngleCount; ++a) {
+    if (a > 0) json += ", ";
+    json += fixed(degrees_from_radians(posture[a]), 3);
+  }
+  return json + "]";
+}
+
+Posture angles_from(const JsonCursor& field) {
+  const JsonItems angles = field.items(kAngleCount);
+  Posture posture;
+  for (int a = 0; a < kAngleCount; ++a) {
+    const AngleInfo& info = angle_infos()[a];
+    posture[a] = radians_from_degrees(angles[a].number(info.min_deg, info.max_deg));
+  }
+  return posture;
+}
+
+void expect_new_name(const std::string& name, std::set<std::string>& names, const std::string& where,
+                     const std::string& field) {
+  if (!names.insert(name).second) throw Error(where, field, quoted_excerpt(name) + " again", "names that differ");
+}
 
 PostureSet parse_postures_json(std::string_view text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
@@ -86,39 +100,6 @@ PostureSet parse_postures_json(std::string_view text, const std::string& where) 
   return set;
 }
 
-PostureSet parse_postures_csv(std::string_view text, const std::string& set_name, const std::string& where) {
-  if (!is_name(set_name)) throw Error(where, "file name", quoted_excerpt(set_name), kNameExpected);
-
-  Lines lines(text);
-  expect_headings(split(*lines.next(), ','), where);
-  PostureSet set{.name = set_name, .posture_names = {}, .postures = {}};
-  std::set<std::string> names;
-  while (const std::optional<std::string_view> text_line = lines.next()) {
-    if (trimmed(*text_line).empty()) continue;
-    const std::vector<std::string_view> cells = split(*text_line, ',');
-    const std::string line = fmt::format("line {}", lines.number());
-    if (cells.size() != kAngleCount + 1) {
-      throw Error(where, line, fmt::format("{} cells", cells.size()), fmt::format("{}", kAngleCount + 1));
-    }
-    if (!is_name(cells[0])) throw Error(where, line + ", name", quoted_excerpt(cells[0]), kNameExpected);
-    set.posture_names.emplace_back(cells[0]);
-    expect_new_name(set.posture_names.back(), names, where, line + ", name");
-    Posture& posture = set.postures.emplace_back();
-    for (int a = 0; a < kAngleCount; ++a)
-      posture[a] = angle_from(cells[a + 1], angle_infos()[a], where, lines.number());
-  }
-  if (set.postures.empty()) throw Error(where, "postures", "none", "at least one line below the headings");
-  return set;
-}
-
-PostureSet load_posture_set(const std::string& path) {
-  const std::filesystem::path file(path);
-  if (file.extension() == ".json") return parse_postures_json(read_file(path, kLargestMovement), path);
-  if (file.extension() == ".csv")
-    return parse_postures_csv(read_file(path, kLargestMovement), file.stem().string(), path);
-  throw Error(path, "file name", quoted_excerpt(file.extension().string()), "the ending .json or .csv");
-}
-
 std::string canonical_text(const PostureSet& set) {
   check(set.posture_names.size() == set.postures.size(), "a posture set has a name for each posture");
   std::string json = canonical_json(set);
@@ -137,6 +118,15 @@ const Posture& find_posture(const PostureSet& set, std::string_view name) {
                 fmt::format("one of {}", fmt::join(set.posture_names, ", ")));
   }
   return set.postures[static_cast<size_t>(found - set.posture_names.begin())];
+}
+
+Format posture_set_format() {
+  return {.name = "posture_set",
+          .ending = ".json",
+          .description = "glovebench's own sets of postures (README.md)",
+          .postures = [](std::string_view bytes, const std::string&, const std::string& where) {
+            return parse_postures_json(bytes, where);
+          }};
 }
 
 }  // namespace glovebench::trajectories

@@ -1,5 +1,3 @@
-#include "trajectories/capture/trc_markers.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/json_cursor.h"
-#include "trajectories/capture/marker_cells.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
@@ -112,9 +109,11 @@ MarkerFrame trc_frame(Cells cells, const About& about, const MarkerSequence& seq
   return frame;
 }
 
-}  // namespace
-
-MarkerSequence parse_trc_markers(std::string_view text, const std::string& where) {
+/// The table of points that Motion Analysis' programs and OpenSim write: tabs between cells; three lines about the
+/// file, of which units (mm or m) and numbers of markers and frames count; the names, a name over three columns;
+/// X1, Y1, Z1, ...; then a line for each frame: its number, its time in s, the points. Three cells that are empty,
+/// NaN or zero are a gap.
+MarkerSequence parse_trc(std::string_view text, Side, const std::string& where) {
   Lines lines(text);
   std::array<std::string_view, kHeaderLines> header;
   for (std::string_view& line : header) {
@@ -141,6 +140,15 @@ MarkerSequence parse_trc_markers(std::string_view text, const std::string& where
                 fmt::format("{}, the NumFrames of line 3", about.frames));
   }
   return sequence;
+}
+
+}  // namespace
+
+Format trc_format() {
+  return {.name = "trc",
+          .ending = ".trc",
+          .description = "the table of Motion Analysis' programs and OpenSim",
+          .markers = parse_trc};
 }
 
 }  // namespace glovebench::trajectories

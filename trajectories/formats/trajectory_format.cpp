@@ -1,5 +1,3 @@
-#include "trajectories/trajectory.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -11,8 +9,7 @@
 #include "core/base/hash.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "core/base/read_limits.h"
-#include "trajectories/angle_json.h"
+#include "trajectories/posture_file.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
@@ -147,10 +144,6 @@ Trajectory parse_trajectory(std::string_view text, const std::string& where) {
   return trajectory;
 }
 
-Trajectory load_trajectory(const std::string& path) {
-  return parse_trajectory(read_file(path, kLargestMovement), path);
-}
-
 std::string canonical_text(const Trajectory& trajectory) {
   std::string json = canonical_json(trajectory);
   // Whatever is wrong with a trajectory made in memory is said where it is made, not by a later reader.
@@ -164,6 +157,13 @@ void write_trajectory(const Trajectory& trajectory, const std::string& path) {
 
 std::string hash(const Trajectory& trajectory) {
   return hash_text(canonical_text(trajectory));
+}
+
+Format trajectory_format() {
+  return {.name = "trajectory",
+          .ending = ".json",
+          .description = "glovebench's own movements: posture and pose of every frame (README.md)",
+          .trajectory = parse_trajectory};
 }
 
 }  // namespace glovebench::trajectories

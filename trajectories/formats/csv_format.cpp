@@ -1,13 +1,10 @@
-#include "trajectories/capture/csv_markers.h"
-
 #include <fmt/format.h>
 
 #include <array>
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/json_cursor.h"
-#include "trajectories/capture/marker_cells.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::trajectories {
@@ -49,9 +46,9 @@ double read_headings(const std::vector<std::string_view>& headings, MarkerSequen
   return unit == "_mm" ? 0.001 : 1.0;
 }
 
-}  // namespace
-
-MarkerSequence parse_csv_markers(std::string_view text, const std::string& where) {
+/// The headings `time_s`, then NAME_x_mm, NAME_y_mm, NAME_z_mm for each point (or all in _m), and a line for each
+/// frame. Three cells that are empty or NaN are a gap.
+MarkerSequence parse_csv(std::string_view text, Side, const std::string& where) {
   Lines lines(text);
   MarkerSequence sequence;
   const double unit = read_headings(split(*lines.next(), ','), sequence, where);
@@ -78,6 +75,8 @@ MarkerSequence parse_csv_markers(std::string_view text, const std::string& where
   return sequence;
 }
 
+}  // namespace
+
 std::string csv_markers(const MarkerSequence& sequence) {
   std::string text(kTime);
   for (const std::string& name : sequence.names) text += fmt::format(",{0}_x_mm,{0}_y_mm,{0}_z_mm", name);
@@ -90,6 +89,13 @@ std::string csv_markers(const MarkerSequence& sequence) {
     text += "\n";
   }
   return text;
+}
+
+Format csv_format() {
+  return {.name = "csv",
+          .ending = ".csv",
+          .description = "time_s, then NAME_x_mm, NAME_y_mm, NAME_z_mm or _m",
+          .markers = parse_csv};
 }
 
 }  // namespace glovebench::trajectories

@@ -1,4 +1,4 @@
-#include "trajectories/capture/marker_cells.h"
+#include "trajectories/capture/marker_sequence.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/json_cursor.h"
 #include "trajectories/text_cells.h"
 #include "trajectories/trajectory.h"
 
