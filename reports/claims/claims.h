@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.h"
+
 namespace glovebench::reports {
 
 /// The values with which a claim holds: an interval, one of whose ends may be infinite.
@@ -17,6 +19,7 @@ struct Rule {
 
   friend bool operator==(const Rule&, const Rule&) = default;
 };
+using glovebench::to_string;
 /// As claims.json says them.
 constexpr auto names_of(Rule::Kind) {
   return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});

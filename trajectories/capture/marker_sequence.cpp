@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
+#include "core/base/name.h"
 #include "trajectories/text_cells.h"
 #include "trajectories/trajectory.h"
 

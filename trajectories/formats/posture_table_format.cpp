@@ -5,6 +5,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
+#include "core/base/name.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 #include "trajectories/text_cells.h"
