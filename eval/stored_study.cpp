@@ -2,6 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.h"
+#include "core/base/parse_json.h"
+
 namespace glovebench::eval {
 namespace {
 
