@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "eval/commands/command.h"
 #include "eval/program_info.h"
-#include "eval/say.h"
+#include "eval/terminal.h"
 #include "reports/comparison/pairing.h"
 
 namespace {

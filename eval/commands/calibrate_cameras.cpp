@@ -9,7 +9,7 @@
 #include "core/calibration/stereo_fit.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
-#include "eval/progress.h"
+#include "eval/terminal.h"
 
 namespace glovebench::eval {
 namespace {

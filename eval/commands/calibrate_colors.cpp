@@ -9,8 +9,7 @@
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
 #include "eval/commands/track_source.h"
-#include "eval/progress.h"
-#include "eval/say.h"
+#include "eval/terminal.h"
 #include "render/pictures.h"
 #include "reports/json_text.h"
 

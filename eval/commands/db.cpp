@@ -4,8 +4,8 @@
 
 #include "core/base/error.h"
 #include "eval/commands/command.h"
-#include "eval/progress.h"
 #include "eval/share.h"
+#include "eval/terminal.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
 #include "trajectories/posture_file.h"

@@ -8,6 +8,7 @@
 #include "eval/commands/command.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/interruption.h"
+#include "eval/terminal.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/system_time.h"
 #include "core/robot/arm_follower.h"
@@ -16,7 +17,6 @@
 #endif
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
-#include "eval/say.h"
 #endif
 
 namespace glovebench::eval {

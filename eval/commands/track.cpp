@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,40 +15,10 @@
 #include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"
 #include "eval/interruption.h"
-#include "eval/live_status.h"
-#include "eval/progress.h"
-#include "eval/say.h"
+#include "eval/terminal.h"
 
 namespace glovebench::eval {
 namespace {
-
-constexpr double kStatusInterval = 0.5;  // s
-
-/// What was said of a live device so far, on one line of a terminal.
-class StatusLine {
- public:
-  explicit StatusLine(bool quiet) : enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
-  ~StatusLine() {
-    if (last_ > 0) say("\n");
-  }
-  StatusLine(const StatusLine&) = delete;
-  StatusLine& operator=(const StatusLine&) = delete;
-
-  void show(const TrackResult& result, int dropped) {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    status_.add(elapsed.count(), result);
-    if (!enabled_ || elapsed.count() < last_ + kStatusInterval) return;
-    last_ = elapsed.count();
-    say("\r\x1b[K{}", status_.line(dropped));
-    std::fflush(stderr);
-  }
-
- private:
-  bool enabled_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double last_ = 0;
-  LiveStatus status_;
-};
 
 /// Plays the frames of a recording no faster than they were taken.
 class Pace {
