@@ -78,6 +78,7 @@ TEST_F(ImportMarkers, RefusesInOneLine) {
   EXPECT_THAT(refusal({"--format", "trc", "-o", path("out.json")}), HasSubstr("joints.csv: line 1, column 1"));
   EXPECT_THAT(refusal(with({path("joints.csv")})), HasSubstr("files: found 2"));
   EXPECT_THAT(refusal(with({"--camera", "0", "0", "0", "1", "1", "0", "0"})), HasSubstr("--camera"));
+  EXPECT_THAT(refusal(with({"--camera", "inf", "0", "0", "1", "0", "0", "0"})), HasSubstr("--camera: transform"));
   EXPECT_THAT(refusal(with({"--layout", path("none.json")})), HasSubstr("none.json"));
   EXPECT_THAT(refusal(with({"--postures", "0"})), HasSubstr("--postures"));
   EXPECT_THAT(refusal(with({"--every", "0"})), HasSubstr("--every"));

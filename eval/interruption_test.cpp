@@ -36,6 +36,17 @@ TEST(InterruptionDeathTest, AHangUpIsAWishHoweverOftenItComes) {
       testing::KilledBySignal(SIGTERM), "");
 }
 
+TEST(Interruption, IsAWishOnceAndNoneAfterwards) {
+  {
+    const Interruption first;
+    EXPECT_FALSE(Interruption::wished());
+    raise(SIGINT);
+    EXPECT_TRUE(Interruption::wished());
+  }
+  const Interruption second;
+  EXPECT_FALSE(Interruption::wished());
+}
+
 TEST(Interruption, IgnoresAHangUpThatIsIgnoredAlready) {
   const auto before = std::signal(SIGHUP, SIG_IGN);
   {

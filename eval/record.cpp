@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "eval/progress.h"
 #include "eval/replay.h"
+#include "eval/terminal.h"
 
 namespace glovebench::eval {
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <atomic>
 
-#include "eval/progress.h"
 #include "eval/stored_replay.h"
+#include "eval/terminal.h"
 
 namespace glovebench::eval {
 namespace {

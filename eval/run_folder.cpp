@@ -15,7 +15,7 @@
 #include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/name.h"
-#include "eval/say.h"
+#include "eval/terminal.h"
 #include "reports/comparison/pairing.h"
 
 namespace glovebench::eval {

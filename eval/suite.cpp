@@ -19,7 +19,6 @@ namespace glovebench::eval {
 namespace {
 
 namespace fs = std::filesystem;
-using JsonCursor;
 using reports::ExperimentKey;
 using reports::TruthKind;
 using trajectories::Trajectory;

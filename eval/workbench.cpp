@@ -6,9 +6,8 @@
 
 #include "core/base/error.h"
 #include "eval/color_table_cache.h"
-#include "eval/progress.h"
-#include "eval/say.h"
 #include "eval/share.h"
+#include "eval/terminal.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"

@@ -7,9 +7,8 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/calibration/stereo_fit.h"
-#include "eval/commands/calibrate.h"
-#include "eval/commands/command.h"
-#include "eval/progress.h"
+#include "eval/commands/flags.h"
+#include "eval/terminal.h"
 
 namespace glovebench::eval {
 namespace {
@@ -87,34 +86,27 @@ struct CalibrateCameras {
 
 }  // namespace
 
-void add_calibrate_cameras(CLI::App& calibrate) {
-  CLI::App* command = calibrate.add_subcommand(
+void add_calibrate_cameras(Command calibrate) {
+  const Command command = calibrate.subcommand(
       "cameras",
       "Calibrate the cameras of a Kinect from pictures of a chessboard, for --calibration.\n"
       "Both cameras' pictures of one name must show the board in the same place (calibration/README.md).");
   const auto state = std::make_shared<CalibrateCameras>();
-  command->add_option("--ir", state->ir, "pictures of the IR camera: a folder, or fakenect:FOLDER")->required();
-  command->add_option("--rgb", state->rgb, "pictures of the RGB camera: a folder, or fakenect:FOLDER")->required();
-  command->add_option("--board", state->board, "inner corners of the chessboard, COLUMNSxROWS")
-      ->capture_default_str();
-  command->add_option("--square-mm", state->square_mm, "side of a square, mm")->capture_default_str();
-  command->add_option("--lens", state->lens, "distortion to fit: none, radial (k1, k2, k3), full (also p1, p2)")
-      ->capture_default_str();
+  command.option("--ir", state->ir, "pictures of the IR camera: a folder, or fakenect:FOLDER").required();
+  command.option("--rgb", state->rgb, "pictures of the RGB camera: a folder, or fakenect:FOLDER").required();
+  command.option("--board", state->board, "inner corners of the chessboard, COLUMNSxROWS");
+  command.option("--square-mm", state->square_mm, "side of a square, mm");
+  command.option("--lens", state->lens, "distortion to fit: none, radial (k1, k2, k3), full (also p1, p2)");
   command
-      ->add_option("--ir-offset", state->ir_offset,
-                   "where the depth image begins in the IR pictures: pixels from the left, from the top")
-      ->expected(2)
-      ->check(number_within(-16, 16))
-      ->capture_default_str();
-  command->add_option("--most", state->most, "of a recording, take at most that many pictures")
-      ->check(CLI::Range(5, 10000))
-      ->capture_default_str();
-  command->add_option("-o,--output", state->output, "calibration to write (*.json)")
-      ->check(named_file())
-      ->required();
-  command->add_option("--report", state->report, "errors of every view, to write (*.json)")->check(named_file());
-  command->add_flag("--quiet", state->quiet, "no progress");
-  command->callback([state] { state->run(); });
+      .option("--ir-offset", state->ir_offset,
+              "where the depth image begins in the IR pictures: pixels from the left, from the top")
+      .count(2)
+      .in(-16, 16);
+  command.option("--most", state->most, "of a recording, take at most that many pictures").in(5, 10000);
+  command.option("-o,--output", state->output, "calibration to write (*.json)").named_file().required();
+  command.option("--report", state->report, "errors of every view, to write (*.json)").named_file();
+  command.option("--quiet", state->quiet, "no progress");
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -6,11 +6,9 @@
 #include "core/base/file.h"
 #include "core/calibration/color_picture.h"
 #include "core/calibration/color_report.h"
-#include "eval/commands/calibrate.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/commands/track_source.h"
-#include "eval/progress.h"
-#include "eval/say.h"
+#include "eval/terminal.h"
 #include "render/pictures.h"
 #include "reports/json_text.h"
 
@@ -87,37 +85,31 @@ struct CalibrateColors {
 
 }  // namespace
 
-void add_calibrate_colors(CLI::App& calibrate) {
-  CLI::App* command = calibrate.add_subcommand(
+void add_calibrate_colors(Command calibrate) {
+  const Command command = calibrate.subcommand(
       "colors",
       "Make a color table of a recording of the glove, without labels: the light and the glove's colors are found\n"
       "from where the tracker's own table has them (calibration/README.md).");
   const auto state = std::make_shared<CalibrateColors>();
   command
-      ->add_option(
-          "--source", state->from.source,
-          "fakenect:FOLDER, a recording in which every patch of the glove is seen; freenect[:INDEX], a Kinect")
-      ->required();
-  command->add_option("--calibration", state->from.calibration,
-                      "calibration (*.json) [the recording's; of a Kinect: nominal values]");
-  state->common.add_output(*command, "color table to write, for `track --colors`", true);
-  command->add_option("--report", state->report, "separability and warnings to write (*.json)");
-  command->add_option("--picture", state->picture,
-                      "to check by eye (*.png): frames, labels, the colors in the UV plane");
-  command->add_option(
-      "--seeds", state->seeds,
-      "where to begin, for a glove with other colors: a color table, or a JSON list of the ten colors "
-      "[the tracker's own table]");
-  command->add_option("--space", state->space, "axes of the table")
-      ->check(CLI::IsMember({"yuv", "rgb"}))
-      ->capture_default_str();
-  command->add_option("--frames", state->frame_count, "frames to take, spread over the recording")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
-  command->add_option("--config", state->common.config_file,
-                      "JSON file with the fields to change; the working volume is what matters here");
-  state->common.add_machine(*command);
-  command->callback([state] { state->run(); });
+      .option("--source", state->from.source,
+              "fakenect:FOLDER, a recording in which every patch of the glove is seen; freenect[:INDEX], a Kinect")
+      .required();
+  command.option("--calibration", state->from.calibration,
+                 "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  state->common.add_output(command, "color table to write, for `track --colors`").required();
+  command.option("--report", state->report, "separability and warnings to write (*.json)");
+  command.option("--picture", state->picture,
+                 "to check by eye (*.png): frames, labels, the colors in the UV plane");
+  command.option("--seeds", state->seeds,
+                 "where to begin, for a glove with other colors: a color table, or a JSON list of the ten colors "
+                 "[the tracker's own table]");
+  command.option("--space", state->space, "axes of the table").one_of({"yuv", "rgb"});
+  command.option("--frames", state->frame_count, "frames to take, spread over the recording").in(1, 10'000);
+  command.option("--config", state->common.config_file,
+                 "JSON file with the fields to change; the working volume is what matters here");
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -5,8 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/name.h"
-#include "eval/commands/calibrate.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/program_info.h"
 #include "eval/regression/baseline.h"
 #include "eval/suite.h"
@@ -102,24 +101,22 @@ struct CalibrateNoise {
 
 }  // namespace
 
-void add_calibrate_noise(CLI::App& calibrate) {
-  CLI::App* command = calibrate.add_subcommand(
+void add_calibrate_noise(Command calibrate) {
+  const Command command = calibrate.subcommand(
       "noise",
       "Measure what other noise seeds do to the results of a suite, and propose the smallest effect that counts.\n"
       "The gate and compare take it from the baseline's folder.");
   const auto state = std::make_shared<CalibrateNoise>();
-  command->add_option(
+  command.option(
       "--suite", state->suites,
       "to run with many seeds: quick, full, or a file; with --run only what the file of an own suite is");
-  command->add_option("--run", state->runs,
-                      "instead: folder of a run of a suite with many seeds (run --suite --seeds)");
-  command->add_option("--seeds", state->seed_count, "noise seeds to measure, four times those of the suite or more")
-      ->check(CLI::Range(4, 1000))
-      ->capture_default_str();
-  state->common.add_output(*command, "folder of the baselines: writes SUITE/noise_floor.json in it", true);
-  state->common.add_tracker(*command);
-  state->common.add_machine(*command);
-  command->callback([state] { state->run(); });
+  command.option("--run", state->runs, "instead: folder of a run of a suite with many seeds (run --suite --seeds)");
+  command.option("--seeds", state->seed_count, "noise seeds to measure, four times those of the suite or more")
+      .in(4, 1000);
+  state->common.add_output(command, "folder of the baselines: writes SUITE/noise_floor.json in it").required();
+  state->common.add_tracker(command);
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
 #include "reports/comparison/comparison_report.h"
@@ -45,26 +45,26 @@ struct Compare {
 
 }  // namespace
 
-void add_compare(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_compare(Command program) {
+  const Command command = program.subcommand(
       "compare",
       "Compare two runs, frame by frame and seed by seed: what became better or worse, by how much, and is it "
       "real?\n"
       "Exit code 3 if they are not comparable: of another protocol, truth, database, or of other frames.");
   const auto state = std::make_shared<Compare>();
-  command->add_option("baseline", state->baseline_path, "folder of a run, or its results.json")->required();
-  command->add_option("candidate", state->candidate_path, "the same, of the run to judge")->required();
+  command.option("baseline", state->baseline_path, "folder of a run, or its results.json").required();
+  command.option("candidate", state->candidate_path, "the same, of the run to judge").required();
   command
-      ->add_option("-o,--output", state->output,
-                   "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures")
-      ->check(named_file());
-  command->add_option("--noise-floor", state->noise_floor_path,
-                      "what other seeds do (`glovebench calibrate noise`) [noise_floor.json beside the baseline]");
-  command->add_flag("--other-seeds", state->pairing.other_seeds,
-                    "the runs have other noise seeds, as many: pair them in their order");
-  command->add_flag("--partial", state->pairing.partial, "compare the experiments that both have");
-  command->add_flag("--all-rows", state->all_rows, "print also what is the same");
-  command->callback([state] { state->run(); });
+      .option("-o,--output", state->output,
+              "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures")
+      .named_file();
+  command.option("--noise-floor", state->noise_floor_path,
+                 "what other seeds do (`glovebench calibrate noise`) [noise_floor.json beside the baseline]");
+  command.option("--other-seeds", state->pairing.other_seeds,
+                 "the runs have other noise seeds, as many: pair them in their order");
+  command.option("--partial", state->pairing.partial, "compare the experiments that both have");
+  command.option("--all-rows", state->all_rows, "print also what is the same");
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -3,9 +3,9 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "eval/commands/command.h"
-#include "eval/progress.h"
+#include "eval/commands/flags.h"
 #include "eval/share.h"
+#include "eval/terminal.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
@@ -46,26 +46,24 @@ void show(const std::string& path) {
 
 }  // namespace
 
-void add_db(CLI::App& program) {
-  CLI::App* db = program.add_subcommand("db", "Build and look into databases of tiny images.");
-  db->require_subcommand(1);
+void add_db(Command program) {
+  const Command db = program.subcommand("db", "Build and look into databases of tiny images.");
 
   const auto state = std::make_shared<Build>();
-  CLI::App* build =
-      db->add_subcommand("build", "Render the 756 views of each posture and store their tiny images.");
+  const Command build = db.subcommand("build", "Render the 756 views of each posture and store their tiny images.");
   build
-      ->add_option("--postures", state->postures,
-                   "file (*.csv, *.json; trajectories/README.md) or the name of a posture set")
-      ->required();
-  state->common.add_output(*build, "database file to write (*.glovedb)", true);
-  build->add_flag("--left", state->common.left, "a left hand");
-  state->common.add_machine(*build);
-  build->callback([state] { state->run(); });
+      .option("--postures", state->postures,
+              "file (*.csv, *.json; trajectories/README.md) or the name of a posture set")
+      .required();
+  state->common.add_output(build, "database file to write (*.glovedb)").required();
+  build.option("--left", state->common.left, "a left hand");
+  state->common.add_machine(build);
+  build.runs([state] { state->run(); });
 
   const auto path = std::make_shared<std::string>();
-  CLI::App* info = db->add_subcommand("info", "Print what a database file holds.");
-  info->add_option("file", *path, "database file")->required();
-  info->callback([path] { show(*path); });
+  const Command info = db.subcommand("info", "Print what a database file holds.");
+  info.option("file", *path, "database file").required();
+  info.runs([path] { show(*path); });
 }
 
 }  // namespace glovebench::eval

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/regression/baseline.h"
 #include "eval/truths.h"
 #include "render/pictures.h"
@@ -98,22 +98,22 @@ struct Explain {
 
 }  // namespace
 
-void add_explain(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_explain(Command program) {
+  const Command command = program.subcommand(
       "explain", "Show every stage of one frame of a run as a picture: images, labels, matches, alignment.");
   const auto state = std::make_shared<Explain>();
-  command->add_option("run", state->run_folder, "folder of a report")->required()->check(CLI::ExistingDirectory);
-  command->add_option("frame", state->frame, "number of the frame, from 0")->required();
-  command->add_option("--experiment", state->experiment_name,
-                      "e.g. Tr4_DB_open_power_recorded_subject1_gradient_1 [the first of the run]");
-  command->add_option("--trajectory", state->trajectory_file, "file of the truth, if it is none of Tr1..Tr5")
-      ->check(CLI::ExistingFile);
-  command->add_option("--database", state->database_file, "file of the database, if it is none of the program's")
-      ->check(CLI::ExistingFile);
-  command->add_option("--seed", state->seed, "noise seed of the experiment [its first]");
-  state->common.add_output(*command, "picture to write (*.png) [in the run's folder]");
-  state->common.add_machine(*command);
-  command->callback([state] { state->run(); });
+  command.option("run", state->run_folder, "folder of a report").required().existing_folder();
+  command.option("frame", state->frame, "number of the frame, from 0").required();
+  command.option("--experiment", state->experiment_name,
+                 "e.g. Tr4_DB_open_power_recorded_subject1_gradient_1 [the first of the run]");
+  command.option("--trajectory", state->trajectory_file, "file of the truth, if it is none of Tr1..Tr5")
+      .existing_file();
+  command.option("--database", state->database_file, "file of the database, if it is none of the program's")
+      .existing_file();
+  command.option("--seed", state->seed, "noise seed of the experiment [its first]");
+  state->common.add_output(command, "picture to write (*.png) [in the run's folder]");
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
 #include "reports/comparison/comparison_report.h"
@@ -131,28 +131,27 @@ struct Gate {
 
 }  // namespace
 
-void add_gate(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void add_gate(Command program) {
+  const Command command = program.subcommand(
       "gate",
       "Compare a run of a suite with the committed baseline and say whether the change may pass.\n"
       "Exit codes: 0 it may, 1 something became worse, 3 there is no baseline or it is not comparable.");
   const auto state = std::make_shared<Gate>();
-  command->add_option("candidate", state->candidate_path, "folder of the run, or its results.json")->required();
-  command->add_option("--baseline", state->baseline_folder, "folder of the baseline [ci/baselines/SUITE]");
-  command->add_option(
-      "--speed", state->speed_path,
-      "file of `glovebench_bench --benchmark_repetitions=5 --benchmark_out=FILE`: the ratios to the "
-      "plain implementations are gated, too");
-  command->add_option("--suite", state->suite, "with --update: the file of the suite, if it is one of your own");
+  command.option("candidate", state->candidate_path, "folder of the run, or its results.json").required();
+  command.option("--baseline", state->baseline_folder, "folder of the baseline [ci/baselines/SUITE]");
+  command.option("--speed", state->speed_path,
+                 "file of `glovebench_bench --benchmark_repetitions=5 --benchmark_out=FILE`: the ratios to the "
+                 "plain implementations are gated, too");
+  command.option("--suite", state->suite, "with --update: the file of the suite, if it is one of your own");
   command
-      ->add_option("-o,--output", state->output,
-                   "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures")
-      ->check(named_file());
-  command->add_flag("--other-seeds", state->pairing.other_seeds,
-                    "the run has other noise seeds, as many: pair them in their order");
-  command->add_flag("--update", state->update,
-                    "make this run the baseline; the noise floor stays, truths are not touched");
-  command->callback([state, &exit_code] { exit_code = state->run(); });
+      .option("-o,--output", state->output,
+              "folder for comparison.json, .md, .csv, .tex, junit.xml and a page with pictures")
+      .named_file();
+  command.option("--other-seeds", state->pairing.other_seeds,
+                 "the run has other noise seeds, as many: pair them in their order");
+  command.option("--update", state->update,
+                 "make this run the baseline; the noise floor stays, truths are not touched");
+  command.runs([state] { return state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -5,7 +5,7 @@
 #include "core/hand/hand_model.h"
 #include "core/methods/method.h"
 #include "core/robot/command_limits.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/robot_kinematics.h"
 #include "eval/share.h"
 #include "eval/studies/study.h"
@@ -60,31 +60,28 @@ void list_mapping(ShadowCoupling coupling) {
 
 }  // namespace
 
-void add_list(CLI::App& program) {
-  CLI::App* list = program.add_subcommand("list", "Print what the program knows.");
-  list->require_subcommand(1);
-  list->add_subcommand("trajectories", "The ground truths and other movements, with their hashes.")
-      ->callback(list_trajectories);
-  list->add_subcommand("databases", "The posture databases.")->callback(list_databases);
-  list->add_subcommand("suites", "Experiments that belong together, for `glovebench run --suite`.")
-      ->callback(list_suites);
-  list->add_subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.")
-      ->callback(list_studies);
-  list->add_subcommand("methods", "Ways to track, for --method.")->callback(list_methods);
-  list->add_subcommand("noises", "How the depth camera errs, for --noise.")->callback(list_noises);
-  list->add_subcommand("angles", "The 22 joint angles and their limits.")->callback(list_angles);
+void add_list(Command program) {
+  const Command list = program.subcommand("list", "Print what the program knows.");
+  list.subcommand("trajectories", "The ground truths and other movements, with their hashes.")
+      .runs(list_trajectories);
+  list.subcommand("databases", "The posture databases.").runs(list_databases);
+  list.subcommand("suites", "Experiments that belong together, for `glovebench run --suite`.").runs(list_suites);
+  list.subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.").runs(list_studies);
+  list.subcommand("methods", "Ways to track, for --method.").runs(list_methods);
+  list.subcommand("noises", "How the depth camera errs, for --noise.").runs(list_noises);
+  list.subcommand("angles", "The 22 joint angles and their limits.").runs(list_angles);
   const auto limits = std::make_shared<LimitsFlag>();
-  CLI::App* mapping = list->add_subcommand(
-      "mapping", "How far the robot hand's fingertips are from the human's, by way of mapping.");
-  limits->add_coupling(*mapping);
-  mapping->callback([limits] { list_mapping(limits->limits().coupling); });
-  list->add_subcommand("limits", "What robot commands may do, as JSON, as --robot-limits takes it.")->callback([] {
+  const Command mapping =
+      list.subcommand("mapping", "How far the robot hand's fingertips are from the human's, by way of mapping.");
+  limits->add_coupling(mapping);
+  mapping.runs([limits] { list_mapping(limits->limits().coupling); });
+  list.subcommand("limits", "What robot commands may do, as JSON, as --robot-limits takes it.").runs([] {
     fmt::print("{}\n", to_json(CommandLimits()).dump(2));
   });
   const auto common = std::make_shared<CommonFlags>();
-  CLI::App* config = list->add_subcommand("config", "The tracker's configuration as JSON, as --config takes it.");
-  common->add_tracker(*config);
-  config->callback([common] { fmt::print("{}\n", to_json(common->tracker_config()).dump(2)); });
+  const Command config = list.subcommand("config", "The tracker's configuration as JSON, as --config takes it.");
+  common->add_tracker(config);
+  config.runs([common] { fmt::print("{}\n", to_json(common->tracker_config()).dump(2)); });
 }
 
 }  // namespace glovebench::eval

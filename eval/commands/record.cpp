@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/record.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
@@ -34,20 +34,20 @@ struct Record {
 
 }  // namespace
 
-void add_record(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_record(Command program) {
+  const Command command = program.subcommand(
       "record",
       "Make a recorded truth, the paper's protocol: a movement is tracked, and what the tracker said becomes a\n"
       "ground truth of its own.");
   const auto state = std::make_shared<Record>();
-  state->common.add_output(*command, "trajectory file to write (*.json)", true);
-  command->add_option("--trajectory", state->trajectory, "source: Tr1..Tr5 or a file (*.json)")->required();
-  command->add_option("--database", state->database, "recorded with [of Tr1..Tr5: the one with just its grasp]");
-  state->common.add_tracker(*command);
-  state->common.add_seed(*command);
-  state->common.add_cameras(*command);
-  state->common.add_machine(*command);
-  command->callback([state] { state->run(); });
+  state->common.add_output(command, "trajectory file to write (*.json)").required();
+  command.option("--trajectory", state->trajectory, "source: Tr1..Tr5 or a file (*.json)").required();
+  command.option("--database", state->database, "recorded with [of Tr1..Tr5: the one with just its grasp]");
+  state->common.add_tracker(command);
+  state->common.add_seed(command);
+  state->common.add_cameras(command);
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -5,10 +5,10 @@
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording.h"
-#include "eval/commands/command.h"
-#include "eval/progress.h"
+#include "eval/commands/flags.h"
 #include "eval/replay.h"
 #include "eval/share.h"
+#include "eval/terminal.h"
 #include "render/exr.h"
 #include "render/label_renderer.h"
 #include "render/pictures.h"
@@ -89,30 +89,25 @@ struct Render {
 
 }  // namespace
 
-void add_render(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("render", "Write the synthetic Kinect frames of a trajectory.");
+void add_render(Command program) {
+  const Command command = program.subcommand("render", "Write the synthetic Kinect frames of a trajectory.");
   const auto state = std::make_shared<Render>();
-  state->common.add_output(*command, "folder to write to", true);
-  command->add_option("--trajectory", state->trajectory, "Tr1..Tr5 or a file (*.json)")->required();
-  command->add_option("--truth", state->truth, "which truth of Tr1..Tr5")
-      ->check(CLI::IsMember({"source", "recorded"}))
-      ->capture_default_str();
+  state->common.add_output(command, "folder to write to").required();
+  command.option("--trajectory", state->trajectory, "Tr1..Tr5 or a file (*.json)").required();
+  command.option("--truth", state->truth, "which truth of Tr1..Tr5").one_of({"source", "recorded"});
   command
-      ->add_option("--format", state->format,
-                   "png: color and depth pictures; exr: color, z, label, and with --database the tracker's view;\n"
-                   "fakenect: a recording that libfreenect's fakenect and `glovebench track` play")
-      ->check(CLI::IsMember({"png", "exr", "fakenect"}))
-      ->capture_default_str();
-  command->add_option("--noise", state->noise, "depth noise")
-      ->check(CLI::IsMember(render::depth_noise_names()))
-      ->capture_default_str();
-  command->add_option("--subject", state->subject, "whose hand")->check(CLI::Range(1, 2))->capture_default_str();
-  command->add_option("--database", state->database, "exr: track with this database and add the tracker's view");
-  state->common.add_tracker(*command);
-  state->common.add_seed(*command);
-  state->common.add_cameras(*command);
-  state->common.add_machine(*command);
-  command->callback([state] { state->run(); });
+      .option("--format", state->format,
+              "png: color and depth pictures; exr: color, z, label, and with --database the tracker's view;\n"
+              "fakenect: a recording that libfreenect's fakenect and `glovebench track` play")
+      .one_of({"png", "exr", "fakenect"});
+  command.option("--noise", state->noise, "depth noise").one_of(render::depth_noise_names());
+  command.option("--subject", state->subject, "whose hand").in(1, 2);
+  command.option("--database", state->database, "exr: track with this database and add the tracker's view");
+  state->common.add_tracker(command);
+  state->common.add_seed(command);
+  state->common.add_cameras(command);
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/reproduction.h"
 #include "reports/claims/claims_report.h"
 #include "reports/paper_numbers.h"
@@ -64,8 +64,8 @@ struct Reproduce {
 
 }  // namespace
 
-void add_reproduce(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void add_reproduce(Command program) {
+  const Command command = program.subcommand(
       "reproduce",
       "Run the paper's experiments, judge its claims, and write the report.\n"
       "Figures 4 to 6: five trajectories x the databases that hold their grasp, against the recorded truth, the\n"
@@ -75,24 +75,21 @@ void add_reproduce(CLI::App& program, int& exit_code) {
       "Exit code 3: one was not measured, although all of Figure 4 was asked for.");
   const auto state = std::make_shared<Reproduce>();
   state->options.study.seeds.clear();
-  state->common.add_output(*command, "folder of the report [out]");
-  command->add_option("--only", state->options.only, fmt::format("parts, of {}", fmt::join(part_names(), ", ")))
-      ->delimiter(',');
-  command->add_flag(
-      "--quick", state->options.study.quick,
-      "a few frames and queries of everything, in under a minute: shows that it runs, judges no claim");
-  state->common.add_tracker(*command);
-  state->common.add_seed(*command);
-  state->common.add_machine(*command);
-  command->add_option("--trajectory", state->options.trajectories, "only these in Figure 4, e.g. Tr4")
-      ->check(CLI::IsMember(trajectories::ground_truth_names()));
-  command->add_option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_flag("--all-noise", state->all_gains,
-                    "Figure 4 also with half and double noise gain, and the kinect noise model");
-  state->robot.add(*command, "folder for the robot commands of each experiment");
-  command->callback([state, &exit_code] { exit_code = state->run(); });
+  state->common.add_output(command, "folder of the report [out]");
+  command.option("--only", state->options.only, fmt::format("parts, of {}", fmt::join(part_names(), ", ")))
+      .comma_separated();
+  command.option("--quick", state->options.study.quick,
+                 "a few frames and queries of everything, in under a minute: shows that it runs, judges no claim");
+  state->common.add_tracker(command);
+  state->common.add_seed(command);
+  state->common.add_machine(command);
+  command.option("--trajectory", state->options.trajectories, "only these in Figure 4, e.g. Tr4")
+      .one_of(trajectories::ground_truth_names());
+  command.option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed").in(1, 1000);
+  command.option("--all-noise", state->all_gains,
+                 "Figure 4 also with half and double noise gain, and the kinect noise model");
+  state->robot.add(command, "folder for the robot commands of each experiment");
+  command.runs([state] { return state->run(); });
 }
 
 }  // namespace glovebench::eval

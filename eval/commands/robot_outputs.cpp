@@ -11,13 +11,11 @@
 
 namespace glovebench::eval {
 
-CLI::Option* BusFlags::add(CLI::App& command, const std::string& what) {
-  CLI::Option* const robot = command.add_option("--robot", middleware, what);
-  command.add_option("--robot-interface", interface,
-                     "network interface for --robot [loopback alone, or what CYCLONEDDS_URI says]");
-  command.add_option("--security", security,
-                     "folder of keys for DDS Security (`glovebench robot-server keys`) [none]");
-  return robot;
+void BusFlags::add(Command command, const std::string& what) {
+  command.option("--robot", middleware, what);
+  command.option("--robot-interface", interface,
+                 "network interface for --robot [loopback alone, or what CYCLONEDDS_URI says]");
+  command.option("--security", security, "folder of keys for DDS Security (`glovebench robot-server keys`) [none]");
 }
 
 int BusFlags::domain() const {

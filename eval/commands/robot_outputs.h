@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -8,6 +7,7 @@
 #include "core/robot/command_guard.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/robot/robot_command.h"
+#include "eval/commands/options.h"
 
 namespace glovebench::eval {
 
@@ -18,7 +18,7 @@ struct BusFlags {
   std::string security;    ///< folder of keys; empty: without
 
   /// `--robot`, `--robot-interface` and `--security`.
-  CLI::Option* add(CLI::App& command, const std::string& what);
+  void add(Command command, const std::string& what);
   /// Throws Error naming `--robot` unless there is such a domain, or if the program was built without Cyclone DDS.
   int domain() const;
 };

@@ -5,9 +5,10 @@
 
 #include "core/base/error.h"
 #include "core/robot/server/server_log.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/interruption.h"
+#include "eval/terminal.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/system_time.h"
 #include "core/robot/arm_follower.h"
@@ -16,7 +17,6 @@
 #endif
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
-#include "eval/say.h"
 #endif
 
 namespace glovebench::eval {
@@ -94,37 +94,33 @@ struct Keys {
 
 }  // namespace
 
-void add_robot_server(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void add_robot_server(Command program) {
+  const Command command = program.subcommand(
       "robot-server",
       "Take the commands of `track --robot` for a hand or an arm, keep them safe, say where the joints are.");
-  command->require_subcommand(1);
   const auto state = std::make_shared<RobotServer>();
-  CLI::App* hand = command->add_subcommand("hand", "The Shadow hand and its wrist, until Ctrl-C.");
-  CLI::App* arm = command->add_subcommand("arm", "The PA-10 arm that carries the hand, until Ctrl-C.");
-  for (CLI::App* side : {hand, arm}) {
-    state->bus.add(*side, "where from: dds[:DOMAIN]")->capture_default_str();
-    side->add_option("--log", state->log,
-                     "log to append to (*.jsonl), which also tells the next server where the joints stood")
-        ->check(named_file());
-    side->add_option("--log-age", state->max_log_age_s,
-                     "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
-        ->check(number_within(0, 1e8))
-        ->capture_default_str();
-    state->limits.add(*side);
+  const Command hand = command.subcommand("hand", "The Shadow hand and its wrist, until Ctrl-C.");
+  const Command arm = command.subcommand("arm", "The PA-10 arm that carries the hand, until Ctrl-C.");
+  for (const Command& side : {hand, arm}) {
+    state->bus.add(side, "where from: dds[:DOMAIN]");
+    side.option("--log", state->log,
+                "log to append to (*.jsonl), which also tells the next server where the joints stood")
+        .named_file();
+    side.option("--log-age", state->max_log_age_s,
+                "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
+        .in(0, 1e8);
+    state->limits.add(side);
   }
-  state->mounting.add(*arm);
-  state->limits.add_coupling(*hand);
-  hand->callback([state, &exit_code] { exit_code = state->serve_hand(); });
+  state->mounting.add(arm);
+  state->limits.add_coupling(hand);
+  hand.runs([state] { return state->serve_hand(); });
   const auto keys = std::make_shared<Keys>();
-  CLI::App* make_keys = command->add_subcommand("keys", "Make keys for DDS Security (`--security FOLDER`).");
-  make_keys->add_option("folder", keys->folder, "folder to make")->required();
+  const Command make_keys = command.subcommand("keys", "Make keys for DDS Security (`--security FOLDER`).");
+  make_keys.option("folder", keys->folder, "folder to make").required();
   constexpr int kMostDays = 3650;
-  make_keys->add_option("--days", keys->days, "for how long they shall hold")
-      ->check(CLI::Range(1, kMostDays))
-      ->capture_default_str();
-  make_keys->callback([keys] { keys->make(); });
-  arm->callback([state, &exit_code] { exit_code = state->serve_arm(); });
+  make_keys.option("--days", keys->days, "for how long they shall hold").in(1, kMostDays);
+  make_keys.runs([keys] { keys->make(); });
+  arm.runs([state] { return state->serve_arm(); });
 }
 
 }  // namespace glovebench::eval

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/experiments.h"
 #include "eval/plan_overview.h"
 #include "eval/reproduction.h"
@@ -14,7 +14,9 @@ namespace glovebench::eval {
 namespace {
 
 struct Run {
-  const CLI::App* command = nullptr;
+  explicit Run(Command own_command) : command(own_command) {}
+
+  const Command command;
   CommonFlags common;
   std::string study_name;
   std::string suite_name;
@@ -51,7 +53,8 @@ struct Run {
   void run_study() {
     for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
                              "--noise", "--gain", "--subject"})
-      if (given(flag)) throw Error(study_name, "flags", flag, "none of those that say what a study says itself");
+      if (command.given(flag))
+        throw Error(study_name, "flags", flag, "none of those that say what a study says itself");
     const Study& chosen = study(study_name);
     StudyOptions options{common.tracker_config(), {}, quick, {}};
     if (!common.cascade.empty()) options.cascades = {options.tracker.lookup.cascade};
@@ -74,10 +77,10 @@ struct Run {
   Suite chosen_suite() const {
     require_one_choice();
     Suite suite = suite_name.empty() ? suite_of_flags() : load_suite(suite_name);
-    const bool keeps_its_seeds = !suite_name.empty() && !given("--seed") && !given("--seeds");
+    const bool keeps_its_seeds = !suite_name.empty() && !command.given("--seed") && !command.given("--seeds");
     if (keeps_its_seeds) return suite;
     const size_t count =
-        suite_name.empty() || given("--seeds") ? static_cast<size_t>(seed_count) : suite.seeds.size();
+        suite_name.empty() || command.given("--seeds") ? static_cast<size_t>(seed_count) : suite.seeds.size();
     suite.seeds.clear();
     for (size_t s = 0; s < count; ++s) suite.seeds.push_back(common.seed + s);
     return suite;
@@ -95,14 +98,12 @@ struct Run {
     return suite;
   }
 
-  bool given(const std::string& flag) const { return command->count(flag) > 0; }
-
   void require_one_choice() const {
-    if (suite_name.empty() && !(given("--trajectory") && given("--database"))) {
+    if (suite_name.empty() && !(command.given("--trajectory") && command.given("--database"))) {
       throw Error("run", "experiments", "none", "--suite, or --trajectory and --database");
     }
     for (const char* flag : {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject"}) {
-      if (!suite_name.empty() && given(flag)) {
+      if (!suite_name.empty() && command.given(flag)) {
         throw Error("--suite", "flags", flag, "none of those that say what a suite says itself");
       }
     }
@@ -120,48 +121,38 @@ struct Run {
 
 }  // namespace
 
-void add_run(CLI::App& program) {
-  CLI::App* command = program.add_subcommand(
+void add_run(Command program) {
+  const Command command = program.subcommand(
       "run", "Replay a suite, or trajectories, also your own, through the tracker and report the errors.");
-  const auto state = std::make_shared<Run>();
-  state->command = command;
-  state->common.add_output(*command, "folder of the report");
-  command->add_option("study", state->study_name,
-                      "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");
-  command->add_flag("--quick", state->quick, "of a study: a few frames and queries")->needs("study");
-  command->add_option("--suite", state->suite_name,
-                      "experiments that belong together: a name (`glovebench list suites`) or a file (*.json)");
-  command->add_option("--filter", state->filter,
-                      "only experiments with such a name, e.g. 'Tr4_*' (shell wildcards)");
-  command->add_flag("--list", state->list, "print the experiments and stop");
-  command->add_flag("--dry-run", state->dry_run, "print what would be done and touch nothing");
-  command->add_option("--trajectory", state->trajectories,
-                      "names (`glovebench list trajectories`) or files (*.json; trajectories/README.md)");
-  command->add_option("--database", state->databases,
-                      "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)");
-  command->add_option("--truth", state->truth, "which truth of a named one")
-      ->check(CLI::IsMember({"source", "recorded"}))
-      ->capture_default_str();
-  command->add_option("--noise", state->noise, "depth noise")
-      ->check(CLI::IsMember(render::depth_noise_names()))
-      ->capture_default_str();
-  command->add_option("--gain", state->gain, "factor on the noise's gain")
-      ->check(number_within(0, 100))
-      ->capture_default_str();
-  command->add_option("--subject", state->subject, "whose hand is in front of the camera; the tracker's own is 1")
-      ->check(CLI::Range(1, 2))
-      ->capture_default_str();
+  const auto state = std::make_shared<Run>(command);
+  state->common.add_output(command, "folder of the report");
+  command.option("study", state->study_name,
+                 "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");
+  command.option("--quick", state->quick, "of a study: a few frames and queries").needs("study");
+  command.option("--suite", state->suite_name,
+                 "experiments that belong together: a name (`glovebench list suites`) or a file (*.json)");
+  command.option("--filter", state->filter, "only experiments with such a name, e.g. 'Tr4_*' (shell wildcards)");
+  command.option("--list", state->list, "print the experiments and stop");
+  command.option("--dry-run", state->dry_run, "print what would be done and touch nothing");
+  command.option("--trajectory", state->trajectories,
+                 "names (`glovebench list trajectories`) or files (*.json; trajectories/README.md)");
+  command.option("--database", state->databases,
+                 "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)");
+  command.option("--truth", state->truth, "which truth of a named one").one_of({"source", "recorded"});
+  command.option("--noise", state->noise, "depth noise").one_of(render::depth_noise_names());
+  command.option("--gain", state->gain, "factor on the noise's gain").in(0, 100);
+  command.option("--subject", state->subject, "whose hand is in front of the camera; the tracker's own is 1")
+      .in(1, 2);
   command
-      ->add_option("--seeds", state->seed_count,
-                   "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  state->robot.add(*command, "folder for the robot commands of each experiment");
-  state->common.add_tracker(*command);
-  state->common.add_seed(*command);
-  state->common.add_cameras(*command);
-  state->common.add_machine(*command);
-  command->callback([state] { state->run(); });
+      .option("--seeds", state->seed_count,
+              "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")
+      .in(1, 1000);
+  state->robot.add(command, "folder for the robot commands of each experiment");
+  state->common.add_tracker(command);
+  state->common.add_seed(command);
+  state->common.add_cameras(command);
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,44 +11,14 @@
 #include "core/methods/method.h"
 #include "core/robot/command_guard.h"
 #include "core/tracker/estimate_line.h"
-#include "eval/commands/command.h"
+#include "eval/commands/flags.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"
 #include "eval/interruption.h"
-#include "eval/live_status.h"
-#include "eval/progress.h"
-#include "eval/say.h"
+#include "eval/terminal.h"
 
 namespace glovebench::eval {
 namespace {
-
-constexpr double kStatusInterval = 0.5;  // s
-
-/// What was said of a live device so far, on one line of a terminal.
-class StatusLine {
- public:
-  explicit StatusLine(bool quiet) : enabled_(!quiet && isatty(STDERR_FILENO) != 0) {}
-  ~StatusLine() {
-    if (last_ > 0) say("\n");
-  }
-  StatusLine(const StatusLine&) = delete;
-  StatusLine& operator=(const StatusLine&) = delete;
-
-  void show(const TrackResult& result, int dropped) {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    status_.add(elapsed.count(), result);
-    if (!enabled_ || elapsed.count() < last_ + kStatusInterval) return;
-    last_ = elapsed.count();
-    say("\r\x1b[K{}", status_.line(dropped));
-    std::fflush(stderr);
-  }
-
- private:
-  bool enabled_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double last_ = 0;
-  LiveStatus status_;
-};
 
 /// Plays the frames of a recording no faster than they were taken.
 class Pace {
@@ -198,46 +167,41 @@ struct Track {
 
 }  // namespace
 
-void add_track(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("track", "Track the hand in a recording or before a Kinect and write the estimates.");
+void add_track(Command program) {
+  const Command command =
+      program.subcommand("track", "Track the hand in a recording or before a Kinect and write the estimates.");
   const auto state = std::make_shared<Track>();
   command
-      ->add_option("--source", state->from.source,
-                   "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect, until Ctrl-C")
-      ->required();
-  command->add_option("--calibration", state->from.calibration,
-                      "calibration (*.json) [the recording's; of a Kinect: nominal values]");
-  command->add_option("--frames", state->limit, "stop after that many; 0: none is the last")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_flag("--every-frame", state->from.every_frame,
-                    "freenect: drop none that comes too fast, for what the fakenect library plays");
+      .option("--source", state->from.source,
+              "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect, until Ctrl-C")
+      .required();
+  command.option("--calibration", state->from.calibration,
+                 "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  command.option("--frames", state->limit, "stop after that many; 0: none is the last").not_negative();
+  command.option("--every-frame", state->from.every_frame,
+                 "freenect: drop none that comes too fast, for what the fakenect library plays");
   command
-      ->add_option("--database", state->database,
-                   "name (`glovebench list databases`) or file (*.glovedb, *.csv, *.json)")
-      ->required();
-  command->add_option("--colors", state->colors,
-                      "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
+      .option("--database", state->database,
+              "name (`glovebench list databases`) or file (*.glovedb, *.csv, *.json)")
+      .required();
+  command.option("--colors", state->colors,
+                 "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
   command
-      ->add_option("-o,--output", state->common.output,
-                   "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)")
-      ->required();
-  state->robot.add(*command, "robot commands to write (*.jsonl)");
-  CLI::Option* const stream =
-      state->bus.add(*command, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
+      .option("-o,--output", state->common.output,
+              "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)")
+      .required();
+  state->robot.add(command, "robot commands to write (*.jsonl)");
+  state->bus.add(command, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
   command
-      ->add_option(
-          "--robot-topics", state->topics,
-          "own, which only `robot-server` hears; controller, those of a robot's controllers, from where the "
-          "robot is measured to stand (the arm's, too, unless --robot-arm none)")
-      ->check(CLI::IsMember({"own", "controller"}))
-      ->needs(stream)
-      ->capture_default_str();
-  command->add_flag("--left", state->common.left, "a left hand");
-  state->common.add_tracker(*command);
-  state->common.add_machine(*command);
-  command->callback([state] { state->run(); });
+      .option("--robot-topics", state->topics,
+              "own, which only `robot-server` hears; controller, those of a robot's controllers, from where the "
+              "robot is measured to stand (the arm's, too, unless --robot-arm none)")
+      .one_of({"own", "controller"})
+      .needs("--robot");
+  command.option("--left", state->common.left, "a left hand");
+  state->common.add_tracker(command);
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
 }
 
 }  // namespace glovebench::eval

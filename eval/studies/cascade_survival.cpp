@@ -9,7 +9,7 @@
 
 #include "core/base/check.h"
 #include "core/tracker/sighting.h"
-#include "eval/progress.h"
+#include "eval/terminal.h"
 #include "eval/true_neighbor.h"
 
 namespace glovebench::eval {

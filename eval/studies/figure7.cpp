@@ -4,9 +4,9 @@
 
 #include "core/base/check.h"
 #include "core/database/look_up.h"
-#include "eval/progress.h"
 #include "eval/share.h"
 #include "eval/studies/trial_queries.h"
+#include "eval/terminal.h"
 #include "eval/thread_time.h"
 #include "eval/true_neighbor.h"
 #include "render/label_renderer.h"

@@ -11,7 +11,7 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/tracker/sighting.h"
-#include "eval/progress.h"
+#include "eval/terminal.h"
 #include "render/synthetic_kinect.h"
 
 namespace glovebench::eval {

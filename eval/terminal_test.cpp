@@ -1,10 +1,6 @@
-#include "eval/live_status.h"
+#include "eval/terminal.h"
 
 #include <gtest/gtest.h>
-
-#include <csignal>
-
-#include "eval/interruption.h"
 
 namespace glovebench::eval {
 namespace {
@@ -38,17 +34,6 @@ TEST(LiveStatus, SpeaksOfTheLastFramesOnly) {
   for (size_t f = 0; f < LiveStatus::kFrames; ++f)
     status.add(100 + 0.1 * static_cast<double>(f), result(TrackStatus::tracked, 0.004));
   EXPECT_EQ(status.line(0), "10.0 frames/s, 100% tracked, residual 4.0 mm, 0 dropped");
-}
-
-TEST(Interruption, IsAWishOnceAndNoneAfterwards) {
-  {
-    const Interruption first;
-    EXPECT_FALSE(Interruption::wished());
-    raise(SIGINT);
-    EXPECT_TRUE(Interruption::wished());
-  }
-  const Interruption second;
-  EXPECT_FALSE(Interruption::wished());
 }
 
 }  // namespace

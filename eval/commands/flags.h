@@ -1,10 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "core/tracker/tracker_config.h"
+#include "eval/commands/options.h"
 #include "eval/experiments.h"
 #include "eval/workbench.h"
 
@@ -27,12 +28,12 @@ struct CommonFlags {
   bool left = false;
   bool quiet = false;
 
-  void add_output(CLI::App& command, const std::string& what, bool required = false);
-  void add_tracker(CLI::App& command);
-  void add_seed(CLI::App& command);
+  Option add_output(Command command, const std::string& what);
+  void add_tracker(Command command);
+  void add_seed(Command command);
   /// The cameras of the synthetic Kinect.
-  void add_cameras(CLI::App& command);
-  void add_machine(CLI::App& command);
+  void add_cameras(Command command);
+  void add_machine(Command command);
 
   /// Defaults < profile < file < command line. Throws Error.
   TrackerConfig tracker_config() const;
@@ -41,19 +42,11 @@ struct CommonFlags {
   void check_output_folder() const;
 };
 
-/// Checks an option: the name of a file or folder, not `-`. For commands that print something else to standard
-/// output.
-CLI::Validator named_file();
-
-/// Checks an option: a number from `min` to `max`. CLI::Range lets pass what is no number.
-CLI::Validator number_within(double min, double max);
-
 /// How the hand is mounted on the arm.
 struct MountingFlag {
-  std::vector<double> flange_wrist;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_flange_wrist()
+  std::optional<Eigen::Isometry3d> transform;  ///< empty: default_T_flange_wrist()
 
-  void add(CLI::App& command);
-  /// Throws Error unless all is finite and the quaternion has unit length.
+  void add(Command command);
   Eigen::Isometry3d T_flange_wrist() const;
 };
 
@@ -63,8 +56,8 @@ struct LimitsFlag {
 
   std::string coupling{to_string(CommandLimits().coupling)};
 
-  void add(CLI::App& command);
-  void add_coupling(CLI::App& command);
+  void add(Command command);
+  void add_coupling(Command command);
   /// Throws Error.
   CommandLimits limits() const;
 };
@@ -74,33 +67,14 @@ struct RobotFlags {
   std::string output;
   std::string mapping = "direct";
   std::string arm = "auto";
-  std::vector<double> base_camera;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_base_camera()
+  std::optional<Eigen::Isometry3d> T_base_camera;  ///< empty: default_T_base_camera()
   MountingFlag mounting;
   LimitsFlag limits;
 
-  void add(CLI::App& command, const std::string& what);
-  /// Of the workbench's hand. Throws Error unless transforms are finite and their quaternions have unit length, or
-  /// if the arm is asked for and this program was built without it.
+  void add(Command command, const std::string& what);
+  /// Of the workbench's hand. Throws Error if the arm is asked for and this program was built without it.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };
-
-/// Each adds one subcommand to the program.
-/// Sets the exit code when it has run.
-void add_reproduce(CLI::App& program, int& exit_code);
-void add_run(CLI::App& program);
-void add_record(CLI::App& program);
-void add_render(CLI::App& program);
-void add_track(CLI::App& program);
-/// Sets the exit code when it has run.
-void add_robot_server(CLI::App& program, int& exit_code);
-void add_explain(CLI::App& program);
-void add_db(CLI::App& program);
-void add_import(CLI::App& program);
-void add_list(CLI::App& program);
-void add_compare(CLI::App& program);
-/// Sets the exit code when it has run.
-void add_gate(CLI::App& program, int& exit_code);
-void add_calibrate(CLI::App& program);
 
 }  // namespace glovebench::eval

@@ -1,0 +1,175 @@
+#include "eval/commands/flags.h"
+
+#include <fmt/format.h>
+
+#include <thread>
+
+#include "core/base/error.h"
+#include "core/base/file.h"
+#include "core/base/parse_json.h"
+#include "core/methods/method.h"
+#ifdef GLOVEBENCH_ARM
+#include "core/robot/arm/kdl_arm_solver.h"
+#endif
+#include "core/robot/command_limits.h"
+#include "eval/share.h"
+#include "reports/json_text.h"
+
+namespace glovebench::eval {
+
+constexpr uint64_t kLargestConfig = uint64_t{1} << 20;  // bytes
+
+Option CommonFlags::add_output(Command command, const std::string& what) {
+  return command.option("-o,--output", output, what).named_file();
+}
+
+void CommonFlags::add_tracker(Command command) {
+  command.option("--profile", profile, "named configuration of the tracker");
+  command.option("--config", config_file,
+                 "JSON file with the fields to change; `glovebench list config` shows all");
+  command.option("--method", method, "how to track (`glovebench list methods`) [the configuration's]");
+  command.option("--cascade", cascade,
+                 "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3, or exact:KEEP");
+}
+
+void CommonFlags::add_seed(Command command) {
+  command.option("--seed", seed, "of all random numbers").not_negative();
+}
+
+void CommonFlags::add_cameras(Command command) {
+  command.option("--calibration", calibration,
+                 "cameras of the synthetic Kinect (*.json), as they are once their lenses are corrected [its own]");
+}
+
+void CommonFlags::add_machine(Command command) {
+  command.option("--threads", threads, "0: all cores; results do not depend on it").in(0, 1024);
+  command.option("--cache", cache_folder,
+                 "folder for databases and color tables [GLOVEBENCH_CACHE or ~/.cache/glovebench]");
+  command.option("--low-memory", low_memory,
+                 "databases that take a ninth of the memory and make their distance fields when these are asked "
+                 "for; results do not depend on it");
+  command.option("-q,--quiet", quiet, "no progress, no messages");
+}
+
+TrackerConfig CommonFlags::tracker_config() const {
+  TrackerConfig config = glovebench::profile(profile);
+  if (!config_json.is_null()) config = config_from_json(config_json, config, "configuration of the run");
+  if (!config_file.empty())
+    config = config_from_json(parse_json(read_file(config_file, kLargestConfig), config_file), config, config_file);
+  if (!method.empty()) config.method = find_method(method).name;
+  if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
+  return config;
+}
+
+Workbench CommonFlags::workbench() const {
+  WorkbenchConfig config;
+  config.cache_folder = cache_folder.empty() ? default_cache_folder() : cache_folder;
+  config.side = left ? Side::left : Side::right;
+  config.threads = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  config.memory = low_memory ? DatabaseMemory::low : DatabaseMemory::normal;
+  config.quiet = quiet;
+  config.views = tracker_config().views;
+  if (!calibration_json.is_null())
+    config.calibration = calibration_from_json(calibration_json, "calibration of the run");
+  if (!calibration.empty()) config.calibration = load_calibration(calibration).rectified();
+  return Workbench(config);
+}
+
+void MountingFlag::add(Command command) {
+  command.option(
+      "--flange-wrist", transform,
+      "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]");
+}
+
+void LimitsFlag::add(Command command) {
+  command.option(
+      "--robot-limits", file,
+      "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
+}
+
+void LimitsFlag::add_coupling(Command command) {
+  command
+      .option("--robot-coupling", coupling,
+              "how one motor moves J1 and J2 of a finger: series, J2 to 90 degrees and then J1; even, both alike")
+      .one_of(all_names<ShadowCoupling>());
+}
+
+CommandLimits LimitsFlag::limits() const {
+  CommandLimits limits;
+  if (!file.empty()) limits = command_limits_from_json(parse_json(read_file(file, kLargestConfig), file), file);
+  limits.coupling = from_name<ShadowCoupling>(coupling).value();
+  return limits;
+}
+
+void RobotFlags::add(Command command, const std::string& what) {
+  command.option("--robot-out", output, what);
+  command
+      .option("--robot-mapping", mapping,
+              "to the robot's hand: direct, equal angles; fingertip, what is pinched stays pinched")
+      .one_of({"direct", "fingertip"});
+  command
+      .option("--robot-arm", arm, "joint angles of the arm: none; pa10, a PA-10-7C; auto, pa10 if it is built in")
+      .one_of({"auto", "pa10", "none"});
+  command.option("--base-camera", T_base_camera,
+                 "the camera in the arm's base frame: X Y Z (m) QW QX QY QZ [above the work, looking down]");
+  mounting.add(command);
+  limits.add_coupling(command);
+  limits.add(command);
+}
+
+namespace {
+
+/// As the flags take it, rounded.
+nlohmann::json transform_json(const Eigen::Isometry3d& T) {
+  const Eigen::Quaterniond q(T.linear());
+  nlohmann::json values = nlohmann::json::array();
+  for (const double value :
+       {T.translation().x(), T.translation().y(), T.translation().z(), q.w(), q.x(), q.y(), q.z()})
+    values.push_back(reports::rounded(value));
+  return values;
+}
+
+/// The arm that was built in, if one was. Throws Error if it is required and was not.
+std::shared_ptr<const ArmSolver> arm_solver([[maybe_unused]] bool required) {
+#ifdef GLOVEBENCH_ARM
+  return make_kdl_arm_solver();
+#else
+  if (required)
+    throw Error("--robot-arm", "pa10", "a program built without Orocos KDL",
+                "one configured with it (Debian: liborocos-kdl-dev)");
+  return nullptr;
+#endif
+}
+
+}  // namespace
+
+Eigen::Isometry3d MountingFlag::T_flange_wrist() const {
+  return transform.value_or(default_T_flange_wrist());
+}
+
+RobotSetup RobotFlags::setup(Workbench& workbench) const {
+  RobotSetup setup;
+  setup.T_base_camera = T_base_camera.value_or(setup.T_base_camera);
+  setup.T_flange_wrist = mounting.T_flange_wrist();
+  if (arm != "none") setup.arm = arm_solver(arm == "pa10");
+  setup.coupling = limits.limits().coupling;
+  if (mapping == "fingertip") setup.skeleton = workbench.model()->skeleton();
+  return setup;
+}
+
+RobotOutput RobotFlags::output_of(Workbench& workbench) const {
+  RobotOutput robot{output, setup(workbench), limits.limits()};
+  robot.configuration = {{"mapping", mapping},
+                         {"coupling", std::string(to_string(robot.limits.coupling))},
+                         {"arm", robot.setup.arm ? "pa10" : "none"},
+                         {"base_camera", transform_json(robot.setup.T_base_camera)},
+                         {"flange_wrist", transform_json(robot.setup.T_flange_wrist)},
+                         {"limits", to_json(robot.limits)}};
+  return robot;
+}
+
+void CommonFlags::check_output_folder() const {
+  const WholeFile probe(output + "/results.json");  // never committed: nothing stays
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,177 @@
+// The only source that knows CLI11, which takes long to compile.
+#include "eval/commands/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/excerpt.h"
+#include "eval/program_info.h"
+#include "eval/terminal.h"
+
+namespace glovebench::eval {
+namespace {
+
+constexpr int kWrongCommandLine = 2;
+constexpr int kHelpColumn = 34;
+
+/// A number from `low` to `high`. CLI::Range lets pass what is no number.
+CLI::Validator number_within(double low, double high) {
+  return {[=](const std::string& text) -> std::string {
+            double value = 0;
+            if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
+            return fmt::format("found {}, expected a number from {} to {}", printable(text), low, high);
+          },
+          fmt::format("FLOAT in [{} - {}]", low, high)};
+}
+
+Eigen::Isometry3d rigid_transform(const std::string& flag, const std::vector<double>& values) {
+  for (const double value : values)
+    if (!std::isfinite(value)) throw Error(flag, "transform", fmt::format("{}", value), "finite numbers");
+  const Eigen::Quaterniond q(values[3], values[4], values[5], values[6]);
+  if (!(std::abs(q.norm() - 1) < 1e-3)) {
+    throw Error(flag, "length of the quaternion", fmt::format("{}", q.norm()), "1");
+  }
+  return Eigen::Translation3d(values[0], values[1], values[2]) * q.normalized();
+}
+
+template <typename Value>
+bool is_empty(const Value& value) {
+  if constexpr (requires { value.empty(); }) return value.empty();
+  if constexpr (requires { value.has_value(); }) return !value.has_value();
+  return false;
+}
+
+/// What is wrong with the command line. CLI11 tells a missing subcommand or option before an unknown one, which
+/// hides the misspelling that it comes from.
+std::string describe(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = program.remaining(true);
+  const bool missing = error.get_name() == "RequiredError";
+  return missing && !unknown.empty() ? fmt::format("{}: unknown argument or subcommand", unknown.front())
+                                     : error.what();
+}
+
+}  // namespace
+
+Option Option::required() const {
+  option_->required()->default_str("");
+  return *this;
+}
+
+Option Option::in(double low, double high) const {
+  const bool is_whole = !option_->get_type_name().starts_with("FLOAT");
+  option_->check(is_whole ? CLI::Range(static_cast<int>(low), static_cast<int>(high)) : number_within(low, high));
+  return *this;
+}
+
+Option Option::not_negative() const {
+  option_->check(CLI::NonNegativeNumber);
+  return *this;
+}
+
+Option Option::one_of(const std::vector<std::string>& words) const {
+  option_->check(CLI::IsMember(words));
+  return *this;
+}
+
+Option Option::named_file() const {
+  const auto problem = [](const std::string& text) -> std::string {
+    return text == "-" ? "found -, expected the name of a file or folder" : "";
+  };
+  option_->check(CLI::Validator(problem, ""));
+  return *this;
+}
+
+Option Option::existing_file() const {
+  option_->check(CLI::ExistingFile);
+  return *this;
+}
+
+Option Option::existing_folder() const {
+  option_->check(CLI::ExistingDirectory);
+  return *this;
+}
+
+Option Option::count(int values) const {
+  option_->expected(values);
+  return *this;
+}
+
+Option Option::comma_separated() const {
+  option_->delimiter(',');
+  return *this;
+}
+
+Option Option::needs(const std::string& other) const {
+  option_->needs(other);
+  return *this;
+}
+
+Command Command::subcommand(const std::string& name, const std::string& description) const {
+  app_->require_subcommand(1);
+  return {*app_->add_subcommand(name, description), *chosen_};
+}
+
+template <typename Value>
+Option Command::option(const std::string& names, Value& value, const std::string& help) const {
+  if constexpr (std::is_same_v<Value, bool>) {
+    return Option(*app_->add_flag(names, value, help));
+  } else if constexpr (std::is_same_v<Value, std::optional<Eigen::Isometry3d>>) {
+    const auto read = [names, &value](const std::vector<double>& values) {
+      value = rigid_transform(names, values);
+    };
+    return Option(*app_->add_option_function<std::vector<double>>(names, read, help)->expected(7));
+  } else {
+    CLI::Option* const added = app_->add_option(names, value, help);
+    if (!is_empty(value)) added->capture_default_str();
+    return Option(*added);
+  }
+}
+
+// The types of values.
+template Option Command::option(const std::string&, bool&, const std::string&) const;
+template Option Command::option(const std::string&, int&, const std::string&) const;
+template Option Command::option(const std::string&, uint64_t&, const std::string&) const;
+template Option Command::option(const std::string&, double&, const std::string&) const;
+template Option Command::option(const std::string&, std::string&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<int>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<uint64_t>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<double>&, const std::string&) const;
+template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
+template Option Command::option(const std::string&, std::optional<Eigen::Isometry3d>&, const std::string&) const;
+
+bool Command::given(const std::string& name) const {
+  return app_->count(name) > 0;
+}
+
+void Command::set_action(const Action& action) const {
+  app_->callback([chosen = chosen_, action] { *chosen = action; });
+}
+
+int run_program(int argc, const char* const* argv, const std::function<void(Command)>& add_commands) {
+  CLI::App program(
+      "Evaluation and benchmarking of color-glove hand tracking with an RGB-D camera (Schroeder et al. 2012).\n"
+      "Exit codes: 0 fine, 1 a gate or claim failed, 2 usage or input error, 3 incomplete or not comparable.",
+      "glovebench");
+  program.set_version_flag("--version",
+                           fmt::format("glovebench {} ({})", program_info().version, program_info().commit));
+  program.get_formatter()->column_width(kHelpColumn);
+  Command::Action chosen;
+  add_commands({program, chosen});
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return program.exit(e);  // --help, --version
+  } catch (const CLI::ParseError& e) {
+    say("glovebench: {} (see glovebench --help)\n", describe(program, e));
+    return kWrongCommandLine;
+  }
+  return chosen();
+}
+
+}  // namespace glovebench::eval
