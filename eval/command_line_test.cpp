@@ -143,7 +143,7 @@ TEST_F(CommandLine, TrajectoriesThatCannotBe) {
   EXPECT_THAT(refused([](json& f) { f["angles_deg"].erase(0); }),
               AllOf(HasSubstr("angles_deg"), HasSubstr("21"), HasSubstr("22")));
   EXPECT_THAT(refused([](json& f) { f["angles_deg"][7] = 300; }),
-              AllOf(HasSubstr("angles_deg[7]"), HasSubstr("300"), HasSubstr("-45 to 100")));
+              AllOf(HasSubstr("angles_deg[7]"), HasSubstr("300"), HasSubstr("-45..100")));
   EXPECT_THAT(refused([](json& f) { f["timestamp_us"] = 66667; }), HasSubstr("timestamp_us: found 66667"));
   EXPECT_THAT(refused([](json& f) { f["timestamp_us"] = 5; }), HasSubstr("timestamp_us: found 5"));
   EXPECT_THAT(refused([](json& f) {

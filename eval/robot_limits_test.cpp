@@ -71,7 +71,7 @@ TEST_F(RobotLimits, ThatCannotBeAreRefused) {
   };
   EXPECT_THAT(refused("{"), HasSubstr("limits.json: column 2: found the end, expected JSON"));
   EXPECT_THAT(refused(R"({"hand_speed_m_s": -1})"), AllOf(HasSubstr("limits.json"), HasSubstr("hand_speed")));
-  EXPECT_THAT(refused(R"({"speed": 1})"), HasSubstr("an unknown key"));
+  EXPECT_THAT(refused(R"({"speed": 1})"), HasSubstr("unknown key \"speed\""));
   EXPECT_THAT(refused(R"({"workspace_max_m": [1, 1, 0.2]})"),
               HasSubstr("a side of the workspace is shorter than 0.3 m"));
   EXPECT_THAT(refused(R"({"silence_s": 0.1, "silence_s": 0.2})"), HasSubstr("silence_s: found the key twice"));

@@ -137,7 +137,7 @@ TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0].erase("runs"); }),
               HasSubstr("experiments[0].runs: found nothing"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][1]["frames"][0][2] = "lucky"; }),
-              HasSubstr("experiments[0].runs[1].frames[0][2]: found \"lucky\", expected a frame's status"));
+              HasSubstr("experiments[0].runs[1].frames[0][2]: found \"lucky\", expected tracked, no_hand, "));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"][0].erase(22); }),
               HasSubstr("frames[0]: found an array of 22"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["coverage"]["lost"] = 0; }),

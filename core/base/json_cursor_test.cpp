@@ -44,7 +44,7 @@ TEST(JsonCursor, ReadsValuesAndKnowsTheWayToThem) {
   EXPECT_EQ(error_of([&] { root["fruit"].fail("a vegetable"); }),
             "file.json: fruit: found \"pear\", expected a vegetable");
   EXPECT_EQ(error_of([&] { root["other"]; }), "file.json: other: found nothing, expected a value");
-  EXPECT_EQ(error_of([&] { root.text(); }), "file.json: top level: found an object of 3, expected a text");
+  EXPECT_EQ(error_of([&] { root.text(); }), "file.json: top level: found an object, expected a text");
 }
 
 TEST(JsonCursor, RefusesKeysThatAreMissingOrUnknown) {

@@ -138,7 +138,7 @@ TEST(Calibration, NamesTheWrongField) {
   json missing = good;
   missing["rgb"].erase("fy_px");
   EXPECT_TRUE(starts_with(calibration_error(missing), "here.json: rgb.fy_px: found nothing"));
-  EXPECT_TRUE(starts_with(calibration_error(json::array()), "here.json: content: found an array of 0"));
+  EXPECT_TRUE(starts_with(calibration_error(json::array()), "here.json: top level: found an array of 0"));
 }
 
 TEST(Calibration, RefusesFilesThatAreNotJson) {

@@ -128,7 +128,7 @@ TEST(Claims, ErrorsInRules) {
   EXPECT_THAT(error_of_rule(json::object()),
               HasSubstr("claims[0].rule: found an object, expected an object with one"));
   EXPECT_THAT(error_of_rule({{"below", 1}, {"above", 0}}), HasSubstr("with one rule"));
-  EXPECT_THAT(error_of_rule({{"near", 1}}), HasSubstr("one of below, at_most, above, at_least, within"));
+  EXPECT_THAT(error_of_rule({{"near", 1}}), HasSubstr("expected below, at_most, above, at_least or within"));
   EXPECT_THAT(error_of_rule({{"below", "1"}}), HasSubstr("claims[0].rule.below"));
   EXPECT_THAT(error_of_rule({{"below", 1e7}}), HasSubstr("claims[0].rule.below"));
   EXPECT_THAT(error_of_rule({{"within", {1}}}), HasSubstr("the lower and the upper bound"));
