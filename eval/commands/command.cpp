@@ -80,8 +80,8 @@ Workbench CommonFlags::workbench() const {
   return Workbench(config);
 }
 
-void MountingFlag::add(CLI::App& command) {
-  command
+CLI::Option* MountingFlag::add(CLI::App& command) {
+  return command
       .add_option(
           "--flange-wrist", flange_wrist,
           "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]")
@@ -94,8 +94,8 @@ void LimitsFlag::add(CLI::App& command) {
       "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
 }
 
-void LimitsFlag::add_coupling(CLI::App& command) {
-  command
+CLI::Option* LimitsFlag::add_coupling(CLI::App& command) {
+  return command
       .add_option(
           "--robot-coupling", coupling,
           "how one motor moves J1 and J2 of a finger: series, J2 to 90 degrees and then J1; even, both alike")

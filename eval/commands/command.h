@@ -52,7 +52,7 @@ CLI::Validator number_within(double min, double max);
 struct MountingFlag {
   std::vector<double> flange_wrist;  ///< x, y, z (m), quaternion w, x, y, z; empty: default_T_flange_wrist()
 
-  void add(CLI::App& command);
+  CLI::Option* add(CLI::App& command);
   /// Throws Error unless all is finite and the quaternion has unit length.
   Eigen::Isometry3d T_flange_wrist() const;
 };
@@ -64,7 +64,7 @@ struct LimitsFlag {
   std::string coupling{to_string(CommandLimits().coupling)};
 
   void add(CLI::App& command);
-  void add_coupling(CLI::App& command);
+  CLI::Option* add_coupling(CLI::App& command);
   /// Throws Error.
   CommandLimits limits() const;
 };

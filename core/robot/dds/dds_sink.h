@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "core/robot/dds/dds_access.h"
-#include "core/robot/dds/topics.h"
 #include "core/robot/robot_command.h"
 
 namespace glovebench {

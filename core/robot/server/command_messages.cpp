@@ -39,6 +39,13 @@ ros::JointTrajectory trajectory(const RobotCommand& command, const std::vector<s
 
 }  // namespace
 
+std::string_view to_string(Receipt receipt) {
+  static constexpr std::array<std::string_view, kReceiptCount> names = {
+      "foreign",      "bad_time", "wrong_joints", "wrong_points", "wrong_frame", "not_finite",
+      "not_rotation", "stale",    "starting",     "went_back",    "accepted"};
+  return names.at(static_cast<size_t>(receipt));
+}
+
 const std::vector<std::string>& hand_joint_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> made;
