@@ -71,7 +71,7 @@ class RobotOutputs::Stream {
   /// Tells the guard where the robot stands if it has to know. Returns the time of the command.
   int64_t start(CommandGuard& guard, const RobotCommand& command) {
     const int64_t now = now_us(command);
-    if (!measured_ || command.hold || !command.targets || guard.state_at(now) != CommandState::stopped)
+    if (!measured_ || command.hold || !command.targets || guard.state_at(now) == CommandState::following)
       return now;
     // Without an arm the pose is not sent, but the guard needs one: the hand's, so far inside that every fingertip
     // is.
