@@ -98,7 +98,7 @@ TEST_F(CommandLine, StandardOutputIsNoFileWhereSomethingElseIsPrinted) {
       {"calibrate", "noise", "--suite", "quick", "-o", "-"},
       {"calibrate", "cameras", "--ir", "a", "--rgb", "b", "-o", "-"},
       {"calibrate", "colors", "--source", "fakenect:a", "-o", "-"},
-      {"robot-server", "hand", "--robot", "dds", "--log", "-"}};
+      {"robot-server", "run", "--hand", "--robot", "dds", "--log", "-"}};
   for (const std::vector<std::string>& command : commands)
     EXPECT_THAT(refusal(command), HasSubstr("found -, expected the name of a file or folder")) << command[0];
   EXPECT_FALSE(std::filesystem::exists("-"));

@@ -119,8 +119,8 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
 TEST_F(DatabaseFile, of_a_memory_that_nobody_knows_is_an_error_that_says_what_is_known) {
   write_file(path_, with_header(good_, "\"memory\":\"normal\"", "\"memory\":\"tiny\""));
   EXPECT_THAT([&] { Database::load(path_); },
-              ThrowsMessage<Error>(AllOf(HasSubstr(path_ + ": memory: found \"tiny\""),
-                                         HasSubstr("expected normal or low"))));
+              ThrowsMessage<Error>(
+                  AllOf(HasSubstr(path_ + ": memory: found \"tiny\""), HasSubstr("expected normal or low"))));
 }
 
 TEST_F(DatabaseFile, of_low_memory_that_is_damaged_anywhere_is_an_error) {

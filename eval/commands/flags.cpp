@@ -75,8 +75,8 @@ Workbench CommonFlags::workbench() const {
   return Workbench(config);
 }
 
-void MountingFlag::add(Command command) {
-  command.option(
+Option MountingFlag::add(Command command) {
+  return command.option(
       "--flange-wrist", transform,
       "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]");
 }
@@ -87,8 +87,8 @@ void LimitsFlag::add(Command command) {
       "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
 }
 
-void LimitsFlag::add_coupling(Command command) {
-  command
+Option LimitsFlag::add_coupling(Command command) {
+  return command
       .option("--robot-coupling", coupling,
               "how one motor moves J1 and J2 of a finger: series, J2 to 90 degrees and then J1; even, both alike")
       .one_of(all_names<ShadowCoupling>());

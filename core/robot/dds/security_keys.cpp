@@ -14,8 +14,8 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/openssl.h"
-#include "core/robot/dds/topics.h"
 
 namespace glovebench {
 namespace {
@@ -243,8 +243,7 @@ const std::vector<SecurityRole>& security_roles() {
         {"sender",
          {own.hand, own.wrist, own.arm, controller.hand, controller.wrist, controller.arm},
          {own.joint_states, controller.joint_states, measured}},
-        {"hand", {own.joint_states}, {own.hand, own.wrist, own.joint_states, measured}},
-        {"arm", {own.joint_states}, {own.arm, own.joint_states, measured}},
+        {"server", {own.joint_states}, {own.hand, own.wrist, own.arm, own.joint_states, measured}},
         {"robot",
          {measured, controller.joint_states},
          {own.joint_states, controller.hand, controller.wrist, controller.arm}},

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// DDS Security among `track`, the servers, a robot's driver and those who watch: files that say who may do what.
+/// DDS Security among `track`, the server, a robot's driver and those who watch: files that say who may do what.
 /// X.509 certificates and S/MIME signatures by the program `openssl`: EC P-256 keys, SHA-256, PEM.
 namespace glovebench {
 
@@ -20,7 +20,7 @@ struct SecurityRole {
   std::string name;
   std::vector<std::string> writes, reads;
 };
-/// `sender` (track), `hand` and `arm` (servers), `robot` (a driver that measures the joints), `observer`.
+/// `sender` (track), `server`, `robot` (a driver that measures the joints), `observer`.
 const std::vector<SecurityRole>& security_roles();
 
 /// What protects the bus: everybody must prove who he is, and everything is encrypted, with proof of its origin.

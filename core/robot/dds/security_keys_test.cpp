@@ -97,9 +97,9 @@ TEST_F(SecurityKeys, HoldForTheirTime) {
                     HasSubstr("expected one that holds now")));
   EXPECT_THAT(fault(kGood.end_s + 1),
               HasSubstr("/identity_ca.pem: certificate: found one that expired 2027-01-16 "));
-  make_security_keys(path("mixed"), kGood, {{"hand", {kNow - kDay, kNow - 1}}});
+  make_security_keys(path("mixed"), kGood, {{"server", {kNow - kDay, kNow - 1}}});
   EXPECT_NO_THROW(security_configuration(path("mixed"), "sender", kNow));
-  EXPECT_THROW(security_configuration(path("mixed"), "hand", kNow), Error);
+  EXPECT_THROW(security_configuration(path("mixed"), "server", kNow), Error);
 }
 
 TEST_F(SecurityKeys, NameWhatIsWrong) {
@@ -107,7 +107,7 @@ TEST_F(SecurityKeys, NameWhatIsWrong) {
   const auto other = [&](const std::string& name) { return read_file(path("others/") + name); };
   const auto own = [&](const std::string& name) { return read_file(path("keys/") + name); };
   EXPECT_THAT(
-      fault_with("sender.key", own("hand.key")),
+      fault_with("sender.key", own("server.key")),
       AllOf(HasSubstr("/sender.key: private key: found another one, expected that of "), HasSubstr("/sender.pem")));
   EXPECT_THAT(fault_with("sender.key", own("sender.pem")), HasSubstr("/sender.key: private key: found none"));
   EXPECT_THAT(fault_with("sender.pem", other("sender.pem")),
