@@ -89,10 +89,10 @@ TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
 
   // A database with the same inputs and another content, as another builder makes it, is no other run of the same.
   std::string other = read_file(path("mine.glovedb"));
-  const std::vector<Section> sections = sections_of(other);
-  const auto labels = std::ranges::find(sections, "labels_64", &Section::name);
-  other[labels->offset + 1000] = static_cast<char>(other[labels->offset + 1000] == 0x11 ? 0x22 : 0x11);
-  write_file(path("other.glovedb"), with_right_hashes(other, sections));
+  const DatabaseLayout layout = layout_of(other);
+  char& label = other[layout.sizes().at(64).labels.offset + 1000];
+  label = static_cast<char>(label == 0x11 ? 0x22 : 0x11);
+  write_file(path("other.glovedb"), with_right_hashes(other, layout));
   expect_fine(run_with("other.glovedb"));
   const ProgramRun compared = run_glovebench({"compare", path("own-mine.glovedb"), path("own-other.glovedb")});
   EXPECT_EQ(compared.exit_code, 3);

@@ -34,31 +34,27 @@ void pool_entry(const uint8_t* fields, int size, int pool, int cells, uint8_t* m
 
 }  // namespace
 
-FieldRows::FieldRows(int size, DatabaseMemory memory, int entry_count, std::span<const uint8_t> values)
+FieldRows::FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value)
     : size_(size),
       entry_count_(entry_count),
       pool_(pool_of(size, memory)),
       cells_((size + pool_ - 1) / pool_),
       block_count_((static_cast<size_t>(entry_count) + kBlock - 1) / kBlock),
-      values_(values) {
-  for (const uint8_t value : values) largest_value_ = std::max(largest_value_, value);
+      largest_value_(largest_value),
+      values_(MappedMemory::zeros(block_count_ * block_bytes())) {
   for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
 }
 
-void FieldRows::put(int entry, const uint8_t* fields, std::span<uint8_t> values) const {
+void FieldRows::put(int entry, const uint8_t* fields) {
   std::array<uint8_t, static_cast<size_t>(kColorCount) * 16 * 16> pooled;
   if (!exact()) {
     pool_entry(fields, size_, pool_, cells_, pooled.data());
     fields = pooled.data();
   }
-  uint8_t* const target = values.data() + entry / kBlock * block_bytes() + entry % kBlock;
-  for (size_t row = 0; row < row_count(); ++row) target[row * kBlock] = fields[row];
-}
-
-void FieldRows::repeat_last_entry(std::span<uint8_t> values) const {
-  const int last = (entry_count_ - 1) % kBlock;
-  for (size_t row = block_count_ * row_count() - row_count(); row < block_count_ * row_count(); ++row)
-    std::fill(&values[row * kBlock + last], &values[row * kBlock] + kBlock, values[row * kBlock + last]);
+  uint8_t* const block = values_.writable().data() + entry / kBlock * block_bytes();
+  const int begin = entry % kBlock, end = entry + 1 == entry_count_ ? kBlock : begin + 1;
+  for (int place = begin; place < end; ++place)
+    for (size_t row = 0; row < row_count(); ++row) block[row * kBlock + place] = fields[row];
 }
 
 uint32_t FieldRows::sum(int entry, std::span<const WeightedRow> rows) const {
