@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/camera/pinhole_camera.h"
 #include "core/kinect/recording_index.h"
 

@@ -7,7 +7,7 @@
 
 #include "calibration/test_glove.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/segmentation/color_calibration.h"
 #include "core/test_folder.h"
 

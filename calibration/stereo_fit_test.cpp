@@ -11,7 +11,7 @@
 #include "calibration/camera_report.h"
 #include "calibration/test_board.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
 

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "calibration/test_board.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "eval/command_test.h"
 #include "render/pictures.h"
 

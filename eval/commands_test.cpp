@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "ci/build_paths.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/database/test_damaged_database.h"
 #include "eval/command_test.h"
 #include "eval/test_program.h"

@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "core/base/check.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/name.h"
+#include "core/base/whole_file.h"
 #include "core/robot/json_lines_sink.h"
 #include "eval/page_material.h"
 #include "eval/program_info.h"

@@ -11,7 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "eval/command_test.h"
 #include "eval/test_program.h"
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "fuzz/fuzz_target.h"
 
 namespace {

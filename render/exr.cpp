@@ -15,7 +15,8 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/camera/pinhole_camera.h"
 #include "render/lighting.h"
 

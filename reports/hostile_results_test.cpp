@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/random.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/json_reader.h"

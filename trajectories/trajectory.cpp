@@ -7,9 +7,10 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
+#include "core/base/whole_file.h"
 #include "trajectories/angle_json.h"
 #include "trajectories/json_field.h"
 

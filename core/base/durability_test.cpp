@@ -11,9 +11,10 @@
 #include <filesystem>
 #include <map>
 
-#include "core/base/file.h"
 #include "core/base/file_set.h"
+#include "core/base/input_file.h"
 #include "core/base/line_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace {

@@ -13,11 +13,11 @@
 
 #include "core/base/check.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/base/name.h"
-#include "core/base/output_target.h"
 #include "core/base/staged_files.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 namespace {
@@ -145,8 +145,8 @@ void WholeFiles::add(const std::string& name, std::string_view content) {
   const std::string path = staged_path(folder_, name);
   make_folders(folder_above(path));
   const int descriptor = create_like(older, path);
-  int error = descriptor < 0 ? errno : write_all(descriptor, content);
-  if (error == 0 && ::fsync(descriptor) != 0) error = errno;
+  int error = descriptor < 0 ? errno : write_all(descriptor, content).error;
+  if (error == 0) error = sync_file(descriptor);
   if (descriptor >= 0) ::close(descriptor);
   if (error != 0) throw Error(folder_ + "/" + name, "file", std::strerror(error), "room to write it whole");
   files_.push_back({name, content.size(), hash_text(std::string(content))});

@@ -6,8 +6,9 @@
 #include <filesystem>
 #include <thread>
 
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/base/name.h"
 #include "core/base/parse_json.h"
 #include "core/base/staged_files.h"

@@ -8,8 +8,9 @@
 #include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 namespace {

@@ -4,8 +4,9 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording_files.h"
 #include "core/kinect/recording_index.h"

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/random.h"
+#include "core/base/whole_file.h"
 #include "core/kinect/recording_index.h"
 #include "core/test_folder.h"
 

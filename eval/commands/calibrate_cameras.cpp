@@ -7,7 +7,7 @@
 #include "calibration/camera_report.h"
 #include "calibration/stereo_fit.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
 #include "eval/progress.h"

@@ -5,7 +5,7 @@
 #include "calibration/color_picture.h"
 #include "calibration/color_report.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
 #include "eval/commands/track_source.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/name.h"
+#include "core/base/whole_file.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
 #include "eval/program_info.h"

@@ -3,7 +3,8 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "eval/commands/command.h"
 #include "eval/share.h"
 #include "trajectories/capture/import_capture.h"

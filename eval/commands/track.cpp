@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/line_file.h"
+#include "core/base/whole_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_guard.h"
 #include "core/tracker/estimate_line.h"

@@ -9,9 +9,10 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/comparison/example_comparison.h"

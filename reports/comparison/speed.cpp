@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
 #include "reports/comparison/pairing.h"
 #include "reports/json_reader.h"

@@ -13,7 +13,8 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/robot/dds/openssl.h"
 #include "core/robot/dds/topics.h"
 
@@ -43,13 +44,7 @@ std::string utc(int64_t time_s) {
 void write_new_file(const std::string& path, std::string_view content, mode_t mode) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (file < 0) refuse(path, "file", "a new one");
-  bool fine = true;
-  while (fine && !content.empty()) {
-    const ssize_t count = write(file, content.data(), content.size());
-    fine = count > 0;
-    if (fine) content.remove_prefix(static_cast<size_t>(count));
-  }
-  fine = fine && fsync(file) == 0;
+  bool fine = write_all(file, content).error == 0 && sync_file(file) == 0;
   fine = close(file) == 0 && fine;
   if (!fine) refuse(path, "file", "room for it");
 }
