@@ -72,8 +72,11 @@ using testing::ElementsAre;
 
 using Files = std::map<std::string, std::string>;
 
+/// Writes these files; what else the manifest names goes.
 void write_set(const std::string& folder, const Files& files) {
-  WholeFiles set(folder, kRunSet);
+  WholeFiles set(folder);
+  for (const auto& [name, unused] : Manifest(set.manifest()))
+    if (!files.contains(name)) set.remove(name);
   for (const auto& [name, content] : files) set.add(name, content);
   set.commit();
 }

@@ -76,9 +76,9 @@ int open_stream(const OutputTarget& target, const std::string& path) {
   return opened;
 }
 
-int create_like(const std::optional<struct stat>& older, const std::string& new_path) {
+int create_like(const std::optional<struct stat>& older, const std::string& new_path, mode_t mode) {
   // Nobody reads meanwhile what the older file kept from them.
-  const int created = ::open(new_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, older ? 0600 : 0644);
+  const int created = ::open(new_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, older ? 0600 : mode);
   if (created < 0 || !older) return created;
   struct stat own {};
   const bool differs = ::fstat(created, &own) == 0 && (own.st_uid != older->st_uid || own.st_gid != older->st_gid);
@@ -127,13 +127,13 @@ void sync_folder(const std::string& folder) {
     throw Error(folder, "folder", std::strerror(reason), "a folder that can be synced");
 }
 
-WholeFile::WholeFile(const std::string& path) : path_(path), target_(find_output(path)) {
+WholeFile::WholeFile(const std::string& path, mode_t mode) : path_(path), target_(find_output(path)) {
   if (target_.is_stream) return;
   make_folders(folder_above(target_.path));
   // A killed process of the same number may have left one.
   do {
     temporary_ = temporary_name(target_.path);
-    descriptor_ = create_like(target_.older, temporary_);
+    descriptor_ = create_like(target_.older, temporary_, mode);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "a file that can be written");
 }
@@ -159,7 +159,7 @@ MappedMemory WholeFile::map(uint64_t bytes) {
   return MappedMemory::of_descriptor(descriptor_, bytes, path_);
 }
 
-void WholeFile::commit(bool sync_folder) {
+void WholeFile::commit() {
   if (descriptor_ < 0) return;  // nothing was written to a stream
   if (const int error = sync_file(descriptor_))
     throw Error(path_, "file", std::strerror(error), "room to write it whole");
@@ -167,7 +167,7 @@ void WholeFile::commit(bool sync_folder) {
     throw Error(path_, "file", std::strerror(errno), "a file that can be replaced");
   ::close(descriptor_);
   descriptor_ = -1;
-  if (!target_.is_stream && sync_folder) glovebench::sync_folder(folder_above(target_.path));
+  if (!target_.is_stream) sync_folder(folder_above(target_.path));
 }
 
 void write_file(const std::string& path, std::string_view content) {

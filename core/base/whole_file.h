@@ -28,7 +28,7 @@ int open_stream(const OutputTarget& target, const std::string& path);
 
 /// Creates a file that is not there yet, with the mode of the older file and, as far as the process may, its owner.
 /// A negative number leaves the reason in errno.
-int create_like(const std::optional<struct stat>& older, const std::string& new_path);
+int create_like(const std::optional<struct stat>& older, const std::string& new_path, mode_t mode = 0644);
 
 /// What became of a text that was to be written.
 struct Written {
@@ -58,7 +58,8 @@ std::string folder_above(const std::string& path);
 /// hard link keeps the old content. A target that is written through is opened at the first `append`.
 class WholeFile {
  public:
-  explicit WholeFile(const std::string& path);
+  /// `mode`: of a file that is not there yet.
+  explicit WholeFile(const std::string& path, mode_t mode = 0644);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
@@ -67,9 +68,8 @@ class WholeFile {
   /// Gives an empty file that many bytes, all zero, for which there is room on the disk, to write them through
   /// memory. Not for a device or a pipe.
   MappedMemory map(uint64_t bytes);
-  /// Afterwards a power failure takes neither the content nor the name. `sync_folder` false: the name is safe only
-  /// when the caller has synced the folder.
-  void commit(bool sync_folder = true);
+  /// Afterwards a power failure takes neither the content nor the name.
+  void commit();
 
  private:
   std::string path_;  ///< as it was given

@@ -189,8 +189,12 @@ RgbdCalibration load_calibration(const std::string& path) {
   return calibration_from_text(read_file(path, kLargestCalibration), path);
 }
 
+std::string calibration_text(const RgbdCalibration& calibration) {
+  return to_json(calibration).dump(2) + "\n";
+}
+
 void save_calibration(const RgbdCalibration& calibration, const std::string& path) {
-  write_file(path, to_json(calibration).dump(2) + "\n");
+  write_file(path, calibration_text(calibration));
 }
 
 }  // namespace glovebench

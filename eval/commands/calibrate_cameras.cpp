@@ -10,6 +10,7 @@
 #include "core/base/whole_file.h"
 #include "eval/commands/calibrate.h"
 #include "eval/commands/command.h"
+#include "eval/commands/track_source.h"
 #include "eval/progress.h"
 
 namespace glovebench::eval {
@@ -47,9 +48,11 @@ struct CalibrateCameras {
   calibration::BoardViews boards_of(const std::string& source, const calibration::Chessboard& chessboard,
                                     const char* camera) const {
     Progress progress(fmt::format("{} views", camera), quiet);
-    return calibration::find_boards(source, chessboard, most, [&](size_t done, size_t count) {
-      progress.show(static_cast<double>(done) / static_cast<double>(count));
-    });
+    calibration::BoardViews views = calibration::find_boards(
+        source, chessboard, most,
+        [&](size_t done, size_t count) { progress.show(static_cast<double>(done) / static_cast<double>(count)); });
+    say_changed(source, views.changed);
+    return views;
   }
 
   /// "9x6".

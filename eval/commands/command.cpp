@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <thread>
 
 #include "core/base/error.h"
@@ -111,8 +112,8 @@ CommandLimits LimitsFlag::limits() const {
   return limits;
 }
 
-void RobotFlags::add(CLI::App& command, const std::string& what) {
-  command.add_option("--robot-out", output, what);
+CLI::Option* RobotFlags::add(CLI::App& command, const std::string& what) {
+  CLI::Option* const robot_out = command.add_option("--robot-out", output, what);
   command
       .add_option("--robot-mapping", mapping,
                   "to the robot's hand: direct, equal angles; fingertip, what is pinched stays pinched")
@@ -130,6 +131,7 @@ void RobotFlags::add(CLI::App& command, const std::string& what) {
   mounting.add(command);
   limits.add_coupling(command);
   limits.add(command);
+  return robot_out;
 }
 
 CLI::Validator named_file() {
@@ -210,6 +212,8 @@ RobotOutput RobotFlags::output_of(Workbench& workbench) const {
 }
 
 void CommonFlags::check_output_folder() const {
+  if (std::filesystem::exists(output + "/provenance.json"))
+    throw Error("--output", "folder", output + ", which holds a baseline", "another: both have a results.json");
   const WholeFile probe(output + "/results.json");  // never committed: nothing stays
 }
 

@@ -78,7 +78,8 @@ struct RobotFlags {
   MountingFlag mounting;
   LimitsFlag limits;
 
-  void add(CLI::App& command, const std::string& what);
+  /// Returns the option of `output`.
+  CLI::Option* add(CLI::App& command, const std::string& what);
   /// Of the workbench's hand. Throws Error unless transforms are finite and their quaternions have unit length, or
   /// if the arm is asked for and this program was built without it.
   RobotSetup setup(Workbench& workbench) const;

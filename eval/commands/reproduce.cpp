@@ -91,7 +91,7 @@ void add_reproduce(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command->add_flag("--all-noise", state->all_gains,
                     "Figure 4 also with half and double noise gain, and the kinect noise model");
-  state->robot.add(*command, "folder for the robot commands of each experiment");
+  state->robot.add(*command, "folder for the robot commands of each experiment")->check(named_file());
   command->callback([state, &exit_code] { exit_code = state->run(); });
 }
 

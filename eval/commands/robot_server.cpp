@@ -118,7 +118,7 @@ void add_robot_server(CLI::App& program, int& exit_code) {
   hand->callback([state, &exit_code] { exit_code = state->serve_hand(); });
   const auto keys = std::make_shared<Keys>();
   CLI::App* make_keys = command->add_subcommand("keys", "Make keys for DDS Security (`--security FOLDER`).");
-  make_keys->add_option("folder", keys->folder, "folder to make")->required();
+  make_keys->add_option("folder", keys->folder, "folder to make")->check(named_file())->required();
   constexpr int kMostDays = 3650;
   make_keys->add_option("--days", keys->days, "for how long they shall hold")
       ->check(CLI::Range(1, kMostDays))

@@ -155,7 +155,7 @@ void add_run(CLI::App& program) {
                    "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  state->robot.add(*command, "folder for the robot commands of each experiment");
+  state->robot.add(*command, "folder for the robot commands of each experiment")->check(named_file());
   state->common.add_tracker(*command);
   state->common.add_seed(*command);
   state->common.add_cameras(*command);

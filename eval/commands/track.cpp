@@ -87,6 +87,8 @@ struct Track {
   bool is_whole = true;          ///< no command failed, and every line was written
 
   void run() {
+    if (robot.output == common.output)
+      throw Error("--robot-out", "file", robot.output, "another than that of --output");
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());
