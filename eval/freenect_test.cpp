@@ -15,7 +15,8 @@
 #include <vector>
 
 #include "ci/build_paths.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/kinect/recording_files.h"
 #include "eval/test_program.h"
 

@@ -18,7 +18,7 @@
 
 #include "ci/build_paths.h"
 #include "core/base/angles.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/system_time.h"
 #include "core/robot/arm_follower.h"
 #include "core/robot/command_guard.h"

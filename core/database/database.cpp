@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/database/packed_labels.h"
 
 namespace glovebench {

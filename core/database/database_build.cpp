@@ -12,8 +12,8 @@
 #include "core/base/angles.h"
 #include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/whole_file.h"
 #include "core/database/packed_labels.h"
 
 namespace glovebench {

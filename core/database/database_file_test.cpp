@@ -7,10 +7,11 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/base/random.h"
 #include "core/base/sanitizers.h"
+#include "core/base/whole_file.h"
 #include "core/database/test_block_database.h"
 #include "core/test_folder.h"
 

@@ -7,7 +7,7 @@
 
 #include "ci/build_paths.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/database/test_block_database.h"
 #include "core/database/test_database.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/database/look_up.h"
 #include "core/database/test_damaged_database.h"
 #include "core/test_folder.h"

@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/calibration/stereo_fit.h"
 #include "eval/commands/flags.h"
+#include "eval/commands/track_source.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {
@@ -45,9 +46,11 @@ struct CalibrateCameras {
   calibration::BoardViews boards_of(const std::string& source, const calibration::Chessboard& chessboard,
                                     const char* camera) const {
     Progress progress(fmt::format("{} views", camera), quiet);
-    return calibration::find_boards(source, chessboard, most, [&](size_t done, size_t count) {
-      progress.show(static_cast<double>(done) / static_cast<double>(count));
-    });
+    calibration::BoardViews views = calibration::find_boards(
+        source, chessboard, most,
+        [&](size_t done, size_t count) { progress.show(static_cast<double>(done) / static_cast<double>(count)); });
+    say_changed(source, views.changed);
+    return views;
   }
 
   /// "9x6".

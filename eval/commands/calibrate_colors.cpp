@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/calibration/color_picture.h"
 #include "core/calibration/color_report.h"
 #include "eval/commands/flags.h"

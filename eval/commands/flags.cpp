@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <thread>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
+#include "core/base/whole_file.h"
 #include "core/methods/method.h"
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
@@ -101,8 +103,8 @@ CommandLimits LimitsFlag::limits() const {
   return limits;
 }
 
-void RobotFlags::add(Command command, const std::string& what) {
-  command.option("--robot-out", output, what);
+Option RobotFlags::add(Command command, const std::string& what) {
+  const Option robot_out = command.option("--robot-out", output, what);
   command
       .option("--robot-mapping", mapping,
               "to the robot's hand: direct, equal angles; fingertip, what is pinched stays pinched")
@@ -115,6 +117,7 @@ void RobotFlags::add(Command command, const std::string& what) {
   mounting.add(command);
   limits.add_coupling(command);
   limits.add(command);
+  return robot_out;
 }
 
 namespace {
@@ -169,6 +172,8 @@ RobotOutput RobotFlags::output_of(Workbench& workbench) const {
 }
 
 void CommonFlags::check_output_folder() const {
+  if (std::filesystem::exists(output + "/provenance.json"))
+    throw Error("--output", "folder", output + ", which holds a baseline", "another: both have a results.json");
   const WholeFile probe(output + "/results.json");  // never committed: nothing stays
 }
 

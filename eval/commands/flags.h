@@ -71,7 +71,8 @@ struct RobotFlags {
   MountingFlag mounting;
   LimitsFlag limits;
 
-  void add(Command command, const std::string& what);
+  /// Returns the option of `output`.
+  Option add(Command command, const std::string& what);
   /// Of the workbench's hand. Throws Error if the arm is asked for and this program was built without it.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;

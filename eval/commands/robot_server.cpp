@@ -117,7 +117,7 @@ void add_robot_server(Command program) {
   run.runs([state] { return state->run(); });
   const auto keys = std::make_shared<Keys>();
   const Command make_keys = command.subcommand("keys", "Make keys for DDS Security (`--security FOLDER`).");
-  make_keys.option("folder", keys->folder, "folder to make").required();
+  make_keys.option("folder", keys->folder, "folder to make").named_file().required();
   constexpr int kMostDays = 3650;
   make_keys.option("--days", keys->days, "for how long they shall hold").in(1, kMostDays);
   make_keys.runs([keys] { keys->make(); });

@@ -10,8 +10,9 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/system_time.h"
+#include "core/base/whole_file.h"
 #include "core/robot/arm_follower.h"
 #include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/dds_sink.h"

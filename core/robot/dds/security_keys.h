@@ -29,9 +29,10 @@ std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
 /// Makes a folder, mode 0700, with two authorities' certificates (`identity_ca.pem`, `permissions_ca.pem`), their
-/// signed `governance.p7s`, and for each role NAME.pem, NAME.key (mode 0600) and NAME.p7s. The authorities' private
-/// keys are never on a disk: who needs another role or more time makes another folder. `others`: roles with another
-/// validity. Throws Error if the folder exists and is not empty, or cannot be made.
+/// signed `governance.p7s`, and for each role NAME.pem, NAME.key (mode 0600) and NAME.p7s: one set of files
+/// (core/base/file_set.h), with a manifest of mode 0600. The authorities' private keys are never on a disk: who
+/// needs another role or more time makes another folder. `others`: roles with another validity. Throws Error if the
+/// folder exists and is not empty, or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});
 

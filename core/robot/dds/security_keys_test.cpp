@@ -8,7 +8,9 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/file_set.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -65,7 +67,10 @@ TEST_F(SecurityKeys, AreCompleteAndPrivate) {
                 HasSubstr("/" + role.name + ".p7s</Permissions>"));
   }
   const auto count = std::distance(fs::directory_iterator(path("keys")), fs::directory_iterator());
-  EXPECT_EQ(count, 3 + 3 * std::ssize(security_roles())) << "and no key of an authority";
+  EXPECT_EQ(count, 3 + 3 * std::ssize(security_roles()) + 1) << "with a manifest, and no key of an authority";
+  EXPECT_EQ(mode(path("keys/manifest.json")), 0600) << "it has hashes of private keys";
+  const FileSet keys(path("keys"));
+  EXPECT_EQ(keys.read("sender.key"), read_file(path("keys/sender.key")));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left over";
 }
 
