@@ -10,7 +10,6 @@
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/whole_file.h"
-#include "trajectories/angle_json.h"
 #include "trajectories/posture_file.h"
 #include "trajectories/text_cells.h"
 
