@@ -8,7 +8,7 @@
 #include "core/kinect/recording.h"
 #include "core/kinect/rectified_device.h"
 #include "eval/interruption.h"
-#include "eval/say.h"
+#include "eval/terminal.h"
 #ifdef GLOVEBENCH_FREENECT
 #include "core/kinect/freenect/freenect_device.h"
 #endif

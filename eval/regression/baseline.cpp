@@ -89,7 +89,7 @@ reports::NamedResult results_of(const FileSet& files) {
 /// truth than the run.
 Json describe_replaced(const FileSet& files, const reports::NamedResult& run) {
   if (!files.has(kResults)) return nullptr;
-  const std::string text = files.find(kResults, reports::kLargestFile).content;
+  const std::string text = files.find(kResults, kLargestResults).content;
   const reports::RunResult old = reports::parse_results(text, files.path(kResults));
   for (const auto& [name, hash] : run.result.inputs.truths) {
     const auto found = old.inputs.truths.find(name);
@@ -139,7 +139,7 @@ StoredRun load_run(const std::string& folder_or_file) {
 std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files) {
   const std::string path = files.path(kNoiseFloor);  // is written by itself, and in no set
   if (!fs::exists(path)) return std::nullopt;
-  return reports::parse_noise_floor(read_regular_file(path, reports::kLargestSmallFile), path);
+  return reports::parse_noise_floor(read_regular_file(path, kLargestSmallFile), path);
 }
 
 reports::StageTimes load_stage_times(const FileSet& files) {
@@ -184,7 +184,7 @@ void update_baseline(const std::string& folder, const reports::NamedResult& run,
   const std::string results = reports::results_json(run.result);
   files.add(kProvenance, provenance_json(run, hash_text(results), times, replaced));
   if (!speed.empty()) files.add(kSpeed, reports::speed_json(speed));
-  if (speed.empty() && old.has(kSpeed)) files.add(kSpeed, old.find(kSpeed, reports::kLargestFile).content);
+  if (speed.empty() && old.has(kSpeed)) files.add(kSpeed, old.find(kSpeed, kLargestResults).content);
   files.add(kResults, results);
   files.commit();
 }
