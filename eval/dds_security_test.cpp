@@ -114,7 +114,7 @@ TEST_F(DdsSecurity, OnlyTheSenderIsFollowed) {
   ASSERT_GT(received(log, "fingers", "accepted"), 50) << "the same with the right keys is followed";
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr(" accepted, "), testing::Not(HasSubstr("foreign"))));
+  EXPECT_THAT(run.out, AllOf(HasSubstr(" accepted; "), testing::Not(HasSubstr("foreign"))));
   EXPECT_NEAR(last_angle(log, "rh_FFJ3"), 10, 1e-6);
   EXPECT_EQ(stop(eavesdropper, SIGTERM).out, "ready\n") << "nobody without keys hears commands or states";
 }

@@ -71,7 +71,7 @@ void expect_slow_fingertips(const std::string& log) {
     last = now;
     last_us = now_us;
   }
-  EXPECT_GT(fastest, 0.4) << "it has moved";
+  EXPECT_GT(fastest, 0.2) << "it has moved";
 }
 
 TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {

@@ -75,7 +75,8 @@ TEST_F(RobotServer, TheFirstSenderOwnsItWhileAnotherFloods) {
   EXPECT_EQ(finish(flooder).out, "said\n");
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0);
-  // A flood that pushed the owner's messages out would leave few of 301. A busy machine may lose some: a writer keeps 10.
+  // A flood that pushed the owner's messages out would leave few of 301. A busy machine may lose some: a writer
+  // keeps 10.
   EXPECT_GE(good(log, "fingers"), 225) << "the owner is heard: " << run.out;
   EXPECT_THAT(run.out, HasSubstr(" foreign"));
   if (!had_gaps(run)) {  // after one, the first who starts owns it
