@@ -93,7 +93,7 @@ void add_calibrate_cameras(Command calibrate) {
   const Command command = calibrate.subcommand(
       "cameras",
       "Calibrate the cameras of a Kinect from pictures of a chessboard, for --calibration.\n"
-      "Both cameras' pictures of one name must show the board in the same place (calibration/README.md).");
+      "Both cameras' pictures of one name must show the board in the same place (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateCameras>();
   command.option("--ir", state->ir, "pictures of the IR camera: a folder, or fakenect:FOLDER").required();
   command.option("--rgb", state->rgb, "pictures of the RGB camera: a folder, or fakenect:FOLDER").required();
