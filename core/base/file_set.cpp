@@ -48,7 +48,13 @@ std::pair<std::string, ManifestEntry> entry_from(const nlohmann::json& json, con
 std::optional<std::string> content_of(const std::string& path, const ManifestEntry& entry, uint64_t max_bytes) {
   std::error_code error;
   if (fs::file_size(path, error) != entry.bytes || error) return std::nullopt;
-  std::string content = read_regular_file(path, max_bytes);
+  std::string content;
+  try {
+    content = read_regular_file(path, max_bytes);
+  } catch (const Error&) {
+    if (!fs::exists(path, error)) return std::nullopt;  // the writer moved it meanwhile
+    throw;
+  }
   if (hash_text(content) != entry.hash) return std::nullopt;
   return content;
 }

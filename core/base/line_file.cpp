@@ -23,6 +23,7 @@ LineFile::LineFile(const std::string& path) : path_(path), target_(find_output(p
     if (descriptor_ < 0 && errno != EEXIST)
       throw Error(path, "file", std::strerror(errno), "a file that can be written");
   }
+  sync_folder(folder_above(partial_));
 }
 
 LineFile::~LineFile() {

@@ -185,7 +185,7 @@ TEST_P(FastLookUpMemory, sums_at_the_cap_do_not_overflow) {
     constexpr int kEntries = 70;
     const std::vector<uint8_t> fields(pixels * kColorCount * kEntries + 64, cap);
     FieldRows rows(size, GetParam(), kEntries, cap);
-    for (int entry = 0; entry < kEntries; ++entry) rows.put(entry, fields.data());
+    rows.put(0, std::span(fields).first(pixels * kColorCount * kEntries));
     const LabelImage query(size, size, 7);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
     QueryLabels labels;

@@ -14,8 +14,10 @@ int pool_of(int size, DatabaseMemory memory) {
 
 /// The least of each `pool` neighbors along a row, every one a cell.
 void pool_row(std::array<uint8_t, kWidest + kLargestPool>& row, int pool, int cells, uint8_t* minima) {
-  for (int step = 1; step < pool; step *= 2)
-    for (int u = 0; u < kWidest; ++u) row[u] = std::min(row[u], row[u + step]);
+  for (int step = 1; step < pool; step *= 2) {
+    const auto before = row;  // apart, so that the loop is vectorized
+    for (int u = 0; u < kWidest; ++u) row[u] = std::min(before[u], before[u + step]);
+  }
   for (int cell = 0; cell < cells; ++cell) minima[cell] = row[cell * pool];
 }
 
@@ -45,16 +47,24 @@ FieldRows::FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t l
   for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
 }
 
-void FieldRows::put(int entry, const uint8_t* fields) {
-  std::array<uint8_t, static_cast<size_t>(kColorCount) * 16 * 16> pooled;
-  if (!exact()) {
-    pool_entry(fields, size_, pool_, cells_, pooled.data());
-    fields = pooled.data();
-  }
-  uint8_t* const block = values_.writable().data() + entry / kBlock * block_bytes();
-  const int begin = entry % kBlock, end = entry + 1 == entry_count_ ? kBlock : begin + 1;
-  for (int place = begin; place < end; ++place)
-    for (size_t row = 0; row < row_count(); ++row) block[row * kBlock + place] = fields[row];
+void FieldRows::put(int first, std::span<const uint8_t> fields) {
+  const size_t entry_bytes = static_cast<size_t>(kColorCount) * size_ * size_, count = fields.size() / entry_bytes;
+  std::vector<uint8_t> pooled(exact() ? 0 : count * row_count());
+  for (size_t i = 0; i * row_count() < pooled.size(); ++i)
+    pool_entry(&fields[i * entry_bytes], size_, pool_, cells_, &pooled[i * row_count()]);
+  const uint8_t* const values = exact() ? fields.data() : pooled.data();
+  const auto place = [&](size_t row, int entry) -> uint8_t& {
+    return values_.writable()[entry / kBlock * block_bytes() + row * kBlock + entry % kBlock];
+  };
+  // A few rows of all entries at a time, which stay in the nearest cache.
+  for (size_t begin = 0; begin < row_count(); begin += kBlock)
+    for (size_t i = 0; i < count; ++i)
+      for (size_t row = begin; row < std::min(begin + kBlock, row_count()); ++row)
+        place(row, first + static_cast<int>(i)) = values[i * row_count() + row];
+  const int last = entry_count_ - 1;
+  if (first + static_cast<int>(count) <= last) return;
+  for (size_t row = 0; row < row_count(); ++row)
+    std::fill_n(&place(row, last), kBlock - last % kBlock, place(row, last));
 }
 
 uint32_t FieldRows::sum(int entry, std::span<const WeightedRow> rows) const {

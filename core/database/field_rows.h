@@ -29,10 +29,10 @@ class FieldRows {
 
   /// Rows of tiny images of that size, px, until `put` all zero. `largest_value`: no field has a larger one.
   FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value);
-  /// Writes what the rows hold of one entry, whose kColorCount fields of size * size these are. Entries may be put
-  /// in any order, and at once. The last one also fills what lies behind it in its block: nothing there is nearer
-  /// than every entry.
-  void put(int entry, const uint8_t* fields);
+  /// Writes what the rows hold of some entries from `first` on, of each kColorCount fields of size * size.
+  /// Different entries may be put at once. The last one also fills what lies behind it in its block: nothing there
+  /// is nearer than every entry.
+  void put(int first, std::span<const uint8_t> fields);
 
   /// Sums over rows are the distances, not just bounds.
   bool exact() const { return pool_ == 1; }

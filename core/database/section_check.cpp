@@ -106,14 +106,12 @@ DatabaseContent look_at_sections(const DatabaseLayout& layout, const MappedMemor
   tbb::parallel_for(size_t{0}, piece_count, [&](size_t piece) {
     for (size_t s = 0; s < sections.size(); ++s) {
       const Section& section = sections[s];
-      const uint64_t entry_bytes = section.piece_bytes / kPieceEntries;
       const std::span<const uint8_t> bytes =
           section.bytes > 0 ? piece_of(file, section, piece)
                             : make_fields(layout, file, section.size_px, piece, made_fields.local());
       found[s][piece] = {hash_bytes(std::as_bytes(bytes)), !has_values_of(section, bytes, cap_share)};
-      if (!load || section.kind != Section::Kind::fields) continue;
-      for (size_t i = 0; i < kPieceEntries; ++i)
-        content.rows.at(section.size_px).put(static_cast<int>(piece * kPieceEntries + i), &bytes[i * entry_bytes]);
+      if (load && section.kind == Section::Kind::fields)
+        content.rows.at(section.size_px).put(static_cast<int>(piece * kPieceEntries), bytes);
     }
     if (!release) return;
     for (const Section& section : sections)

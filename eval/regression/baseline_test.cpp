@@ -35,7 +35,7 @@ TEST(Baseline, that_is_replaced_while_it_is_read_does_not_mix) {
   const TestFolder folder;
   write_baseline(folder.path(), 1);
   std::atomic<bool> is_done = false;
-  std::thread writer([&] {
+  std::jthread writer([&] {
     for (int number = 2; !is_done; ++number) write_baseline(folder.path(), number);
   });
   constexpr int kReads = 100;
@@ -51,7 +51,6 @@ TEST(Baseline, that_is_replaced_while_it_is_read_does_not_mix) {
     }
   }
   is_done = true;
-  writer.join();
 }
 
 TEST(StoredRun, that_was_replaced_since_is_not_read_on) {

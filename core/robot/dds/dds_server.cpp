@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -213,27 +214,33 @@ class Service {
   int seen_others_ = 0;  ///< looks at which there was another
 };
 
-/// Throws Error if another server is there. It tells of them all the time, so a second is enough
-/// for whoever the middleware finds.
+/// Throws Error if another server is heard.
+void refuse_others(OtherServers& others, const DdsServerOptions& options) {
+  if (const std::optional<std::string> joint = others.heard())
+    throw Error(fmt::format("DDS domain {}", options.domain), topics::kOwn.joint_states,
+                fmt::format("another process that tells of {}", *joint), "one server of a robot");
+}
+
+/// A server tells of its joints all the time, so a second is enough for whoever the middleware finds.
 void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   const int64_t end_us = steady_us() + kListenUs;
   while (steady_us() < end_us && !options.stopping()) {
-    if (const std::optional<std::string> joint = others.heard())
-      throw Error(fmt::format("DDS domain {}", options.domain), topics::kOwn.joint_states,
-                  fmt::format("another process that tells of {}", *joint), "one server of a robot");
+    refuse_others(others, options);
     std::this_thread::sleep_for(std::chrono::microseconds(kPeriodUs));
   }
 }
 
-/// Where the joints are measured, as soon as they are. Nothing if the server shall stop before.
+/// Where the joints are measured, as soon as they are. Nothing if the server shall stop before. Throws Error if
+/// another server begins meanwhile.
 std::optional<StartPlace> await_measured(const DdsParticipant& participant, const LoggedStart& logged,
-                                         const DdsServerOptions& options) {
+                                         OtherServers& others, const DdsServerOptions& options) {
   const std::string topic = topics::kMeasuredJointStates;
   MeasuredRobot measured(participant, {topic}, options.robot.hand, options.robot.arm.has_value());
   options.tell(fmt::format("{}: {}: waits for a measured state on {}", logged.source, logged.doubt, topic));
   const std::vector<JointMotion> motions = options.robot.motions(options.limits);
   const double slowest = std::ranges::min_element(motions, {}, &JointMotion::speed)->speed;
   while (!options.stopping()) {
+    refuse_others(others, options);
     if (std::optional<MeasuredState> state = measured.look()) {
       if (state->arm) state->hand.insert(state->hand.end(), state->arm->begin(), state->arm->end());
       return StartPlace{state->hand, topic, slowest * kPeriodUs * 1e-6};
@@ -249,6 +256,8 @@ DdsServerSummary serve(const DdsServerOptions& options) {
   const ServedRobot& robot = options.robot;
   MotionLog log(options.log, robot.names(),
                 robot.motions(options.limits));  // first: nobody else writes on from here
+  if (!options.log.empty() && !std::filesystem::is_regular_file(options.log))
+    options.tell(fmt::format("{}: no regular file, so nothing on it is durable and no joint moves", options.log));
   const LoggedStart logged = log.start(robot.at_rest(), system_us(), options.max_log_age_s, kPeriodUs * 1e-6);
   if (!logged.age.empty() && logged.doubt.empty())
     options.tell(fmt::format("{}: starts at its last state, of {}", logged.source, logged.age));
@@ -257,7 +266,7 @@ DdsServerSummary serve(const DdsServerOptions& options) {
   const DdsParticipant participant(options.domain, options.access);
   OtherServers others(participant);
   refuse_beside(others, options);
-  if (!logged.doubt.empty()) start = await_measured(participant, logged, options);
+  if (!logged.doubt.empty()) start = await_measured(participant, logged, others, options);
   if (!start) return {fmt::format("{}: ended before the joints were measured", robot.name()), 0};
   Port port(participant, robot, RobotServer(options.limits, robot, *start));
   log.started(system_us(), logged.doubt.empty() ? logged.from : "measured");

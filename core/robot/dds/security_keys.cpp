@@ -324,6 +324,9 @@ std::string security_configuration(const std::string& folder, const std::string&
     throw Error(from.string(), "folder", "one of < > & \" ' $ in its path", "none of them");
   const KeyFolder keys(from);
   const std::string certificate = role + ".pem", key = role + ".key", rights = role + ".p7s";
+  if (!fs::exists(from / certificate) && fs::exists(from / "hand.pem"))
+    throw Error(folder, "keys", "those of an older version, without " + certificate,
+                "new ones of robot-server keys");
   for (const std::string& file : {std::string("identity_ca.pem"), std::string("permissions_ca.pem"),
                                   std::string("governance.p7s"), certificate, key, rights})
     keys.check_readable(file);

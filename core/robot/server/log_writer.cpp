@@ -88,7 +88,7 @@ LogWriter::Shared::Shared(const std::string& path)
   if (!is_regular) return;
   try {
     lock_file(descriptor, path);
-    sync_folder(folder_above(path));
+    sync_folder(folder_above(find_output(path).path));
   } catch (const Error&) {
     ::close(descriptor);
     throw;

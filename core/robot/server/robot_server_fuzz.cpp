@@ -157,18 +157,20 @@ class Judge {
 /// A server of hand and arm with any messages at any times: nothing moves faster or farther than the limits, or by
 /// a command that is old, and J1 moves as its motor does.
 void robot_server_fuzz(std::string_view bytes) {
-  for (const bool with_arm : {false, true}) {
-    Judge judge(with_arm);
-    FuzzInput input(bytes);
-    while (!input.empty()) {
-      const uint8_t action = input.next<uint8_t>();
-      if (action % 3 == 0) {
-        judge.tick(action, input);
-      } else {
-        judge.receive(action, input);
+  without_error([&] {
+    for (const bool with_arm : {false, true}) {
+      Judge judge(with_arm);
+      FuzzInput input(bytes);
+      while (!input.empty()) {
+        const uint8_t action = input.next<uint8_t>();
+        if (action % 3 == 0) {
+          judge.tick(action, input);
+        } else {
+          judge.receive(action, input);
+        }
       }
     }
-  }
+  });
 }
 
 }  // namespace glovebench
