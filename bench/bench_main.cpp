@@ -9,7 +9,7 @@
 #include "bench/bench_data.h"
 #include "bench/ratio_reporter.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench::bench {
 namespace {

@@ -1,5 +1,5 @@
-"""soak_judge.py FOLDER SECONDS: judges what ci/soak has recorded (estimates.jsonl of the tracker, hand.jsonl and arm.jsonl
-of the servers) and prints one line. Exit code 4 if a command was missed, or if more commands of a topic than those of a
+"""soak_judge.py FOLDER SECONDS: judges what ci/soak has recorded (estimates.jsonl of the tracker, robot.jsonl
+of the server) and prints one line. Exit code 4 if a command was missed, or if more commands of a topic than those of a
 second were spent on starts, which says something about the program; 3 if none was but 1% of them took 10 ms or more or
 were stale, which may say something about what else the machine did."""
 import json
@@ -17,15 +17,14 @@ expected = {frame["timestamp_us"] for frame in frames if frame["status"] == "tra
 latencies, missed, stale, starting, counts = [], 0, 0, 0, []
 # A command that came is not missed, though at a start, or too late, it moves nothing (core/robot/dds/README.md).
 CAME = ("accepted", "starting", "stale")
-for side, topics in (("hand", ("fingers", "wrist")), ("arm", ("pose",))):
-    received = [json.loads(line) for line in open(f"{work}/{side}.jsonl") if '"received"' in line]
-    for topic in topics:
-        lines = [line for line in received if line["topic"] == topic and line["receipt"] in CAME]
-        missed += len(expected - {line["stamp_ns"] // 1000 for line in lines})
-        counts.append(f"{topic} {len(lines)}")
-        stale += sum(line["receipt"] == "stale" for line in lines)
-        starting = max(starting, sum(line["receipt"] == "starting" for line in lines))
-        latencies += [(line["time_us"] - line["source_us"]) / 1000 for line in lines]
+received = [json.loads(line) for line in open(f"{work}/robot.jsonl") if '"received"' in line]
+for topic in ("fingers", "wrist", "pose"):
+    lines = [line for line in received if line["topic"] == topic and line["receipt"] in CAME]
+    missed += len(expected - {line["stamp_ns"] // 1000 for line in lines})
+    counts.append(f"{topic} {len(lines)}")
+    stale += sum(line["receipt"] == "stale" for line in lines)
+    starting = max(starting, sum(line["receipt"] == "starting" for line in lines))
+    latencies += [(line["time_us"] - line["source_us"]) / 1000 for line in lines]
 latencies.sort()
 
 

@@ -3,7 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/calibration/test_board.h"
 #include "eval/command_test.h"
 #include "render/pictures.h"

@@ -88,17 +88,21 @@ TEST_F(CommandLine, FlagsOutOfRange) {
 TEST_F(CommandLine, StandardOutputIsNoFileWhereSomethingElseIsPrinted) {
   const std::vector<std::vector<std::string>> commands = {
       {"run", "--suite", "quick", "-o", "-"},
+      {"run", "--suite", "quick", "-o", "out", "--robot-out", "-"},
       {"reproduce", "-o", "-"},
+      {"reproduce", "--robot-out", "-"},
       {"render", "--trajectory", "Tr4", "-o", "-"},
       {"record", "--trajectory", "Tr4", "--database", "DB_open_power", "-o", "-"},
       {"explain", ".", "0", "-o", "-"},
       {"db", "build", "--postures", "DB_open_power", "-o", "-"},
       {"compare", ".", ".", "-o", "-"},
       {"gate", ".", "-o", "-"},
+      {"gate", ".", "--baseline", "-", "--update"},
       {"calibrate", "noise", "--suite", "quick", "-o", "-"},
       {"calibrate", "cameras", "--ir", "a", "--rgb", "b", "-o", "-"},
       {"calibrate", "colors", "--source", "fakenect:a", "-o", "-"},
-      {"robot-server", "hand", "--robot", "dds", "--log", "-"}};
+      {"robot-server", "keys", "-"},
+      {"robot-server", "run", "--hand", "--robot", "dds", "--log", "-"}};
   for (const std::vector<std::string>& command : commands)
     EXPECT_THAT(refusal(command), HasSubstr("found -, expected the name of a file or folder")) << command[0];
   EXPECT_FALSE(std::filesystem::exists("-"));

@@ -10,7 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "ci/build_paths.h"
-#include "core/base/file.h"
+#include "core/base/file_set.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/database/test_damaged_database.h"
 #include "eval/command_test.h"
 #include "eval/test_program.h"
@@ -89,10 +91,10 @@ TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
 
   // A database with the same inputs and another content, as another builder makes it, is no other run of the same.
   std::string other = read_file(path("mine.glovedb"));
-  const std::vector<Section> sections = sections_of(other);
-  const auto labels = std::ranges::find(sections, "labels_64", &Section::name);
-  other[labels->offset + 1000] = static_cast<char>(other[labels->offset + 1000] == 0x11 ? 0x22 : 0x11);
-  write_file(path("other.glovedb"), with_right_hashes(other, sections));
+  const DatabaseLayout layout = layout_of(other);
+  char& label = other[layout.sizes().at(64).labels.offset + 1000];
+  label = static_cast<char>(label == 0x11 ? 0x22 : 0x11);
+  write_file(path("other.glovedb"), with_right_hashes(other, layout));
   expect_fine(run_with("other.glovedb"));
   const ProgramRun compared = run_glovebench({"compare", path("own-mine.glovedb"), path("own-other.glovedb")});
   EXPECT_EQ(compared.exit_code, 3);
@@ -133,12 +135,13 @@ TEST_F(CommandsLong, ExplainsAFrame) {
 
 TEST_F(CommandsLong, RendersPicturesAndLayers) {
   expect_fine(run_glovebench({"render", "--trajectory", path("good.json"), "--format", "png", "-o", path("png")}));
-  EXPECT_EQ(read_folder(path("png")).size(), 2U * kFrames) << "color and depth";
+  EXPECT_EQ(read_folder(path("png")).size(), 2U * kFrames + 1) << "color and depth, and their manifest";
+  EXPECT_THAT(FileSet(path("png")).read("depth_0003.png"), StartsWith("\x89PNG"));
   EXPECT_THAT(read_file(path("png/color_0003.png")), StartsWith("\x89PNG"));
 
   expect_fine(run_glovebench({"render", "--trajectory", path("good.json"), "--format", "exr", "--database",
                               "DB_open_power", "-o", path("exr")}));
-  EXPECT_EQ(read_folder(path("exr")).size(), static_cast<size_t>(kFrames));
+  EXPECT_EQ(read_manifest(path("exr"))->size(), static_cast<size_t>(kFrames));
   const render::FrameLayers layers = render::read_exr(path("exr/frame_0003.exr"));
   EXPECT_EQ(layers.color.width(), 640);
   const auto glove = [](const LabelImage& labels) {

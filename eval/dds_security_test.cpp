@@ -86,7 +86,7 @@ class DdsSecurity : public RobotServer {
   }
   ProgramSetting with_wrong_key(const std::string& role) const {
     Files its = files("keys", role);
-    its.key = files("keys", "hand").key;
+    its.key = files("keys", "server").key;
     return as(its);
   }
   /// Everybody who has no right to send what `role` does.
@@ -114,7 +114,7 @@ TEST_F(DdsSecurity, OnlyTheSenderIsFollowed) {
   ASSERT_GT(received(log, "fingers", "accepted"), 50) << "the same with the right keys is followed";
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr(" accepted, "), testing::Not(HasSubstr("foreign"))));
+  EXPECT_THAT(run.out, AllOf(HasSubstr(" accepted; "), testing::Not(HasSubstr("foreign"))));
   EXPECT_NEAR(last_angle(log, "rh_FFJ3"), 10, 1e-6);
   EXPECT_EQ(stop(eavesdropper, SIGTERM).out, "ready\n") << "nobody without keys hears commands or states";
 }
@@ -142,7 +142,8 @@ TEST_F(DdsSecurity, StatesOfIntrudersAreNotBelieved) {
   const std::string tell = "state states" + state + "\nstate measured" + state + "\nagain 100000 10000\n";
   std::vector<StartedProgram> running;
   for (const auto& [who, setting] : intruders("robot")) running.push_back(talk(tell, setting));
-  MeasuredRobot robot(std::stoi(domain_), access("sender"), false);
+  const DdsParticipant participant(std::stoi(domain_), access("sender"));
+  MeasuredRobot robot(participant, {topics::kMeasuredJointStates}, true, false);
   EXPECT_THROW(robot.state(3), Error);
   const std::string log = path("hand.jsonl");
   const StartedProgram server = serve_until_ready("hand", log, {"--security", path("keys")});
@@ -190,7 +191,7 @@ TEST_F(DdsSecurity, KeysAreMadeOnceAndCheckedBeforeTheyAreUsed) {
   const std::string made = path("made");
   ProgramRun run = finish(start({build_paths::program("glovebench"), "robot-server", "keys", made, "--days", "2"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.out, made + ": keys of sender hand arm robot observer, for 2 days\n");
+  EXPECT_EQ(run.out, made + ": keys of sender server robot observer, for 2 days\n");
   const auto expect_refusal = [&](const ProgramRun& its, const std::string& what) {
     EXPECT_EQ(its.exit_code, 2) << what;
     EXPECT_EQ(std::ranges::count(its.err, '\n'), 1) << its.err;
@@ -206,11 +207,11 @@ TEST_F(DdsSecurity, KeysAreMadeOnceAndCheckedBeforeTheyAreUsed) {
     return finish(serve("hand", path("log"), {"--security", folder}));
   };
   expect_refusal(refusal_of(path("nothing")), "/nothing: folder: found No such file or directory");
-  std::filesystem::copy_file(made + "/arm.key", made + "/hand.key",
+  std::filesystem::copy_file(made + "/robot.key", made + "/server.key",
                              std::filesystem::copy_options::overwrite_existing);
-  expect_refusal(refusal_of(made), "/made/hand.key: private key: found another one, expected that of ");
-  std::filesystem::remove(made + "/hand.p7s");
-  expect_refusal(refusal_of(made), "/made/hand.p7s: ");
+  expect_refusal(refusal_of(made), "/made/server.key: private key: found another one, expected that of ");
+  std::filesystem::remove(made + "/server.p7s");
+  expect_refusal(refusal_of(made), "/made/server.p7s: ");
   make_security_keys(path("old"), {now_s() - 2 * kDay, now_s() - kDay});
   expect_refusal(refusal_of(path("old")), "/old/identity_ca.pem: certificate: found one that expired ");
   expect_refusal(

@@ -201,7 +201,7 @@ TEST_F(Dds, RefusesWhatIsNoDomainOrNoNetwork) {
 
 TEST_F(Dds, TheCommandLineNamesWhatItDoesNotKnow) {
   for (const char* wrong : {"ros", "dds:", "dds:x", "dds:-1", "dds:1x", "dds:999", ""}) {
-    const ProgramRun run = run_glovebench({"robot-server", "hand", "--robot", wrong});
+    const ProgramRun run = run_glovebench({"robot-server", "run", "--hand", "--robot", wrong});
     EXPECT_EQ(run.exit_code, 2) << wrong;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   }
@@ -252,7 +252,7 @@ TEST_F(DdsTrack, StreamsWhatItWrites) {
 TEST(Dds, IsNamedWhereTheBuildLacksIt) {
   const std::vector<std::vector<std::string> > commands = {
       {"track", "--source", "fakenect:x", "--database", "DB_open_power", "-o", "x", "--robot", "dds"},
-      {"robot-server", "hand"}};
+      {"robot-server", "run", "--hand"}};
   for (const auto& arguments : commands) {
     const ProgramRun run = run_glovebench(arguments);
     EXPECT_EQ(run.exit_code, 2);

@@ -9,9 +9,8 @@
 #include <tuple>
 
 #include "core/base/check.h"
-#include "core/base/file.h"
+#include "core/base/file_set.h"
 #include "core/base/hash.h"
-#include "core/base/name.h"
 #include "core/robot/json_lines_sink.h"
 #include "eval/page_material.h"
 #include "eval/program_info.h"
@@ -124,7 +123,7 @@ reports::ExperimentTiming timing_of(const Gathered& experiment) {
 class Robot {
  public:
   explicit Robot(const RobotOutput& output) : output_(output) {
-    if (!output_.folder.empty()) remove_leftovers(output_.folder, is_of_robot_output);
+    if (!output_.folder.empty()) files_.emplace(output_.folder);
   }
 
   /// Adds the times from frame to command to the experiment's.
@@ -136,22 +135,22 @@ class Robot {
       measurement.add(stream, of_truth(*experiment.replays[i]), static_cast<int>(pass.results.size()));
       for (size_t f = 0; f < pass.results.size(); ++f)
         timing.command_ms.push_back(pass.frame_ms[f] + stream.command_ms[f]);
-      if (!output_.folder.empty())
-        write(stream, fmt::format("{}_seed{}.jsonl", to_string(experiment.key), experiment.replays[i]->seed));
+      if (files_)
+        files_->add(fmt::format("{}_seed{}.jsonl", to_string(experiment.key), experiment.replays[i]->seed),
+                    json_lines(stream));
     }
     return measurement.result();
   }
-
- private:
-  /// "EXPERIMENT_seed1.jsonl".
-  static bool is_of_robot_output(const std::string& name) {
-    return name.find("_seed") != std::string::npos && name.ends_with(".jsonl");
+  /// After the last experiment.
+  void commit() {
+    if (files_) files_->commit();
   }
 
-  void write(const CommandStream& stream, const std::string& name) const {
+ private:
+  static std::string json_lines(const CommandStream& stream) {
     std::string lines;
     for (const RobotCommand& command : stream.commands) lines += to_json_line(command) + "\n";
-    write_file(path_within(output_.folder, name), lines);
+    return lines;
   }
 
   /// Databases, noises and seeds share a truth.
@@ -163,6 +162,7 @@ class Robot {
   }
 
   const RobotOutput& output_;
+  std::optional<WholeFiles> files_;
   std::map<std::tuple<std::shared_ptr<const Trajectory>, int, std::optional<int>>, CommandStream> of_truth_;
 };
 
@@ -246,6 +246,7 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
     outcome.result.experiments[e].commands = commanded.command(experiments[e], outcome.timings.experiments.back());
     outcome.estimates.push_back(estimates_of(experiments[e]));
   }
+  commanded.commit();
   note_resources(outcome.timings, start);
   return outcome;
 }

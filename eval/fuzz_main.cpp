@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "core/base/file.h"
 #include "core/base/fuzz_target.h"
+#include "core/base/input_file.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 

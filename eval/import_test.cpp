@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"
+#include "core/base/file_set.h"
 #include "eval/share.h"
 #include "eval/test_program.h"
 #include "trajectories/capture/test_capture.h"
@@ -50,6 +51,10 @@ TEST_F(ImportMarkers, GivesATrajectoryThatRunTakes) {
                              HasSubstr("not shown: wrist_flexion wrist_abduction")));
   EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 1);
   EXPECT_THAT(read_file(path("wave.residuals.csv")), HasSubstr("frame,timestamp_us,points,residual_median_mm"));
+  EXPECT_EQ(import({"--format", "csv", "--postures", "2", "-o", path("postures.json")}).exit_code, 0);
+  const FileSet files(folder_);
+  for (const char* name : {"wave.json", "wave.residuals.csv", "postures.json"})
+    EXPECT_EQ(files.read(name), read_file(path(name))) << "sets that share a folder";
   const ProgramRun tracked =
       run_glovebench({"run", "--trajectory", path("wave.json"), "--database", "DB_open_power", "-o", path("run")});
   EXPECT_EQ(tracked.exit_code, 0) << tracked.err;

@@ -36,6 +36,8 @@ class OutputsLong : public CommandTest {
 TEST_F(OutputsLong, TheNameOfADatabaseLeadsOutOfNoFolder) {
   build_database("own", "own.glovedb");
   expect_fine(run_with("own.glovedb", "out"));
+  const std::string commands = "good_own_source_subject1_gradient_1_seed1.jsonl";
+  EXPECT_EQ(FileSet(path("out/robot")).read(commands), read_file(path("out/robot/") + commands)) << "one set";
   build_database("x/../../../escaped/evil", "evil.glovedb");
   for (const std::string& refused : {refusal(run_with("evil.glovedb", "a/b/c/out")),
                                      refusal(run_glovebench({"db", "info", path("evil.glovedb")}))})
@@ -73,6 +75,25 @@ TEST_F(OutputsLong, ARunThatIsNotWhatItsManifestSaysIsIncomplete) {
   EXPECT_EQ(refusal(compare()), refusal(compare())) << "without a manifest it is read as it is: half a file";
   write_file(path("out/results.json"), results);
   EXPECT_EQ(compare().exit_code, 0) << "a run of before there were manifests";
+}
+
+TEST_F(OutputsLong, AFolderOfAnotherKindKeepsItsFiles) {
+  run_trajectory("good.json", "out");
+  const std::string page = read_file(path("out/index.html"));
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"compare", path("out"), path("out"), "-o", path("out")},
+        {"gate", path("out"), "--baseline", path("out"), "-o", path("out")}})
+    EXPECT_THAT(refusal(run_glovebench(command)), HasSubstr("which holds a run or a baseline"));
+  EXPECT_EQ(read_file(path("out/index.html")), page);
+  write_file(path("baseline/results.json"), read_file(path("out/results.json")));
+  write_file(path("baseline/provenance.json"), "{}");
+  EXPECT_THAT(refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
+                                      path("baseline")})),
+              HasSubstr("which holds a baseline"));
+  // A recording has no file of a name of the run's.
+  render_recording("good.json", "out");
+  expect_fine(run_glovebench({"compare", path("out"), path("out")}));
+  expect_fine(track("out", "DB_open_power", "x.jsonl"));
 }
 
 }  // namespace

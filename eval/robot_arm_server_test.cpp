@@ -1,4 +1,4 @@
-// The arm's server as a process, by itself and beside the hand's.
+// A server of the arm as a process, and one of hand and arm.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -6,6 +6,7 @@
 #include "eval/test_program.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/system_time.h"
+#include "core/robot/test_fingertips.h"
 #include "eval/robot_server_fixture.h"
 #endif
 
@@ -35,12 +36,42 @@ std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame =
 }
 
 /// Where the wrist is at the end of a log.
-Eigen::Vector3d last_wrist(const json& state, const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
+Eigen::Isometry3d last_wrist(const json& state,
+                             const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
   ArmJoints joints;
   for (int j = 0; j < kArmJointCount; ++j)
     joints[j] =
         radians_from_degrees(state.at("position_deg").at(std::string(arm_joint_infos()[j].name)).get<double>());
-  return (arm_flange_pose(joints) * T_flange_wrist).translation();
+  return arm_flange_pose(joints) * T_flange_wrist;
+}
+
+/// By a log of hand and arm, from one state to the next, each fingertip in the arm's base frame.
+void expect_slow_fingertips(const std::string& log) {
+  std::optional<TestFingertips::Tips> last;
+  int64_t last_us = 0;
+  double fastest = 0;
+  std::istringstream all(read_file(log));
+  for (std::string line; std::getline(all, line);) {
+    const json event = json::parse(line, nullptr, false);  // a kill may have cut it
+    if (event.is_discarded() || event.at("event") == "start") last.reset();
+    if (event.is_discarded() || event.at("event") != "state") continue;
+    std::array<double, kShadowJointCount> joints;
+    for (size_t j = 0; j < joints.size(); ++j)
+      joints[j] = radians_from_degrees(event.at("position_deg").at(hand_joint_names()[j]).get<double>());
+    const Eigen::Isometry3d T_base_wrist = last_wrist(event);
+    const TestFingertips::Tips now =
+        (T_base_wrist.linear() * TestFingertips(joints).in_forearm()).colwise() + T_base_wrist.translation();
+    const auto now_us = event.at("clock_us").get<int64_t>();
+    if (last) {
+      const double seconds = std::min(CommandLimits().longest_step_s, static_cast<double>(now_us - last_us) * 1e-6);
+      const double way = (now - *last).colwise().norm().maxCoeff();
+      ASSERT_LE(way, CommandLimits().fingertip_speed * seconds + 1e-7) << line;  // a log's rounding
+      fastest = std::max(fastest, way / seconds);
+    }
+    last = now;
+    last_us = now_us;
+  }
+  EXPECT_GT(fastest, 0.2) << "it has moved";
 }
 
 TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
@@ -52,7 +83,7 @@ TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(good(log, "pose"), 201);
   EXPECT_THAT(run.out, HasSubstr("arm: messages: "));
-  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back());
+  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back()).translation();
   EXPECT_LT((wrist - wrist_at_rest().translation() - way).norm(), 1e-4) << wrist.transpose();
   expect_safe(log);
 }
@@ -65,7 +96,7 @@ TEST_F(RobotServer, TheArmKnowsHowTheHandIsMounted) {
   const Eigen::Vector3d way(-0.05, 0.08, -0.03);
   finish(talk("wait pose\n" + pose(way, 1, "base_link", mounted) + "again 200 10000\n"));
   EXPECT_EQ(stop(server, SIGTERM).exit_code, 0);
-  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back(), mounted);
+  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back(), mounted).translation();
   EXPECT_LT((wrist - wrist_at_rest(mounted).translation() - way).norm(), 1e-4) << wrist.transpose();
   expect_safe(log);
 
@@ -118,41 +149,51 @@ TEST_F(RobotServer, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
               pose({50, 0, 0}, 20) + "again 600 10000\n"));
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr(" accepted, 1 not_finite, 1 not_rotation, 1 wrong_frame, "),
+  EXPECT_THAT(run.out, AllOf(HasSubstr("arm: messages: 1 wrong_frame, 1 not_finite, 1 not_rotation, "),
                              HasSubstr(" arm_unreachable"), HasSubstr(" workspace")));
   EXPECT_EQ(good(log, "pose") + received(log, "pose", "went_back"), 61 + 1 + 601);
   expect_safe(log);
 }
 
 TEST_F(RobotServer, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
-  const std::string hand_log = path("hand.jsonl"), arm_log = path("arm.jsonl");
+  const std::string log = path("robot.jsonl");
   const SimulatedRobot robot(std::stoi(domain_));
-  StartedProgram hand = serve_until_ready("hand", hand_log), arm = serve_until_ready("arm", arm_log);
+  StartedProgram server = serve_until_ready("hand and arm", log);
   std::string script = "wait hand\nwait pose\n";
   for (int i = 0; i < 600; ++i) {
     const bool there = i / 40 % 2 == 1;
     script += fingers(there ? 80 : 5, 1 + i) + pose({0, there ? 0.2 : 0, 0}, 1 + i) + "sleep 10\n";
   }
   const StartedProgram sender = talk(script);
+  const auto sent = [&] { return std::min(good(log, "fingers"), good(log, "pose")); };
   for (int round = 0; round < 2; ++round) {
-    const auto sent = [&] { return good(hand_log, "fingers") + good(arm_log, "pose"); };
     const int64_t before = sent();
-    ASSERT_TRUE(comes_true([&] { return sent() > before + 100; }));
-    stop(hand, SIGKILL);
-    stop(arm, SIGKILL);
-    hand = serve_until_ready("hand", hand_log);
-    arm = serve_until_ready("arm", arm_log);
+    ASSERT_TRUE(comes_true([&] { return sent() > before + 50; }));
+    stop(server, SIGKILL);
+    server = serve_until_ready("hand and arm", log);
   }
   EXPECT_EQ(finish(sender).out, "said\n") << "the stream goes on";
-  for (const StartedProgram& server : {hand, arm}) {
-    const ProgramRun run = stop(server, SIGTERM);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    if (!had_gaps(run)) {
-      EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
-    }
+  const ProgramRun run = stop(server, SIGTERM);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("hand and arm: messages: "));
+  if (!had_gaps(run)) {
+    EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
   }
-  expect_safe(hand_log);
-  expect_safe(arm_log);
+  expect_safe(log);
+  expect_slow_fingertips(log);
+}
+
+TEST_F(RobotServer, OneServesAHandAndAnArm) {
+  const StartedProgram server = serve_until_ready("hand and arm", path("robot.jsonl"));
+  for (const std::string side : {"hand", "arm"}) {
+    const ProgramRun run = finish(serve(side, path(side)));
+    EXPECT_EQ(run.exit_code, 2) << side;
+    EXPECT_THAT(run.err, HasSubstr("another process that tells of "));
+  }
+  EXPECT_EQ(stop(server, SIGTERM).exit_code, 0);
+  const ProgramRun run = finish(serve("hand", path("robot.jsonl")));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("robot.jsonl: last state: found 31 joints, expected the 24 joints"));
 }
 
 #else

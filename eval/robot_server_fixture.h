@@ -1,6 +1,6 @@
 #pragma once
 
-// The servers of hand and arm as processes on a bus of their own, and what every log of theirs must keep to.
+// Servers of hand and arm as processes on a bus of their own, and what every log of theirs must keep to.
 
 #include <fmt/format.h>
 
@@ -18,12 +18,12 @@
 
 #include "ci/build_paths.h"
 #include "core/base/angles.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/system_time.h"
 #include "core/robot/arm_follower.h"
 #include "core/robot/command_guard.h"
+#include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/dds_entity.h"
-#include "core/robot/dds/topics.h"
 #include "core/robot/server/command_messages.h"
 #include "eval/dds_test_bus.h"
 
@@ -72,18 +72,21 @@ class SimulatedRobot {
 class RobotServer : public DdsBus {
  protected:
   using json = nlohmann::json;
-  StartedProgram serve(const std::string& side, const std::string& log, const std::vector<std::string>& more = {},
+  /// `sides`: "hand", "arm" or "hand and arm".
+  StartedProgram serve(const std::string& sides, const std::string& log, const std::vector<std::string>& more = {},
                        const ProgramSetting& setting = {}) {
     std::vector<std::string> command = {
-        build_paths::program("glovebench"), "robot-server", side, "--robot", "dds:" + domain_, "--log", log};
+        build_paths::program("glovebench"), "robot-server", "run", "--robot", "dds:" + domain_, "--log", log};
+    for (const std::string side : {"hand", "arm"})
+      if (sides.find(side) != std::string::npos) command.push_back("--" + side);
     command.insert(command.end(), more.begin(), more.end());
     return start(command, setting);
   }
   /// A server that has begun, as its log shows.
-  StartedProgram serve_until_ready(const std::string& side, const std::string& log,
+  StartedProgram serve_until_ready(const std::string& sides, const std::string& log,
                                    const std::vector<std::string>& more = {}, const ProgramSetting& setting = {}) {
     const size_t before = std::filesystem::exists(log) ? std::filesystem::file_size(log) : 0;
-    const StartedProgram server = serve(side, log, more, setting);
+    const StartedProgram server = serve(sides, log, more, setting);
     EXPECT_TRUE(
         comes_true([&] { return std::filesystem::exists(log) && std::filesystem::file_size(log) > before; }));
     return server;

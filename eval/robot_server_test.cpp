@@ -55,7 +55,7 @@ TEST_F(RobotServer, RefusesWhatIsWrongAndGoesOn) {
               fingers(1e9, 16) + fingers(10, 17) + "sleep 50\n"));               // clamped; good
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr(" accepted, 4 wrong_joints, 3 wrong_points, 2 not_finite, 2 bad_time, "));
+  EXPECT_THAT(run.out, HasSubstr("hand: messages: 2 bad_time, 4 wrong_joints, 3 wrong_points, 2 not_finite, "));
   const int64_t went_back = received(log, "fingers", "went_back");
   EXPECT_EQ(good(log, "fingers") + went_back, 61 + 2 + 2);
   if (!had_gaps(run)) {
@@ -282,6 +282,7 @@ TEST_F(RobotServer, RefusesLogsOfOthers) {
   EXPECT_THAT(run.err, HasSubstr("/nowhere/log: file: found No such file"));
   run = finish(serve("foot", path("log")));
   EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("expected --hand, --arm or both"));
 }
 
 #endif

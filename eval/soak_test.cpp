@@ -1,4 +1,4 @@
-// The whole way from a device's frames to the servers of the robot, for a few seconds; ci/soak does it for minutes.
+// The whole way from a device's frames to the server of the robot, for a few seconds; ci/soak does it for minutes.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ constexpr int kMissed = 4, kLate = 3;
 /// Logs as ci/soak leaves them: 200 frames, of which the first and another are lost.
 class SoakJudge : public testing::Test {
  protected:
-  /// `latency_us(i)`: of the command of a frame; none: it was missed by that server.
+  /// `latency_us(i)`: of the command of a frame; none: it was missed.
   template <typename Latency>
   std::string received(const std::vector<std::string>& topics, const Latency& latency_us) {
     std::string log = "{\"event\":\"state\"}\n";
@@ -39,8 +39,8 @@ class SoakJudge : public testing::Test {
       estimates += fmt::format("{{\"timestamp_us\":{},\"status\":\"{}\"}}\n", i * 33'000,
                                i == 0 || i == kLost ? "no_hand" : status);
     write_file(folder_ + "/estimates.jsonl", estimates);
-    write_file(folder_ + "/hand.jsonl", received({"fingers", "wrist"}, latency_us));
-    write_file(folder_ + "/arm.jsonl", received({"pose"}, [](int) { return 4000; }));
+    write_file(folder_ + "/robot.jsonl",
+               received({"fingers", "wrist"}, latency_us) + received({"pose"}, [](int) { return 4000; }));
     return run_program({"/usr/bin/python3", build_paths::source("ci/soak_judge.py"), folder_, "6"});
   }
 
@@ -48,7 +48,7 @@ class SoakJudge : public testing::Test {
   static constexpr int64_t kSent = 1'795'363'200'000'000;
   std::string folder_ = test_folder();
   std::string receipt_ = "starting";  ///< of the first commands
-  int refused_ = 7;                   ///< how many; servers check a stream for 0.2 s before they follow it
+  int refused_ = 7;                   ///< how many; a server checks a stream for 0.2 s before it follows it
 };
 
 TEST_F(SoakJudge, IsContentWithAllInTime) {

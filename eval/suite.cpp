@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "eval/share.h"

@@ -18,7 +18,8 @@
 #include <vector>
 
 #include "ci/build_paths.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/hand/posture.h"
 #include "core/test_folder.h"
 #include "eval/workbench.h"

@@ -1,5 +1,8 @@
 // Tracking of recordings, from the command line to the files.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +14,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "eval/command_test.h"
 #include "eval/test_program.h"
 
@@ -34,7 +38,8 @@ TEST_F(TrackLong, OfADumpEqualsTheRun) {
   EXPECT_THAT(tracked.out, HasSubstr("4 of 4 frames tracked"));
   const std::string lines = read_file(path("estimates.jsonl"));
   EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), kFrames);
-  const std::map<std::string, std::string> robot = read_folder(path("robot"));
+  std::map<std::string, std::string> robot = read_folder(path("robot"));
+  ASSERT_EQ(robot.erase("manifest.json"), 1U);
   ASSERT_EQ(robot.size(), 1U);
   EXPECT_EQ(read_file(path("tracked_robot.jsonl")), robot.begin()->second)
       << "the robot commands hold the posture and the pose of each frame";
@@ -144,6 +149,41 @@ TEST_F(TrackLong, KilledKeepsItsLines) {
   EXPECT_EQ(json::parse(lines.substr(0, lines.find('\n'))).at("frame"), 0);
   EXPECT_TRUE(lines.ends_with("\n"));
   EXPECT_FALSE(fs::exists(path("estimates.jsonl")));
+}
+
+TEST_F(TrackLong, SaysInOneLineWhatWasChangedInARecording) {
+  render_recording("good.json", "dump");
+  json calibration = json::parse(read_file(path("dump/calibration.json")));
+  write_file(path("dump/calibration.json"), calibration.dump());
+  const std::string index = read_file(path("dump/INDEX.txt"));
+  write_file(path("dump/INDEX.txt"), index.substr(0, index.rfind('\n', index.size() - 2) + 1));
+  const ProgramRun run = track("dump", "DB_open_power", "x.jsonl");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err,
+            fmt::format("glovebench: fakenect:{}: calibration.json, INDEX.txt changed since it was recorded\n",
+                        path("dump")));
+}
+
+TEST_F(TrackLong, TheFirstSignalEndsAReadOfAPipe) {
+  const std::string pipe = path("colors");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
+    std::signal(signal, SIG_DFL);  // a shell ignores some for what it starts in the background
+    const StartedProgram started = start_glovebench({"track", "--source", "fakenect:" + path("dump"), "--database",
+                                                     "DB_open_power", "--colors", pipe, "-o", path("x.jsonl")});
+    const int writer = ::open(pipe.c_str(), O_WRONLY);  // waits for the program to read
+    ::kill(started.process, signal);
+    int status = 0;
+    for (int i = 0; i < 1000 && ::waitpid(started.process, &status, WNOHANG) == 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal;
+    ::close(writer);  // ends a read that goes on
+  }
+}
+
+TEST_F(TrackLong, RefusesOneFileForBothOutputs) {
+  EXPECT_THAT(refusal(track("dump", "DB_open_power", "x.jsonl", {"--robot-out", path("x.jsonl")})),
+              HasSubstr("--robot-out: file: found"));
 }
 
 TEST_F(TrackLong, TakesACalibrationOfItsOwn) {

@@ -15,7 +15,8 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/camera/pinhole_camera.h"
 #include "render/lighting.h"
 
@@ -149,8 +150,8 @@ Imf::FrameBuffer frame_buffer(Channels& channels) {
 
 }  // namespace
 
-void write_exr(const std::string& path, const FrameLayers& layers) {
-  Channels channels = split(path, layers);
+std::string encode_exr(const FrameLayers& layers, const std::string& where) {
+  Channels channels = split(where, layers);
   Imf::Header header(channels.width, channels.height);
   for (const auto& entry : channels.floats) header.channels().insert(entry.first, Imf::Channel(Imf::FLOAT));
   for (const auto& entry : channels.integers) header.channels().insert(entry.first, Imf::Channel(Imf::UINT));
@@ -161,7 +162,11 @@ void write_exr(const std::string& path, const FrameLayers& layers) {
     file.setFrameBuffer(frame_buffer(channels));
     file.writePixels(channels.height);
   }
-  write_file(path, stream.str());
+  return stream.str();
+}
+
+void write_exr(const std::string& path, const FrameLayers& layers) {
+  write_file(path, encode_exr(layers, path));
 }
 
 FrameLayers read_exr(const std::string& path) {

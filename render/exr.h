@@ -16,8 +16,10 @@ struct FrameLayers {
   LabelImage tracker_label;  ///< tracker.label: of the estimated hand
 };
 
-/// Writes a multi-channel OpenEXR file, whole or not at all. Throws Error if it cannot be written, or if the images
-/// differ in size or are all empty.
+/// The bytes of a multi-channel OpenEXR file. Throws Error naming `where` if the images differ in size or are all
+/// empty.
+std::string encode_exr(const FrameLayers& layers, const std::string& where);
+/// Writes them, whole or not at all. Throws Error.
 void write_exr(const std::string& path, const FrameLayers& layers);
 /// Reads what `write_exr` wrote; colors come back exactly. Throws Error if it is not such a file.
 FrameLayers read_exr(const std::string& path);

@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "render/glove_colors.h"
 
 namespace glovebench::render {

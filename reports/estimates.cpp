@@ -9,7 +9,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/read_limits.h"
 #include "core/hand/posture.h"

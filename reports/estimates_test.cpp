@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/random.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench::reports {

@@ -5,7 +5,8 @@
 #include <exception>
 
 #include "ci/build_paths.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "reports/claims/claims_report.h"
 #include "reports/comparison/example_comparison.h"
 #include "reports/example_result.h"

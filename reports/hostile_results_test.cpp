@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/random.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/results_json.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/name.h"
 #include "core/base/parse_json.h"

@@ -45,13 +45,21 @@ std::vector<NamedFile> other_files(const RunResult& result) {
   return files;
 }
 
+/// Names that only some reports have.
+bool is_of_some_reports(const std::string& name) {
+  return name.starts_with("tables/") || name.starts_with("histories/") || name.starts_with("estimates/") ||
+         name == "claims.json";
+}
+
 }  // namespace
 
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const PageMaterial& material,
                                       const std::vector<ExperimentEstimates>& estimates) {
   const PaperNumbers& paper = paper_numbers();
-  WholeFiles files(folder, kRunSet);
+  WholeFiles files(folder);
+  for (const auto& [name, entry] : Manifest(files.manifest()))
+    if (is_of_some_reports(name)) files.remove(name);
   files.add("config.json", format_json(result.configuration));
   files.add("summary.md", summary_markdown(result, paper));
   files.add("index.html", html_page(result, paper, timings, material));

@@ -23,9 +23,9 @@ namespace glovebench::reports {
 ///   estimates/     what the tracker said, one file an experiment
 /// Without studies all but timings.json and the latencies in index.html depend on the results alone; with them, so
 /// does results.json, but their tables and what the claims say hold times as well.
-/// The files are one set (core/base/file_set.h), which manifest.json names: a reader gets the older report or the
-/// new one, and files that only the older one had go, but no others. Throws Error if the folder cannot be written;
-/// an older report then stays as it was.
+/// The files are one set (core/base/file_set.h): a reader gets the older report or the new one. Files of an older
+/// report that manifest.json names and the new one lacks go. Throws Error if the folder cannot be written; an older
+/// report then stays as it was.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const PageMaterial& material = {},
                                       const std::vector<ExperimentEstimates>& estimates = {});

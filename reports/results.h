@@ -70,8 +70,6 @@ struct NoiseSetting {
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
 };
 
-/// The status of that name; empty if there is none.
-
 /// What makes one experiment: one trajectory replayed against one database.
 struct ExperimentKey {
   std::string trajectory;  ///< "Tr4"

@@ -1,6 +1,6 @@
 #include "reports/results_json.h"
 
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "reports/commands_json.h"
 #include "reports/json_text.h"
 #include "reports/statistics_json.h"

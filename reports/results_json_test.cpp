@@ -7,7 +7,6 @@
 
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/test_folder.h"
 #include "reports/commands_json.h"
 #include "reports/example_result.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/report.h"

@@ -5,7 +5,7 @@
 
 #include "ci/build_paths.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/random.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"

@@ -5,7 +5,7 @@
 
 #include "ci/build_paths.h"
 #include "core/base/angles.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/camera/rgbd_calibration.h"
 #include "core/hand/hand_model.h"
 #include "trajectories/catalog.h"

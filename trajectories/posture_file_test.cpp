@@ -6,7 +6,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "trajectories/formats/format.h"
 

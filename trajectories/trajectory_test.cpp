@@ -7,7 +7,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/random.h"
 #include "core/test_folder.h"
 #include "trajectories/formats/format.h"

@@ -16,8 +16,8 @@
 #include "bench/scale/process_memory.h"
 #include "bench/scale/random_postures.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/quantile.h"
+#include "core/base/whole_file.h"
 #include "render/label_renderer.h"
 
 namespace glovebench::bench {

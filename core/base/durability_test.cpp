@@ -11,9 +11,10 @@
 #include <filesystem>
 #include <map>
 
-#include "core/base/file.h"
 #include "core/base/file_set.h"
+#include "core/base/input_file.h"
 #include "core/base/line_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace {
@@ -71,8 +72,11 @@ using testing::ElementsAre;
 
 using Files = std::map<std::string, std::string>;
 
+/// Writes these files; what else the manifest names goes.
 void write_set(const std::string& folder, const Files& files) {
-  WholeFiles set(folder, kRunSet);
+  WholeFiles set(folder);
+  for (const auto& [name, unused] : Manifest(set.manifest()))
+    if (!files.contains(name)) set.remove(name);
   for (const auto& [name, content] : files) set.add(name, content);
   set.commit();
 }

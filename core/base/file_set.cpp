@@ -1,6 +1,7 @@
 #include "core/base/file_set.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -9,31 +10,58 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
-#include "core/base/check.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/base/name.h"
-#include "core/base/output_target.h"
-#include "core/base/staged_files.h"
+#include "core/base/parse_json.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The manifest that is replaced, in the staging folder: it names what has to be removed.
-constexpr const char* kOlder = ".older-manifest";
+/// Older manifests also have a `kind`, which nobody reads.
+constexpr const char* kFormat = "glovebench-manifest";
+/// Lines in the staging folder: the files that the write removes.
+constexpr const char* kRemoved = ".removed";
+
+std::string staged_folder(const std::string& folder) {
+  return folder + "/.staged";
+}
+
+std::pair<std::string, ManifestEntry> entry_from(const nlohmann::json& json, const std::string& where) {
+  std::string name = json.at("name");
+  ManifestEntry entry{json.at("bytes"), json.at("hash")};
+  path_within(where, name);
+  if (json.size() != 3 || !json.at("bytes").is_number_unsigned())
+    throw Error(where, "files", excerpt(json), "name, bytes and hash");
+  return {std::move(name), std::move(entry)};
+}
+
+/// The content of a file, if it is what the manifest says.
+std::optional<std::string> content_of(const std::string& path, const ManifestEntry& entry, uint64_t max_bytes) {
+  std::error_code error;
+  if (fs::file_size(path, error) != entry.bytes || error) return std::nullopt;
+  std::string content;
+  try {
+    content = read_regular_file(path, max_bytes);
+  } catch (const Error&) {
+    if (!fs::exists(path, error)) return std::nullopt;  // the writer moved it meanwhile
+    throw;
+  }
+  if (hash_text(content) != entry.hash) return std::nullopt;
+  return content;
+}
 
 bool is_file(const std::string& path) {
   std::error_code ignored;
   return fs::is_regular_file(fs::symlink_status(path, ignored));
-}
-bool is_content(const std::string& path, const ManifestEntry& file) {
-  std::error_code error;
-  return is_file(path) && fs::file_size(path, error) == file.bytes && !error && hash_file(path) == file.hash;
 }
 
 /// Throws Error if something is in the place of a new file that the file could not replace.
@@ -50,16 +78,15 @@ std::optional<struct stat> file_in_place(const std::string& path) {
   return found;
 }
 
-std::set<std::string> folders_of(const std::string& folder, const std::vector<ManifestEntry>& files) {
-  std::set<std::string> folders = {folder};
-  for (const ManifestEntry& file : files) folders.insert(folder_above(folder + "/" + file.name));
-  return folders;
-}
-
-void remove_file(const std::string& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  if (error) throw Error(path, "file", error.message(), "a file that can be removed");
+/// Writes a new file, of which messages speak as `place`.
+void write_new_file(const std::string& path, std::string_view content, const std::optional<struct stat>& older,
+                    mode_t mode, const std::string& place) {
+  make_folders(folder_above(path));
+  const int descriptor = create_like(older, path, mode);
+  int error = descriptor < 0 ? errno : write_all(descriptor, content).error;
+  if (error == 0) error = sync_file(descriptor);
+  if (descriptor >= 0) ::close(descriptor);
+  if (error != 0) throw Error(place, "file", std::strerror(error), "room to write it whole");
 }
 
 /// None if there is none. Throws Error if it is no regular file or cannot be read.
@@ -68,53 +95,129 @@ std::optional<Manifest> own_manifest(const std::string& folder) {
   return read_manifest(folder);
 }
 
-/// The files that a set may have replaced; none if that is not known any more.
-std::vector<ManifestEntry> older_files(const std::string& staged) {
-  const std::string path = staged + "/" + kOlder;
-  try {
-    if (is_file(path)) return parse_manifest(read_file(path), path).files;
-  } catch (const Error&) {
-  }
-  return {};
+std::set<std::string> folders_of(const std::string& folder, const std::vector<std::string>& names) {
+  std::set<std::string> folders = {folder};
+  for (const std::string& name : names) folders.insert(folder_above(folder + "/" + name));
+  return folders;
 }
 
-void place_files(const std::string& folder, const std::vector<ManifestEntry>& files) {
+/// Step 3 of a write.
+void place_files(const std::string& folder, const std::vector<std::string>& added,
+                 const std::vector<std::string>& removed) {
   const std::string staged = staged_folder(folder);
-  for (const ManifestEntry& file : files) {
-    const std::string place = place_within(folder, file.name), from = place_within(staged, file.name);
-    if (!is_content(from, file) || is_content(place, file)) continue;
+  for (const std::string& name : added) {
+    const std::string place = place_within(folder, name);
     make_folders(folder_above(place));
-    if (std::rename(from.c_str(), place.c_str()) != 0)
+    if (std::rename(place_within(staged, name).c_str(), place.c_str()) != 0)
       throw Error(place, "file", std::strerror(errno), "a file that can be replaced");
   }
-  for (const ManifestEntry& old : older_files(staged)) {
-    const bool is_kept = std::ranges::find(files, old.name, &ManifestEntry::name) != files.end();
-    std::error_code ignored;
-    if (!is_kept && is_content(place_within(folder, old.name), old)) fs::remove(folder + "/" + old.name, ignored);
-  }
-  for (const std::string& changed : folders_of(folder, files)) sync_folder(changed);
+  std::error_code error;
+  for (const std::string& name : removed)
+    if (const std::string place = place_within(folder, name); is_file(place) && !fs::remove(place, error))
+      throw Error(place, "file", error.message(), "a file that can be removed");
+  for (const std::vector<std::string>* names : {&added, &removed})
+    for (const std::string& changed : folders_of(folder, *names)) sync_folder(changed);
+  fs::remove_all(staged, error);
+  if (error) throw Error(staged, "folder", error.message(), "one that can be removed");
 }
 
-}  // namespace
-
-std::optional<Manifest> manifest_to_replace(const std::string& folder, const std::string& kind) {
-  std::optional<Manifest> manifest = own_manifest(folder);
-  if (manifest && manifest->kind != kind)
-    throw Error(folder + "/" + kManifest, "kind", quoted_excerpt(manifest->kind),
-                kind + ", or a folder without a manifest");
-  return manifest;
-}
-
-void put_in_place(const std::string& folder) {
+/// Finishes a write that was interrupted after its manifest. What else is staged goes.
+void finish_write(const std::string& folder, const std::optional<Manifest>& manifest) {
   const std::string staged = staged_folder(folder);
   std::error_code error;
   const fs::file_status found = fs::symlink_status(staged, error);
   if (!fs::exists(found)) return;
   if (!fs::is_directory(found)) throw Error(staged, "file", "no folder", "a folder, or nothing");
-  // Without a manifest nobody knows of a set, and what is staged belongs to none.
-  if (const std::optional<Manifest> manifest = own_manifest(folder)) place_files(folder, manifest->files);
-  fs::remove_all(staged, error);
-  if (error) throw Error(staged, "folder", error.message(), "one that can be removed");
+  std::vector<std::string> added, removed;
+  for (const auto& [name, entry] : manifest.value_or(Manifest{}))
+    if (const std::string path = place_within(staged, name);
+        is_file(path) && fs::file_size(path) == entry.bytes && hash_file(path) == entry.hash)
+      added.push_back(name);
+  if (const std::string path = staged + "/" + kRemoved; manifest && is_file(path)) {
+    std::istringstream lines(read_regular_file(path, kLargestManifest));
+    for (std::string name; std::getline(lines, name);)
+      if (!manifest->contains(name)) removed.push_back(name);
+  }
+  place_files(folder, added, removed);
+}
+
+}  // namespace
+
+std::string manifest_json(const Manifest& manifest, uint64_t max_bytes) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& [name, entry] : manifest)
+    list.push_back({{"name", name}, {"bytes", entry.bytes}, {"hash", entry.hash}});
+  const nlohmann::ordered_json json = {{"format", kFormat}, {"version", 1}, {"files", std::move(list)}};
+  std::string text = json.dump(1) + "\n";
+  if (text.size() > max_bytes)
+    throw Error(kManifest, "size", fmt::format("{} bytes", text.size()), fmt::format("at most {}", max_bytes));
+  return text;
+}
+
+Manifest parse_manifest(const std::string& text, const std::string& where) {
+  const nlohmann::json document = parse_json(text, where);
+  try {
+    if (document.at("format") != kFormat || document.at("version") != 1)
+      throw Error(where, "format", excerpt(document.at("format")), "glovebench-manifest, version 1");
+    Manifest manifest;
+    for (const nlohmann::json& json : document.at("files")) {
+      const auto [place, is_new] = manifest.insert(entry_from(json, where));
+      if (!is_new) throw Error(where, "files", quoted_excerpt(place->first) + " twice", "each file once");
+    }
+    return manifest;
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(where, "manifest", printable(e.what()), "format, version and files with name, bytes and hash");
+  }
+}
+
+std::optional<Manifest> read_manifest(const std::string& folder) {
+  const std::string path = folder + "/" + kManifest;
+  std::error_code error;
+  const bool is_there = fs::exists(path, error);
+  if (error) throw Error(path, "file", error.message(), "a manifest that can be read, or none");
+  if (!is_there) return std::nullopt;
+  return parse_manifest(read_regular_file(path, kLargestManifest), path);
+}
+
+const ManifestEntry* FileSet::entry(const std::string& name) const {
+  if (!manifest_) return nullptr;
+  const auto found = manifest_->find(name);
+  return found == manifest_->end() ? nullptr : &found->second;
+}
+
+bool FileSet::has(const std::string& name) const {
+  std::error_code ignored;  // what cannot be looked for cannot be read
+  return manifest_ ? entry(name) != nullptr : fs::exists(path(name), ignored);
+}
+
+std::optional<std::string> FileSet::as_written(const std::string& name, const ManifestEntry& entry,
+                                               uint64_t max_bytes) const {
+  // The place once more: the writer may have moved the file there since.
+  for (const std::string& at : {path(name), staged_folder(folder_) + "/" + name, path(name)})
+    if (std::optional<std::string> content = content_of(at, entry, max_bytes)) return content;
+  return std::nullopt;
+}
+
+std::string FileSet::read(const std::string& name, uint64_t max_bytes) const {
+  if (!manifest_) return read_regular_file(path(name), max_bytes);
+  const ManifestEntry* const named = entry(name);
+  if (!named) throw BrokenSet(path(name), "file", "none that manifest.json names", "a file of the set");
+  if (std::optional<std::string> content = as_written(name, *named, max_bytes)) return *std::move(content);
+  refuse(name);
+}
+
+FileSet::Found FileSet::find(const std::string& name, uint64_t max_bytes) const {
+  const ManifestEntry* const named = entry(name);
+  if (named)
+    if (std::optional<std::string> content = as_written(name, *named, max_bytes))
+      return {*std::move(content), false};
+  return {read_regular_file(path(name), max_bytes), named != nullptr};
+}
+
+void FileSet::refuse(const std::string& name) const {
+  const ManifestEntry named = manifest_->at(name);
+  throw BrokenSet(path(name), "content", "a missing, changed or damaged file",
+                  fmt::format("{} bytes of hash {}, as manifest.json says", named.bytes, named.hash));
 }
 
 FolderLock::FolderLock(const std::string& folder)
@@ -126,11 +229,10 @@ FolderLock::~FolderLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-WholeFiles::WholeFiles(const std::string& folder, const std::string& kind)
-    : folder_((make_folders(folder), folder)), kind_(kind), lock_(folder) {
-  manifest_to_replace(folder_, kind_);
-  put_in_place(folder_);
-  remove_leftovers(folder_, [](const std::string& name) { return name == kManifest; });
+WholeFiles::WholeFiles(const std::string& folder) : folder_((make_folders(folder), folder)), lock_(folder) {
+  const std::optional<Manifest> older = own_manifest(folder_);
+  finish_write(folder_, older);
+  if (older) manifest_ = *older;
 }
 
 WholeFiles::~WholeFiles() {
@@ -138,64 +240,36 @@ WholeFiles::~WholeFiles() {
   if (!is_committed_) fs::remove_all(staged_folder(folder_), ignored);
 }
 
-void WholeFiles::add(const std::string& name, std::string_view content) {
-  check(name != kManifest && std::ranges::find(files_, name, &ManifestEntry::name) == files_.end(),
-        "a set holds each name once, beside the manifest");
-  const std::optional<struct stat> older = file_in_place(place_within(folder_, name));
-  const std::string path = staged_path(folder_, name);
-  make_folders(folder_above(path));
-  const int descriptor = create_like(older, path);
-  int error = descriptor < 0 ? errno : write_all(descriptor, content);
-  if (error == 0 && ::fsync(descriptor) != 0) error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (error != 0) throw Error(folder_ + "/" + name, "file", std::strerror(error), "room to write it whole");
-  files_.push_back({name, content.size(), hash_text(std::string(content))});
+void WholeFiles::add(const std::string& name, std::string_view content, mode_t mode) {
+  if (name == kManifest) throw Error(folder_, "file name", name, "another: that is the manifest's");
+  const std::string place = place_within(folder_, name);
+  write_new_file(staged_folder(folder_) + "/" + name, content, file_in_place(place), mode, place);
+  manifest_[name] = {content.size(), hash_text(content)};
+  added_.push_back(name);
+  std::erase(removed_, name);
+  mode_ &= mode;
 }
 
-void WholeFiles::keep(const std::string& name) {
-  if (is_file(place_within(folder_, name))) kept_.push_back(name);
-}
-
-std::vector<std::string> WholeFiles::names() const {
-  std::vector<std::string> names;
-  for (const ManifestEntry& file : files_) names.push_back(file.name);
-  return names;
+void WholeFiles::remove(const std::string& name) {
+  place_within(folder_, name);
+  manifest_.erase(name);
+  removed_.push_back(name);
 }
 
 void WholeFiles::commit() {
-  Manifest made{kind_, files_};
-  std::vector<ManifestEntry>& files = made.files;
-  for (const std::string& name : kept_) {
-    const std::string path = place_within(folder_, name);
-    files.push_back({name, fs::file_size(path), hash_file(path)});
-  }
   const std::string staged = staged_folder(folder_), manifest = folder_ + "/" + kManifest;
-  make_folders(staged);
   // Before the manifest: afterwards an error could only be reported.
-  for (const std::string& needed : folders_of(folder_, files)) make_folders(needed);
-  write_file(staged + "/" + kOlder,
-             manifest_json(manifest_to_replace(folder_, kind_).value_or(Manifest{kind_, {}})));
-  for (const std::string& changed : folders_of(staged, files_)) sync_folder(changed);
+  for (const std::string& needed : folders_of(folder_, added_)) make_folders(needed);
+  std::string lines;
+  for (const std::string& name : removed_) lines += name + "\n";
+  write_new_file(staged + "/" + kRemoved, lines, std::nullopt, mode_, manifest);
+  write_new_file(staged + "/" + kManifest, manifest_json(manifest_), file_in_place(manifest), mode_, manifest);
+  for (const std::string& changed : folders_of(staged, added_)) sync_folder(changed);
+  if (std::rename((staged + "/" + kManifest).c_str(), manifest.c_str()) != 0)
+    throw Error(manifest, "file", std::strerror(errno), "a file that can be replaced");
+  is_committed_ = true;  // whatever fails from here on, the staged files are the set
   sync_folder(folder_);
-  WholeFile file(manifest);
-  file.append(manifest_json(made));
-  is_committed_ = true;  // whatever fails from here on, the staged files may be the set
-  file.commit();
-  put_in_place(folder_);
-}
-
-void remove_set(const std::string& folder, const std::string& kind) {
-  const FolderLock lock(folder);
-  const std::optional<Manifest> manifest = manifest_to_replace(folder, kind);
-  if (!manifest) return;
-  for (const ManifestEntry& file : manifest->files) place_within(folder, file.name);  // before anything is removed
-  put_in_place(folder);
-  // The manifest goes last: until then it says which files are left to remove.
-  for (const ManifestEntry& file : manifest->files)
-    if (const std::string path = place_within(folder, file.name); is_content(path, file)) remove_file(path);
-  for (const std::string& changed : folders_of(folder, manifest->files)) sync_folder(changed);
-  remove_file(folder + "/" + kManifest);
-  sync_folder(folder);
+  place_files(folder_, added_, removed_);
 }
 
 }  // namespace glovebench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,16 @@ void expect_value_or_error(const Reader& reader) {
     reader();
   } catch (const Error& e) {
     check(std::string_view(e.what()).find('\n') == std::string_view::npos, "an error is one line");
+  }
+}
+
+/// Runs a state machine, which must not throw Error: that is a finding.
+template <typename Run>
+void without_error(const Run& run) {
+  try {
+    run();
+  } catch (const Error& e) {
+    throw std::logic_error(std::string("an error where none may be: ") + e.what());
   }
 }
 

@@ -1,12 +1,14 @@
 #include "core/base/input_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 #include "core/base/error.h"
 
@@ -29,6 +31,24 @@ void wait_for_writer(int descriptor) {
   ::fcntl(descriptor, F_SETFL, flags & ~O_NONBLOCK);
   pollfd ready = {descriptor, POLLIN, 0};
   while (::poll(&ready, 1, -1) < 0 && errno == EINTR) continue;
+}
+
+std::string read_all(const std::string& path, InputFile::Kind kind, uint64_t max_bytes) {
+  InputFile file(path, kind);
+  const auto check_size = [&](uint64_t bytes) {
+    if (bytes > max_bytes)
+      throw Error(path, "size", fmt::format("more than {} bytes", max_bytes), fmt::format("at most {}", max_bytes));
+  };
+  const uint64_t size = file.size().value_or(0);
+  check_size(size);
+  std::string content;
+  content.reserve(size);
+  std::vector<char> chunk(1 << 16);
+  while (const size_t bytes = file.read(chunk)) {
+    content.append(chunk.data(), bytes);
+    check_size(content.size());  // a pipe has no size of its own, and a file may grow
+  }
+  return content;
 }
 
 }  // namespace
@@ -59,6 +79,14 @@ size_t InputFile::read(std::span<char> room) {
     if (bytes >= 0) return static_cast<size_t>(bytes);
     if (errno != EINTR) throw Error(path_, "file", std::strerror(errno), kInputExpected);
   }
+}
+
+std::string read_file(const std::string& path, uint64_t max_bytes) {
+  return read_all(path, InputFile::Kind::regular_or_pipe, max_bytes);
+}
+
+std::string read_regular_file(const std::string& path, uint64_t max_bytes) {
+  return read_all(path, InputFile::Kind::regular, max_bytes);
 }
 
 }  // namespace glovebench

@@ -104,12 +104,6 @@ std::optional<double> JsonCursor::number_or_null(double min, double max) const {
   return number(min, max);
 }
 
-std::optional<double> JsonCursor::number_or_null() const {
-  if (value_->is_null()) return std::nullopt;
-  if (!value_->is_number()) fail("a number or null");
-  return value_->get<double>();
-}
-
 int64_t JsonCursor::integer(int64_t min, int64_t max) const {
   const bool fits = value_->is_number_unsigned()
                         ? value_->get<uint64_t>() <= static_cast<uint64_t>(std::numeric_limits<int64_t>::max())

@@ -64,7 +64,6 @@ class JsonCursor {
   /// Finite, as every number of a parsed text is.
   double number() const;
   double number(double min, double max) const;
-  std::optional<double> number_or_null() const;
   std::optional<double> number_or_null(double min, double max) const;
   int64_t integer(int64_t min, int64_t max) const;
   int count() const { return static_cast<int>(integer(0, std::numeric_limits<int>::max())); }

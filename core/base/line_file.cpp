@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "core/base/error.h"
-#include "core/base/whole_file.h"
 
 namespace glovebench {
 
@@ -24,6 +23,7 @@ LineFile::LineFile(const std::string& path) : path_(path), target_(find_output(p
     if (descriptor_ < 0 && errno != EEXIST)
       throw Error(path, "file", std::strerror(errno), "a file that can be written");
   }
+  sync_folder(folder_above(partial_));
 }
 
 LineFile::~LineFile() {
@@ -34,7 +34,7 @@ LineFile::~LineFile() {
 void LineFile::append(std::string_view line) {
   if (error_ != 0) fail(error_);
   const std::string text = fmt::format("{}\n", line);
-  if (const int error = write_all(descriptor_, text)) {
+  if (const int error = write_all(descriptor_, text).error) {
     // What was written of this line goes again.
     if (!partial_.empty() && ::ftruncate(descriptor_, bytes_) != 0) fail(errno);
     fail(error);
@@ -45,13 +45,11 @@ void LineFile::append(std::string_view line) {
 
 void LineFile::finish() {
   if (error_ != 0) fail(error_);
-  const bool is_safe = ::fsync(descriptor_) == 0 || (partial_.empty() && (errno == EINVAL || errno == EROFS));
-  if (!is_safe) fail(errno);
-  if (!partial_.empty()) {
-    if (std::rename(partial_.c_str(), target_.path.c_str()) != 0) fail(errno);
-    partial_.clear();
-    sync_folder(folder_above(target_.path));
-  }
+  if (const int error = sync_file(descriptor_)) fail(error);
+  if (partial_.empty()) return;
+  if (std::rename(partial_.c_str(), target_.path.c_str()) != 0) fail(errno);
+  partial_.clear();
+  sync_folder(folder_above(target_.path));
 }
 
 std::string LineFile::kept() const {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/output_target.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench {

@@ -1,5 +1,5 @@
 // Where an output goes: devices, pipes, links, modes. Through WholeFile and LineFile, which both ask find_output.
-#include "core/base/output_target.h"
+#include "core/base/whole_file.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/line_file.h"
 #include "core/test_folder.h"
 

@@ -5,7 +5,7 @@
 namespace glovebench {
 
 // Larger files are refused before they take memory (core/README.md), bytes.
-/// Trajectories, posture sets, captures.
+/// Trajectories and posture sets.
 inline constexpr uint64_t kLargestMovement = uint64_t{64} << 20;
 /// Results and estimates: the report of some million frames.
 inline constexpr uint64_t kLargestResults = 256'000'000;

@@ -1,24 +1,65 @@
 #pragma once
 
+#include <sys/stat.h>
+
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/base/mapped_memory.h"
-#include "core/base/output_target.h"
 
 namespace glovebench {
+
+/// Where an output goes. What is replaced is a regular file: of a symbolic link its target, which may not exist
+/// yet. Devices, pipes, "-" (standard output) and open descriptors (/dev/stdout, /dev/fd/3) are written through.
+struct OutputTarget {
+  bool is_stream = false;                 ///< is written through
+  int descriptor = -1;                    ///< of a stream that is open already
+  std::string path;                       ///< of the file or device, links followed
+  std::optional<struct stat> older = {};  ///< of the file that is there
+};
+
+/// Throws Error if it is a folder, or links that lead in a circle.
+OutputTarget find_output(const std::string& path);
+
+/// Opens a target that is written through. Waits for the reader of a named pipe. Throws Error naming `path`.
+int open_stream(const OutputTarget& target, const std::string& path);
+
+/// Creates a file that is not there yet, with the mode of the older file and, as far as the process may, its owner.
+/// A negative number leaves the reason in errno.
+int create_like(const std::optional<struct stat>& older, const std::string& new_path, mode_t mode = 0644);
+
+/// What became of a text that was to be written.
+struct Written {
+  size_t bytes = 0;  ///< that were written
+  int error = 0;     ///< 0, or the number of the error that ended it
+};
+Written write_all(int descriptor, std::string_view content);
+
+/// What was written to a file survives a power failure. Pipes and most devices hold nothing that could be synced.
+/// Returns 0 or the number of the error.
+int sync_file(int descriptor);
+
+/// Creates a folder and those above it, and syncs the folders that hold the new ones. An empty path is the current
+/// folder. Throws Error.
+void make_folders(const std::string& folder);
+/// What was created, renamed or removed in a folder survives a power failure. Throws Error if the disk fails. File
+/// systems that cannot sync folders are left alone.
+void sync_folder(const std::string& folder);
+/// The folder that holds a path; "." for a plain name.
+std::string folder_above(const std::string& path);
 
 /// A file that is written whole: to a temporary name beside the target, flushed, then renamed by `commit`, so that
 /// a reader sees the old content or the new one and a full disk leaves the old one. Creates missing folders.
 /// Without `commit` nothing stays. Every function throws Error.
 ///
-/// A file that is replaced keeps its mode and, if the process may set it, its owner; not its access lists. Of a
-/// symbolic link the target is replaced. Another hard link keeps the old content. Devices, pipes and "-" (standard
-/// output) are opened at the first `append` and written through (output_target.h).
+/// A file that is replaced keeps its mode and, if the process may set it, its owner; not its access lists. Another
+/// hard link keeps the old content. A target that is written through is opened at the first `append`.
 class WholeFile {
  public:
-  explicit WholeFile(const std::string& path);
+  /// `mode`: of a file that is not there yet.
+  explicit WholeFile(const std::string& path, mode_t mode = 0644);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
@@ -27,9 +68,8 @@ class WholeFile {
   /// Gives an empty file that many bytes, all zero, for which there is room on the disk, to write them through
   /// memory. Not for a device or a pipe.
   MappedMemory map(uint64_t bytes);
-  /// Afterwards a power failure takes neither the content nor the name. `sync_folder` false: the name is safe only
-  /// when the caller has synced the folder.
-  void commit(bool sync_folder = true);
+  /// Afterwards a power failure takes neither the content nor the name.
+  void commit();
 
  private:
   std::string path_;  ///< as it was given
@@ -40,9 +80,6 @@ class WholeFile {
 
 /// Writes all of a file through WholeFile.
 void write_file(const std::string& path, std::string_view content);
-
-/// Writes all of a text to an open file. Returns 0, or the number of the error that ended it.
-int write_all(int descriptor, std::string_view content);
 
 /// Removes from a folder the temporary files of writes that a kill or a crash ended, of files with such names. For
 /// whoever knows that no other process is writing them.

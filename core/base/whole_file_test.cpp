@@ -11,7 +11,7 @@
 #include <functional>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench {

@@ -10,7 +10,8 @@
 #include <thread>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/file_set.h"
+#include "core/base/input_file.h"
 #include "core/camera/pinhole_camera.h"
 #include "core/kinect/recording_index.h"
 
@@ -50,8 +51,11 @@ std::vector<Picture> pictures_in_folder(const std::string& folder) {
 }
 
 /// Of the color images, `most` evenly over the recording.
-std::vector<Picture> pictures_of_recording(const std::string& folder, size_t most) {
-  std::vector<RecordingEntry> colors = read_recording_index(folder);
+std::vector<Picture> pictures_of_recording(const std::string& folder, size_t most,
+                                           std::vector<std::string>& changed) {
+  const FileSet::Found index = FileSet(folder).find(kRecordingIndex, kLargestIndex);
+  if (index.is_changed) changed.emplace_back(kRecordingIndex);
+  std::vector<RecordingEntry> colors = parse_recording_index(index.content, folder);
   std::erase_if(colors, [](const RecordingEntry& entry) { return entry.kind != RecordedKind::color; });
   std::vector<Picture> pictures;
   const size_t count = std::min(most, colors.size());
@@ -132,10 +136,11 @@ Image<uint8_t> decode_gray(std::string_view content, const std::string& path) {
 
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked) {
   const bool is_recording = source.starts_with(kRecording);
-  const std::vector<Picture> pictures =
-      is_recording ? pictures_of_recording(source.substr(kRecording.size()), most) : pictures_in_folder(source);
-  if (pictures.empty()) throw Error(source, "pictures", "none", "pictures of a chessboard");
   BoardViews views;
+  const std::vector<Picture> pictures =
+      is_recording ? pictures_of_recording(source.substr(kRecording.size()), most, views.changed)
+                   : pictures_in_folder(source);
+  if (pictures.empty()) throw Error(source, "pictures", "none", "pictures of a chessboard");
   for (size_t i = 0; i < pictures.size(); ++i) {
     const Picture& picture = pictures[i];
     if (looked) looked(i, pictures.size());

@@ -25,6 +25,7 @@ struct BoardViews {
   int width_px = 0, height_px = 0;  ///< of all pictures
   std::vector<BoardView> views;     ///< by name
   std::vector<LeftOut> left_out;
+  std::vector<std::string> changed = {};  ///< files of a recording, changed since it was recorded
 };
 
 /// Says how many of how many pictures were looked at.

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/calibration/test_board.h"
 #include "core/kinect/recording_files.h"
 #include "core/test_folder.h"

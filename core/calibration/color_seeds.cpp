@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
 #include "core/segmentation/color_table_file.h"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/calibration/test_glove.h"
 #include "core/segmentation/color_calibration.h"
 #include "core/test_folder.h"

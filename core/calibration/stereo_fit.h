@@ -27,7 +27,7 @@ struct StereoFit {
 StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board, LensModel lens);
 
 /// What the fit is worth: errors of each view, standard deviations, what was left out and why. The keys are
-/// documented in calibration/README.md.
+/// documented in README.md.
 nlohmann::json report_json(const StereoFit& fit, const Chessboard& board);
 /// The same, short, as lines of Markdown.
 std::string report_text(const StereoFit& fit);

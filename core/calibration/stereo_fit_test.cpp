@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "core/calibration/test_board.h"
 #include "core/test_folder.h"

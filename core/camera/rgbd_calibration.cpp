@@ -4,9 +4,12 @@
 #include <string_view>
 
 #include "core/base/angles.h"
-#include "core/base/file.h"
+#include "core/base/error.h"
+#include "core/base/excerpt.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 namespace {
@@ -141,8 +144,12 @@ RgbdCalibration load_calibration(const std::string& path) {
   return calibration_from_text(read_file(path, kLargestCalibration), path);
 }
 
+std::string calibration_text(const RgbdCalibration& calibration) {
+  return to_json(calibration).dump(2) + "\n";
+}
+
 void save_calibration(const RgbdCalibration& calibration, const std::string& path) {
-  write_file(path, to_json(calibration).dump(2) + "\n");
+  write_file(path, calibration_text(calibration));
 }
 
 }  // namespace glovebench

@@ -60,7 +60,9 @@ nlohmann::json to_json(const RgbdCalibration& calibration);
 
 inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes: fifty times ours
 
-/// A calibration file; what is saved is loaded again bit for bit. Both throw Error.
+/// What a calibration file holds; it is read again bit for bit.
+std::string calibration_text(const RgbdCalibration& calibration);
+/// A calibration file. Both throw Error.
 RgbdCalibration load_calibration(const std::string& path);
 void save_calibration(const RgbdCalibration& calibration, const std::string& path);
 

@@ -56,11 +56,11 @@ class Database {
   /// `sizes` are the tiny-image sizes that are wanted, of those that the file has. All bytes of these are read and
   /// checked, so that no look-up reads elsewhere or returns an entry that does not exist. `check` finds more.
   /// Labels and fields stay in the file (MappedMemory::of_file says what that asks of it) and take memory that the
-  /// system can take back; the rows are copied. Uses the threads of the caller's TBB arena. Throws Error naming the
-  /// file and what is wrong with it.
+  /// system can take back; the rows are made of the fields, which a low-memory database makes of its labels. Uses
+  /// the threads of the caller's TBB arena. Throws Error naming the file and what is wrong with it.
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
-  /// Throws Error naming the database unless its fields are those of its labels, and its rows those of its fields,
-  /// in all sizes that were loaded. Takes about as long as making them. Uses the threads of the caller's TBB arena.
+  /// Throws Error naming the database unless its fields are those of its labels, in all sizes that were loaded.
+  /// Takes about as long as making them. Uses the threads of the caller's TBB arena.
   void check() const;
   /// What a database made of these inputs would have as `input_hash()`.
   static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);
@@ -86,26 +86,24 @@ class Database {
   /// What made fields of a size are capped at to equal stored ones, 1/kFieldScale px.
   uint8_t field_cap(int size) const { return glovebench::field_cap(header_.field_cap_share, size); }
   /// The same fields, arranged for a look at all entries at once. Throws Error as `labels` does.
-  const FieldRows& field_rows(int size) const { return data(size).rows; }
+  const FieldRows& field_rows(int size) const { return *data(size).rows; }
   bool has_size(int size) const { return sizes_.contains(size); }
 
  private:
   struct SizeData {
     const uint8_t* labels = nullptr;  ///< [entry][packed_bytes(pixels)]
     const uint8_t* fields = nullptr;  ///< [entry][color][pixel]; kBehind bytes more may be read; none: low memory
-    /// Where the rows lie: in large pages, since they are read here and there.
-    std::shared_ptr<const MappedMemory> row_values;
-    FieldRows rows;
+    const FieldRows* rows = nullptr;
   };
 
-  /// Of the sizes that are wanted.
-  Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout, std::span<const int> sizes);
+  /// Of the sizes whose rows these are.
+  Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout, std::map<int, FieldRows> rows);
   const SizeData& data(int size) const;
-  void check_block(int size, int block) const;
 
   std::shared_ptr<const MappedMemory> bytes_;  ///< as in the file
   DatabaseHeader header_;
   std::string content_hash_;
+  std::shared_ptr<const std::map<int, FieldRows>> rows_;
   const Eigen::Vector3d* box_rays_ = nullptr;
   std::map<int, SizeData> sizes_;
 };

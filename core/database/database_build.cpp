@@ -12,10 +12,9 @@
 #include "core/base/angles.h"
 #include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/whole_file.h"
 #include "core/database/packed_labels.h"
-#include "core/database/section_check.h"
 
 namespace glovebench {
 namespace {
@@ -85,16 +84,10 @@ DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes, 
 class Filler {
  public:
   Filler(const BuildInputs& inputs, const DatabaseLayout& layout, std::span<uint8_t> file)
-      : inputs_(inputs), layout_(layout), file_(file), camera_(view_camera(inputs.views)) {
-    const int count = static_cast<int>(inputs.postures.postures.size()) * kViewCount;
-    for (const auto& [size, sections] : layout.sizes())
-      rows_.emplace(size, FieldRows(size, layout.header().memory, count));
-  }
+      : inputs_(inputs), layout_(layout), file_(file), camera_(view_camera(inputs.views)) {}
 
-  /// Renders one view and writes what is held of it. Fields that are not stored go to `made`, by size: those of a
-  /// whole piece.
-  void fill_entry(ViewRenderer& renderer, const PosedHand& hand, int entry,
-                  std::map<int, std::vector<uint8_t>>& made) const {
+  /// Renders one view and writes what is held of it.
+  void fill_entry(ViewRenderer& renderer, const PosedHand& hand, int entry) const {
     Eigen::Isometry3d T_view_hand = Eigen::Isometry3d::Identity();
     T_view_hand.linear() = view_rotations()[Database::view(entry)];
     T_view_hand.translation().z() = inputs_.views.distance;
@@ -106,11 +99,9 @@ class Filler {
     for (const auto& [size, sections] : layout_.sizes()) {
       const LabelImage tiny = make_tiny_image(image, square, size);
       pack_labels(tiny, part(sections.labels, entry, packed_bytes(tiny.size())));
-      const std::span<uint8_t> fields = fields_of(sections.fields, entry, tiny.size() * kColorCount, made[size]);
-      for (int color = 1; color <= kColorCount; ++color)
-        chamfer_field(tiny, static_cast<uint8_t>(color), field_cap(inputs_.views.field_cap_share, size),
-                      fields.subspan((color - 1) * tiny.size(), tiny.size()));
-      rows_.at(size).put(entry, fields.data(), file_.subspan(sections.rows.offset, sections.rows.bytes));
+      if (sections.fields.bytes > 0)
+        chamfer_fields(tiny, field_cap(inputs_.views.field_cap_share, size),
+                       part(sections.fields, entry, tiny.size() * kColorCount));
     }
   }
 
@@ -119,23 +110,10 @@ class Filler {
     return file_.subspan(section.offset + entry * entry_bytes, entry_bytes);
   }
 
-  std::span<uint8_t> fields_of(const Section& section, int entry, size_t bytes, std::vector<uint8_t>& made) const {
-    if (section.bytes > 0) return part(section, entry, bytes);
-    made.resize(DatabaseLayout::kPieceEntries * bytes);
-    return std::span(made).subspan(entry % DatabaseLayout::kPieceEntries * bytes, bytes);
-  }
-
   const BuildInputs& inputs_;
   const DatabaseLayout& layout_;
   std::span<uint8_t> file_;
   PinholeCamera camera_;
-  std::map<int, FieldRows> rows_;  ///< their shapes
-};
-
-/// What a thread needs to draw views.
-struct Drawing {
-  std::unique_ptr<ViewRenderer> renderer;           ///< belongs to the thread that made it
-  std::map<int, std::vector<uint8_t>> made_fields;  ///< by size: of a piece, where they are not stored
 };
 
 /// Writes a whole database of this layout, posture after posture.
@@ -143,28 +121,24 @@ void fill(const BuildInputs& inputs, DatabaseLayout& layout, int threads,
           const std::function<void(double)>& progress, MappedMemory& file) {
   const int count = static_cast<int>(inputs.postures.postures.size()) * kViewCount;
   const Filler filler(inputs, layout, file.writable());
-  tbb::enumerable_thread_specific<Drawing> thread_drawings;
+  tbb::enumerable_thread_specific<std::unique_ptr<ViewRenderer>> renderers;  // each belongs to its thread
   std::atomic<int> done{0};
   std::mutex progress_mutex;
   constexpr int kPiece = DatabaseLayout::kPieceEntries;  // a task: one posture is posed once a piece
-  std::map<int, std::vector<std::string>> made_fields;   // by size: the hash of each piece
-  for (const auto& [size, sections] : layout.sizes()) made_fields[size].resize(count / kPiece);
   tbb::task_arena arena(threads);
   arena.execute([&] {
     tbb::parallel_for(0, count / kPiece, [&](int piece) {
-      Drawing& drawing = thread_drawings.local();
-      if (!drawing.renderer) drawing.renderer = inputs.renderers();
+      std::unique_ptr<ViewRenderer>& renderer = renderers.local();
+      if (!renderer) renderer = inputs.renderers();
       const PosedHand hand = inputs.model.pose(inputs.postures.postures[piece * kPiece / kViewCount]);
-      for (int i = 0; i < kPiece; ++i)
-        filler.fill_entry(*drawing.renderer, hand, piece * kPiece + i, drawing.made_fields);
-      for (const auto& [size, fields] : drawing.made_fields) made_fields.at(size)[piece] = piece_hash(fields);
+      for (int i = 0; i < kPiece; ++i) filler.fill_entry(*renderer, hand, piece * kPiece + i);
       const int finished = done += kPiece;
       if (finished % kViewCount == 0) file.release(0, file.bytes().size());
       if (!progress) return;
       const std::lock_guard lock(progress_mutex);
       progress(static_cast<double>(finished) / count);
     });
-    layout.seal(file, made_fields);
+    layout.seal(file);
   });
 }
 
@@ -178,7 +152,8 @@ Database Database::build(const PostureSet& postures, const HandModel& model, con
   DatabaseLayout layout = layout_of(inputs, sizes, memory);
   auto bytes = std::make_shared<MappedMemory>(MappedMemory::zeros(layout.bytes()));
   fill(inputs, layout, threads, progress, *bytes);
-  return Database(bytes, layout, sizes);
+  return tbb::task_arena(threads).execute(
+      [&] { return Database(bytes, layout, layout.read_sections(*bytes, postures.name, sizes)); });
 }
 
 std::string Database::build_file(const std::string& path, const PostureSet& postures, const HandModel& model,

@@ -10,9 +10,9 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
 #include "core/base/name.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 namespace {

@@ -4,8 +4,9 @@
 #include <sys/wait.h>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "render/test_hand.h"
 

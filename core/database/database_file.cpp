@@ -16,19 +16,17 @@
 #include "core/base/hash.h"
 #include "core/base/name.h"
 #include "core/base/parse_json.h"
-#include "core/database/field_rows.h"
 #include "core/database/packed_labels.h"
 #include "core/database/section_check.h"
 #include "core/database/tiny_image.h"
-#include "core/database/view_sphere.h"
 
 namespace glovebench {
 namespace {
 
 using nlohmann::json;
 
-static_assert(kDatabaseVersion == 4);
-constexpr std::string_view kDatabaseMagic = "glovebench-database-4\n", kAnyMagic = "glovebench-database-";
+static_assert(kDatabaseVersion == 5);
+constexpr std::string_view kDatabaseMagic = "glovebench-database-5\n", kAnyMagic = "glovebench-database-";
 constexpr size_t kDatabaseHashLength = 32;
 constexpr size_t kHeaderBegin = kDatabaseMagic.size() + sizeof(uint64_t) + kDatabaseHashLength;
 constexpr uint64_t kMaxHeader = 256 << 20;  // of 100 million entries: 70 MB
@@ -110,11 +108,9 @@ std::string Section::name() const {
     case Kind::labels:
       return fmt::format("labels_{}", size_px);
     case Kind::fields:
-      return fmt::format("fields_{}", size_px);
-    case Kind::rows:
       break;
   }
-  return fmt::format("rows_{}", size_px);
+  return fmt::format("fields_{}", size_px);
 }
 
 DatabaseLayout::DatabaseLayout(DatabaseHeader header) : header_(std::move(header)) {
@@ -168,30 +164,28 @@ void DatabaseLayout::place(uint64_t header_bytes) {
     throw Error(header_.postures.name, "views", fmt::format("{}", entries), "at most 2147483647");
   }
   uint64_t end = whole_pages(header_bytes);
-  const auto next = [&](Section::Kind kind, int size, uint64_t pieces, uint64_t piece_bytes) {
+  const auto next = [&](Section::Kind kind, int size, uint64_t pieces, uint64_t entry_bytes) {
+    const uint64_t piece_bytes = kPieceEntries * entry_bytes;
     const Section section{kind, size, end, pieces * piece_bytes, piece_bytes};
     if (section.bytes > 0) end = whole_pages(end + section.bytes + kBehind);
     return section;
   };
   static_assert(kViewCount % kPieceEntries == 0);
   const uint64_t pieces = entries / kPieceEntries;
-  box_rays_ = next(Section::Kind::box_rays, 0, pieces, kPieceEntries * sizeof(Eigen::Vector3d));
+  box_rays_ = next(Section::Kind::box_rays, 0, pieces, sizeof(Eigen::Vector3d));
   for (const int size : header_.sizes_px) {
     const uint64_t pixels = static_cast<uint64_t>(size) * size;
     const uint64_t stored = header_.memory == DatabaseMemory::normal ? pieces : 0;
-    const FieldRows rows(size, header_.memory, static_cast<int>(entries));
     SizeSections& sections = sizes_[size];
-    sections.labels = next(Section::Kind::labels, size, pieces, kPieceEntries * packed_bytes(pixels));
-    sections.fields = next(Section::Kind::fields, size, stored, kPieceEntries * pixels * kColorCount);
-    sections.rows = next(Section::Kind::rows, size, rows.block_count(), rows.block_bytes());
+    sections.labels = next(Section::Kind::labels, size, pieces, packed_bytes(pixels));
+    sections.fields = next(Section::Kind::fields, size, stored, pixels * kColorCount);
   }
   bytes_ = end;
 }
 
 std::vector<Section> DatabaseLayout::sections() const {
   std::vector<Section> sections = {box_rays_};
-  for (const auto& [size, of_size] : sizes_)
-    sections.insert(sections.end(), {of_size.labels, of_size.fields, of_size.rows});
+  for (const auto& [size, of_size] : sizes_) sections.insert(sections.end(), {of_size.labels, of_size.fields});
   return sections;
 }
 
@@ -214,17 +208,16 @@ std::string DatabaseLayout::content_hash() const {
   json content = {{"side", side_name(header_.side)}, {"field_cap_share", header_.field_cap_share}};
   for (const Posture& angles : header_.postures.postures)
     content["angles_rad"].push_back(std::vector<double>(angles.begin(), angles.end()));
-  for (const Section& section : sections())
-    if (section.kind != Section::Kind::rows) content[section.name()] = hashes_.at(section.name());
+  content.update(json(hashes_));
   return hash_text(content.dump());
 }
 
-void DatabaseLayout::seal(MappedMemory& file, const std::map<int, std::vector<std::string>>& made_fields) {
+void DatabaseLayout::seal(MappedMemory& file) {
   const std::vector<Section> all = sections();
-  const auto contents = look_at_sections(file, all, header_.field_cap_share, true);
+  const std::vector<SectionContent> contents = look_at_sections(*this, file, all, false).sections;
   for (size_t s = 0; s < all.size(); ++s) {
     check(!contents[s].fault, "a database holds what its sections are for");
-    hashes_[all[s].name()] = all[s].bytes > 0 ? contents[s].hash : section_hash(made_fields.at(all[s].size_px));
+    hashes_[all[s].name()] = contents[s].hash;
   }
   const std::string text = header_text();
   const uint64_t length = text.size();
@@ -234,22 +227,21 @@ void DatabaseLayout::seal(MappedMemory& file, const std::map<int, std::vector<st
   std::memcpy(file.writable().data(), header.data(), header.size());
 }
 
-void DatabaseLayout::check_sections(const MappedMemory& file, const std::string& path,
-                                    std::span<const int> sizes_px) const {
+std::map<int, FieldRows> DatabaseLayout::read_sections(const MappedMemory& file, const std::string& path,
+                                                       std::span<const int> sizes_px) const {
   std::vector<Section> wanted = sections();
   std::erase_if(wanted, [&](const Section& section) {
-    const bool is_wanted = section.size_px == 0 || std::ranges::count(sizes_px, section.size_px) > 0;
-    return !is_wanted || section.bytes == 0;
+    return section.size_px != 0 && std::ranges::count(sizes_px, section.size_px) == 0;
   });
-  const auto contents =
-      look_at_sections(file, wanted, header_.field_cap_share, header_.memory == DatabaseMemory::low);
+  auto [contents, rows] = look_at_sections(*this, file, wanted, true);
   for (size_t s = 0; s < wanted.size(); ++s) {
     const std::string name = wanted[s].name(), &expected = hashes_.at(name);
     if (contents[s].hash != expected) throw Error(path, name + " checksum", contents[s].hash, expected);
     if (contents[s].fault) throw Error(path, name, contents[s].fault->first, contents[s].fault->second);
-    if (std::ranges::any_of(behind(file, wanted[s]), [](uint8_t byte) { return byte != 0; }))
+    if (wanted[s].bytes > 0 && std::ranges::any_of(behind(file, wanted[s]), [](uint8_t byte) { return byte != 0; }))
       throw Error(path, "bytes behind " + name, "another value", "0");
   }
+  return std::move(rows);
 }
 
 }  // namespace glovebench

@@ -7,10 +7,11 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/base/random.h"
 #include "core/base/sanitizers.h"
+#include "core/base/whole_file.h"
 #include "core/database/test_block_database.h"
 #include "core/test_folder.h"
 
@@ -21,7 +22,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// Every kind of section, in a file of few megabytes: fields with rows of pixels and with rows of cells.
+/// Every kind of section, in a file of few megabytes: fields whose rows are of pixels and of cells.
 constexpr std::array kFewSizes = {8, 16, 32};
 
 /// A good file's content, and what `load` says about another content under the same name.
@@ -69,11 +70,11 @@ TEST_F(DatabaseFile, another_format_and_trailing_bytes_are_errors_that_say_so) {
   expect_refused(good_ + '\0', "one byte more");
   expect_refused("PNG\n" + good_, "something in front");
   std::string older = good_;
-  older[older.find("-4\n") + 1] = '3';
+  older[older.find("-5\n") + 1] = '4';
   write_file(path_, older);
   EXPECT_THAT([&] { Database::load(path_); },
               ThrowsMessage<Error>(AllOf(HasSubstr("magic: found a database of another version"),
-                                         HasSubstr("glovebench-database-4 (glovebench db build makes one)"))));
+                                         HasSubstr("glovebench-database-5 (glovebench db build makes one)"))));
 }
 
 /// The file with another header of the same length, whose checksum is right.
@@ -108,7 +109,7 @@ TEST_F(DatabaseFile, a_header_that_nobody_wrote_is_an_error) {
                                  {"\"angles_rad\":[", "\"angles_rad\":[{},"},
                                  {"\"hashes\":{", "\"hashes\":{\"fields_9\":\"\","},
                                  {"\"hashes\":{", "\"hashes\":[],\"h\":{"},
-                                 {"\"rows_8\":", "\"rows_9\":"},
+                                 {"\"labels_8\":", "\"labels_9\":"},
                                  {"\"postures\":[", "\"postures\":[{},"},
                                  {"\"postures\":[", "\"postures\":3,\"p\":["},
                                  {"\"name\":", "\"nome\":"},
@@ -138,11 +139,11 @@ TEST_F(DatabaseFile, of_low_memory_that_is_damaged_anywhere_is_an_error) {
 
 TEST_F(DatabaseFile, damage_in_a_size_that_is_not_wanted_is_not_looked_for) {
   std::string damaged = good_;
-  damaged[good_.size() - 4200] ^= 1;  // the last section: the rows of the largest images
+  damaged[good_.size() - 4200] ^= 1;  // the last section: the fields of the largest images
   write_file(path_, damaged);
   const std::array<int, 2> wanted = {8, 16};
   expect_equal(Database::load(path_, wanted), small_database(DatabaseMemory::normal, kFewSizes), wanted);
-  EXPECT_THAT([&] { Database::load(path_); }, ThrowsMessage<Error>(HasSubstr("rows_32 checksum")));
+  EXPECT_THAT([&] { Database::load(path_); }, ThrowsMessage<Error>(HasSubstr("fields_32 checksum")));
 }
 
 TEST_F(DatabaseFile, is_the_same_whether_it_was_built_in_memory_or_not) {
@@ -180,7 +181,7 @@ TEST_F(DatabaseFile, of_any_length_is_written_in_little_memory) {
   };
   const std::string built = folder_ / "built.glovedb";
   Database::build_file(built, postures, render::test_hand(), kSmallViews, make_block_renderer, 2, progress,
-                       std::array{16});
+                       std::array{24});
   const auto file_bytes = static_cast<int64_t>(std::filesystem::file_size(built));
   EXPECT_GT(file_bytes, 80 << 20);
   EXPECT_LT(most - start, file_bytes / 4);

@@ -129,4 +129,10 @@ void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::sp
   }
 }
 
+void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields) {
+  for (size_t color = 1; color <= kColorCount; ++color)
+    chamfer_field(labels, static_cast<uint8_t>(color), cap,
+                  fields.subspan((color - 1) * labels.size(), labels.size()));
+}
+
 }  // namespace glovebench

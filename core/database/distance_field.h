@@ -26,5 +26,7 @@ struct RowRange {
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 /// The same, but of these rows alone: others of `field` get any values.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
+/// The fields of all colors, one behind the other: kColorCount times the image's size.
+void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields);
 
 }  // namespace glovebench

@@ -184,11 +184,8 @@ TEST_P(FastLookUpMemory, sums_at_the_cap_do_not_overflow) {
     const uint8_t cap = static_cast<uint8_t>(size * kFieldScale);
     constexpr int kEntries = 70;
     const std::vector<uint8_t> fields(pixels * kColorCount * kEntries + 64, cap);
-    const FieldRows shape(size, GetParam(), kEntries);
-    MappedMemory values = MappedMemory::zeros(shape.bytes());
-    for (int entry = 0; entry < kEntries; ++entry) shape.put(entry, fields.data(), values.writable());
-    shape.repeat_last_entry(values.writable());
-    const FieldRows rows(size, GetParam(), kEntries, values.bytes());
+    FieldRows rows(size, GetParam(), kEntries, cap);
+    rows.put(0, std::span(fields).first(pixels * kColorCount * kEntries));
     const LabelImage query(size, size, 7);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
     QueryLabels labels;

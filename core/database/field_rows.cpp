@@ -14,8 +14,10 @@ int pool_of(int size, DatabaseMemory memory) {
 
 /// The least of each `pool` neighbors along a row, every one a cell.
 void pool_row(std::array<uint8_t, kWidest + kLargestPool>& row, int pool, int cells, uint8_t* minima) {
-  for (int step = 1; step < pool; step *= 2)
-    for (int u = 0; u < kWidest; ++u) row[u] = std::min(row[u], row[u + step]);
+  for (int step = 1; step < pool; step *= 2) {
+    const auto before = row;  // apart, so that the loop is vectorized
+    for (int u = 0; u < kWidest; ++u) row[u] = std::min(before[u], before[u + step]);
+  }
   for (int cell = 0; cell < cells; ++cell) minima[cell] = row[cell * pool];
 }
 
@@ -34,31 +36,35 @@ void pool_entry(const uint8_t* fields, int size, int pool, int cells, uint8_t* m
 
 }  // namespace
 
-FieldRows::FieldRows(int size, DatabaseMemory memory, int entry_count, std::span<const uint8_t> values)
+FieldRows::FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value)
     : size_(size),
       entry_count_(entry_count),
       pool_(pool_of(size, memory)),
       cells_((size + pool_ - 1) / pool_),
       block_count_((static_cast<size_t>(entry_count) + kBlock - 1) / kBlock),
-      values_(values) {
-  for (const uint8_t value : values) largest_value_ = std::max(largest_value_, value);
+      largest_value_(largest_value),
+      values_(MappedMemory::zeros(block_count_ * block_bytes())) {
   for (int u = 0; u < size; ++u) cell_of_pixel_[u] = static_cast<uint8_t>(u / pool_);
 }
 
-void FieldRows::put(int entry, const uint8_t* fields, std::span<uint8_t> values) const {
-  std::array<uint8_t, static_cast<size_t>(kColorCount) * 16 * 16> pooled;
-  if (!exact()) {
-    pool_entry(fields, size_, pool_, cells_, pooled.data());
-    fields = pooled.data();
-  }
-  uint8_t* const target = values.data() + entry / kBlock * block_bytes() + entry % kBlock;
-  for (size_t row = 0; row < row_count(); ++row) target[row * kBlock] = fields[row];
-}
-
-void FieldRows::repeat_last_entry(std::span<uint8_t> values) const {
-  const int last = (entry_count_ - 1) % kBlock;
-  for (size_t row = block_count_ * row_count() - row_count(); row < block_count_ * row_count(); ++row)
-    std::fill(&values[row * kBlock + last], &values[row * kBlock] + kBlock, values[row * kBlock + last]);
+void FieldRows::put(int first, std::span<const uint8_t> fields) {
+  const size_t entry_bytes = static_cast<size_t>(kColorCount) * size_ * size_, count = fields.size() / entry_bytes;
+  std::vector<uint8_t> pooled(exact() ? 0 : count * row_count());
+  for (size_t i = 0; i * row_count() < pooled.size(); ++i)
+    pool_entry(&fields[i * entry_bytes], size_, pool_, cells_, &pooled[i * row_count()]);
+  const uint8_t* const values = exact() ? fields.data() : pooled.data();
+  const auto place = [&](size_t row, int entry) -> uint8_t& {
+    return values_.writable()[entry / kBlock * block_bytes() + row * kBlock + entry % kBlock];
+  };
+  // A few rows of all entries at a time, which stay in the nearest cache.
+  for (size_t begin = 0; begin < row_count(); begin += kBlock)
+    for (size_t i = 0; i < count; ++i)
+      for (size_t row = begin; row < std::min(begin + kBlock, row_count()); ++row)
+        place(row, first + static_cast<int>(i)) = values[i * row_count() + row];
+  const int last = entry_count_ - 1;
+  if (first + static_cast<int>(count) <= last) return;
+  for (size_t row = 0; row < row_count(); ++row)
+    std::fill_n(&place(row, last), kBlock - last % kBlock, place(row, last));
 }
 
 uint32_t FieldRows::sum(int entry, std::span<const WeightedRow> rows) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/image.h"
+#include "core/base/mapped_memory.h"
 #include "core/database/database_memory.h"
 
 namespace glovebench {
@@ -26,17 +27,12 @@ class FieldRows {
   static constexpr int kLargestExact = 24;     ///< px
   static constexpr int kLargestFinePool = 32;  ///< px
 
-  FieldRows() = default;
-  /// Rows of tiny images of that size, px, as `put` and `repeat_last_entry` made them in `values`, whose lifetime
-  /// is the caller's concern; without values just their shape.
-  FieldRows(int size, DatabaseMemory memory, int entry_count, std::span<const uint8_t> values = {});
-  /// What the rows take.
-  size_t bytes() const { return block_count() * block_bytes(); }
-  /// Writes what the rows hold of one entry, whose kColorCount fields of size * size these are, into `values`.
-  /// Entries may be put in any order, and at once.
-  void put(int entry, const uint8_t* fields, std::span<uint8_t> values) const;
-  /// Fills what lies behind the last entry in its block, so that nothing there is nearer than every entry.
-  void repeat_last_entry(std::span<uint8_t> values) const;
+  /// Rows of tiny images of that size, px, until `put` all zero. `largest_value`: no field has a larger one.
+  FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value);
+  /// Writes what the rows hold of some entries from `first` on, of each kColorCount fields of size * size.
+  /// Different entries may be put at once. The last one also fills what lies behind it in its block: nothing there
+  /// is nearer than every entry.
+  void put(int first, std::span<const uint8_t> fields);
 
   /// Sums over rows are the distances, not just bounds.
   bool exact() const { return pool_ == 1; }
@@ -44,7 +40,7 @@ class FieldRows {
   /// Of a block: kColorCount times as many as there are cells.
   size_t row_count() const { return static_cast<size_t>(kColorCount) * cells_ * cells_; }
   size_t block_bytes() const { return row_count() * kBlock; }
-  const uint8_t* data() const { return values_.data(); }
+  const uint8_t* data() const { return values_.bytes().data(); }
   uint8_t largest_value() const { return largest_value_; }
 
   /// The rows that a query of this size adds up: how many of its pixels of a color lie in a cell.
@@ -53,14 +49,14 @@ class FieldRows {
   uint32_t sum(int entry, std::span<const WeightedRow> rows) const;
 
  private:
-  int size_ = 0;  ///< px
-  int entry_count_ = 0;
-  int pool_ = 1;                             ///< px
-  int cells_ = 0;                            ///< a side
+  int size_;  ///< px
+  int entry_count_;
+  int pool_;                                 ///< px
+  int cells_;                                ///< a side
   std::array<uint8_t, 64> cell_of_pixel_{};  ///< along a side
-  size_t block_count_ = 0;
-  uint8_t largest_value_ = 0;
-  std::span<const uint8_t> values_;  ///< entries behind the last one repeat it
+  size_t block_count_;
+  uint8_t largest_value_;
+  MappedMemory values_;  ///< in large pages: rows are read here and there
 };
 
 }  // namespace glovebench

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/database/look_up.h"
 #include "core/database/test_damaged_database.h"
 #include "core/test_folder.h"
@@ -17,21 +17,19 @@ using testing::ThrowsMessage;
 
 constexpr std::array kSizes = {8, 40};
 
-class HostileDatabase : public testing::TestWithParam<DatabaseMemory> {
+class HostileFile : public testing::Test {
  protected:
-  HostileDatabase() : good_(painted_database(GetParam(), {8, 40})), sections_(sections_of(good_)) {}
+  explicit HostileFile(DatabaseMemory memory)
+      : good_(painted_database(memory, {8, 40})), layout_(layout_of(good_)), sections_(stored_sections(layout_)) {}
 
   const Section& section(const std::string& name) const {
     return *std::ranges::find(sections_, name, &Section::name);
-  }
-  bool has_section(const std::string& name) const {
-    return std::ranges::find(sections_, name, &Section::name) != sections_.end();
   }
   /// Writes the file with these bytes in a section, and right hashes.
   void damage(const std::string& name, uint64_t place, std::string_view bytes) {
     std::string file = good_;
     file.replace(section(name).offset + place, bytes.size(), bytes);
-    write_file(path_, with_right_hashes(file, sections_));
+    write_file(path_, with_right_hashes(file, layout_));
   }
   Database load() const { return Database::load(path_, kSizes); }
   void expect_refused(const std::string& name, const std::string& expected) const {
@@ -42,17 +40,32 @@ class HostileDatabase : public testing::TestWithParam<DatabaseMemory> {
   const TestFolder folder_;
   const std::string path_ = folder_ / "hostile.glovedb";
   const std::string good_;
-  const std::vector<Section> sections_;
+  const DatabaseLayout layout_;
+  const std::vector<Section> sections_;  ///< that the file holds
+};
+
+class HostileDatabase : public HostileFile, public testing::WithParamInterface<DatabaseMemory> {
+ protected:
+  HostileDatabase() : HostileFile(GetParam()) {}
 };
 INSTANTIATE_TEST_SUITE_P(Memory, HostileDatabase, testing::Values(DatabaseMemory::normal, DatabaseMemory::low),
                          [](const auto& tested) { return std::string(to_string(tested.param)); });
+
+class HostileNormalDatabase : public HostileFile {
+ protected:
+  HostileNormalDatabase() : HostileFile(DatabaseMemory::normal) {}
+};
+class HostileLowMemoryDatabase : public HostileFile {
+ protected:
+  HostileLowMemoryDatabase() : HostileFile(DatabaseMemory::low) {}
+};
 
 std::string bytes_of(const Eigen::Vector3d& v) {
   return {reinterpret_cast<const char*>(v.data()), sizeof(Eigen::Vector3d)};
 }
 
 TEST_P(HostileDatabase, with_right_hashes_is_the_good_one_again) {
-  EXPECT_EQ(with_right_hashes(good_, sections_), good_);
+  EXPECT_EQ(with_right_hashes(good_, layout_), good_);
   write_file(path_, good_);
   load().check();
 }
@@ -76,9 +89,8 @@ TEST_P(HostileDatabase, a_label_that_no_glove_has_is_an_error) {
   }
 }
 
-TEST_P(HostileDatabase, a_distance_above_the_cap_is_an_error) {
-  for (const std::string name : {"fields_8", "fields_40", "rows_8", "rows_40"}) {
-    if (!has_section(name)) continue;
+TEST_F(HostileNormalDatabase, with_a_distance_above_the_cap_is_an_error) {
+  for (const std::string name : {"fields_8", "fields_40"}) {
     const uint8_t cap = field_cap(0.5, section(name).size_px);
     const char above = static_cast<char>(cap + 1), equal = static_cast<char>(cap);
     damage(name, section(name).bytes - 1, {&above, 1});
@@ -100,7 +112,7 @@ TEST_P(HostileDatabase, a_posture_that_no_hand_has_is_an_error) {
     std::string file = good_;
     const std::string from = "\"angles_rad\":[0.0,";
     file.replace(file.find(from) + from.size() - 4, 3, angle);
-    write_file(path_, with_right_hashes(file, sections_));
+    write_file(path_, with_right_hashes(file, layout_));
     expect_refused("angles_rad", "angles within the limits");
   }
 }
@@ -117,6 +129,10 @@ TinyImages queries(const Cascade& cascade, int number) {
   return query;
 }
 
+bool is_same_match(const Match& a, const Match& b) {
+  return a.entry == b.entry && a.error == b.error;
+}
+
 const std::vector<Cascade> kCascades = {{{40, 3}}, {{8, 3}}, {{8, 500}, {40, 3}}, {{8, 20}, {40, 3}}};
 
 /// Both implementations give the same entries, which exist.
@@ -124,7 +140,10 @@ void expect_entries(const Database& database) {
   for (const Cascade& cascade : kCascades) {
     for (int number = 0; number < 8; ++number) {
       const TinyImages query = queries(cascade, number);
-      for (const Match& match : look_up(database, query, cascade)) {
+      const auto matches = look_up(database, query, cascade);
+      ASSERT_TRUE(
+          std::ranges::equal(matches, look_up(database, query, cascade, Implementation::plain), is_same_match));
+      for (const Match& match : matches) {
         ASSERT_GE(match.entry, 0);
         ASSERT_LT(match.entry, database.entry_count());
         ASSERT_TRUE(match.error >= 0 && match.error <= 64);
@@ -133,36 +152,8 @@ void expect_entries(const Database& database) {
   }
 }
 
-TEST_P(HostileDatabase, what_lies_behind_the_last_entry_means_nothing) {
-  write_file(path_, good_);
-  const Database good = load();
-  for (const std::string name : {"rows_8", "rows_40"}) {
-    // All rows of the last block: 756 = 11 * 64 + 52 entries.
-    std::string file = good_;
-    const Section& rows = section(name);
-    for (uint64_t row = rows.bytes - rows.piece_bytes; row < rows.bytes; row += FieldRows::kBlock)
-      for (int lane = kViewCount % FieldRows::kBlock; lane < FieldRows::kBlock; ++lane)
-        file[rows.offset + row + lane] = static_cast<char>(row / FieldRows::kBlock % 3);
-    ASSERT_NE(file, good_);
-    write_file(path_, with_right_hashes(file, sections_));
-    const Database damaged = load();
-    damaged.check();
-    for (const Cascade& cascade : kCascades) {
-      for (int number = 0; number < 8; ++number) {
-        const TinyImages query = queries(cascade, number);
-        const auto expected = look_up(good, query, cascade, Implementation::plain),
-                   found = look_up(damaged, query, cascade);
-        ASSERT_EQ(found.size(), expected.size());
-        for (size_t m = 0; m < found.size(); ++m)
-          EXPECT_EQ(found[m].entry, expected[m].entry) << to_string(cascade);
-      }
-    }
-  }
-}
-
-TEST_P(HostileDatabase, other_distances_lead_to_entries_that_exist_and_a_check_finds_them) {
-  for (const std::string name : {"fields_8", "fields_40", "rows_8", "rows_40"}) {
-    if (!has_section(name)) continue;
+TEST_F(HostileNormalDatabase, with_other_distances_gives_entries_that_exist_and_a_check_finds_it) {
+  for (const std::string name : {"fields_8", "fields_40"}) {
     for (const uint64_t place : {uint64_t{0}, section(name).bytes - section(name).piece_bytes}) {
       damage(name, place, std::string(section(name).piece_bytes, '\0'));
       const Database damaged = load();
@@ -174,21 +165,41 @@ TEST_P(HostileDatabase, other_distances_lead_to_entries_that_exist_and_a_check_f
   }
 }
 
-TEST_P(HostileDatabase, other_labels_are_another_content_and_other_rows_are_not) {
+TEST_P(HostileDatabase, other_bytes_in_any_section_are_another_content) {
   write_file(path_, good_);
   const std::string content = load().content_hash();
   for (const Section& section : sections_) {
     const char other = section.kind == Section::Kind::labels ? '\x21' : '\1';
     const std::string bytes =
         section.kind == Section::Kind::box_rays ? bytes_of({0.6, 0, 0.8}) : std::string(1, other);
-    damage(section.name(), section.kind == Section::Kind::rows ? section.bytes - 1 : 0, bytes);
-    EXPECT_EQ(load().content_hash() == content, section.kind == Section::Kind::rows) << section.name();
+    damage(section.name(), 0, bytes);
+    EXPECT_NE(load().content_hash(), content) << section.name();
   }
   std::string file = good_;
   const std::string from = "\"angles_rad\":[0.0,";
   file.replace(file.find(from) + from.size() - 4, 3, "0.1");
-  write_file(path_, with_right_hashes(file, sections_));
+  write_file(path_, with_right_hashes(file, layout_));
   EXPECT_NE(load().content_hash(), content);
+}
+
+TEST_F(HostileLowMemoryDatabase, with_other_labels_gives_entries_that_exist) {
+  for (const std::string name : {"labels_8", "labels_40"}) {
+    damage(name, 0, std::string(section(name).piece_bytes, '\x21'));
+    expect_entries(load());
+  }
+}
+
+TEST_F(HostileLowMemoryDatabase, that_states_the_hash_of_other_fields_is_an_error) {
+  // That of a normal database with other distances: without this check two databases that give other matches would
+  // have the same content.
+  const std::string normal = painted_database(DatabaseMemory::normal, {8, 40});
+  const DatabaseLayout layout = layout_of(normal);
+  std::string other = normal, file = good_;
+  other[layout.sizes().at(8).fields.offset] ^= 1;
+  const std::string key = "\"fields_8\":\"", stated = with_right_hashes(other, layout);
+  file.replace(file.find(key) + key.size(), 32, stated.substr(stated.find(key) + key.size(), 32));
+  write_file(path_, with_right_header(file));
+  expect_refused("fields_8 checksum", "");
 }
 
 }  // namespace

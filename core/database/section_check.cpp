@@ -1,6 +1,7 @@
 #include "core/database/section_check.h"
 
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Core>
@@ -8,6 +9,7 @@
 
 #include "core/base/hash.h"
 #include "core/database/database.h"
+#include "core/database/packed_labels.h"
 
 namespace glovebench {
 namespace {
@@ -42,7 +44,6 @@ bool has_values_of(const Section& section, std::span<const uint8_t> piece, doubl
     case Section::Kind::labels:
       return are_labels(piece);
     case Section::Kind::fields:
-    case Section::Kind::rows:
       return are_distances(piece, field_cap(field_cap_share, section.size_px));
   }
   return false;
@@ -55,58 +56,77 @@ std::pair<std::string, std::string> fault_of(const Section& section, double fiel
     case Section::Kind::labels:
       return {"another label", fmt::format("0 to {}", kColorCount)};
     case Section::Kind::fields:
-    case Section::Kind::rows:
       break;
   }
   return {"a larger distance", fmt::format("at most {}", field_cap(field_cap_share, section.size_px))};
 }
 
-/// The part of a section that one thread looks at.
-struct Piece {
-  size_t section;
-  uint64_t offset, bytes;
+constexpr size_t kPieceEntries = DatabaseLayout::kPieceEntries;
+
+/// A piece of a section that the file holds.
+std::span<const uint8_t> piece_of(const MappedMemory& file, const Section& section, size_t piece) {
+  return file.bytes().subspan(section.offset + piece * section.piece_bytes, section.piece_bytes);
+}
+
+/// A piece of the fields that a low-memory database does not hold, in `made`.
+std::span<const uint8_t> make_fields(const DatabaseLayout& layout, const MappedMemory& file, int size, size_t piece,
+                                     std::vector<uint8_t>& made) {
+  const SizeSections& sections = layout.sizes().at(size);
+  const std::span<const uint8_t> labels = piece_of(file, sections.labels, piece);
+  made.resize(sections.fields.piece_bytes);
+  const size_t packed = labels.size() / kPieceEntries, bytes = made.size() / kPieceEntries;
+  for (size_t i = 0; i < kPieceEntries; ++i)
+    chamfer_fields(unpack_labels(labels.subspan(i * packed, packed), size, size),
+                   field_cap(layout.header().field_cap_share, size), std::span(made).subspan(i * bytes, bytes));
+  return made;
+}
+
+/// What a pass found in a piece of a section.
+struct PieceContent {
   std::string hash;
   bool has_fault = false;
 };
 
-std::vector<Piece> pieces_of(std::span<const Section> sections) {
-  std::vector<Piece> pieces;
-  for (size_t s = 0; s < sections.size(); ++s)
-    for (uint64_t begin = 0; begin < sections[s].bytes; begin += sections[s].piece_bytes)
-      pieces.push_back({s, sections[s].offset + begin, sections[s].piece_bytes, {}});
-  return pieces;
-}
-
 }  // namespace
 
-std::string piece_hash(std::span<const uint8_t> piece) {
-  return hash_bytes(std::as_bytes(piece));
-}
+DatabaseContent look_at_sections(const DatabaseLayout& layout, const MappedMemory& file,
+                                 std::span<const Section> sections, bool load) {
+  const DatabaseHeader& header = layout.header();
+  const double cap_share = header.field_cap_share;
+  const bool release = !load || header.memory == DatabaseMemory::low;
+  const size_t piece_count = static_cast<size_t>(layout.entry_count()) / kPieceEntries;
+  DatabaseContent content{std::vector<SectionContent>(sections.size()), {}};
+  for (const Section& section : sections)
+    if (load && section.kind == Section::Kind::fields)
+      content.rows.try_emplace(section.size_px, section.size_px, header.memory, layout.entry_count(),
+                               field_cap(cap_share, section.size_px));
 
-std::string section_hash(std::span<const std::string> piece_hashes) {
-  std::string text;
-  for (const std::string& hash : piece_hashes) text += hash;
-  return hash_text(text);
-}
-
-std::vector<SectionContent> look_at_sections(const MappedMemory& file, std::span<const Section> sections,
-                                             double field_cap_share, bool release) {
-  std::vector<Piece> pieces = pieces_of(sections);
-  tbb::parallel_for(size_t{0}, pieces.size(), [&](size_t p) {
-    Piece& piece = pieces[p];
-    const std::span<const uint8_t> bytes = file.bytes().subspan(piece.offset, piece.bytes);
-    piece.hash = piece_hash(bytes);
-    piece.has_fault = !has_values_of(sections[piece.section], bytes, field_cap_share);
-    if (release) file.release(piece.offset, piece.bytes);
+  std::vector<std::vector<PieceContent>> found(sections.size(), std::vector<PieceContent>(piece_count));
+  tbb::enumerable_thread_specific<std::vector<uint8_t>> made_fields;
+  tbb::parallel_for(size_t{0}, piece_count, [&](size_t piece) {
+    for (size_t s = 0; s < sections.size(); ++s) {
+      const Section& section = sections[s];
+      const std::span<const uint8_t> bytes =
+          section.bytes > 0 ? piece_of(file, section, piece)
+                            : make_fields(layout, file, section.size_px, piece, made_fields.local());
+      found[s][piece] = {hash_bytes(std::as_bytes(bytes)), !has_values_of(section, bytes, cap_share)};
+      if (load && section.kind == Section::Kind::fields)
+        content.rows.at(section.size_px).put(static_cast<int>(piece * kPieceEntries), bytes);
+    }
+    if (!release) return;
+    for (const Section& section : sections)
+      if (section.bytes > 0) file.release(section.offset + piece * section.piece_bytes, section.piece_bytes);
   });
-  std::vector<std::vector<std::string>> hashes(sections.size());
-  std::vector<SectionContent> contents(sections.size());
-  for (const Piece& piece : pieces) {
-    hashes[piece.section].push_back(piece.hash);
-    if (piece.has_fault) contents[piece.section].fault = fault_of(sections[piece.section], field_cap_share);
+
+  for (size_t s = 0; s < sections.size(); ++s) {
+    std::string hashes;
+    for (const PieceContent& piece : found[s]) {
+      hashes += piece.hash;
+      if (piece.has_fault) content.sections[s].fault = fault_of(sections[s], cap_share);
+    }
+    content.sections[s].hash = hash_text(hashes);
   }
-  for (size_t s = 0; s < sections.size(); ++s) contents[s].hash = section_hash(hashes[s]);
-  return contents;
+  return content;
 }
 
 }  // namespace glovebench

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,11 +12,6 @@
 
 namespace glovebench {
 
-/// Hash of a piece of a section.
-std::string piece_hash(std::span<const uint8_t> piece);
-/// Hash of a section whose pieces have these.
-std::string section_hash(std::span<const std::string> piece_hashes);
-
 /// What a pass over sections found.
 struct SectionContent {
   std::string hash;
@@ -24,10 +19,16 @@ struct SectionContent {
   std::optional<std::pair<std::string, std::string>> fault;
 };
 
-/// Hashes sections and looks at each value: box rays are unit vectors before the camera, labels those of the glove,
-/// distances at most the cap. One answer a section. Uses the threads of the caller's TBB arena. `release`: keeps no
-/// page resident.
-std::vector<SectionContent> look_at_sections(const MappedMemory& file, std::span<const Section> sections,
-                                             double field_cap_share, bool release);
+struct DatabaseContent {
+  std::vector<SectionContent> sections;  ///< one a section that was looked at
+  std::map<int, FieldRows> rows;         ///< by size
+};
+
+/// Hashes sections of a file and looks at each value: box rays are unit vectors before the camera, labels those of
+/// the glove, distances at most the cap. Fields that the file does not store are made of the labels, and hashed as
+/// if they were stored. `load`: makes rows of all fields among the sections, and keeps the pages of a normal
+/// database resident. Uses the threads of the caller's TBB arena.
+DatabaseContent look_at_sections(const DatabaseLayout& layout, const MappedMemory& file,
+                                 std::span<const Section> sections, bool load);
 
 }  // namespace glovebench

@@ -8,8 +8,8 @@
 
 #include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/hand/skeleton.h"
 
 namespace glovebench {

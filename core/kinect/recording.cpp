@@ -4,8 +4,6 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
-#include "core/base/hash.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording_files.h"
 #include "core/kinect/recording_index.h"
@@ -15,30 +13,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kCalibration = "calibration.json";
+
 void require_size(int width, int height, const PinholeCamera& camera, const std::string& field) {
   if (width != camera.width || height != camera.height)
     throw Error("recording", field, std::to_string(width) + "x" + std::to_string(height),
                 std::to_string(camera.width) + "x" + std::to_string(camera.height) + " as calibrated");
 }
 
-RgbdCalibration own_calibration(const std::string& path) {
-  return calibration_from_text(read_regular_file(path, kLargestCalibration), path);
+/// The most that the file of such an image holds, and a little: decoding tells of that, and no more is read.
+uint64_t largest_image(const PinholeCamera& camera) {
+  constexpr uint64_t kBytesPerPixel = 4, kOthers = 4096;
+  return kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers;
 }
 
 }  // namespace
 
-RecordingDevice::RecordingDevice(const std::string& folder)
-    : RecordingDevice(folder, own_calibration(path_in_recording(folder, "calibration.json"))) {}
-
-RecordingDevice::RecordingDevice(const std::string& folder, const RgbdCalibration& calibration)
-    : calibration_(calibration), files_(folder) {
-  const std::string index = path_in_recording(folder, "INDEX.txt");
+RecordingDevice::RecordingDevice(const std::string& folder, const std::optional<RgbdCalibration>& calibration)
+    : files_(folder) {
+  const std::string index = files_.path(kRecordingIndex), own = files_.path(kCalibration);
+  calibration_ =
+      calibration ? *calibration : calibration_from_text(read_text(kCalibration, kLargestCalibration), own);
   FramePairer<std::string, std::string> pairer;
   int depths = 0, colors = 0;
   const auto take_pairs = [&] {
     while (std::optional<Pair> pair = pairer.pop()) pairs_.push_back(std::move(*pair));
   };
-  for (RecordingEntry& entry : read_recording_index(folder)) {
+  for (RecordingEntry& entry : parse_recording_index(read_text(kRecordingIndex, kLargestIndex), folder)) {
     const bool is_depth = entry.kind == RecordedKind::depth;
     ++(is_depth ? depths : colors);
     if (is_depth) pairer.push_depth(entry.timestamp_us, std::move(entry.name));
@@ -59,32 +60,31 @@ std::optional<DeviceFrame> RecordingDevice::next_frame() {
   const Pair& pair = pairs_[next_++];
   const PinholeCamera &ir = calibration_.ir, &rgb = calibration_.rgb;
   try {
-    const std::string depth = read_image(pair.depth, ir), color = read_image(pair.color, rgb);
-    DeviceFrame frame{.raw_disparity = decode_pgm(depth, ir.width, ir.height, files_.path(pair.depth)),
-                      .color = decode_ppm(color, rgb.width, rgb.height, files_.path(pair.color)),
+    const FileSet::Found depth = files_.find(pair.depth, largest_image(ir)),
+                         color = files_.find(pair.color, largest_image(rgb));
+    DeviceFrame frame{.raw_disparity = decode_pgm(depth.content, ir.width, ir.height, files_.path(pair.depth)),
+                      .color = decode_ppm(color.content, rgb.width, rgb.height, files_.path(pair.color)),
                       .depth_timestamp_us = pair.depth_us,
                       .color_timestamp_us = pair.color_us};
-    files_.expect_content(pair.depth, depth);
-    files_.expect_content(pair.color, color);
+    if (depth.is_changed) files_.refuse(pair.depth);
+    if (color.is_changed) files_.refuse(pair.color);
     return frame;
   } catch (const Error& e) {
     throw FrameError(e.what());
   }
 }
 
-std::string RecordingDevice::read_image(const std::string& name, const PinholeCamera& camera) const {
-  // The most that the file of such an image holds, and a little: decoding tells of that, and no more is read.
-  constexpr uint64_t kBytesPerPixel = 4, kOthers = 4096;
-  return read_regular_file(files_.path(name),
-                           kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers);
+std::string RecordingDevice::read_text(const std::string& name, uint64_t max_bytes) {
+  FileSet::Found found = files_.find(name, max_bytes);
+  if (found.is_changed) changed_.push_back(name);
+  return std::move(found.content);
 }
 
 RecordingWriter::RecordingWriter(const std::string& folder, const RgbdCalibration& calibration)
-    : folder_(folder), calibration_(calibration) {
-  if (fs::exists(path_in_recording(folder, "INDEX.txt")))
-    throw Error(folder, "INDEX.txt", "a recording", "a folder without one");
-  manifest_to_replace(folder, kRecordingSet);
-  save_calibration(calibration, path_in_recording(folder, "calibration.json"));
+    : files_(folder), folder_(folder), calibration_(calibration) {
+  if (fs::exists(path_in_recording(folder, kRecordingIndex)))
+    throw Error(folder, kRecordingIndex, "a recording", "a folder without one");
+  files_.add(kCalibration, calibration_text(calibration));
 }
 
 void RecordingWriter::write(const DeviceFrame& frame) {
@@ -101,22 +101,14 @@ void RecordingWriter::write(const DeviceFrame& frame) {
   require_time("color_timestamp_us", frame.color_timestamp_us, std::max<int64_t>(last_color_us_, 0));
 
   const std::string depth = recorded_name({RecordedKind::depth, frame.depth_timestamp_us});
-  write_image(depth, encode_pgm(frame.raw_disparity));
+  files_.add(depth, encode_pgm(frame.raw_disparity));
   index_.emplace_back(frame.depth_timestamp_us, depth);
   last_depth_us_ = frame.depth_timestamp_us;
   if (frame.color_timestamp_us == last_color_us_) return;
   const std::string color = recorded_name({RecordedKind::color, frame.color_timestamp_us});
-  write_image(color, encode_ppm(frame.color));
+  files_.add(color, encode_ppm(frame.color));
   index_.emplace_back(frame.color_timestamp_us, color);
   last_color_us_ = frame.color_timestamp_us;
-}
-
-/// The folder is synced once, before the index: syncing it for each image would take as long as the images.
-void RecordingWriter::write_image(const std::string& name, const std::string& content) {
-  WholeFile file(path_in_recording(folder_, name));
-  file.append(content);
-  file.commit(false);
-  images_.push_back({name, content.size(), hash_text(content)});
 }
 
 void RecordingWriter::finish() {
@@ -124,12 +116,8 @@ void RecordingWriter::finish() {
   std::sort(index_.begin(), index_.end());
   std::string content;
   for (const auto& [timestamp_us, name] : index_) content += name + "\n";
-  const FolderLock lock(folder_);
-  manifest_to_replace(folder_, kRecordingSet);
-  const std::string manifest = manifest_json({kRecordingSet, images_});  // first: it may be too large
-  sync_folder(folder_);
-  write_file(path_in_recording(folder_, "INDEX.txt"), content);
-  write_file(path_in_recording(folder_, kManifest), manifest);
+  files_.add(kRecordingIndex, content);
+  files_.commit();
 }
 
 }  // namespace glovebench

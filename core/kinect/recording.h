@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace glovebench {
 ///     r-SECONDS.MICROS-TICKS.ppm        "P6 640 480 255", RGB
 ///     a-SECONDS.MICROS-TICKS.dump       accelerometer, ignored
 ///     calibration.json                  see rgbd_calibration.h
-///     manifest.json                     the hash of each image (core/base/file_set.h), if glovebench recorded it
+///     manifest.json                     the hash of each file (core/base/file_set.h), if glovebench recorded it
 ///
 /// SECONDS.MICROS is when an image arrived, by the computer's clock, with six digits of microseconds. TICKS is when
 /// it was taken, by the device's own clock (60 MHz, 32 bits), which comes around every 71.6 s. The time stamp of an
@@ -30,8 +31,8 @@ class RecordingDevice : public Device {
   /// Throws Error if the index or the calibration is missing or malformed, a file is listed twice or nothing can
   /// be paired. Images are read and checked in next_frame. With `calibration` that of the folder is not read: a
   /// recording of fakenect's own has none.
-  explicit RecordingDevice(const std::string& folder);
-  RecordingDevice(const std::string& folder, const RgbdCalibration& calibration);
+  explicit RecordingDevice(const std::string& folder,
+                           const std::optional<RgbdCalibration>& calibration = std::nullopt);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
   /// Throws FrameError naming the image file and what is wrong with it: also if the manifest has another hash for
@@ -42,42 +43,41 @@ class RecordingDevice : public Device {
   int unpaired_depth_count() const { return unpaired_depth_count_; }
   /// Images with the time stamp of the one before of their kind.
   int repeated_count() const { return repeated_count_; }
+  /// The calibration and the index, if somebody changed them since they were recorded.
+  const std::vector<std::string>& changed() const { return changed_; }
 
  private:
   using Pair = FramePairer<std::string, std::string>::Pair;  ///< of names of files
 
-  std::string read_image(const std::string& name, const PinholeCamera& camera) const;
+  std::string read_text(const std::string& name, uint64_t max_bytes);
 
-  RgbdCalibration calibration_;
   FileSet files_;
+  RgbdCalibration calibration_;
+  std::vector<std::string> changed_;
   std::vector<Pair> pairs_;
   size_t next_ = 0;
   int unpaired_depth_count_ = 0;
   int repeated_count_ = 0;
 };
 
-/// Writes device frames as a recording. What is written is played back equal if each color image is the one
-/// nearest in time to its depth image.
+/// Writes device frames as a recording, a set of files (core/base/file_set.h). What is written is played back equal
+/// if each color image is the one nearest in time to its depth image.
 class RecordingWriter {
  public:
-  /// Throws Error if the folder already holds a recording or a set of another kind (core/base/file_set.h), or
-  /// cannot be written.
+  /// Throws Error if the folder already holds a recording, or cannot be written.
   RecordingWriter(const std::string& folder, const RgbdCalibration& calibration);
 
   /// Depth time stamps increase; a color time stamp equal to the one before means the same image again. Throws
   /// Error on time stamps that go back or are negative, and on images that no Kinect could give.
   void write(const DeviceFrame& frame);
-  /// Writes the index: until then the folder is no recording. Then the manifest. Throws Error if no frame was
-  /// written, or another set was written into the folder meanwhile.
+  /// Until then the folder is no recording. Throws Error if no frame was written.
   void finish();
 
  private:
-  void write_image(const std::string& name, const std::string& content);
-
+  WholeFiles files_;
   std::string folder_;
   RgbdCalibration calibration_;
   std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp and file name
-  std::vector<ManifestEntry> images_;
   int64_t last_depth_us_ = -1;
   int64_t last_color_us_ = -1;
 };

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/tick_clock.h"
 
@@ -55,12 +55,8 @@ std::string path_in_recording(const std::string& folder, const std::string& name
   return (fs::path(folder) / name).string();
 }
 
-std::vector<RecordingEntry> read_recording_index(const std::string& folder) {
-  return parse_recording_index(read_regular_file(path_in_recording(folder, "INDEX.txt"), kLargestIndex), folder);
-}
-
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder) {
-  const std::string index = path_in_recording(folder, "INDEX.txt");
+  const std::string index = path_in_recording(folder, kRecordingIndex);
   std::vector<RecordingEntry> entries;
   std::vector<std::string_view> listed;
   // An entry is larger than its line: no more room than lines that could be read.
@@ -87,7 +83,7 @@ std::vector<RecordingEntry> parse_recording_index(std::string_view content, cons
 
 void check_fakenect_dump(const std::string& folder) {
   constexpr size_t kPixels = 640 * 480;
-  const std::string index = path_in_recording(folder, "INDEX.txt");
+  const std::string index = path_in_recording(folder, kRecordingIndex);
   std::istringstream lines(read_regular_file(index, kLargestIndex));
   int depths = 0;
   for (std::string line; std::getline(lines, line);) {

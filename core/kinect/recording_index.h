@@ -9,6 +9,7 @@
 
 namespace glovebench {
 
+inline constexpr const char* kRecordingIndex = "INDEX.txt";
 /// Hours of frames at 30 Hz.
 inline constexpr uint64_t kLargestIndex = uint64_t{64} << 20;  // bytes
 
@@ -21,10 +22,8 @@ struct RecordingEntry {
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
 
-/// The images that INDEX.txt lists, in order of time; of equal times (a device may repeat one) in that of the list.
-/// Throws Error if it is missing or malformed or lists a file twice.
-std::vector<RecordingEntry> read_recording_index(const std::string& folder);
-/// The same of the content of an INDEX.txt.
+/// The images that the content of an INDEX.txt lists, in order of time; of equal times (a device may repeat one) in
+/// that of the list. Throws Error if it is malformed or lists a file twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 
 /// Throws Error naming the first file that the fakenect library could not play: it ends the program, or reads past

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/random.h"
+#include "core/base/whole_file.h"
 #include "core/kinect/recording_index.h"
 #include "core/test_folder.h"
 
@@ -282,29 +283,34 @@ TEST_F(Recording, SurvivesTruncationsAndByteFlips) {
   EXPECT_EQ(play_error(), "");
 }
 
-TEST_F(Recording, WriterRefusesASetOfAnotherKindAndLeavesIt) {
-  const auto write_run = [&] {
-    WholeFiles files(folder_, kRunSet);
-    files.add("results.json", "results");
-    files.commit();
-  };
-  write_run();
-  EXPECT_THROW(RecordingWriter(folder_, calibration_), Error);
-  EXPECT_FALSE(fs::exists(path("calibration.json")));
-  fs::remove_all(folder_);
+TEST_F(Recording, SaysWhatWasChangedSinceAndPlaysOn) {
+  record({frame(1'000'000, 1'001'000), frame(1'033'000, 1'034'000)});
+  EXPECT_EQ(RecordingDevice(folder_).changed(), std::vector<std::string>());
+  write_file(path("calibration.json"), read_file(path("calibration.json")) + " ");
+  EXPECT_EQ(RecordingDevice(folder_).changed(), std::vector<std::string>{"calibration.json"});
+  write_file(path("INDEX.txt"), "d-1.000000-60000000.pgm\nr-1.001000-60060000.ppm\n");
+  const RecordingDevice device(folder_);
+  EXPECT_EQ(device.changed(), (std::vector<std::string>{"calibration.json", "INDEX.txt"}));
+  EXPECT_EQ(device.frame_count(), 1);
+  EXPECT_EQ(play_error(), "");
+  EXPECT_EQ(RecordingDevice(folder_, calibration_).changed(), std::vector<std::string>{"INDEX.txt"}) << "not read";
+  fs::remove(path("manifest.json"));
+  EXPECT_EQ(RecordingDevice(folder_).changed(), std::vector<std::string>());
+}
 
-  RecordingWriter writer(folder_, calibration_);
-  writer.write(frame(1'000'000, 1'001'000));
-  write_run();
-  const std::string manifest = read_file(path(kManifest));
-  EXPECT_THROW(writer.finish(), Error);
-  EXPECT_EQ(read_file(path(kManifest)), manifest);
-  EXPECT_EQ(read_file(path("results.json")), "results");
-  fs::remove_all(folder_);
+TEST_F(Recording, WriterLeavesNothingWithoutFinish) {
+  {
+    RecordingWriter writer(folder_, calibration_);
+    writer.write(frame(1'000'000, 1'001'000));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
 
+TEST_F(Recording, PlaysWhatAKillLeftUnmoved) {
   record({frame(1'000'000, 1'001'000)});
-  EXPECT_EQ(read_manifest(folder_)->kind, kRecordingSet);
-  EXPECT_THROW(write_run(), Error);
+  fs::create_directories(path(".staged"));
+  for (const char* name : {"INDEX.txt", "calibration.json", "d-1.000000-60000000.pgm"})
+    fs::rename(path(name), path(".staged/") + name);
   EXPECT_EQ(play_error(), "");
 }
 

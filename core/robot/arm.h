@@ -35,4 +35,13 @@ class ArmSolver {
   virtual std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const = 0;
 };
 
+/// The arm that carries the hand, and how.
+struct MountedArm {
+  const ArmSolver* solver = nullptr;  ///< outlives whoever has this
+  Eigen::Isometry3d T_flange_wrist;   ///< how the hand's forearm is mounted
+
+  /// Where the wrist's first joint (WRJ2) is.
+  Eigen::Isometry3d T_base_wrist(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_wrist; }
+};
+
 }  // namespace glovebench

@@ -68,7 +68,8 @@ std::vector<std::string> CommandLimits::problems() const {
   return problems;
 }
 
-CommandGuard::CommandGuard(const CommandLimits& limits, GuardedPart part) : limits_(limits), part_(part) {
+CommandGuard::CommandGuard(const CommandLimits& limits, GuardedPart part, std::optional<MountedArm> arm)
+    : limits_(limits), part_(part), arm_(std::move(arm)) {
   const std::vector<std::string> problems = limits.problems();
   if (!problems.empty()) throw Error(fmt::format("command limits: {}", fmt::join(problems, "; ")));
   if (part == GuardedPart::arm) shrink_workspace(limits_);
@@ -83,6 +84,9 @@ void CommandGuard::start_from(const RobotTargets& measured) {
     throw Error("robot", "measured state", fmt::format("outside the limits ({})", fmt::join(problems, ", ")),
                 "joints within theirs, hand and fingertips in the workspace");
   sent_ = measured;
+  if (!arm_) return;
+  if (!measured.arm) throw Error("robot", "measured state", "no joints of the arm", "all of them");
+  sent_->T_base_hand = carried_pose(arm_->T_base_wrist(*measured.arm), measured.hand.joints, part_);
 }
 
 void CommandGuard::note(Intervention kind) {
@@ -149,7 +153,11 @@ RobotCommand CommandGuard::send(int64_t now_us) {
     const double seconds =
         now_us_ ? std::min(seconds_between(*now_us_, now_us), limits_.longest_step_s) : limits_.longest_step_s;
     Interventions done;
-    sent_ = sent_ ? moved_towards(*sent_, *goal_, seconds, limits_, part_, done) : *goal_;
+    if (arm_) {
+      sent_ = moved_by_arm(*arm_, sent_.value(), *goal_, seconds, limits_, part_, done);
+    } else {
+      sent_ = sent_ ? moved_towards(*sent_, *goal_, seconds, limits_, part_, done) : *goal_;
+    }
     pending_.add(done);
     total_.add(done);
   }

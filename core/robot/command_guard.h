@@ -48,6 +48,10 @@ enum class GuardedPart {
 /// - while the state is not `following`, nothing moves.
 /// What already is like that passes unchanged, bit for bit.
 ///
+/// A guard that has the arm moves its joints, too: it sends those, and `T_base_hand` is where they take the hand
+/// (guarded_motion.h). Commands for it have a pose to go to, or the arm's joints. What the solver does not reach
+/// counts as `arm_unreachable`.
+///
 /// There is no clock in here: time is what `now_us` says, of one monotonic clock of the caller, or the commands'
 /// own time stamps. A command is `hold` or lost, or one that is refused: the last targets are sent again, as
 /// `holding`, and after `stop_after_s` as `stopped`. Another good command makes it follow again, from where it
@@ -55,12 +59,14 @@ enum class GuardedPart {
 /// `start_from` has said it.
 class CommandGuard {
  public:
-  /// Throws Error if the limits have problems, or leave an arm no place within the reach of its fingertips.
-  explicit CommandGuard(const CommandLimits& limits = {}, GuardedPart part = GuardedPart::robot);
+  /// Throws Error if the limits have problems, or leave an arm no place within the reach of its fingertips. With
+  /// `arm`, `start_from` must come first.
+  explicit CommandGuard(const CommandLimits& limits = {}, GuardedPart part = GuardedPart::robot,
+                        std::optional<MountedArm> arm = std::nullopt);
 
   /// Where the robot stands: the first command starts from there. Throws Error unless it is finite and within the
-  /// limits. J1 and J2 may be off their model, as of a finger that touches something, but J1 not above J2: they
-  /// come to obey it while the finger moves.
+  /// limits, with the joints of an arm that the guard has. J1 and J2 may be off their model, as of a finger that
+  /// touches something, but J1 not above J2: they come to obey it while the finger moves.
   void start_from(const RobotTargets& measured);
 
   /// What may be sent for a command; its own stamp is the time. Nothing if time did not go on.
@@ -88,6 +94,7 @@ class CommandGuard {
 
   CommandLimits limits_;
   GuardedPart part_;
+  std::optional<MountedArm> arm_;
   Interventions total_, pending_;
   CommandState state_ = CommandState::stopped;
   std::optional<RobotTargets> goal_;  ///< of the last good command, within the limits

@@ -33,36 +33,38 @@ void change(RobotCommand& command, FuzzInput& input) {
 
 /// A stream: each record changes the last command in a few places, and gives it to a guard.
 void command_guard_fuzz(std::string_view bytes) {
-  FuzzInput input(bytes);
-  const uint8_t kind_of_stream = input.next<uint8_t>();
-  const bool has_clock = (kind_of_stream & 1) != 0;
-  CommandLimits limits;
-  if ((kind_of_stream & 2) != 0) limits.coupling = ShadowCoupling::even;
-  CommandGuard guard(limits);
-  StreamChecker checker(limits);
-  RobotCommand command = good_command(0);
-  int64_t now_us = 0;
-  if ((kind_of_stream & 4) != 0) {  // a finger that touches something
-    RobotTargets start = *command.targets;
-    const double proximal = input.next<uint8_t>() / 256.0, distal = proximal * input.next<uint8_t>() / 256.0;
-    set_joint(start, kFFJ2, proximal);
-    set_joint(start, kFFJ1, distal);
-    guard.start_from(start);
-    checker.start(start);
-  }
-  while (!input.empty()) {
-    const uint8_t kind = input.next<uint8_t>();
-    const int64_t step_us = (kind & 1) != 0 ? input.next<int64_t>() : input.next<uint16_t>();
-    command.timestamp_us =
-        static_cast<int64_t>(static_cast<uint64_t>(command.timestamp_us) + static_cast<uint64_t>(step_us));
-    now_us = static_cast<int64_t>(static_cast<uint64_t>(now_us) + static_cast<uint64_t>(step_us));
-    if ((kind & 2) != 0) command.frame_timestamp_us = command.timestamp_us;
-    for (int i = kind >> 5; i > 0; --i) change(command, input);
-    std::optional<RobotCommand> sent;
-    if (!has_clock) sent = guard.guard(command);
-    if (has_clock) sent = (kind & 4) != 0 ? guard.tick(now_us) : guard.guard(command, now_us);
-    if (sent) check(checker.problem(*sent).empty(), "what a guard sends is safe");
-  }
+  without_error([&] {
+    FuzzInput input(bytes);
+    const uint8_t kind_of_stream = input.next<uint8_t>();
+    const bool has_clock = (kind_of_stream & 1) != 0;
+    CommandLimits limits;
+    if ((kind_of_stream & 2) != 0) limits.coupling = ShadowCoupling::even;
+    CommandGuard guard(limits);
+    StreamChecker checker(limits);
+    RobotCommand command = good_command(0);
+    int64_t now_us = 0;
+    if ((kind_of_stream & 4) != 0) {  // a finger that touches something
+      RobotTargets start = *command.targets;
+      const double proximal = input.next<uint8_t>() / 256.0, distal = proximal * input.next<uint8_t>() / 256.0;
+      set_joint(start, kFFJ2, proximal);
+      set_joint(start, kFFJ1, distal);
+      guard.start_from(start);
+      checker.start(start);
+    }
+    while (!input.empty()) {
+      const uint8_t kind = input.next<uint8_t>();
+      const int64_t step_us = (kind & 1) != 0 ? input.next<int64_t>() : input.next<uint16_t>();
+      command.timestamp_us =
+          static_cast<int64_t>(static_cast<uint64_t>(command.timestamp_us) + static_cast<uint64_t>(step_us));
+      now_us = static_cast<int64_t>(static_cast<uint64_t>(now_us) + static_cast<uint64_t>(step_us));
+      if ((kind & 2) != 0) command.frame_timestamp_us = command.timestamp_us;
+      for (int i = kind >> 5; i > 0; --i) change(command, input);
+      std::optional<RobotCommand> sent;
+      if (!has_clock) sent = guard.guard(command);
+      if (has_clock) sent = (kind & 4) != 0 ? guard.tick(now_us) : guard.guard(command, now_us);
+      if (sent) check(checker.problem(*sent).empty(), "what a guard sends is safe");
+    }
+  });
 }
 
 }  // namespace glovebench

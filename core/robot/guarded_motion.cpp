@@ -7,9 +7,10 @@
 namespace glovebench {
 namespace {
 
-constexpr double kWayTolerance = 1e-10;  // relative, of a way
-constexpr double kPrecision = 1e-3;      // of the largest share
-constexpr int kMostAttempts = 60;        // each halves what is left at least every other time
+constexpr double kWayTolerance = 1e-10;    // relative, of a way
+constexpr double kPrecision = 1e-3;        // of the largest share
+constexpr int kMostAttempts = 60;          // each halves what is left at least every other time
+constexpr double kSlightlyOutside = 5e-5;  // m: five times the tolerance of inverse kinematics
 
 /// Ways as multiples of the farthest that they may be: above 1 is too fast.
 struct Excess {
@@ -45,23 +46,29 @@ Fingertips guarded_fingertips(const RobotTargets& targets, GuardedPart part) {
 /// The way from one pair of targets to another.
 class Way {
  public:
+  /// With `arm`, both ends have its joints, and the hand is where they take it.
   Way(const RobotTargets& from, const RobotTargets& to, double seconds, const CommandLimits& limits,
-      GuardedPart part)
-      : from_(from), to_(to), seconds_(seconds), limits_(limits), part_(part) {
+      GuardedPart part, const MountedArm* arm = nullptr)
+      : from_(from), to_(to), seconds_(seconds), limits_(limits), part_(part), arm_(arm) {
     if (part != GuardedPart::arm) fingertips_ = guarded_fingertips(from, part);
+    if (arm) farthest_outside_ = std::max(kSlightlyOutside, outside(from));
   }
 
   RobotTargets at(double share) const {
     RobotTargets targets = to_;
     targets.hand.joints = joints_at(share);
+    for (int j = 0; from_.arm && to_.arm && j < kArmJointCount; ++j)
+      (*targets.arm)[j] = between((*from_.arm)[j], (*to_.arm)[j], share);
+    if (!to_.arm) targets.arm = from_.arm;
     Eigen::Isometry3d& T = targets.T_base_hand;
+    if (arm_) {
+      T = carried_pose(arm_->T_base_wrist(*targets.arm), targets.hand.joints, part_);
+      return targets;
+    }
     T.linear() = turned(from_.T_base_hand.linear(), to_.T_base_hand.linear(), share);
     for (int i = 0; i < 3; ++i)
       T.translation()[i] = between(from_.T_base_hand.translation()[i], to_.T_base_hand.translation()[i], share);
     T.translation() = place_in_workspace(targets, limits_, part_);
-    for (int j = 0; from_.arm && to_.arm && j < kArmJointCount; ++j)
-      (*targets.arm)[j] = between((*from_.arm)[j], (*to_.arm)[j], share);
-    if (!to_.arm) targets.arm = from_.arm;
     return targets;
   }
 
@@ -79,10 +86,15 @@ class Way {
     excess.add(Intervention::hand_speed, way, limits_.hand_speed * seconds_);
     excess.add(Intervention::hand_turn_speed, turn, limits_.hand_turn_speed * seconds_);
     excess.add(Intervention::fingertip_speed, fingertip_way(next, way, turn), limits_.fingertip_speed * seconds_);
+    if (arm_) excess.add(Intervention::workspace, outside(next), farthest_outside_);
     return excess;
   }
 
  private:
+  /// How far hand or fingertips are outside the workspace, m.
+  double outside(const RobotTargets& targets) const {
+    return (place_in_workspace(targets, limits_, part_) - targets.T_base_hand.translation()).norm();
+  }
   std::array<double, kShadowJointCount> joints_at(double share) const {
     std::array<double, kShadowJointCount> joints;
     for (const ShadowActuatorInfo& info : shadow_actuator_infos()) {
@@ -112,6 +124,8 @@ class Way {
   double seconds_;
   const CommandLimits& limits_;
   GuardedPart part_;
+  const MountedArm* arm_;
+  double farthest_outside_ = 0;  ///< m
   Fingertips fingertips_ = Fingertips::Zero();
 };
 
@@ -131,11 +145,8 @@ double largest_share(const Way& way, double excess_at_end) {
   return fine;
 }
 
-}  // namespace
-
-RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
-                           const CommandLimits& limits, GuardedPart part, Interventions& done) {
-  const Way way(from, to, seconds, limits, part);
+/// As far along a way as nothing is too fast.
+RobotTargets moved_along(const Way& way, const RobotTargets& from, const RobotTargets& to, Interventions& done) {
   RobotTargets result = to;
   if (!to.arm) result.arm = from.arm;
   const Excess excess = way.excess(result);
@@ -149,6 +160,40 @@ RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, dou
   flag_changes(result.hand, to.hand.joints);
   make_actuators(result.hand);
   return result;
+}
+
+}  // namespace
+
+Eigen::Isometry3d carried_pose(const Eigen::Isometry3d& T_base_wrist,
+                               const std::array<double, kShadowJointCount>& joints, GuardedPart part) {
+  return part == GuardedPart::arm ? T_base_wrist : T_base_wrist * shadow_T_wrist_hand(joints);
+}
+
+RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
+                           const CommandLimits& limits, GuardedPart part, Interventions& done) {
+  return moved_along(Way(from, to, seconds, limits, part), from, to, done);
+}
+
+RobotTargets moved_by_arm(const MountedArm& arm, const RobotTargets& from, const RobotTargets& to, double seconds,
+                          const CommandLimits& limits, GuardedPart part, Interventions& done) {
+  RobotTargets next = to;
+  Interventions slowed;
+  if (!to.arm) {
+    next = moved_towards(from, to, seconds, limits, part, slowed);
+    const Eigen::Isometry3d T_hand_wrist =
+        carried_pose(Eigen::Isometry3d::Identity(), next.hand.joints, part).inverse();
+    next.arm = arm.solver->solve(next.T_base_hand * T_hand_wrist * arm.T_flange_wrist.inverse(), *from.arm);
+    if (!next.arm) {
+      slowed.add(Intervention::arm_unreachable);
+      next = to;
+      next.arm = from.arm;
+    }
+  }
+  next.T_base_hand = carried_pose(arm.T_base_wrist(*next.arm), next.hand.joints, part);
+  next = moved_along(Way(from, next, seconds, limits, part, &arm), from, next, slowed);
+  for (const Intervention kind : all_values<Intervention>())
+    if (slowed[kind] > 0) done.add(kind);  // once, however often it was slowed down
+  return next;
 }
 
 }  // namespace glovebench

@@ -11,4 +11,16 @@ namespace glovebench {
 RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
                            const CommandLimits& limits, GuardedPart part, Interventions& done);
 
+/// The same of a hand that an arm carries: what is limited is where the joints take it, `carried_pose`. `from` has
+/// the arm's joints. If `to` has them, all joints go straight to theirs. If not, the arm's are those of the next
+/// step of the pose; where there are none, the arm stays and the fingers go on. A share of the way that would take
+/// hand or fingertips out of the workspace is too large, too.
+RobotTargets moved_by_arm(const MountedArm& arm, const RobotTargets& from, const RobotTargets& to, double seconds,
+                          const CommandLimits& limits, GuardedPart part, Interventions& done);
+
+/// What a guard calls `T_base_hand` where the arm's wrist is there: the hand's pose, or of an arm alone the
+/// wrist's.
+Eigen::Isometry3d carried_pose(const Eigen::Isometry3d& T_base_wrist,
+                               const std::array<double, kShadowJointCount>& joints, GuardedPart part);
+
 }  // namespace glovebench

@@ -8,7 +8,7 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/test_folder.h"
 

@@ -6,9 +6,10 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
 #include "core/base/for_each_nonzero.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/segmentation/color_table_file.h"
 
 namespace glovebench {

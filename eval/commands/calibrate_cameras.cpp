@@ -5,9 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/calibration/stereo_fit.h"
 #include "eval/commands/flags.h"
+#include "eval/commands/track_source.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {
@@ -45,9 +46,11 @@ struct CalibrateCameras {
   calibration::BoardViews boards_of(const std::string& source, const calibration::Chessboard& chessboard,
                                     const char* camera) const {
     Progress progress(fmt::format("{} views", camera), quiet);
-    return calibration::find_boards(source, chessboard, most, [&](size_t done, size_t count) {
-      progress.show(static_cast<double>(done) / static_cast<double>(count));
-    });
+    calibration::BoardViews views = calibration::find_boards(
+        source, chessboard, most,
+        [&](size_t done, size_t count) { progress.show(static_cast<double>(done) / static_cast<double>(count)); });
+    say_changed(source, views.changed);
+    return views;
   }
 
   /// "9x6".
@@ -90,7 +93,7 @@ void add_calibrate_cameras(Command calibrate) {
   const Command command = calibrate.subcommand(
       "cameras",
       "Calibrate the cameras of a Kinect from pictures of a chessboard, for --calibration.\n"
-      "Both cameras' pictures of one name must show the board in the same place (calibration/README.md).");
+      "Both cameras' pictures of one name must show the board in the same place (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateCameras>();
   command.option("--ir", state->ir, "pictures of the IR camera: a folder, or fakenect:FOLDER").required();
   command.option("--rgb", state->rgb, "pictures of the RGB camera: a folder, or fakenect:FOLDER").required();

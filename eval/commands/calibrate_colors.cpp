@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/calibration/color_picture.h"
 #include "core/calibration/color_report.h"
 #include "eval/commands/flags.h"
@@ -89,7 +89,7 @@ void add_calibrate_colors(Command calibrate) {
   const Command command = calibrate.subcommand(
       "colors",
       "Make a color table of a recording of the glove, without labels: the light and the glove's colors are found\n"
-      "from where the tracker's own table has them (calibration/README.md).");
+      "from where the tracker's own table has them (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateColors>();
   command
       .option("--source", state->from.source,

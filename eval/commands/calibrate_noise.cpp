@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/name.h"
+#include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
 #include "eval/program_info.h"
 #include "eval/regression/baseline.h"
@@ -29,7 +29,7 @@ struct CalibrateNoise {
     if (suites.empty() && runs.empty()) throw Error("calibrate noise", "--suite, --run", "neither", "one of them");
     common.check_output_folder();
     std::vector<reports::NoiseFloor> floors;
-    for (const std::string& run : runs) floors.push_back(measure_run(load_run(run)));
+    for (const std::string& run : runs) floors.push_back(measure_run(load_run(run).results));
     if (runs.empty()) {
       for (const std::string& suite : suites) floors.push_back(measure_suite(load_suite(suite)));
     }

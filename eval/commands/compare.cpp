@@ -17,18 +17,17 @@ struct Compare {
   bool all_rows = false;
 
   void run() const {
-    require_own_folder(output, candidate_path);
-    require_own_folder(output, baseline_path);
-    const reports::NamedResult baseline = load_run(baseline_path);
-    const reports::NamedResult candidate = load_run(candidate_path);
-    const std::optional<reports::NoiseFloor> floor = noise_floor(candidate.result.suite);
+    if (!output.empty()) reports::require_own_folder(output);
+    const StoredRun baseline = load_run(baseline_path), candidate = load_run(candidate_path);
+    const std::optional<reports::NoiseFloor> floor = noise_floor(baseline.files, candidate.results.result.suite);
     reports::ComparisonReport report;
-    report.comparison = reports::compare_results(baseline, candidate, floor ? &*floor : nullptr, pairing);
-    report.times = reports::compare_stage_times(load_stage_times_beside(baseline_path),
-                                                load_stage_times_beside(candidate_path));
+    report.comparison =
+        reports::compare_results(baseline.results, candidate.results, floor ? &*floor : nullptr, pairing);
+    report.times =
+        reports::compare_stage_times(load_stage_times(baseline.files), load_stage_times(candidate.files));
     if (!output.empty()) {
       report.pictures =
-          picture_changes(report.comparison, candidate.result, folder_of(baseline_path), folder_of(candidate_path));
+          picture_changes(report.comparison, candidate.results.result, baseline.files, candidate.files);
       reports::write_comparison(output, report);
     }
     fmt::print("{}", reports::comparison_table(report, all_rows));
@@ -36,9 +35,9 @@ struct Compare {
   }
 
   /// The given one; or the one beside the baseline, if it is of the candidate's suite.
-  std::optional<reports::NoiseFloor> noise_floor(const std::string& suite) const {
+  std::optional<reports::NoiseFloor> noise_floor(const FileSet& baseline, const std::string& suite) const {
     if (!noise_floor_path.empty()) return reports::read_noise_floor(noise_floor_path);
-    std::optional<reports::NoiseFloor> floor = load_noise_floor_beside(baseline_path);
+    std::optional<reports::NoiseFloor> floor = load_noise_floor_beside(baseline);
     return floor && floor->suite == suite ? floor : std::nullopt;
   }
 };

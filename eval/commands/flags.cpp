@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <thread>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
+#include "core/base/whole_file.h"
 #include "core/methods/method.h"
 #ifdef GLOVEBENCH_ARM
 #include "core/robot/arm/kdl_arm_solver.h"
@@ -75,8 +77,8 @@ Workbench CommonFlags::workbench() const {
   return Workbench(config);
 }
 
-void MountingFlag::add(Command command) {
-  command.option(
+Option MountingFlag::add(Command command) {
+  return command.option(
       "--flange-wrist", transform,
       "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]");
 }
@@ -87,8 +89,8 @@ void LimitsFlag::add(Command command) {
       "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
 }
 
-void LimitsFlag::add_coupling(Command command) {
-  command
+Option LimitsFlag::add_coupling(Command command) {
+  return command
       .option("--robot-coupling", coupling,
               "how one motor moves J1 and J2 of a finger: series, J2 to 90 degrees and then J1; even, both alike")
       .one_of(all_names<ShadowCoupling>());
@@ -101,8 +103,8 @@ CommandLimits LimitsFlag::limits() const {
   return limits;
 }
 
-void RobotFlags::add(Command command, const std::string& what) {
-  command.option("--robot-out", output, what);
+Option RobotFlags::add(Command command, const std::string& what) {
+  const Option robot_out = command.option("--robot-out", output, what);
   command
       .option("--robot-mapping", mapping,
               "to the robot's hand: direct, equal angles; fingertip, what is pinched stays pinched")
@@ -115,6 +117,7 @@ void RobotFlags::add(Command command, const std::string& what) {
   mounting.add(command);
   limits.add_coupling(command);
   limits.add(command);
+  return robot_out;
 }
 
 namespace {
@@ -169,6 +172,8 @@ RobotOutput RobotFlags::output_of(Workbench& workbench) const {
 }
 
 void CommonFlags::check_output_folder() const {
+  if (std::filesystem::exists(output + "/provenance.json"))
+    throw Error("--output", "folder", output + ", which holds a baseline", "another: both have a results.json");
   const WholeFile probe(output + "/results.json");  // never committed: nothing stays
 }
 

@@ -46,7 +46,7 @@ struct CommonFlags {
 struct MountingFlag {
   std::optional<Eigen::Isometry3d> transform;  ///< empty: default_T_flange_wrist()
 
-  void add(Command command);
+  Option add(Command command);
   Eigen::Isometry3d T_flange_wrist() const;
 };
 
@@ -57,7 +57,7 @@ struct LimitsFlag {
   std::string coupling{to_string(CommandLimits().coupling)};
 
   void add(Command command);
-  void add_coupling(Command command);
+  Option add_coupling(Command command);
   /// Throws Error.
   CommandLimits limits() const;
 };
@@ -71,7 +71,8 @@ struct RobotFlags {
   MountingFlag mounting;
   LimitsFlag limits;
 
-  void add(Command command, const std::string& what);
+  /// Returns the option of `output`.
+  Option add(Command command, const std::string& what);
   /// Of the workbench's hand. Throws Error if the arm is asked for and this program was built without it.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;

@@ -26,69 +26,64 @@ struct Gate {
     try {
       return make();
     } catch (const Error& e) {
-      if (!output.empty()) {
-        reports::remove_comparison(output);
-        reports::write_refusal(output, e.what());
-      }
+      if (!output.empty()) reports::write_refusal(output, e.what());
       throw;
     }
   }
 
-  /// The exit code. A report of an earlier gate does not stay beside a refusal. Nothing is removed before it is
-  /// known that the output is neither the run nor the baseline.
+  /// The exit code. A report of an earlier gate does not stay beside a refusal.
   int run() const {
-    require_own_folder(output, candidate_path);
-    if (!baseline_folder.empty()) require_own_folder(output, baseline_folder);
-    const reports::NamedResult candidate = or_refusal([&] { return load_run(candidate_path); });
-    const std::string folder = or_refusal(
-        [&] { return baseline_folder.empty() ? default_baseline_folder(suite_name(candidate)) : baseline_folder; });
-    require_own_folder(output, folder);
+    if (!output.empty()) reports::require_own_folder(output);
+    const StoredRun candidate = or_refusal([&] { return load_run(candidate_path); });
+    const std::string folder = or_refusal([&] {
+      return baseline_folder.empty() ? default_baseline_folder(suite_name(candidate.results)) : baseline_folder;
+    });
     if (!output.empty()) reports::remove_comparison(output);
     return or_refusal([&] { return update ? replace(folder, candidate) : judge(folder, candidate); });
   }
 
   /// Says what the new baseline changes, then makes it the baseline.
-  int replace(const std::string& folder, const reports::NamedResult& candidate) const {
+  int replace(const std::string& folder, const StoredRun& candidate) const {
     try {
       const Baseline old = load_baseline(folder);
-      report(old, folder, candidate.result, compare(old, candidate));
+      report(old, folder, candidate, compare(old, candidate));
     } catch (const reports::Incomparable& e) {
       fmt::print("Not compared with an older baseline: {}\n", e.what());
     }
-    update_baseline(folder, candidate, suite_of(candidate, suite), measured_speed(),
-                    load_stage_times_beside(candidate_path));
-    if (candidate.result.commit.ends_with("-dirty")) {
+    const reports::NamedResult& run = candidate.results;
+    update_baseline(folder, run, suite_of(run, suite), measured_speed(), load_stage_times(candidate.files));
+    if (run.result.commit.ends_with("-dirty")) {
       fmt::print("warning: built from a tree with changes: nobody else has this program\n");
     }
-    fmt::print("{} is the baseline of suite {} now, in {}\n", candidate.result.commit, candidate.result.suite,
-               folder);
+    fmt::print("{} is the baseline of suite {} now, in {}\n", run.result.commit, run.result.suite, folder);
     return 0;
   }
 
-  int judge(const std::string& folder, const reports::NamedResult& candidate) const {
+  int judge(const std::string& folder, const StoredRun& candidate) const {
     const Baseline baseline = load_baseline(folder);
     reports::ComparisonReport made = compare(baseline, candidate);
     require_baseline_for_all(made.comparison, folder);
-    const bool is_fine = report(baseline, folder, candidate.result, made);
+    const bool is_fine = report(baseline, folder, candidate, made);
     fmt::print("Gate {} against {}{}\n", is_fine ? "passed" : "failed", folder,
                output.empty() ? "" : fmt::format(". Report: {}/index.html", output));
     return is_fine ? 0 : kGateFailed;
   }
 
-  reports::ComparisonReport compare(const Baseline& baseline, const reports::NamedResult& candidate) const {
+  reports::ComparisonReport compare(const Baseline& baseline, const StoredRun& candidate) const {
     reports::ComparisonReport made;
-    made.comparison = reports::compare_results(baseline.results, candidate,
+    made.comparison = reports::compare_results(baseline.run.results, candidate.results,
                                                baseline.noise_floor ? &*baseline.noise_floor : nullptr, pairing);
-    made.times = reports::compare_stage_times(baseline.times, load_stage_times_beside(candidate_path));
+    made.times = reports::compare_stage_times(baseline.times, load_stage_times(candidate.files));
     return made;
   }
 
   /// Writes and prints; returns whether nothing stops the change. The accuracy is written before a missing speed
   /// can be an error.
-  bool report(const Baseline& baseline, const std::string& folder, const reports::RunResult& candidate,
+  bool report(const Baseline& baseline, const std::string& folder, const StoredRun& candidate,
               reports::ComparisonReport made) const {
     if (!output.empty()) {
-      made.pictures = picture_changes(made.comparison, candidate, folder, folder_of(candidate_path));
+      made.pictures =
+          picture_changes(made.comparison, candidate.results.result, baseline.run.files, candidate.files);
       reports::write_comparison(output, made);
     }
     if (!speed_path.empty()) {
@@ -138,7 +133,7 @@ void add_gate(Command program) {
       "Exit codes: 0 it may, 1 something became worse, 3 there is no baseline or it is not comparable.");
   const auto state = std::make_shared<Gate>();
   command.option("candidate", state->candidate_path, "folder of the run, or its results.json").required();
-  command.option("--baseline", state->baseline_folder, "folder of the baseline [ci/baselines/SUITE]");
+  command.option("--baseline", state->baseline_folder, "folder of the baseline [ci/baselines/SUITE]").named_file();
   command.option("--speed", state->speed_path,
                  "file of `glovebench_bench --benchmark_repetitions=5 --benchmark_out=FILE`: the ratios to the "
                  "plain implementations are gated, too");

@@ -3,7 +3,9 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/file_set.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
 #include "eval/share.h"
 #include "trajectories/capture/import_capture.h"
@@ -44,14 +46,17 @@ struct ImportMarkers {
             : trajectories::parse_marker_layout(read_file(layout, trajectories::kLargestMarkerLayout), layout);
     const HandModel model = HandModel::load(hand_mesh_path());
     const trajectories::HandFit fit = trajectories::import_capture(files, read, side, markers, model);
+    WholeFiles made(folder_above(output));
     if (is_poses || postures) {
       const size_t count = postures ? static_cast<size_t>(*postures) : fit.frames.size();
-      trajectories::write_posture_set(
-          trajectories::postures_of(fit, name, count, is_poses ? stems() : std::vector<std::string>{}), output);
+      made.add(name + ".json", trajectories::canonical_text(trajectories::postures_of(
+                                   fit, name, count, is_poses ? stems() : std::vector<std::string>{})));
     } else {
-      trajectories::write_trajectory(trajectories::trajectory_of(fit, placement, name, every), output);
+      made.add(name + ".json",
+               trajectories::canonical_text(trajectories::trajectory_of(fit, placement, name, every)));
     }
-    write_file(output.substr(0, output.size() - 5) + ".residuals.csv", trajectories::residual_table(fit));
+    made.add(name + ".residuals.csv", trajectories::residual_table(fit));
+    made.commit();
     fmt::print("{}: {}\n", output, trajectories::summary(fit));
   }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/base/file_set.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording.h"
 #include "eval/commands/flags.h"
@@ -40,7 +41,9 @@ struct Render {
     replay.seed = common.seed;
     render::SyntheticKinect kinect = make_kinect(workbench, replay);
     std::optional<RecordingWriter> recording;
+    std::optional<WholeFiles> pictures;
     if (format == "fakenect") recording.emplace(common.output, workbench.calibration());
+    if (format != "fakenect") pictures.emplace(common.output);
     std::unique_ptr<Method> tracker;
     if (!database.empty()) tracker = workbench.make_method(common.tracker_config(), database);
 
@@ -49,11 +52,12 @@ struct Render {
     for (int f = 0; f < count; ++f) {
       const DeviceFrame frame = *kinect.next_frame();
       if (recording) recording->write(frame);
-      if (format == "png") write_pngs(frame, f);
-      if (format == "exr") write_layers(workbench, kinect, tracker, frame, f);
+      if (format == "png") add_pngs(*pictures, frame, f);
+      if (format == "exr") add_layers(*pictures, workbench, kinect, tracker, frame, f);
       progress.show(static_cast<double>(f + 1) / count);
     }
     if (recording) recording->finish();
+    if (pictures) pictures->commit();
     fmt::print("{}: {} frames of {}\n", common.output, count, movement->name);
   }
 
@@ -63,14 +67,14 @@ struct Render {
                                : trajectories::source_trajectory(trajectory_folder(), trajectory);
   }
 
-  void write_pngs(const DeviceFrame& frame, int f) const {
-    render::write_png(fmt::format("{}/color_{:04}.png", common.output, f), frame.color);
-    render::write_png(fmt::format("{}/depth_{:04}.png", common.output, f),
-                      render::picture_of_depth(depth_from_disparity(frame.raw_disparity), 0.4, 1.8));
+  static void add_pngs(WholeFiles& pictures, const DeviceFrame& frame, int f) {
+    const DepthImage depth = depth_from_disparity(frame.raw_disparity);
+    pictures.add(fmt::format("color_{:04}.png", f), render::encode_png(frame.color));
+    pictures.add(fmt::format("depth_{:04}.png", f), render::encode_png(render::picture_of_depth(depth, 0.4, 1.8)));
   }
 
-  void write_layers(Workbench& workbench, const render::SyntheticKinect& kinect,
-                    const std::unique_ptr<Method>& tracker, const DeviceFrame& frame, int f) const {
+  static void add_layers(WholeFiles& pictures, Workbench& workbench, const render::SyntheticKinect& kinect,
+                         const std::unique_ptr<Method>& tracker, const DeviceFrame& frame, int f) {
     render::FrameLayers layers{frame.color, kinect.truth().depth, kinect.truth().label, {}, {}};
     if (tracker) {
       const TrackResult result = tracker->track(frame);
@@ -83,7 +87,8 @@ struct Render {
         layers.tracker_label = estimate.label;
       }
     }
-    render::write_exr(fmt::format("{}/frame_{:04}.exr", common.output, f), layers);
+    const std::string name = fmt::format("frame_{:04}.exr", f);
+    pictures.add(name, render::encode_exr(layers, name));
   }
 };
 

@@ -88,7 +88,7 @@ void add_reproduce(Command program) {
   command.option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed").in(1, 1000);
   command.option("--all-noise", state->all_gains,
                  "Figure 4 also with half and double noise gain, and the kinect noise model");
-  state->robot.add(command, "folder for the robot commands of each experiment");
+  state->robot.add(command, "folder for the robot commands of each experiment").named_file();
   command.runs([state] { return state->run(); });
 }
 

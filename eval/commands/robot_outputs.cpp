@@ -56,8 +56,9 @@ class RobotOutputs::Stream {
  public:
   explicit Stream(const RobotStream& stream)
       : sink(stream.bus.domain(), sink_options(stream)), T_flange_wrist_(stream.T_flange_wrist) {
-    if (stream.to_controller())
-      measured_ = std::make_unique<MeasuredRobot>(stream.bus.domain(), access_of(stream.bus), stream.arm);
+    if (!stream.to_controller()) return;
+    const std::vector<std::string> from = {topics::kMeasuredJointStates, topics::kController.joint_states};
+    measured_.emplace(participant_.emplace(stream.bus.domain(), access_of(stream.bus)), from, true, stream.arm);
   }
 
   /// Empty unless it matters.
@@ -68,7 +69,8 @@ class RobotOutputs::Stream {
   /// Tells the guard where the robot stands if it has to know. Returns the time of the command.
   int64_t start(CommandGuard& guard, const RobotCommand& command) {
     const int64_t now = now_us(command);
-    if (!measured_ || command.hold || !command.targets || guard.state_at(now) != CommandState::stopped) return now;
+    if (!measured_ || command.hold || !command.targets || guard.state_at(now) == CommandState::following)
+      return now;
     // Without an arm the pose is not sent, but the guard needs one: the hand's, so far inside that every fingertip
     // is.
     Eigen::Isometry3d T_base_hand = command.targets->T_base_hand;
@@ -96,7 +98,8 @@ class RobotOutputs::Stream {
   }
 
   Eigen::Isometry3d T_flange_wrist_;
-  std::unique_ptr<MeasuredRobot> measured_;
+  std::optional<DdsParticipant> participant_;  ///< of what is measured
+  std::optional<MeasuredRobot> measured_;
   std::optional<int64_t> first_us_;  ///< of the first frame, less the clock at that time
 };
 #else

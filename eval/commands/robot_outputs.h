@@ -47,9 +47,9 @@ class RobotOutputs {
   const std::optional<ArmJoints>& arm_start() const { return arm_start_; }
   /// Sends what the guard lets pass of a command. What goes to a robot is guarded by the clock of the wall,
   /// whatever the stamps of its frames say: its time stamp is that of the first frame plus the time since then. On
-  /// a controller's topics each motion after a stop, the first one too, starts where the robot is measured to stand
-  /// now. `arrived_us`: when the frame was there, microseconds since 1970. Throws Error, also if the robot is not
-  /// measured.
+  /// a controller's topics each motion after a lost hand, the first one too, starts where the robot is measured to
+  /// stand now. `arrived_us`: when the frame was there, microseconds since 1970. Throws Error, also if the robot is
+  /// not measured.
   void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
   /// No more commands follow. The file gets its name if the session is `whole`; else its lines stay where `kept`
   /// says, and an older file stays. Throws Error.

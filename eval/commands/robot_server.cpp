@@ -11,7 +11,6 @@
 #include "eval/terminal.h"
 #ifdef GLOVEBENCH_DDS
 #include "core/base/system_time.h"
-#include "core/robot/arm_follower.h"
 #include "core/robot/dds/dds_server.h"
 #include "core/robot/dds/security_keys.h"
 #endif
@@ -22,53 +21,56 @@
 namespace glovebench::eval {
 namespace {
 
-struct RobotServer {
+/// Which robot is served, and how.
+struct ServerFlags {
   BusFlags bus{.middleware = "dds", .interface = {}, .security = {}};
   std::string log;
   double max_log_age_s = kMaxLogAge;
+  bool hand = false, arm = false;
   MountingFlag mounting;
   LimitsFlag limits;
 
   /// Serves until SIGINT or SIGTERM. Returns the exit code.
-  int serve_hand() const {
+  int run() const {
+    if (!hand && !arm) throw Error("robot-server run", "joints", "none", "--hand, --arm or both");
 #ifdef GLOVEBENCH_DDS
-    const DdsServerOptions read = options("hand");  // before signals only ask: a pipe may never end
+    const std::unique_ptr<ArmSolver> solver = arm_solver();
+    const DdsServerOptions read = options(solver.get());  // before signals only ask: a pipe may never end
     const Interruption interruption;
-    return finish(glovebench::serve_hand(read));
-#else
-    return bus.domain();  // throws
-#endif
-  }
-  int serve_arm() const {
-#if defined(GLOVEBENCH_DDS) && defined(GLOVEBENCH_ARM)
-    const std::unique_ptr<ArmSolver> solver = make_kdl_arm_solver();
-    const DdsServerOptions read = options("arm");
-    const Interruption interruption;
-    return finish(glovebench::serve_arm(read, *solver, mounting.T_flange_wrist(), kArmAtRest));
-#else
-    bus.domain();         // throws where that is missing
-    throw Error("robot-server", "arm", "a glovebench that was built without Orocos KDL",
-                "one that was configured with it (Debian: liborocos-kdl-dev)");
-#endif
-  }
-
- private:
-#ifdef GLOVEBENCH_DDS
-  DdsServerOptions options(const std::string& role) const {
-    return {.domain = bus.domain(),
-            .access = {bus.interface, bus.security, role},
-            .log = log,
-            .max_log_age_s = max_log_age_s,
-            .limits = limits.limits(),
-            .stopping = Interruption::wished,
-            .tell = [](const std::string& line) { say("glovebench: {}\n", line); }};
-  }
-  int finish(const DdsServerSummary& summary) const {
+    const DdsServerSummary summary = serve(read);
     fmt::print("{}\n", summary.text);
     if (summary.lost_log_lines > 0)
       throw Error(log, "lines", fmt::format("{} that could not be written", summary.lost_log_lines),
                   "room for all");
     return 0;
+#else
+    return bus.domain();               // throws
+#endif
+  }
+
+ private:
+#ifdef GLOVEBENCH_DDS
+  /// Empty without `--arm`.
+  std::unique_ptr<ArmSolver> arm_solver() const {
+    if (!arm) return nullptr;
+#ifdef GLOVEBENCH_ARM
+    return make_kdl_arm_solver();
+#else
+    throw Error("robot-server run", "--arm", "a glovebench that was built without Orocos KDL",
+                "one that was configured with it (Debian: liborocos-kdl-dev)");
+#endif
+  }
+  DdsServerOptions options(const ArmSolver* solver) const {
+    ServedRobot robot{hand, std::nullopt};
+    if (solver) robot.arm = MountedArm{solver, mounting.T_flange_wrist()};
+    return {.domain = bus.domain(),
+            .access = {bus.interface, bus.security, "server"},
+            .robot = robot,
+            .log = log,
+            .max_log_age_s = max_log_age_s,
+            .limits = limits.limits(),
+            .stopping = Interruption::wished,
+            .tell = [](const std::string& line) { say("glovebench: {}\n", line); }};
   }
 #endif
 };
@@ -97,30 +99,28 @@ struct Keys {
 void add_robot_server(Command program) {
   const Command command = program.subcommand(
       "robot-server",
-      "Take the commands of `track --robot` for a hand or an arm, keep them safe, say where the joints are.");
-  const auto state = std::make_shared<RobotServer>();
-  const Command hand = command.subcommand("hand", "The Shadow hand and its wrist, until Ctrl-C.");
-  const Command arm = command.subcommand("arm", "The PA-10 arm that carries the hand, until Ctrl-C.");
-  for (const Command& side : {hand, arm}) {
-    state->bus.add(side, "where from: dds[:DOMAIN]");
-    side.option("--log", state->log,
-                "log to append to (*.jsonl), which also tells the next server where the joints stood")
-        .named_file();
-    side.option("--log-age", state->max_log_age_s,
-                "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
-        .in(0, 1e8);
-    state->limits.add(side);
-  }
-  state->mounting.add(arm);
-  state->limits.add_coupling(hand);
-  hand.runs([state] { return state->serve_hand(); });
+      "Take the commands of `track --robot` for hand and arm, keep them safe, say where the joints are.");
+  const auto state = std::make_shared<ServerFlags>();
+  const Command run = command.subcommand("run", "Serve until Ctrl-C.");
+  run.option("--hand", state->hand, "the Shadow hand and its wrist");
+  run.option("--arm", state->arm, "the PA-10 arm that carries the hand");
+  state->bus.add(run, "where from: dds[:DOMAIN]");
+  run.option("--log", state->log,
+             "log to append to (*.jsonl), which also tells the next server where the joints stood")
+      .named_file();
+  run.option("--log-age", state->max_log_age_s,
+             "seconds: a log whose last state is older is refused, for the joints may stand elsewhere")
+      .in(0, 1e8);
+  state->limits.add(run);
+  state->mounting.add(run).needs("--arm");
+  state->limits.add_coupling(run).needs("--hand");
+  run.runs([state] { return state->run(); });
   const auto keys = std::make_shared<Keys>();
   const Command make_keys = command.subcommand("keys", "Make keys for DDS Security (`--security FOLDER`).");
-  make_keys.option("folder", keys->folder, "folder to make").required();
+  make_keys.option("folder", keys->folder, "folder to make").named_file().required();
   constexpr int kMostDays = 3650;
   make_keys.option("--days", keys->days, "for how long they shall hold").in(1, kMostDays);
   make_keys.runs([keys] { keys->make(); });
-  arm.runs([state] { return state->serve_arm(); });
 }
 
 }  // namespace glovebench::eval

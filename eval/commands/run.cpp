@@ -147,7 +147,7 @@ void add_run(Command program) {
       .option("--seeds", state->seed_count,
               "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")
       .in(1, 1000);
-  state->robot.add(command, "folder for the robot commands of each experiment");
+  state->robot.add(command, "folder for the robot commands of each experiment").named_file();
   state->common.add_tracker(command);
   state->common.add_seed(command);
   state->common.add_cameras(command);

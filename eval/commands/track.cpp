@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/line_file.h"
+#include "core/base/whole_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_guard.h"
 #include "core/tracker/estimate_line.h"
@@ -55,6 +56,8 @@ struct Track {
   bool is_whole = true;          ///< no command failed, and every line was written
 
   void run() {
+    if (robot.output == common.output)
+      throw Error("--robot-out", "file", robot.output, "another than that of --output");
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());

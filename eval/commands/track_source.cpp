@@ -8,6 +8,7 @@
 #include "core/kinect/recording.h"
 #include "core/kinect/rectified_device.h"
 #include "eval/interruption.h"
+#include "eval/terminal.h"
 #ifdef GLOVEBENCH_FREENECT
 #include "core/kinect/freenect/freenect_device.h"
 #endif
@@ -23,6 +24,7 @@ TrackSource open_recording(const SourceFlags& flags) {
                     ? std::make_unique<RecordingDevice>(folder)
                     : std::make_unique<RecordingDevice>(folder, load_calibration(flags.calibration));
   const RecordingDevice* recording = device.get();
+  say_changed(flags.source, recording->changed());
   return {std::move(device), recording->frame_count(),
           [recording] { return recording->unpaired_depth_count() + recording->repeated_count(); },
           system_us,  // it is read when it is asked for
@@ -65,6 +67,10 @@ TrackSource open_live(const SourceFlags& flags) {
 }
 
 }  // namespace
+
+void say_changed(const std::string& source, const std::vector<std::string>& files) {
+  if (!files.empty()) say("glovebench: {}: {} changed since it was recorded\n", source, fmt::join(files, ", "));
+}
 
 TrackSource open_source(const SourceFlags& flags) {
   const bool is_recording = flags.source.starts_with(kRecording);

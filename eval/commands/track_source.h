@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/kinect/device.h"
 
@@ -23,7 +24,11 @@ struct SourceFlags {
   bool every_frame = false;
 };
 
-/// Throws Error: an unknown kind, no such device, no such recording, a build without libfreenect.
+/// Says if a recording was changed by hand. Throws Error: an unknown kind, no such device, no such recording, a
+/// build without libfreenect.
 TrackSource open_source(const SourceFlags& flags);
+
+/// Says on stderr which files of a recording were changed since it was recorded; nothing if none was.
+void say_changed(const std::string& source, const std::vector<std::string>& files);
 
 }  // namespace glovebench::eval

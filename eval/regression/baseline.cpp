@@ -7,9 +7,11 @@
 
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"
+#include "core/base/whole_file.h"
 #include "eval/program_info.h"
 #include "eval/run_folder.h"
 #include "eval/suite.h"
@@ -26,10 +28,6 @@ using reports::Incomparable;
 constexpr const char *kResults = "results.json", *kNoiseFloor = "noise_floor.json", *kSpeed = "speed.json",
                      *kProvenance = "provenance.json", *kTimings = "timings.json";
 constexpr std::string_view kProvenanceFormat = "glovebench-provenance";
-
-std::string in(const std::string& folder, const char* file) {
-  return folder + "/" + file;
-}
 
 /// What the baseline was made by. No name of a machine: the file is committed.
 std::string provenance_json(const reports::NamedResult& run, const std::string& results_hash,
@@ -61,13 +59,6 @@ Provenance read_provenance(const FileSet& set) {
   return parse_provenance(read_of(set, kProvenance), set.path(kProvenance));
 }
 
-/// The replaced baseline in a few words; null if there was none.
-Json describe_replaced(const std::string& folder) {
-  if (!fs::exists(in(folder, kResults))) return nullptr;
-  const reports::RunResult old = reports::read_results(in(folder, kResults));
-  return {{"commit", old.commit}, {"results_hash", hash_file(in(folder, kResults))}};
-}
-
 void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
   size_t expected = 0;
   for (const SuiteEntry& entry : suite.entries) expected += entry.databases.size();
@@ -84,26 +75,38 @@ void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
   }
 }
 
-void require_same_truths(const std::string& folder, const reports::NamedResult& run) {
-  if (!fs::exists(in(folder, kResults))) return;
-  const reports::RunResult old = reports::read_results(in(folder, kResults));
+/// The folder of a run or of the file in it that was given.
+std::string folder_of(const std::string& folder_or_file) {
+  std::error_code error;
+  return fs::is_directory(folder_or_file, error) ? folder_or_file : folder_above(folder_or_file);
+}
+
+reports::NamedResult results_of(const FileSet& files) {
+  return {files.path(kResults), reports::parse_results(read_of(files, kResults), files.path(kResults))};
+}
+
+/// The baseline that is replaced, as it is, in a few words; null if there is none. Throws Error if it has another
+/// truth than the run.
+Json describe_replaced(const FileSet& files, const reports::NamedResult& run) {
+  if (!files.has(kResults)) return nullptr;
+  const std::string text = files.find(kResults, kLargestResults).content;
+  const reports::RunResult old = reports::parse_results(text, files.path(kResults));
   for (const auto& [name, hash] : run.result.inputs.truths) {
     const auto found = old.inputs.truths.find(name);
     if (found == old.inputs.truths.end() || found->second == hash) continue;
     throw Error(run.name, "inputs.truths." + name, hash,
                 fmt::format("{} (the baseline's; if the truth was meant to change, delete {} first)", found->second,
-                            in(folder, kResults)));
+                            files.path(kResults)));
   }
+  return {{"commit", old.commit}, {"results_hash", hash_text(text)}};
 }
 
-/// The results are those that the provenance speaks of: an update that was killed, or a change by hand, is found.
-void require_same_bytes(const std::string& folder) {
-  const FileSet set(folder);
-  if (!set.has(kProvenance)) return;
-  const std::string expected = read_provenance(set).results_hash;
-  const std::string found = hash_text(read_of(set, kResults));
+/// The results are those that the provenance speaks of: a change by hand is found.
+void require_same_bytes(const FileSet& files) {
+  if (!files.has(kProvenance)) return;
+  const std::string expected = read_provenance(files).results_hash, found = hash_text(read_of(files, kResults));
   if (found != expected) {
-    throw Incomparable(in(folder, kResults), "hash", found,
+    throw Incomparable(files.path(kResults), "hash", found,
                        expected + ", as provenance.json says (update it again)");
   }
 }
@@ -118,59 +121,43 @@ Provenance parse_provenance(const std::string& text, const std::string& where) {
   return {json["results_hash"].text(), reports::stage_times_from(json["times"])};
 }
 
-std::string folder_of(const std::string& folder_or_file) {
-  std::error_code error;
-  if (fs::is_directory(folder_or_file, error)) return folder_or_file;
-  const std::string parent = fs::path(folder_or_file).parent_path().string();
-  return parent.empty() ? "." : parent;
-}
-
 std::string default_baseline_folder(const std::string& suite) {
   return "ci/baselines/" + suite;
 }
 
-reports::NamedResult load_run(const std::string& folder_or_file) {
-  require_finished(folder_of(folder_or_file));
-  std::error_code error;
-  const std::string path = fs::is_directory(folder_or_file, error) ? in(folder_or_file, kResults) : folder_or_file;
-  const std::string folder = folder_of(path), name = fs::path(path).filename().string();
-  const FileSet set(folder);
+StoredRun load_run(const std::string& folder_or_file) {
+  const std::string folder = folder_of(folder_or_file);
+  require_finished(folder);
+  const FileSet files(folder);
+  if (folder == folder_or_file) return {files, results_of(files)};
+  const std::string name = fs::path(folder_or_file).filename().string();
+  if (name == kResults && files.has(name)) return {files, results_of(files)};
   // Another file that somebody put there is no part of the run, and is read as it is.
-  if (path == folder_or_file && !set.has(name)) return {path, reports::read_results(path)};
-  return {path, reports::parse_results(read_of(set, name), path)};
+  return {files, {folder_or_file, reports::read_results(folder_or_file)}};
 }
 
-void require_own_folder(const std::string& output, const std::string& run) {
-  if (output.empty()) return;
-  std::error_code error;
-  if (fs::equivalent(output, folder_of(run), error)) {
-    throw Error("--output", "folder", output, "another than that of the run itself");
-  }
-}
-
-std::optional<reports::NoiseFloor> load_noise_floor_beside(const std::string& folder_or_file) {
-  const std::string path = in(folder_of(folder_or_file), kNoiseFloor);  // is written by itself, and in no set
+std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files) {
+  const std::string path = files.path(kNoiseFloor);  // is written by itself, and in no set
   if (!fs::exists(path)) return std::nullopt;
-  return reports::read_noise_floor(path);
+  return reports::parse_noise_floor(read_regular_file(path, kLargestSmallFile), path);
 }
 
-reports::StageTimes load_stage_times_beside(const std::string& folder_or_file) {
-  const FileSet set(folder_of(folder_or_file));
-  if (set.has(kTimings)) return reports::parse_stage_times(read_of(set, kTimings), set.path(kTimings));
-  if (!set.has(kProvenance)) return {};
-  return read_provenance(set).times;
+reports::StageTimes load_stage_times(const FileSet& files) {
+  if (files.has(kTimings)) return reports::parse_stage_times(read_of(files, kTimings), files.path(kTimings));
+  if (!files.has(kProvenance)) return {};
+  return read_provenance(files).times;
 }
 
 Baseline load_baseline(const std::string& folder) {
-  const std::string path = in(folder, kResults);
-  if (!FileSet(folder).has(kResults)) {
-    throw Incomparable(path, "baseline", "none",
+  const FileSet files(folder);
+  if (!files.has(kResults)) {
+    throw Incomparable(files.path(kResults), "baseline", "none",
                        "the results of an earlier run (glovebench gate --update makes it)");
   }
-  require_same_bytes(folder);
-  Baseline baseline{load_run(folder), load_noise_floor_beside(folder), {}, load_stage_times_beside(folder)};
-  if (const FileSet set(folder); set.has(kSpeed))
-    baseline.speed = reports::parse_speed_ratios(read_of(set, kSpeed), set.path(kSpeed));
+  require_finished(folder);
+  require_same_bytes(files);
+  Baseline baseline{{files, results_of(files)}, load_noise_floor_beside(files), {}, load_stage_times(files)};
+  if (files.has(kSpeed)) baseline.speed = reports::parse_speed_ratios(read_of(files, kSpeed), files.path(kSpeed));
   return baseline;
 }
 
@@ -190,13 +177,14 @@ Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file)
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times) {
   require_whole_suite(run, suite);
-  WholeFiles files(folder, kBaselineSet);  // first: it finishes an update that a kill ended
-  require_same_truths(folder, run);
-  const Json replaced = describe_replaced(folder);
+  WholeFiles files(folder);  // first: it finishes an update that a kill ended
+  const FileSet old(folder);
+  if (old.has(kTimings)) throw Error(folder, "baseline", "a run", "a folder of its own");
+  const Json replaced = describe_replaced(old, run);
   const std::string results = reports::results_json(run.result);
   files.add(kProvenance, provenance_json(run, hash_text(results), times, replaced));
-  if (speed.empty()) files.keep(kSpeed);
   if (!speed.empty()) files.add(kSpeed, reports::speed_json(speed));
+  if (speed.empty() && old.has(kSpeed)) files.add(kSpeed, old.find(kSpeed, kLargestResults).content);
   files.add(kResults, results);
   files.commit();
 }

@@ -26,10 +26,10 @@ constexpr Rgb kTruth = {255, 255, 255}, kBaseline = {90, 170, 255}, kCandidate =
 constexpr int kChangedFrameMargin = 20;  // px around the hand
 constexpr int kPanelSize = 300;          // px
 
-/// The estimates of a run's folder, read when they are asked for.
-class EstimateFolder {
+/// The estimates of a run, read when they are asked for.
+class StoredEstimates {
  public:
-  explicit EstimateFolder(const std::string& folder) : set_(folder) {}
+  explicit StoredEstimates(const FileSet& set) : set_(set) {}
 
   /// Empty if the folder has none of that experiment, or the frame was lost.
   std::optional<Estimate> find(const reports::ExperimentKey& key, uint64_t seed, int frame) {
@@ -46,7 +46,7 @@ class EstimateFolder {
   }
 
  private:
-  FileSet set_;
+  const FileSet& set_;
   std::map<std::string, std::vector<Estimate>> files_;
 };
 
@@ -124,12 +124,11 @@ std::unique_ptr<Workbench> make_workbench(Side side) {
 }  // namespace
 
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
-                                              const reports::RunResult& candidate,
-                                              const std::string& baseline_folder,
-                                              const std::string& candidate_folder) {
+                                              const reports::RunResult& candidate, const FileSet& baseline_files,
+                                              const FileSet& candidate_files) {
   if (candidate.configuration.contains("calibration")) return {};
   const auto& truths = candidate.inputs.truths;
-  EstimateFolder before(baseline_folder), after(candidate_folder);
+  StoredEstimates before(baseline_files), after(candidate_files);
   std::map<Side, std::unique_ptr<Workbench>> workbenches;
   std::vector<reports::Picture> pictures;
   for (const ChangedFrame& change : comparison.worst) {

@@ -66,10 +66,12 @@ struct ClaimChange {
   friend bool operator==(const ClaimChange&, const ClaimChange&) = default;
 };
 
-/// A claim and its history.
-struct Claim : ClaimDefinition {
+/// A claim: its history, whose newest entry says what it is.
+struct Claim {
   std::string id;                    ///< "position-error-source"
-  std::vector<ClaimChange> history;  ///< oldest first; the newest is what the claim is
+  std::vector<ClaimChange> history;  ///< oldest first, at least one
+
+  const ClaimDefinition& definition() const { return history.back().definition; }
 
   friend bool operator==(const Claim&, const Claim&) = default;
 };
@@ -102,8 +104,7 @@ int change_count(const Claim& claim);
 const ClaimSet& claim_set();
 const std::vector<Claim>& claims();
 
-/// Strict; throws Error naming `where` and the field, also if a claim is not what the newest entry of its history
-/// says.
+/// Strict; throws Error naming `where` and the field.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
 /// How a later state of the claims tampers with an earlier one, one sentence each; empty if it only adds. No claim

@@ -58,16 +58,16 @@ std::string history_html(const Claim& claim) {
 }
 
 std::string row_html(const ClaimVerdict& verdict) {
-  const Claim& claim = verdict.claim;
+  const ClaimDefinition& claim = verdict.claim.definition();
   const std::string note =
       css_class(verdict.outcome) == "worse" ? "<br/><b>" + escape_html(claim.if_not) + "</b>" : "";
   return fmt::format(
       "<tr id=\"claim-{}\"><td class=\"name verdict {}\">{}{}</td><td "
       "class=\"name\">{}<br/><small>{}</small>{}{}</td>"
       "<td class=\"name\">{}<br/><small>{}</small></td><td>{}</td><td>{}</td></tr>\n",
-      escape_html(claim.id), css_class(verdict.outcome), to_string(verdict.outcome),
+      escape_html(verdict.claim.id), css_class(verdict.outcome), to_string(verdict.outcome),
       claim.required ? "<br/>required *" : "", escape_html(claim.claim), escape_html(claim.measured), note,
-      history_html(claim), escape_html(claim.paper_value), escape_html(claim.source),
+      history_html(verdict.claim), escape_html(claim.paper_value), escape_html(claim.source),
       escape_html(measured_text(verdict)), escape_html(rule_text(verdict)));
 }
 

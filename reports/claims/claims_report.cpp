@@ -43,7 +43,7 @@ TextTable verdict_table(const std::vector<ClaimVerdict>& verdicts) {
   table.name_columns = 4;
   for (const ClaimVerdict& verdict : verdicts) {
     if (verdict.outcome == ClaimOutcome::not_run) continue;
-    const Claim& claim = verdict.claim;
+    const ClaimDefinition& claim = verdict.claim.definition();
     table.rows.push_back({fmt::format("{}{}", to_string(verdict.outcome), claim.required ? ", required" : ""),
                           claim.claim + " " + claim.measured + (has_failed(verdict) ? " " + claim.if_not : ""),
                           claim.source, claim.paper_value.empty() ? "-" : claim.paper_value, measured_text(verdict),
@@ -79,7 +79,7 @@ Json judging_json() {
 }
 
 Json verdict_json(const ClaimVerdict& verdict) {
-  const Claim& claim = verdict.claim;
+  const ClaimDefinition& claim = verdict.claim.definition();
   Json measure = nullptr;
   if (verdict.measure) {
     measure = {{"name", verdict.measure->name},
@@ -88,7 +88,7 @@ Json verdict_json(const ClaimVerdict& verdict) {
                {"interval", interval_json(verdict.measure->interval)},
                {"is_time", verdict.measure->is_time}};
   }
-  return {{"id", claim.id},
+  return {{"id", verdict.claim.id},
           {"outcome", to_string(verdict.outcome)},
           {"required", claim.required},
           {"kind", to_string(claim.kind)},
@@ -100,7 +100,7 @@ Json verdict_json(const ClaimVerdict& verdict) {
           {"measure_name", claim.measure},
           {"measure", std::move(measure)},
           {"if_not", claim.if_not},
-          {"history", history_json(claim)}};
+          {"history", history_json(verdict.claim)}};
 }
 
 Json required_json(const RequiredClaims& count) {
@@ -111,9 +111,9 @@ Json required_json(const RequiredClaims& count) {
 }
 
 Json csv_row(const ClaimVerdict& verdict) {
-  const Claim& claim = verdict.claim;
-  Json row = {claim.id,     to_string(verdict.outcome), claim.required, to_string(claim.kind),
-              claim.source, claim.paper_value,          claim.measure,  to_string(claim.rule)};
+  const ClaimDefinition& claim = verdict.claim.definition();
+  Json row = {verdict.claim.id, to_string(verdict.outcome), claim.required, to_string(claim.kind),
+              claim.source,     claim.paper_value,          claim.measure,  to_string(claim.rule)};
   const auto& measure = verdict.measure;
   row.push_back(measure ? Json(measure->unit) : Json());
   row.push_back(measure ? rounded_or_null(measure->value) : Json());
@@ -135,7 +135,7 @@ std::string measured_text(const ClaimVerdict& verdict) {
 }
 
 std::string rule_text(const ClaimVerdict& verdict) {
-  return with_unit(to_string(verdict.claim.rule), verdict);
+  return with_unit(to_string(verdict.claim.definition().rule), verdict);
 }
 
 std::string count_text(const std::vector<ClaimVerdict>& verdicts) {
@@ -167,10 +167,10 @@ std::string claims_table(const std::vector<ClaimVerdict>& verdicts) {
   std::string text = count_text(verdicts) + "\n" + required_text(verdicts) + "\n", notes;
   for (const ClaimVerdict& verdict : verdicts) {
     if (verdict.outcome == ClaimOutcome::not_run) continue;
-    text +=
-        fmt::format("{:<15}{} {:<34} {:<32} {}\n", to_string(verdict.outcome), verdict.claim.required ? "*" : " ",
-                    verdict.claim.id, measured_text(verdict), rule_text(verdict));
-    if (has_failed(verdict)) notes += fmt::format("{}: {}\n", verdict.claim.id, verdict.claim.if_not);
+    const ClaimDefinition& claim = verdict.claim.definition();
+    text += fmt::format("{:<15}{} {:<34} {:<32} {}\n", to_string(verdict.outcome), claim.required ? "*" : " ",
+                        verdict.claim.id, measured_text(verdict), rule_text(verdict));
+    if (has_failed(verdict)) notes += fmt::format("{}: {}\n", verdict.claim.id, claim.if_not);
   }
   return text + notes;
 }

@@ -14,8 +14,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 ClaimVerdict example_verdict(ClaimOutcome outcome, std::optional<Measure> measure) {
-  Claim claim;
-  claim.id = "fast, and \"small\"";
+  ClaimDefinition claim;
   claim.claim = "Is <small>.";
   claim.source = "section IX";
   claim.measured = "Its size.";
@@ -25,10 +24,10 @@ ClaimVerdict example_verdict(ClaimOutcome outcome, std::optional<Measure> measur
   claim.if_not = "It is large.";
   ClaimDefinition before = claim;
   before.rule.high = 9;
-  claim.history = {
+  const std::vector<ClaimChange> history = {
       {"2026-01-02", "0123456", before, {"rule", "paper_value"}, "8 < 9 mm: reproduced", "First written."},
       {"2026-01-03", std::nullopt, claim, {"rule"}, std::nullopt, "Nine is <large>."}};
-  return {claim, std::move(measure), outcome};
+  return {{"fast, and \"small\"", history}, std::move(measure), outcome};
 }
 
 const Measure kLarge = {"size", "mm", 3.14159265, ConfidenceInterval{3, 3.25, 0.95, 1, 2, 15, "x"}, false};

@@ -28,7 +28,7 @@ std::string claims_error(const std::function<void(json&)>& change) {
 }
 
 const Claim* find_claim(const std::string& measure) {
-  const auto it = std::ranges::find(claims(), measure, &Claim::measure);
+  const auto it = std::ranges::find(claims(), measure, [](const Claim& c) { return c.definition().measure; });
   return it == claims().end() ? nullptr : &*it;
 }
 
@@ -63,7 +63,8 @@ TEST(Rule, Text) {
 TEST(Claims, RequiredAreThosePositionAndOrder) {
   std::vector<std::string> required;
   for (const Claim& claim : claims())
-    if (claim.required && !claim.withdrawn) required.push_back(claim.measure);
+    if (claim.definition().required && !claim.definition().withdrawn)
+      required.push_back(claim.definition().measure);
   EXPECT_THAT(required, testing::UnorderedElementsAre("figure4.largest_mean_position_error_mm_source",
                                                       "figure4.largest_mean_position_error_mm_recorded",
                                                       "figure4.ordered_pairs_source"));
@@ -73,7 +74,7 @@ TEST(Claims, FiguresFiveAndSixAreAtMostThePaperPrintedMeans) {
   const auto expect = [](const std::string& measure, double printed) {
     const Claim* claim = find_claim(measure);
     ASSERT_NE(claim, nullptr) << measure;
-    EXPECT_EQ(claim->rule, (Rule{.kind = Rule::Kind::at_most, .high = printed})) << measure;
+    EXPECT_EQ(claim->definition().rule, (Rule{.kind = Rule::Kind::at_most, .high = printed})) << measure;
   };
   const PaperNumbers& paper = paper_numbers();
   for (const auto& [figure, mean] : {std::pair{"figure5", paper.figure_5.mean}, {"figure6", paper.figure_6.mean}}) {
@@ -82,18 +83,18 @@ TEST(Claims, FiguresFiveAndSixAreAtMostThePaperPrintedMeans) {
     expect(std::string(figure) + ".rotation_error_deg", mean.rotation_deg);
   }
   const Claim* position = find_claim("figure4.largest_mean_position_error_mm_source");
-  EXPECT_EQ(position->rule.high, paper.mean_position_error_below_mm);
+  EXPECT_EQ(position->definition().rule.high, paper.mean_position_error_below_mm);
   for (const char* measure : {"frame.p95_ms_20_postures", "frame.p95_ms_20_postures_plain"}) {
     const Claim* rate = find_claim(measure);
     ASSERT_NE(rate, nullptr) << measure;
-    EXPECT_NEAR(rate->rule.high, 1000 / paper.rate_hz, 0.05) << "one decimal of 66.67 ms";
+    EXPECT_NEAR(rate->definition().rule.high, 1000 / paper.rate_hz, 0.05) << "one decimal of 66.67 ms";
   }
 }
 
 TEST(Claims, OtherMovementsMethodsAndMachinesShowConsistencyOnly) {
   std::vector<std::string> ids;
   for (const Claim& claim : claims())
-    if (claim.kind == ClaimKind::consistency) ids.push_back(claim.id);
+    if (claim.definition().kind == ClaimKind::consistency) ids.push_back(claim.id);
   EXPECT_THAT(ids, testing::UnorderedElementsAre("figure-5-position", "figure-5-posture", "figure-5-rotation",
                                                  "figure-6-position", "figure-6-posture", "figure-6-rotation",
                                                  "posture-lags", "15-hz", "15-hz-plain", "monocular-depth-error"));
@@ -101,38 +102,37 @@ TEST(Claims, OtherMovementsMethodsAndMachinesShowConsistencyOnly) {
 
 TEST(Claims, ErrorsNameFileFieldAndExpectation) {
   const auto first = [](json& j) -> json& { return j["claims"][0]; };
+  const auto set = [](json& j) -> json& { return j["claims"][0]["history"][0]["set"]; };
   EXPECT_EQ(claims_error([](json&) {}), "no error");
-  EXPECT_THAT(claims_error([](json& j) { j["version"] = 1; }), HasSubstr("claims.json: version: found 1"));
+  EXPECT_THAT(claims_error([](json& j) { j["version"] = 2; }), HasSubstr("claims.json: version: found 2"));
   EXPECT_THAT(claims_error([](json& j) { j["extra"] = 2; }), HasSubstr("unknown key \"extra\""));
-  EXPECT_THAT(claims_error([&](json& j) { first(j).erase("if_not"); }),
-              HasSubstr("claims[0].if_not: found nothing"));
-  EXPECT_THAT(claims_error([&](json& j) { first(j)["mood"] = 1; }), HasSubstr("unknown key \"mood\""));
+  EXPECT_THAT(claims_error([&](json& j) { set(j).erase("if_not"); }),
+              HasSubstr("claims[0].history[0].set.if_not: found nothing"));
+  EXPECT_THAT(claims_error([&](json& j) { first(j)["rule"] = set(j)["rule"]; }), HasSubstr("unknown key \"rule\""));
   EXPECT_THAT(claims_error([&](json& j) { j["claims"][1]["id"] = first(j)["id"]; }),
               HasSubstr("claims[1].id: found \"position-below-1-cm-recorded\", expected an id that has not been"));
   EXPECT_THAT(claims_error([&](json& j) { first(j)["id"] = "Two Words"; }), HasSubstr("claims[0].id"));
-  EXPECT_THAT(claims_error([&](json& j) { first(j)["claim"] = "two\nlines"; }), HasSubstr("a line of text"));
-  EXPECT_THAT(claims_error([&](json& j) { first(j)["measure"] = ""; }), HasSubstr("claims[0].measure"));
-  EXPECT_THAT(claims_error([&](json& j) { first(j)["kind"] = "guess"; }),
-              HasSubstr("claims[0].kind: found \"guess\", expected reproduction or consistency"));
-  EXPECT_THAT(claims_error([&](json& j) { first(j)["required"] = 1; }), HasSubstr("true or false"));
+  EXPECT_THAT(claims_error([&](json& j) { set(j)["claim"] = "two\nlines"; }), HasSubstr("a line of text"));
+  EXPECT_THAT(claims_error([&](json& j) { set(j)["measure"] = ""; }),
+              HasSubstr("claims[0].history[0].set.measure"));
+  EXPECT_THAT(claims_error([&](json& j) { set(j)["kind"] = "guess"; }),
+              HasSubstr("claims[0].history[0].set.kind: found \"guess\", expected reproduction or consistency"));
+  EXPECT_THAT(claims_error([&](json& j) { set(j)["required"] = 1; }), HasSubstr("true or false"));
 }
 
 TEST(Claims, ErrorsInRules) {
   const auto error_of_rule = [](const json& rule) {
-    return claims_error([&](json& j) {
-      j["claims"][0]["rule"] = rule;
-      j["claims"][0]["history"][0]["set"]["rule"] = {{"within", {-1, 1}}};
-    });
+    return claims_error([&](json& j) { j["claims"][0]["history"][0]["set"]["rule"] = rule; });
   };
   EXPECT_EQ(error_of_rule({{"within", {-1, 1}}}), "no error");
   EXPECT_THAT(error_of_rule(json::object()),
-              HasSubstr("claims[0].rule: found an object, expected an object with one"));
+              HasSubstr("claims[0].history[0].set.rule: found an object, expected an object with one"));
   EXPECT_THAT(error_of_rule({{"below", 1}, {"above", 0}}), HasSubstr("with one rule"));
   EXPECT_THAT(error_of_rule({{"near", 1}}), HasSubstr("expected below, at_most, above, at_least or within"));
-  EXPECT_THAT(error_of_rule({{"below", "1"}}), HasSubstr("claims[0].rule.below"));
-  EXPECT_THAT(error_of_rule({{"below", 1e7}}), HasSubstr("claims[0].rule.below"));
+  EXPECT_THAT(error_of_rule({{"below", "1"}}), HasSubstr("claims[0].history[0].set.rule.below"));
+  EXPECT_THAT(error_of_rule({{"below", 1e7}}), HasSubstr("claims[0].history[0].set.rule.below"));
   EXPECT_THAT(error_of_rule({{"within", {1}}}), HasSubstr("the lower and the upper bound"));
-  EXPECT_THAT(error_of_rule({{"within", {2, 1}}}), HasSubstr("claims[0].rule.within[1]"));
+  EXPECT_THAT(error_of_rule({{"within", {2, 1}}}), HasSubstr("claims[0].history[0].set.rule.within[1]"));
 }
 
 TEST(Claims, DamageGivesAnErrorOrClaimsButNothingElse) {
@@ -142,7 +142,7 @@ TEST(Claims, DamageGivesAnErrorOrClaimsButNothingElse) {
     RandomStream random(21, "claims_test", trial, "damage");
     try {
       for (const Claim& claim : parse_claims(damaged_text(text, random), "claims.json").claims)
-        EXPECT_FALSE(to_string(claim.rule).empty());
+        EXPECT_FALSE(to_string(claim.definition().rule).empty());
     } catch (const Error& error) {
       ++refused;
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();

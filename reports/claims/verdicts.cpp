@@ -25,7 +25,7 @@ int sign_of(const Rule& rule, const Measure& measure) {
   return holds(rule, low) && holds(rule, high) ? 1 : 0;
 }
 
-ClaimOutcome outcome_of(const Claim& claim, const Measure& measure) {
+ClaimOutcome outcome_of(const ClaimDefinition& claim, const Measure& measure) {
   const bool is_consistency = claim.kind == ClaimKind::consistency;
   const int sign = sign_of(claim.rule, measure);
   if (sign > 0) return is_consistency ? ClaimOutcome::consistent : ClaimOutcome::reproduced;
@@ -34,7 +34,8 @@ ClaimOutcome outcome_of(const Claim& claim, const Measure& measure) {
 }
 
 ClaimVerdict verdict_of(const Claim& claim, Measure measure) {
-  const ClaimOutcome outcome = claim.withdrawn ? ClaimOutcome::withdrawn : outcome_of(claim, measure);
+  const ClaimOutcome outcome =
+      claim.definition().withdrawn ? ClaimOutcome::withdrawn : outcome_of(claim.definition(), measure);
   if (measure.value && !std::isfinite(*measure.value)) measure.value.reset();
   if (measure.interval && !is_interval(*measure.interval)) measure.interval.reset();
   return {claim, std::move(measure), outcome};
@@ -63,11 +64,12 @@ std::vector<Measure> all_measures(const RunResult& result) {
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures) {
   std::vector<ClaimVerdict> verdicts;
   for (const Claim& claim : claims) {
-    const auto measure = std::ranges::find(measures, claim.measure, &Measure::name);
+    const auto measure = std::ranges::find(measures, claim.definition().measure, &Measure::name);
     if (measure != measures.end())
       verdicts.push_back(verdict_of(claim, *measure));
     else
-      verdicts.push_back({claim, {}, claim.withdrawn ? ClaimOutcome::withdrawn : ClaimOutcome::not_run});
+      verdicts.push_back(
+          {claim, {}, claim.definition().withdrawn ? ClaimOutcome::withdrawn : ClaimOutcome::not_run});
   }
   return verdicts;
 }
@@ -75,7 +77,7 @@ std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vec
 RequiredClaims count_required(const std::vector<ClaimVerdict>& verdicts) {
   RequiredClaims count;
   for (const auto& [claim, measure, outcome] : verdicts) {
-    if (!claim.required || outcome == ClaimOutcome::withdrawn) continue;
+    if (!claim.definition().required || outcome == ClaimOutcome::withdrawn) continue;
     if (outcome == ClaimOutcome::not_run)
       ++count.not_run;
     else if (outcome == ClaimOutcome::reproduced || outcome == ClaimOutcome::consistent)

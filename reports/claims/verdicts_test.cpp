@@ -12,13 +12,12 @@ namespace glovebench::reports {
 namespace {
 
 Claim example_claim(Rule rule, ClaimKind kind = ClaimKind::reproduction, bool required = false) {
-  Claim claim;
-  claim.id = "example";
-  claim.measure = "m";
-  claim.rule = rule;
-  claim.kind = kind;
-  claim.required = required;
-  return claim;
+  ClaimChange written;
+  written.definition.measure = "m";
+  written.definition.rule = rule;
+  written.definition.kind = kind;
+  written.definition.required = required;
+  return {"example", {written}};
 }
 
 const Rule kBelow10 = {.kind = Rule::Kind::below, .high = 10};
@@ -128,7 +127,7 @@ TEST(Judge, NumbersOfVerdictsCanBeWritten) {
 
 TEST(Judge, AWithdrawnClaimIsNotJudgedAndFailsNothing) {
   Claim claim = example_claim(kBelow10, ClaimKind::reproduction, true);
-  claim.withdrawn = true;
+  claim.history.back().definition.withdrawn = true;
   for (const auto& measures : {std::vector<Measure>{}, std::vector{without_interval(11)}}) {
     const auto verdicts = judge({claim}, measures);
     EXPECT_EQ(verdicts[0].outcome, ClaimOutcome::withdrawn);
@@ -154,8 +153,8 @@ TEST(Judge, MeasuresOfTheFiguresAndOfStudies) {
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(full_result()));
   ASSERT_EQ(verdicts.size(), claims().size());
   const auto outcome = [&](const std::string& measure) {
-    const auto it =
-        std::ranges::find_if(verdicts, [&](const ClaimVerdict& v) { return v.claim.measure == measure; });
+    const auto it = std::ranges::find_if(
+        verdicts, [&](const ClaimVerdict& v) { return v.claim.definition().measure == measure; });
     return it == verdicts.end() ? "no such claim" : to_string(it->outcome);
   };
   EXPECT_EQ(outcome("figure4.largest_mean_position_error_mm_source"), "reproduced");

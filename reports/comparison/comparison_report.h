@@ -34,14 +34,17 @@ std::string incomparable_junit(const std::string& message);
 std::string incomparable_markdown(const std::string& message);
 std::string comparison_page(const ComparisonReport& report);
 
-/// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html, each file whole, all or none, and returns
-/// their names. Throws Error if the folder cannot be written.
+/// Throws Error if the folder holds a run or a baseline: both have an index.html. So do the three functions below.
+void require_own_folder(const std::string& folder);
+
+/// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html, one set of files (core/base/file_set.h), and
+/// returns their names. Throws Error if the folder cannot be written.
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report);
-/// Removes such files of an earlier comparison: no reader takes them for those of one that failed since. Throws
-/// Error, and removes nothing, if the folder's manifest names other files, too.
+/// Removes these files of an earlier comparison: no reader takes them for those of one that failed since. Throws
+/// Error.
 void remove_comparison(const std::string& folder);
-/// What stands in place of a comparison that could not be made: comparison.md and junit.xml with the message. Other
-/// files stay as they are.
+/// Writes what stands in the place of a comparison that could not be made: comparison.md and junit.xml with the
+/// message. The other files of an earlier one go.
 void write_refusal(const std::string& folder, const std::string& message);
 
 }  // namespace glovebench::reports

@@ -9,9 +9,10 @@
 #include <sstream>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/comparison/example_comparison.h"
@@ -255,21 +256,28 @@ TEST(WriteComparison, WritesEveryFileOrRefuses) {
   EXPECT_THROW(write_comparison(folder + "/index.html", small_comparison()), Error);
 }
 
-TEST(RemoveComparison, RemovesItsOwnFilesAndRefusesOtherSets) {
+TEST(RemoveComparison, RemovesItsOwnFilesAlone) {
   const std::string folder = test_folder();
   write_comparison(folder, small_comparison());
   write_file(folder + "/notes", "the user's");
   remove_comparison(folder);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1) << "the notes";
+  EXPECT_FALSE(fs::exists(folder + "/comparison.json") || fs::exists(folder + "/index.html"));
+  EXPECT_EQ(read_file(folder + "/notes"), "the user's");
+  write_file(folder + "/comparison.json", "of before there were manifests");
+  write_refusal(folder, "seeds differ");
+  EXPECT_FALSE(fs::exists(folder + "/comparison.json"));
+  EXPECT_TRUE(fs::exists(folder + "/comparison.md"));
+}
 
-  const std::string manifest = manifest_json({kRunSet, {{"results.json", 7, hash_text("results")}}});
-  write_file(folder + "/manifest.json", manifest);
+TEST(WriteComparison, LeavesTheFolderOfARun) {
+  const std::string folder = test_folder();
   write_file(folder + "/results.json", "results");
   write_file(folder + "/index.html", "the run's");
+  EXPECT_THROW(write_comparison(folder, small_comparison()), Error);
   EXPECT_THROW(remove_comparison(folder), Error);
-  EXPECT_EQ(read_file(folder + "/manifest.json"), manifest);
-  EXPECT_EQ(read_file(folder + "/results.json"), "results");
+  EXPECT_THROW(write_refusal(folder, "seeds differ"), Error);
   EXPECT_EQ(read_file(folder + "/index.html"), "the run's");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 2);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/damaged_text.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/example_runs.h"

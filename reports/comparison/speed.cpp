@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"

@@ -4,8 +4,8 @@
 
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
 #include "core/base/random.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/comparison/pairing.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"
 #include "reports/json_text.h"

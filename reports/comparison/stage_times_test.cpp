@@ -7,7 +7,7 @@
 
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/timings.h"
 

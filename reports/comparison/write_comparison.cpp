@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <filesystem>
 
-#include "core/base/excerpt.h"
 #include "core/base/file_set.h"
 #include "reports/comparison/comparison_report.h"
 
@@ -14,8 +12,15 @@ constexpr const char* kFiles[] = {kJson, kMarkdown, kCsv, kLatex, kJunit, kPage}
 
 }  // namespace
 
+void require_own_folder(const std::string& folder) {
+  if (std::filesystem::exists(folder + "/results.json"))
+    throw Error("--output", "folder", folder + ", which holds a run or a baseline",
+                "another: both have an index.html");
+}
+
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report) {
-  WholeFiles files(folder, kComparisonSet);
+  require_own_folder(folder);
+  WholeFiles files(folder);
   files.add(kJson, comparison_json(report));
   files.add(kMarkdown, comparison_markdown(report));
   files.add(kCsv, comparison_csv(report));
@@ -27,18 +32,17 @@ std::vector<std::string> write_comparison(const std::string& folder, const Compa
 }
 
 void remove_comparison(const std::string& folder) {
-  for (const ManifestEntry& file : read_manifest(folder).value_or(Manifest{}).files)
-    if (std::ranges::find(kFiles, file.name) == std::end(kFiles))
-      throw Error(folder + "/" + kManifest, "files", quoted_excerpt(file.name), "the files of a comparison alone");
-  remove_set(folder, kComparisonSet);
-  for (const char* name : kFiles) {  // of before there were manifests
-    std::error_code ignored;         // what cannot be removed cannot be replaced either, and that is an Error
-    std::filesystem::remove(folder + "/" + name, ignored);
-  }
+  if (!std::filesystem::exists(folder)) return;
+  require_own_folder(folder);
+  WholeFiles files(folder);
+  for (const char* name : kFiles) files.remove(name);
+  files.commit();
 }
 
 void write_refusal(const std::string& folder, const std::string& message) {
-  WholeFiles files(folder, kComparisonSet);
+  require_own_folder(folder);
+  WholeFiles files(folder);
+  for (const char* name : kFiles) files.remove(name);
   files.add(kMarkdown, incomparable_markdown(message));
   files.add(kJunit, incomparable_junit(message));
   files.commit();

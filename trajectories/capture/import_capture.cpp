@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/quantile.h"
 #include "trajectories/generation/low_dispersion.h"
 #include "trajectories/generation/motion_script.h"

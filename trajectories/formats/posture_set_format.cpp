@@ -8,9 +8,9 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
-#include "core/base/file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/whole_file.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"
 

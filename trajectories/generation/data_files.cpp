@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "trajectories/catalog.h"
 #include "trajectories/generation/database_postures.h"
 #include "trajectories/generation/motion_script.h"

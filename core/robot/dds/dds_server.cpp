@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -12,10 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/system_time.h"
 #include "core/robot/dds/dds_entity.h"
-#include "core/robot/dds/measured_joints.h"
-#include "core/robot/dds/topics.h"
-#include "core/robot/server/arm_server.h"
-#include "core/robot/server/hand_server.h"
+#include "core/robot/dds/measured_robot.h"
 #include "core/robot/server/motion_log.h"
 
 namespace glovebench {
@@ -32,84 +30,60 @@ int64_t steady_us() {
   return duration_cast<microseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
-/// The hand and its readers.
-class HandPort {
+/// The server and its readers.
+class Port {
  public:
-  static constexpr const char* kName = "hand";
-  HandPort(const DdsParticipant& participant, HandServer at_start)
-      : server(std::move(at_start)),
-        fingers_(participant, topics::kOwn.hand),
-        wrist_(participant, topics::kOwn.wrist) {}
-
-  static const std::vector<std::string>& names() { return hand_joint_names(); }
-  void attach(DdsWaitset& waitset) const {
-    waitset.add(fingers_.entity());
-    waitset.add(wrist_.entity());
+  Port(const DdsParticipant& participant, const ServedRobot& robot, const RobotServer& at_start)
+      : server(at_start) {
+    if (robot.hand) fingers_.emplace(participant, topics::kOwn.hand);
+    if (robot.hand) wrist_.emplace(participant, topics::kOwn.wrist);
+    if (robot.arm) pose_.emplace(participant, topics::kOwn.arm);
   }
-  template <typename Report>
-  void receive(const Report& report) {
-    receive(fingers_, HandTopic::fingers, "fingers", report);
-    receive(wrist_, HandTopic::wrist, "wrist", report);
+
+  void attach(DdsWaitset& waitset) {
+    each([&](RobotTopic, auto& reader) { waitset.add(reader.entity()); });
   }
   std::set<uint64_t> present() {
-    std::set<uint64_t> senders = fingers_.senders().present();
-    senders.merge(wrist_.senders().present());
+    std::set<uint64_t> senders;
+    each([&](RobotTopic, auto& reader) { senders.merge(reader.senders().present()); });
     return senders;
   }
-
-  HandServer server;
-
- private:
-  template <typename Report>
-  void receive(DdsReader<ros::JointTrajectory>& reader, HandTopic topic, const char* name, const Report& report) {
-    for (int i = 0; i < kMessagesAtOnce; ++i) {
-      const int64_t now_us = steady_us();
-      const auto received = reader.take([&](uint64_t sender) { return !server.stream().ignores(sender, now_us); });
-      if (!received) return;
-      const auto& message = received->message;
-      if (!message) continue;
-      const Arrival arrival{received->sender, received->source_ns, now_us};
-      report(name, server.receive(topic, *message, arrival), message->stamp, received->source_ns);
-    }
-  }
-
-  DdsReader<ros::JointTrajectory> fingers_, wrist_;
-};
-
-/// The arm and its reader.
-class ArmPort {
- public:
-  static constexpr const char* kName = "arm";
-  ArmPort(const DdsParticipant& participant, ArmServer at_start)
-      : server(std::move(at_start)), pose_(participant, topics::kOwn.arm) {}
-
-  static const std::vector<std::string>& names() { return arm_joint_names(); }
-  void attach(DdsWaitset& waitset) const { waitset.add(pose_.entity()); }
+  /// Whatever has come. `report`: of each message that was read.
   template <typename Report>
   void receive(const Report& report) {
-    for (int i = 0; i < kMessagesAtOnce; ++i) {
-      const int64_t now_us = steady_us();
-      const auto received = pose_.take([&](uint64_t sender) { return !server.stream().ignores(sender, now_us); });
-      if (!received) return;
-      const auto& message = received->message;
-      if (!message) continue;
-      const Arrival arrival{received->sender, received->source_ns, now_us};
-      report("pose", server.receive(*message, arrival), message->stamp, received->source_ns);
-    }
+    each([&](RobotTopic topic, auto& reader) {
+      for (int i = 0; i < kMessagesAtOnce; ++i) {
+        const int64_t now_us = steady_us();
+        const auto received = reader.take([&](uint64_t who) { return !server.stream().ignores(who, now_us); });
+        if (!received) return;
+        const auto& message = received->message;
+        if (!message) continue;
+        const Receipt receipt = server.receive(topic, *message, {received->sender, received->source_ns, now_us});
+        report(topic, receipt, message->stamp, received->source_ns);
+      }
+    });
   }
-  std::set<uint64_t> present() { return pose_.senders().present(); }
 
-  ArmServer server;
+  RobotServer server;
 
  private:
-  DdsReader<ros::PoseStamped> pose_;
+  template <typename Visit>
+  void each(const Visit& visit) {
+    if (fingers_) visit(RobotTopic::fingers, *fingers_);
+    if (wrist_) visit(RobotTopic::wrist, *wrist_);
+    if (pose_) visit(RobotTopic::pose, *pose_);
+  }
+
+  std::optional<DdsReader<ros::JointTrajectory>> fingers_, wrist_;
+  std::optional<DdsReader<ros::PoseStamped>> pose_;
 };
 
-/// Whether another process says where these joints are: it serves them, too.
+/// Whether another process says where a joint of hand or arm is: it serves the robot, too. Two servers, also of
+/// different joints, would share no limit.
 class OtherServers {
  public:
-  OtherServers(const DdsParticipant& participant, const std::vector<std::string>& names)
-      : states_(DdsReader<ros::JointState>::of_others(participant, topics::kOwn.joint_states)), names_(names) {}
+  explicit OtherServers(const DdsParticipant& participant)
+      : states_(DdsReader<ros::JointState>::of_others(participant, topics::kOwn.joint_states)) {}
 
   /// The name of a joint that another has told of since the last call.
   std::optional<std::string> heard() {
@@ -127,7 +101,7 @@ class OtherServers {
 
  private:
   DdsReader<ros::JointState> states_;
-  const std::vector<std::string>& names_;
+  const std::vector<std::string> names_ = ServedRobot{true, MountedArm{}}.names();
 };
 
 template <typename Names, typename Counts>
@@ -138,13 +112,14 @@ std::string counted(int kinds, const Names& name, const Counts& count) {
   return text.empty() ? "none" : text;
 }
 
-template <typename Port>
 class Service {
  public:
   Service(Port& port, const DdsParticipant& participant, const DdsServerOptions& options, OtherServers& others,
           MotionLog& log)
       : port_(port),
         options_(options),
+        name_(options.robot.name()),
+        names_(options.robot.names()),
         others_(others),
         log_(log),
         states_(participant, topics::kOwn.joint_states),
@@ -176,16 +151,15 @@ class Service {
 
  private:
   void receive() {
-    port_.receive([&](const char* topic, Receipt receipt, const ros::Time& stamp, int64_t source_ns) {
-      log_.received({system_us(), topic, receipt, nanoseconds(stamp), source_ns / 1000});
+    port_.receive([&](RobotTopic topic, Receipt receipt, const ros::Time& stamp, int64_t source_ns) {
+      log_.received({system_us(), to_string(topic), receipt, nanoseconds(stamp), source_ns / 1000});
     });
   }
   void look_for_others() {
     const std::optional<std::string> joint = others_.heard();
     if (!joint) return;
     if (seen_others_++ == 0)
-      options_.tell(
-          fmt::format("{}: another process tells of {}, too: two servers of one robot?", Port::kName, *joint));
+      options_.tell(fmt::format("{}: another process tells of {}, too: two servers of one robot?", name_, *joint));
   }
   void tick(int64_t now_us) {
     if (now_us <= last_.clock_us) return;
@@ -195,7 +169,7 @@ class Service {
     const bool may_move = log_.may_move(port_.server.positions(), step_s);
     const int64_t time_us = system_us();
     last_ = port_.server.tick({now_us, time_us}, may_move);
-    states_.write({ros_time(time_us), Port::names(), last_.position, last_.velocity}, time_us * 1000);
+    states_.write({ros_time(time_us), names_, last_.position, last_.velocity}, time_us * 1000);
     const bool commanded = port_.server.stream().is_current(now_us);
     log_.ticked(last_, time_us, last_.state == CommandState::stopped && !commanded);
     waited_ += commanded && !may_move;
@@ -204,13 +178,12 @@ class Service {
 
   std::string summary() const {
     const CommandStream& stream = port_.server.stream();
-    const ReceiptCounts& receipts = stream.receipts();
     const Interventions& interventions = port_.server.interventions();
     std::string text = fmt::format(
-        "{}: messages: {}; streams: {}; interventions: {}; states: {}, the longest gap {:.1f} ms", Port::kName,
+        "{}: messages: {}; streams: {}; interventions: {}; states: {}, the longest gap {:.1f} ms", name_,
         counted(
             kCountOf<Receipt>, [](int i) { return to_string(static_cast<Receipt>(i)); },
-            [&](int i) { return receipts[static_cast<size_t>(i)]; }),
+            [&](int i) { return stream.count(static_cast<Receipt>(i)); }),
         stream.owners(),
         counted(
             kCountOf<Intervention>, [](int i) { return to_string(static_cast<Intervention>(i)); },
@@ -229,6 +202,8 @@ class Service {
 
   Port& port_;
   const DdsServerOptions& options_;
+  const std::string name_;
+  const std::vector<std::string> names_;
   OtherServers& others_;
   MotionLog& log_;
   DdsWriter<ros::JointState> states_;
@@ -239,68 +214,63 @@ class Service {
   int seen_others_ = 0;  ///< looks at which there was another
 };
 
-/// Throws Error if another server of these joints is there. It tells of them all the time, so a second is enough
-/// for whoever the middleware finds.
+/// Throws Error if another server is heard.
+void refuse_others(OtherServers& others, const DdsServerOptions& options) {
+  if (const std::optional<std::string> joint = others.heard())
+    throw Error(fmt::format("DDS domain {}", options.domain), topics::kOwn.joint_states,
+                fmt::format("another process that tells of {}", *joint), "one server of a robot");
+}
+
+/// A server tells of its joints all the time, so a second is enough for whoever the middleware finds.
 void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   const int64_t end_us = steady_us() + kListenUs;
   while (steady_us() < end_us && !options.stopping()) {
-    if (const std::optional<std::string> joint = others.heard())
-      throw Error(fmt::format("DDS domain {}", options.domain), topics::kOwn.joint_states,
-                  fmt::format("another process that tells of {}", *joint), "one server of a joint");
+    refuse_others(others, options);
     std::this_thread::sleep_for(std::chrono::microseconds(kPeriodUs));
   }
 }
 
-/// Where the joints are measured, as soon as they are. Nothing if the server shall stop before.
-std::optional<StartPlace> await_measured(const DdsParticipant& participant, const std::vector<std::string>& names,
-                                         const LoggedStart& logged, const std::vector<JointMotion>& joints,
-                                         const DdsServerOptions& options) {
-  MeasuredJoints measured(participant, topics::kMeasuredJointStates, names);
-  options.tell(
-      fmt::format("{}: {}: waits for a measured state on {}", logged.source, logged.doubt, measured.topic()));
-  const double slowest = std::ranges::min_element(joints, {}, &JointMotion::speed)->speed;
+/// Where the joints are measured, as soon as they are. Nothing if the server shall stop before. Throws Error if
+/// another server begins meanwhile.
+std::optional<StartPlace> await_measured(const DdsParticipant& participant, const LoggedStart& logged,
+                                         OtherServers& others, const DdsServerOptions& options) {
+  const std::string topic = topics::kMeasuredJointStates;
+  MeasuredRobot measured(participant, {topic}, options.robot.hand, options.robot.arm.has_value());
+  options.tell(fmt::format("{}: {}: waits for a measured state on {}", logged.source, logged.doubt, topic));
+  const std::vector<JointMotion> motions = options.robot.motions(options.limits);
+  const double slowest = std::ranges::min_element(motions, {}, &JointMotion::speed)->speed;
   while (!options.stopping()) {
-    if (const auto positions = measured.latest(system_us(), steady_us()))
-      return StartPlace{*positions, measured.topic(), slowest * kPeriodUs * 1e-6};
+    refuse_others(others, options);
+    if (std::optional<MeasuredState> state = measured.look()) {
+      if (state->arm) state->hand.insert(state->hand.end(), state->arm->begin(), state->arm->end());
+      return StartPlace{state->hand, topic, slowest * kPeriodUs * 1e-6};
+    }
     std::this_thread::sleep_for(std::chrono::microseconds(kPeriodUs));
   }
   return std::nullopt;
 }
 
-/// `make_server`: the server of a side at a StartPlace.
-template <typename Port, typename Server, typename MakeServer>
-DdsServerSummary serve(const DdsServerOptions& options, const std::vector<double>& rest,
-                       const MakeServer& make_server) {
-  const std::vector<JointMotion> joints = Server::joint_motions(options.limits);
-  MotionLog log(options.log, Port::names(), joints);  // first: nobody else writes on from here
-  const LoggedStart logged = log.start(rest, system_us(), options.max_log_age_s, kPeriodUs * 1e-6);
+}  // namespace
+
+DdsServerSummary serve(const DdsServerOptions& options) {
+  const ServedRobot& robot = options.robot;
+  MotionLog log(options.log, robot.names(),
+                robot.motions(options.limits));  // first: nobody else writes on from here
+  if (!options.log.empty() && !std::filesystem::is_regular_file(options.log))
+    options.tell(fmt::format("{}: no regular file, so nothing on it is durable and no joint moves", options.log));
+  const LoggedStart logged = log.start(robot.at_rest(), system_us(), options.max_log_age_s, kPeriodUs * 1e-6);
   if (!logged.age.empty() && logged.doubt.empty())
     options.tell(fmt::format("{}: starts at its last state, of {}", logged.source, logged.age));
   std::optional<StartPlace> start = StartPlace{logged.joints, logged.source};
-  if (logged.doubt.empty()) make_server(*start);  // throws where that is no place
+  if (logged.doubt.empty()) RobotServer(options.limits, robot, *start);  // throws where that is no place
   const DdsParticipant participant(options.domain, options.access);
-  OtherServers others(participant, Port::names());
+  OtherServers others(participant);
   refuse_beside(others, options);
-  if (!logged.doubt.empty()) start = await_measured(participant, Port::names(), logged, joints, options);
-  if (!start) return {fmt::format("{}: ended before the joints were measured", Port::kName), 0};
-  Port port(participant, make_server(*start));
+  if (!logged.doubt.empty()) start = await_measured(participant, logged, others, options);
+  if (!start) return {fmt::format("{}: ended before the joints were measured", robot.name()), 0};
+  Port port(participant, robot, RobotServer(options.limits, robot, *start));
   log.started(system_us(), logged.doubt.empty() ? logged.from : "measured");
   return Service(port, participant, options, others, log).run();
-}
-
-}  // namespace
-
-DdsServerSummary serve_hand(const DdsServerOptions& options) {
-  const std::vector<double> open(kShadowJointCount, 0.0);
-  return serve<HandPort, HandServer>(options, open,
-                                     [&](const StartPlace& start) { return HandServer(options.limits, start); });
-}
-
-DdsServerSummary serve_arm(const DdsServerOptions& options, const ArmSolver& solver,
-                           const Eigen::Isometry3d& T_flange_wrist, const ArmJoints& rest) {
-  return serve<ArmPort, ArmServer>(options, {rest.begin(), rest.end()}, [&](const StartPlace& start) {
-    return ArmServer(options.limits, solver, T_flange_wrist, start);
-  });
 }
 
 }  // namespace glovebench

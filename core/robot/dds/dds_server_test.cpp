@@ -10,13 +10,14 @@
 
 #include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 #include "core/base/system_time.h"
+#include "core/base/whole_file.h"
 #include "core/robot/arm_follower.h"
+#include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/dds_sink.h"
 #include "core/robot/dds/test_bus.h"
 #include "core/robot/dds/test_peers.h"
-#include "core/robot/dds/topics.h"
 #include "core/robot/server/command_messages.h"
 #include "core/robot/test_commands.h"
 #include "core/test_folder.h"
@@ -32,14 +33,13 @@ using testing::IsEmpty;
 /// A server in a thread of this process.
 class RunningServer {
  public:
-  template <typename Serve>
-  RunningServer(DdsServerOptions options, const Serve& serve) {
+  explicit RunningServer(DdsServerOptions options) {
     options.stopping = [this] { return stopping_.load(); };
     options.tell = [this](const std::string& line) {
       const std::lock_guard lock(mutex_);
       told_.push_back(line);
     };
-    thread_ = std::thread([this, options, serve] {
+    thread_ = std::thread([this, options] {
       try {
         summary_ = serve(options).text;
       } catch (const Error& e) {
@@ -98,13 +98,11 @@ class DdsServer : public testing::Test {
     return options;
   }
   static std::unique_ptr<RunningServer> hand(const DdsServerOptions& options) {
-    return std::make_unique<RunningServer>(options, serve_hand);
+    return std::make_unique<RunningServer>(options);
   }
-  static std::unique_ptr<RunningServer> arm(const DdsServerOptions& options) {
-    return std::make_unique<RunningServer>(options, [](const DdsServerOptions& its) {
-      const NoSolver solver;
-      return serve_arm(its, solver, default_T_flange_wrist(), kArmAtRest);
-    });
+  std::unique_ptr<RunningServer> arm(DdsServerOptions options, bool with_hand = false) const {
+    options.robot = {with_hand, MountedArm{&solver_, default_T_flange_wrist()}};
+    return std::make_unique<RunningServer>(options);
   }
   static bool serves(const std::string& log, size_t begin = 0) {
     return comes_true([&] { return std::filesystem::exists(log) && std::filesystem::file_size(log) > begin; });
@@ -125,6 +123,7 @@ class DdsServer : public testing::Test {
   }
 
   std::string folder_ = test_folder();
+  const NoSolver solver_;
 };
 
 TEST_F(DdsServer, TheHandFollowsAStreamOverTheNetwork) {
@@ -148,8 +147,8 @@ TEST_F(DdsServer, TheHandFollowsAStreamOverTheNetwork) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   sink.finish();
-  EXPECT_THAT(server->stop(), AllOf(HasSubstr(" accepted, "), HasSubstr(" starting"), HasSubstr("; streams: "),
-                                    HasSubstr("the longest gap")));
+  EXPECT_THAT(server->stop(),
+              AllOf(HasSubstr(" accepted; streams: "), HasSubstr(" starting, "), HasSubstr("the longest gap")));
   EXPECT_THAT(server->told(), IsEmpty());
   EXPECT_NEAR(last_positions(log, hand_joint_names())[kFFJ3], 0.2, 1e-8);
 }
@@ -170,7 +169,8 @@ TEST_F(DdsServer, AFloodOfLargeMessagesIsRefusedAndOthersAreFollowed) {
     return read_file(log).find("\"accepted\"") != std::string::npos;
   }));
   const std::string summary = server->stop();
-  EXPECT_THAT(summary, AllOf(HasSubstr(" accepted, 20 wrong_joints, "), HasSubstr("; too large: 20 messages")));
+  EXPECT_THAT(summary, AllOf(HasSubstr("20 wrong_joints, "), HasSubstr(" accepted; "),
+                             HasSubstr("; too large: 20 messages")));
 }
 
 TEST_F(DdsServer, TwoDoNotShareALog) {
@@ -185,16 +185,16 @@ TEST_F(DdsServer, TwoDoNotShareALog) {
   EXPECT_THAT(next->told(), ElementsAre(HasSubstr("hand.jsonl: starts at its last state, of 20")));
 }
 
-TEST_F(DdsServer, TwoDoNotServeOneHand) {
+TEST_F(DdsServer, TwoDoNotServeOneRobot) {
   const std::string log = path("hand.jsonl"), others = path("other.jsonl");
   const auto first = hand(options(log));
   ASSERT_TRUE(serves(log));
   EXPECT_THAT(hand(options(others, kFar))->failure(),
               AllOf(HasSubstr("DDS domain 8: rt/glovebench/joint_states: found another process that tells of rh_"),
-                    HasSubstr("expected one server of a joint")));
+                    HasSubstr("expected one server of a robot")));
   EXPECT_EQ(std::filesystem::file_size(others), 0U) << "it has served nothing";
-  const auto other_side = arm(options(path("arm.jsonl"), kFar));
-  EXPECT_TRUE(serves(path("arm.jsonl"))) << "the arm has other joints";
+  for (const bool with_hand : {false, true})  // the arm alone would share no factor with the hand
+    EXPECT_THAT(arm(options(others, kFar), with_hand)->failure(), HasSubstr("expected one server of a robot"));
   EXPECT_THAT(first->stop(), testing::Not(HasSubstr("another server")));
 }
 
@@ -213,10 +213,10 @@ TEST_F(DdsServer, TellsOfAnotherThatComesLater) {
   };
   ASSERT_TRUE(comes_true([&] { return writer.listeners() > 0; }));
   for (int i = 0; i < 50; ++i) {
-    say("S1");
+    say("drawer");
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  EXPECT_THAT(server->told(), IsEmpty()) << "not a joint of the hand";
+  EXPECT_THAT(server->told(), IsEmpty()) << "not a joint of the robot";
   EXPECT_TRUE(told_of("rh_FFJ3"));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   say("rh_FFJ3");
@@ -249,6 +249,17 @@ TEST_F(DdsServer, BelievesALogForATime) {
     server->stop();
     EXPECT_EQ(last_positions(log, hand_joint_names()), stood);
   }
+}
+
+TEST_F(DdsServer, DoesNotBelieveALogOfOtherJoints) {
+  const std::string log = path("robot.jsonl");
+  write_log(log, hand_joint_names(), std::vector<double>(kShadowJointCount, 0.0), system_us());
+  EXPECT_EQ(arm(options(log), true)->failure(),
+            log +
+                ": last state: found no angle of S1, expected the 31 joints that are served, and no others. Look "
+                "where the joints stand; if at rest: another --log");
+  write_log(log, ServedRobot{true, MountedArm{}}.names(), std::vector<double>(31, 0.0), system_us());
+  EXPECT_THAT(hand(options(log))->failure(), HasSubstr("last state: found 31 joints, expected the 24 joints"));
 }
 
 TEST_F(DdsServer, DoesNotBelieveALogThatLostItsEnd) {
@@ -292,6 +303,35 @@ TEST_F(DdsServer, WaitsForAMeasuredStateWhereTheLogIsNotSure) {
   EXPECT_NEAR(last_positions(log, names)[kMFJ3], radians_from_degrees(90), 1e-7);
   const auto again = hand(options(log));
   EXPECT_TRUE(serves(log, std::filesystem::file_size(log))) << "after a clean end the log is sure";
+}
+
+TEST_F(DdsServer, WaitsForTheArmsStateAndTheHands) {
+  const std::string log = path("robot.jsonl");
+  const ServedRobot both{true, MountedArm{}};
+  write_file(log, state_line({1, CommandState::stopped, both.at_rest(), {}}, system_us(), both.names()) + "\n");
+  const size_t size = std::filesystem::file_size(log);
+  const auto server = arm(options(log), true);
+  ASSERT_TRUE(comes_true([&] { return !server->told().empty(); })) << server->failure();
+  const DdsParticipant there(kFar);
+  const DdsWriter<ros::JointState> driver(there, topics::kMeasuredJointStates);
+  const auto measure = [&](const std::vector<std::string>& names, const std::vector<double>& positions) {
+    const int64_t now_us = system_us();
+    driver.write({ros_time(now_us), names, positions, {}}, now_us * 1000);
+  };
+  const std::vector<double> rest(kArmAtRest.begin(), kArmAtRest.end());
+  for (int i = 0; i < 50; ++i) {
+    measure(arm_joint_names(), rest);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(std::filesystem::file_size(log), size) << "where the hand is nobody has said";
+  EXPECT_TRUE(comes_true([&] {
+    measure(hand_joint_names(), std::vector<double>(kShadowJointCount, 0.1));
+    measure(arm_joint_names(), rest);
+    return std::filesystem::file_size(log) > size;
+  }));
+  server->stop();
+  EXPECT_NEAR(last_positions(log, both.names())[kFFJ3], 0.1, 1e-7);
+  EXPECT_NEAR(last_positions(log, both.names()).back(), kArmAtRest.back(), 1e-7);
 }
 
 TEST_F(DdsServer, EndsWhileItWaitsForAMeasuredState) {

@@ -1,10 +1,8 @@
 #include "core/robot/dds/dds_sink.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "core/robot/dds/dds_entity.h"
 #include "core/robot/server/command_messages.h"
 
 namespace glovebench {
@@ -16,82 +14,44 @@ constexpr double kFarewell = 1;  // s
 
 }  // namespace
 
-class DdsSink::Writers {
- public:
-  Writers(int domain, const DdsSinkOptions& options)
-      : participant_(domain, options.access),
-        hand_(participant_, options.topics.hand),
-        wrist_(participant_, options.topics.wrist) {
-    if (options.arm) arm_.emplace(participant_, options.topics.arm);
-  }
-
-  void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
-
-  void send(const RobotCommand& command) {
-    const int64_t source_ns = std::exchange(arrived_ns_, std::nullopt).value_or(dds_time());
-    const int64_t period_us = next_period(command.timestamp_us);
-    // What is sent is to be followed: a lost hand is silence, at which a server holds and then stops.
-    if (command.hold || !command.targets) return;
-    hand_.write(hand_message(command, period_us), source_ns);
-    wrist_.write(wrist_message(command, period_us), source_ns);
-    if (arm_) arm_->write(pose_message(command), source_ns);
-    ++sent_;
-  }
-
-  void finish() const {
-    const int64_t end_ns = dds_time() + static_cast<int64_t>(kFarewell * 1e9);
-    const auto left_s = [&] { return std::max(0.0, static_cast<double>(end_ns - dds_time()) * 1e-9); };
-    hand_.wait_for_listeners(left_s());
-    wrist_.wait_for_listeners(left_s());
-    if (arm_) arm_->wait_for_listeners(left_s());
-  }
-
-  int64_t sent() const { return sent_; }
-  int listeners() const {
-    const int of_hand = std::min(hand_.listeners(), wrist_.listeners());
-    return arm_ ? std::min(of_hand, arm_->listeners()) : of_hand;
-  }
-
- private:
-  /// What lay between the last two commands, which the guard took as the time of the step: by then the targets
-  /// shall be reached.
-  int64_t next_period(int64_t command_us) {
-    if (command_us_) period_us_ = std::clamp(command_us - *command_us_, kShortestPeriodUs, kLongestPeriodUs);
-    command_us_ = command_us;
-    return period_us_;
-  }
-
-  DdsParticipant participant_;
-  DdsWriter<ros::JointTrajectory> hand_, wrist_;
-  std::optional<DdsWriter<ros::PoseStamped>> arm_;
-  std::optional<int64_t> arrived_ns_, command_us_;
-  int64_t period_us_ = kFirstPeriodUs;
-  int64_t sent_ = 0;
-};
-
 DdsSink::DdsSink(int domain, const DdsSinkOptions& options)
-    : writers_(std::make_unique<Writers>(domain, options)) {}
-
-DdsSink::~DdsSink() = default;
-
-void DdsSink::frame_arrived(int64_t system_us) {
-  writers_->frame_arrived(system_us);
+    : participant_(domain, options.access),
+      hand_(participant_, options.topics.hand),
+      wrist_(participant_, options.topics.wrist),
+      period_us_(kFirstPeriodUs) {
+  if (options.arm) arm_.emplace(participant_, options.topics.arm);
 }
 
 void DdsSink::send(const RobotCommand& command) {
-  writers_->send(command);
+  const int64_t source_ns = std::exchange(arrived_ns_, std::nullopt).value_or(dds_time());
+  const int64_t period_us = next_period(command.timestamp_us);
+  // What is sent is to be followed: a lost hand is silence, at which a server holds and then stops.
+  if (command.hold || !command.targets) return;
+  hand_.write(hand_message(command, period_us), source_ns);
+  wrist_.write(wrist_message(command, period_us), source_ns);
+  if (arm_) arm_->write(pose_message(command), source_ns);
+  ++sent_;
 }
 
 void DdsSink::finish() {
-  writers_->finish();
-}
-
-int64_t DdsSink::sent() const {
-  return writers_->sent();
+  const int64_t end_ns = dds_time() + static_cast<int64_t>(kFarewell * 1e9);
+  const auto left_s = [&] { return std::max(0.0, static_cast<double>(end_ns - dds_time()) * 1e-9); };
+  hand_.wait_for_listeners(left_s());
+  wrist_.wait_for_listeners(left_s());
+  if (arm_) arm_->wait_for_listeners(left_s());
 }
 
 int DdsSink::listeners() const {
-  return writers_->listeners();
+  const int of_hand = std::min(hand_.listeners(), wrist_.listeners());
+  return arm_ ? std::min(of_hand, arm_->listeners()) : of_hand;
+}
+
+/// What lay between the last two commands, which the guard took as the time of the step: by then the targets shall
+/// be reached.
+int64_t DdsSink::next_period(int64_t command_us) {
+  if (command_us_) period_us_ = std::clamp(command_us - *command_us_, kShortestPeriodUs, kLongestPeriodUs);
+  command_us_ = command_us;
+  return period_us_;
 }
 
 }  // namespace glovebench

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/robot/server/ros_messages.h"
+#include "core/robot/server/command_messages.h"
 
 namespace glovebench {
 

@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 namespace {
@@ -23,7 +23,7 @@ class MemoryFile {
  public:
   explicit MemoryFile(std::string_view content = "") : descriptor_(memfd_create("openssl", MFD_CLOEXEC)) {
     check_system(descriptor_ < 0 ? errno : 0);
-    check_system(write_all(descriptor_, content));
+    check_system(write_all(descriptor_, content).error);
     lseek(descriptor_, 0, SEEK_SET);
   }
   ~MemoryFile() { close(descriptor_); }

@@ -1,9 +1,7 @@
 #include "core/robot/dds/security_keys.h"
 
-#include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,9 +11,11 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/file_set.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
+#include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/openssl.h"
-#include "core/robot/dds/topics.h"
 
 namespace glovebench {
 namespace {
@@ -39,28 +39,12 @@ std::string utc(int64_t time_s) {
   throw Error(path, what, std::strerror(errno), expected);
 }
 
-/// Whoever may read the folder reads all but what has mode 0600.
-void write_new_file(const std::string& path, std::string_view content, mode_t mode) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-  if (file < 0) refuse(path, "file", "a new one");
-  bool fine = true;
-  while (fine && !content.empty()) {
-    const ssize_t count = write(file, content.data(), content.size());
-    fine = count > 0;
-    if (fine) content.remove_prefix(static_cast<size_t>(count));
-  }
-  fine = fine && fsync(file) == 0;
-  fine = close(file) == 0 && fine;
-  if (!fine) refuse(path, "file", "room for it");
-}
-
-// Working files of `openssl ca`, in a folder of their own that goes at the end.
-constexpr const char* kWork = "work";
+// Of `openssl ca`, which keeps files of its own beside it.
 constexpr const char* kSettings = R"([ca]
 default_ca = own
 [own]
-database = work/index
-new_certs_dir = work
+database = index
+new_certs_dir = .
 default_md = sha256
 policy = name
 rand_serial = yes
@@ -88,34 +72,31 @@ std::string made_by_openssl(const std::string& folder, const std::vector<std::st
   return result.output;
 }
 
-/// Makes keys with certificates, and signs documents, in a folder.
+/// Makes keys with certificates, and signs documents. `openssl` works in a folder of its own.
 class Authority {
  public:
   /// Its own certificate is NAME.pem.
-  Authority(const std::string& folder, const std::string& name, const std::string& common_name,
+  Authority(const std::string& folder, WholeFiles& keys, const std::string& name, const std::string& common_name,
             const Validity& validity)
-      : folder_(folder), certificate_(name + ".pem"), key_(new_key()) {
+      : folder_(folder), keys_(keys), certificate_(name + ".pem"), key_(new_key()) {
     certify(certificate_, common_name, validity, key_, {"-selfsign", "-extensions", "authority"});
   }
 
   /// NAME.pem and NAME.key.
   void issue(const std::string& name, const std::string& common_name, const Validity& validity) const {
     const std::string key = new_key();
-    write_new_file(folder_ + "/" + name + ".key", key, kSecret);
+    keys_.add(name + ".key", key, kSecret);
     certify(name + ".pem", common_name, validity, key, {"-cert", certificate_, "-extensions", "holder"});
   }
 
   /// The document as S/MIME: in the clear, with a signature beside it.
   void sign(const std::string& file, const std::string& document) const {
-    const std::string clear = fmt::format("{}/{}", kWork, file);
-    write_new_file(folder_ + "/" + clear, document, kPublic);
+    write_file(folder_ + "/" + file, document);
     // DDS Security wants a text/plain part.
-    write_new_file(folder_ + "/" + file,
-                   made_by_openssl(folder_,
-                                   {"smime", "-sign", "-text", "-md", "sha256", "-signer", certificate_, "-inkey",
-                                    "/dev/stdin", "-in", clear},
-                                   key_),
-                   kPublic);
+    keys_.add(file, made_by_openssl(folder_,
+                                    {"smime", "-sign", "-text", "-md", "sha256", "-signer", certificate_, "-inkey",
+                                     "/dev/stdin", "-in", file},
+                                    key_));
   }
 
  private:
@@ -125,18 +106,16 @@ class Authority {
 
   void certify(const std::string& file, const std::string& common_name, const Validity& validity,
                const std::string& key, const std::vector<std::string>& how) const {
-    const std::string settings = fmt::format("{}/settings", kWork), request = fmt::format("{}/{}", kWork, file);
-    write_new_file(
-        folder_ + "/" + request,
-        made_by_openssl(folder_,
-                        {"req", "-new", "-config", settings, "-subj", "/CN=" + common_name, "-key", "/dev/stdin"},
-                        key),
-        kPublic);
+    const std::string request = file + ".request";
+    write_file(folder_ + "/" + request, made_by_openssl(folder_,
+                                                        {"req", "-new", "-config", "settings", "-subj",
+                                                         "/CN=" + common_name, "-key", "/dev/stdin"},
+                                                        key));
     std::vector<std::string> arguments = {"ca",
                                           "-batch",
                                           "-notext",
                                           "-config",
-                                          settings,
+                                          "settings",
                                           "-keyfile",
                                           "/dev/stdin",
                                           "-in",
@@ -146,24 +125,28 @@ class Authority {
                                           "-enddate",
                                           date(validity.end_s)};
     arguments.insert(arguments.end(), how.begin(), how.end());
-    write_new_file(folder_ + "/" + file, made_by_openssl(folder_, arguments, key_), kPublic);
+    const std::string certificate = made_by_openssl(folder_, arguments, key_);
+    write_file(folder_ + "/" + file, certificate);  // `openssl` reads that of an authority again
+    keys_.add(file, certificate);
   }
 
   static std::string date(int64_t time_s) {
     return fmt::format("{:%Y%m%d%H%M%S}Z", fmt::gmtime(static_cast<time_t>(time_s)));
   }
 
-  static constexpr mode_t kPublic = 0644, kSecret = 0600;
-  std::string folder_, certificate_, key_;
+  static constexpr mode_t kSecret = 0600;
+  std::string folder_;
+  WholeFiles& keys_;
+  std::string certificate_, key_;
 };
 
-void write_all(const std::string& folder, const Validity& validity, const std::map<std::string, Validity>& others) {
-  const std::string work = folder + "/" + kWork;
-  fs::create_directory(work);
-  write_new_file(work + "/settings", kSettings, 0600);
-  write_new_file(work + "/index", "", 0600);
-  const Authority identities(folder, "identity_ca", "glovebench identities", validity);
-  const Authority permissions(folder, "permissions_ca", "glovebench permissions", validity);
+void make_all(const std::string& folder, const Validity& validity, const std::map<std::string, Validity>& others) {
+  WholeFiles keys(folder);
+  const std::string work = folder + "/work";
+  write_file(work + "/settings", kSettings);
+  write_file(work + "/index", "");
+  const Authority identities(work, keys, "identity_ca", "glovebench identities", validity);
+  const Authority permissions(work, keys, "permissions_ca", "glovebench permissions", validity);
   permissions.sign("governance.p7s", governance_document());
   for (const SecurityRole& role : security_roles()) {
     const auto other = others.find(role.name);
@@ -172,6 +155,7 @@ void write_all(const std::string& folder, const Validity& validity, const std::m
     permissions.sign(role.name + ".p7s", permissions_document(role, its));
   }
   fs::remove_all(work);
+  keys.commit();
 }
 
 /// The files of a folder of keys, which `openssl` reads there.
@@ -243,8 +227,7 @@ const std::vector<SecurityRole>& security_roles() {
         {"sender",
          {own.hand, own.wrist, own.arm, controller.hand, controller.wrist, controller.arm},
          {own.joint_states, controller.joint_states, measured}},
-        {"hand", {own.joint_states}, {own.hand, own.wrist, own.joint_states, measured}},
-        {"arm", {own.joint_states}, {own.arm, own.joint_states, measured}},
+        {"server", {own.joint_states}, {own.hand, own.wrist, own.arm, own.joint_states, measured}},
         {"robot",
          {measured, controller.joint_states},
          {own.joint_states, controller.hand, controller.wrist, controller.arm}},
@@ -320,8 +303,7 @@ void make_security_keys(const std::string& folder, const Validity& validity,
   std::string made = whole.string() + ".XXXXXX";
   if (!mkdtemp(made.data())) refuse(folder, "folder", "a place for a new folder");  // mode 0700
   try {
-    write_all(made, validity, others);
-    sync_folder(made);
+    make_all(made, validity, others);
     if (rename(made.c_str(), whole.c_str()) != 0)
       refuse(folder, "folder", "none, or an empty one: keys are not replaced");
     sync_folder(whole.parent_path().string());
@@ -342,6 +324,9 @@ std::string security_configuration(const std::string& folder, const std::string&
     throw Error(from.string(), "folder", "one of < > & \" ' $ in its path", "none of them");
   const KeyFolder keys(from);
   const std::string certificate = role + ".pem", key = role + ".key", rights = role + ".p7s";
+  if (!fs::exists(from / certificate) && fs::exists(from / "hand.pem"))
+    throw Error(folder, "keys", "those of an older version, without " + certificate,
+                "new ones of robot-server keys");
   for (const std::string& file : {std::string("identity_ca.pem"), std::string("permissions_ca.pem"),
                                   std::string("governance.p7s"), certificate, key, rights})
     keys.check_readable(file);

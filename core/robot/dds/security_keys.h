@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// DDS Security among `track`, the servers, a robot's driver and those who watch: files that say who may do what.
+/// DDS Security among `track`, the server, a robot's driver and those who watch: files that say who may do what.
 /// X.509 certificates and S/MIME signatures by the program `openssl`: EC P-256 keys, SHA-256, PEM.
 namespace glovebench {
 
@@ -20,7 +20,7 @@ struct SecurityRole {
   std::string name;
   std::vector<std::string> writes, reads;
 };
-/// `sender` (track), `hand` and `arm` (servers), `robot` (a driver that measures the joints), `observer`.
+/// `sender` (track), `server`, `robot` (a driver that measures the joints), `observer`.
 const std::vector<SecurityRole>& security_roles();
 
 /// What protects the bus: everybody must prove who he is, and everything is encrypted, with proof of its origin.
@@ -29,9 +29,10 @@ std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
 /// Makes a folder, mode 0700, with two authorities' certificates (`identity_ca.pem`, `permissions_ca.pem`), their
-/// signed `governance.p7s`, and for each role NAME.pem, NAME.key (mode 0600) and NAME.p7s. The authorities' private
-/// keys are never on a disk: who needs another role or more time makes another folder. `others`: roles with another
-/// validity. Throws Error if the folder exists and is not empty, or cannot be made.
+/// signed `governance.p7s`, and for each role NAME.pem, NAME.key (mode 0600) and NAME.p7s: one set of files
+/// (core/base/file_set.h), with a manifest of mode 0600. The authorities' private keys are never on a disk: who
+/// needs another role or more time makes another folder. `others`: roles with another validity. Throws Error if the
+/// folder exists and is not empty, or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});
 

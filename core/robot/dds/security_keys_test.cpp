@@ -8,7 +8,9 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/file_set.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -65,7 +67,10 @@ TEST_F(SecurityKeys, AreCompleteAndPrivate) {
                 HasSubstr("/" + role.name + ".p7s</Permissions>"));
   }
   const auto count = std::distance(fs::directory_iterator(path("keys")), fs::directory_iterator());
-  EXPECT_EQ(count, 3 + 3 * std::ssize(security_roles())) << "and no key of an authority";
+  EXPECT_EQ(count, 3 + 3 * std::ssize(security_roles()) + 1) << "with a manifest, and no key of an authority";
+  EXPECT_EQ(mode(path("keys/manifest.json")), 0600) << "it has hashes of private keys";
+  const FileSet keys(path("keys"));
+  EXPECT_EQ(keys.read("sender.key"), read_file(path("keys/sender.key")));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left over";
 }
 
@@ -97,9 +102,9 @@ TEST_F(SecurityKeys, HoldForTheirTime) {
                     HasSubstr("expected one that holds now")));
   EXPECT_THAT(fault(kGood.end_s + 1),
               HasSubstr("/identity_ca.pem: certificate: found one that expired 2027-01-16 "));
-  make_security_keys(path("mixed"), kGood, {{"hand", {kNow - kDay, kNow - 1}}});
+  make_security_keys(path("mixed"), kGood, {{"server", {kNow - kDay, kNow - 1}}});
   EXPECT_NO_THROW(security_configuration(path("mixed"), "sender", kNow));
-  EXPECT_THROW(security_configuration(path("mixed"), "hand", kNow), Error);
+  EXPECT_THROW(security_configuration(path("mixed"), "server", kNow), Error);
 }
 
 TEST_F(SecurityKeys, NameWhatIsWrong) {
@@ -107,7 +112,7 @@ TEST_F(SecurityKeys, NameWhatIsWrong) {
   const auto other = [&](const std::string& name) { return read_file(path("others/") + name); };
   const auto own = [&](const std::string& name) { return read_file(path("keys/") + name); };
   EXPECT_THAT(
-      fault_with("sender.key", own("hand.key")),
+      fault_with("sender.key", own("server.key")),
       AllOf(HasSubstr("/sender.key: private key: found another one, expected that of "), HasSubstr("/sender.pem")));
   EXPECT_THAT(fault_with("sender.key", own("sender.pem")), HasSubstr("/sender.key: private key: found none"));
   EXPECT_THAT(fault_with("sender.pem", other("sender.pem")),

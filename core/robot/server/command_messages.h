@@ -1,14 +1,85 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.h"
 #include "core/robot/robot_command.h"
-#include "core/robot/server/receipt.h"
-#include "core/robot/server/ros_messages.h"
+
+/// The messages of ROS that hand and arm speak, as plain structs: what any middleware brings, unchecked.
+namespace glovebench::ros {
+
+/// builtin_interfaces/Time and Duration
+struct Time {
+  int32_t sec = 0;
+  uint32_t nanosec = 0;
+};
+
+/// trajectory_msgs/JointTrajectoryPoint. Velocities, accelerations and efforts are neither sent nor heeded.
+struct JointTrajectoryPoint {
+  std::vector<double> positions;  ///< rad
+  Time time_from_start;
+};
+
+/// trajectory_msgs/JointTrajectory
+struct JointTrajectory {
+  Time stamp;
+  std::string frame_id;
+  std::vector<std::string> joint_names;
+  std::vector<JointTrajectoryPoint> points;
+};
+
+/// geometry_msgs/PoseStamped
+struct PoseStamped {
+  Time stamp;
+  std::string frame_id;
+  double x = 0, y = 0, z = 0;  ///< m
+  double qx = 0, qy = 0, qz = 0, qw = 1;
+};
+
+/// sensor_msgs/JointState. Efforts are not known and left out.
+struct JointState {
+  Time stamp;
+  std::vector<std::string> name;
+  std::vector<double> position;  ///< rad
+  std::vector<double> velocity;  ///< rad/s
+};
+
+}  // namespace glovebench::ros
 
 namespace glovebench {
+
+/// What became of a message that a server of the robot received, in the order in which it is judged.
+enum class Receipt {
+  foreign,       ///< another sender owns the stream
+  bad_time,      ///< a time before 1970, or with a second and more of nanoseconds
+  wrong_joints,  ///< its joints are not exactly those of the topic, each once, in any order
+  wrong_points,  ///< not exactly one point, or not one position for each joint
+  wrong_frame,   ///< a pose in another frame than the arm's base
+  not_finite,    ///< a position is no finite number
+  not_rotation,  ///< the quaternion has not the length 1
+  stale,         ///< older than the time of silence, or it waited through a gap
+  starting,      ///< its stream has not yet shown for 0.2 s that it is a live one
+  went_back,     ///< its stamp is not after that of its sender's last message
+  accepted,
+};
+constexpr auto names_of(Receipt) {
+  return std::to_array<std::string_view>({"foreign", "bad_time", "wrong_joints", "wrong_points", "wrong_frame",
+                                          "not_finite", "not_rotation", "stale", "starting", "went_back",
+                                          "accepted"});
+}
+
+/// What a server of the robot sends to its joints, and so where they stand.
+struct RobotState {
+  int64_t clock_us = 0;  ///< of the server, which does not go back
+  CommandState state = CommandState::stopped;
+  std::vector<double> position;  ///< rad
+  std::vector<double> velocity;  ///< rad/s, since the state before; zero at first
+};
 
 /// The frame in which the arm takes poses.
 inline constexpr const char* kBaseFrame = "base_link";

@@ -1,11 +1,22 @@
 #include "core/robot/server/log_writer.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <utility>
 
-#include "core/robot/server/log_file.h"
+#include "core/base/error.h"
+#include "core/base/whole_file.h"
 
 namespace glovebench {
 namespace {
@@ -13,12 +24,54 @@ namespace {
 constexpr size_t kMostBytes = 4 << 20;  // that wait: half a minute of a busy log
 constexpr std::chrono::seconds kFarewell{2}, kSyncPeriod{1};
 
+/// Locks a file, for as long as it is open.
+void lock_file(int descriptor, const std::string& path) {
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return;
+  if (errno == EWOULDBLOCK)
+    throw Error(path, "log", "another server that is writing it", "a log of its own for each server");
+  throw Error(path, "log", std::strerror(errno), "a file that can be locked");
+}
+
+bool ends_within_a_line(int descriptor) {
+  char last = '\n';
+  const off_t size = lseek(descriptor, 0, SEEK_END);
+  return size > 0 && pread(descriptor, &last, 1, size - 1) == 1 && last != '\n';
+}
+
 }  // namespace
 
-struct LogWriter::Shared {
-  explicit Shared(const std::string& path) : file(path) {}
+int64_t changed_us(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) throw Error(path, "log", std::strerror(errno), "a file");
+  return int64_t{status.st_mtim.tv_sec} * 1'000'000 + status.st_mtim.tv_nsec / 1000;
+}
 
-  GrowingFile file;  ///< the thread's own
+std::string read_tail(const std::string& path, uint64_t max_bytes) {
+  if (!std::filesystem::is_regular_file(path)) return "";
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<int64_t>(file.tellg());
+  const int64_t length = std::min(size, static_cast<int64_t>(max_bytes));
+  std::string text(static_cast<size_t>(std::max<int64_t>(length, 0)), '\0');
+  file.seekg(size - length);
+  file.read(text.data(), length);
+  if (!file) throw Error(path, "file", "nothing that can be read", "a file");
+  return text;
+}
+
+struct LogWriter::Shared {
+  explicit Shared(const std::string& path);
+  ~Shared() { ::close(descriptor); }
+  Shared(const Shared&) = delete;
+  Shared& operator=(const Shared&) = delete;
+
+  /// Writes one line or more, given without the last line end. Returns how many were lost, and why.
+  std::pair<int64_t, int> append(const std::string& lines);
+
+  // The thread's own.
+  int descriptor;
+  bool is_regular = false;
+  bool is_cut = false;  ///< the file does not end with a whole line
+
   mutable std::mutex mutex;
   std::condition_variable changed;
   std::string waiting;  ///< lines, without the last line end
@@ -27,8 +80,35 @@ struct LogWriter::Shared {
   Progress progress;
 };
 
+LogWriter::Shared::Shared(const std::string& path)
+    : descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
+  if (descriptor < 0) throw Error(path, "file", std::strerror(errno), "one that can be appended to");
+  struct stat status {};
+  is_regular = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  if (!is_regular) return;
+  try {
+    lock_file(descriptor, path);
+    sync_folder(folder_above(find_output(path).path));
+  } catch (const Error&) {
+    ::close(descriptor);
+    throw;
+  }
+  is_cut = ends_within_a_line(descriptor);
+}
+
+std::pair<int64_t, int> LogWriter::Shared::append(const std::string& lines) {
+  const std::string whole = (is_cut ? "\n" : "") + lines + "\n";
+  const Written written = write_all(descriptor, whole);
+  if (written.bytes > 0) is_cut = whole[written.bytes - 1] != '\n';
+  if (written.error == 0) return {0, 0};
+  futimens(descriptor, nullptr);  // takes no room, and tells the next reader that there was more
+  int64_t lost = std::ranges::count(whole.substr(written.bytes), '\n');
+  if (written.bytes == 0 && whole.front() == '\n') --lost;  // that end is of a line that was lost before
+  return {lost, written.error};
+}
+
 LogWriter::LogWriter(const std::string& path) : shared_(std::make_shared<Shared>(path)) {
-  thread_ = std::thread([shared = shared_] { write_all(shared); });
+  thread_ = std::thread([shared = shared_] { write_lines(shared); });
 }
 
 LogWriter::~LogWriter() {
@@ -72,7 +152,7 @@ LogWriter::Progress LogWriter::progress() const {
   return shared_->progress;
 }
 
-void LogWriter::write_all(const std::shared_ptr<Shared>& shared) {
+void LogWriter::write_lines(const std::shared_ptr<Shared>& shared) {
   auto synced = std::chrono::steady_clock::now();
   std::unique_lock lock(shared->mutex);
   for (;;) {
@@ -82,18 +162,18 @@ void LogWriter::write_all(const std::shared_ptr<Shared>& shared) {
     const uint64_t number = shared->pushed;
     bool sync = std::exchange(shared->urgent, false) || last;
     lock.unlock();
-    const int64_t lost = shared->file.lost();
-    const bool written = lines.empty() || shared->file.append(lines);
+    auto [lost, error] = lines.empty() ? std::pair<int64_t, int>() : shared->append(lines);
     const auto now = std::chrono::steady_clock::now();
     sync |= now - synced >= kSyncPeriod;
     if (sync) synced = now;
-    const bool fine = (!sync || shared->file.sync()) && written;
+    if (const int failed = sync ? sync_file(shared->descriptor) : 0; error == 0) error = failed;
     lock.lock();
-    shared->progress.done = number;
-    if (!fine) shared->progress.failed = number;
-    if (fine && sync) shared->progress.durable = number;
-    shared->progress.lost += shared->file.lost() - lost;
-    if (shared->progress.failure.empty()) shared->progress.failure = shared->file.failure();
+    Progress& progress = shared->progress;
+    progress.done = number;
+    progress.lost += lost;
+    if (error != 0) progress.failed = number;
+    if (error == 0 && sync && shared->is_regular) progress.durable = number;
+    if (error != 0 && progress.failure.empty()) progress.failure = std::strerror(error);
     if (!last) continue;
     shared->ended = true;
     shared->changed.notify_all();

@@ -8,7 +8,9 @@
 #include <chrono>
 #include <filesystem>
 
-#include "core/base/file.h"
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -50,6 +52,55 @@ TEST_F(LogWriterTest, AFullDiskIsToldOfAndNothingIsOnIt) {
   EXPECT_EQ(writer.progress().durable, 0U);
   EXPECT_EQ(writer.progress().lost, 1);
   EXPECT_THAT(writer.progress().failure, HasSubstr("space"));
+}
+
+TEST_F(LogWriterTest, APipeOrADeviceIsNeverOnTheDisk) {
+  ASSERT_EQ(mkfifo(path_.c_str(), 0600), 0);
+  for (const std::string& path : {path_, std::string("/dev/null")}) {
+    LogWriter writer(path);
+    writer.push("one", true);
+    writer.finish();
+    EXPECT_EQ(writer.progress().done, 1U) << path;
+    EXPECT_EQ(writer.progress().lost, 0) << path;
+    EXPECT_EQ(writer.progress().durable, 0U) << path;
+  }
+}
+
+TEST_F(LogWriterTest, IsTheOnlyOneOfItsFile) {
+  {
+    LogWriter first(path_);
+    EXPECT_THROW(LogWriter{path_}, Error);
+    first.push("one");
+  }
+  LogWriter(path_).push("two");
+  EXPECT_EQ(read_file(path_), "one\ntwo\n");
+  const LogWriter device("/dev/null"), again("/dev/null");
+}
+
+TEST_F(LogWriterTest, GrowsAndMendsWhatWasCutOff) {
+  write_file(path_, "{\"event\":\"st");
+  {
+    LogWriter writer(path_);
+    writer.push("one");
+    writer.push("two");
+  }
+  LogWriter(path_).push("three");
+  EXPECT_EQ(read_file(path_), "{\"event\":\"st\none\ntwo\nthree\n");
+  EXPECT_EQ(read_tail(path_, 6), "three\n");
+  EXPECT_EQ(read_tail(path_, 1000), read_file(path_));
+  EXPECT_EQ(read_tail(path_ + "x", 10), "");
+}
+
+TEST_F(LogWriterTest, CountsWhatAFullDiskDoesNotTake) {
+  LogWriter writer("/dev/full");
+  writer.push("one");
+  EXPECT_TRUE(comes_true([&] { return writer.progress().lost == 1; }));
+  writer.push("two");
+  writer.push("three");
+  writer.finish();
+  EXPECT_EQ(writer.progress().lost, 3);
+  EXPECT_EQ(read_tail("/dev/full", 10), "");
+  EXPECT_THROW(LogWriter("/nowhere/log"), Error);
 }
 
 TEST_F(LogWriterTest, ADiskThatHangsHoldsNobodyUp) {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/base/angles.h"
-#include "core/robot/server/log_file.h"
 
 namespace glovebench {
 namespace {

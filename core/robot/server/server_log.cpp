@@ -68,16 +68,22 @@ std::vector<double> read_angles(const nlohmann::json& line, const char* key, con
   if (!line.contains(key) || !line[key].is_object())
     throw Error(path, field, fmt::format("no object {}", key), "a line of this server");
   const nlohmann::json& angles = line[key];
+  const auto require = [&](bool fine, const std::string& found) {
+    if (fine) return;
+    throw Error(
+        path, field, found,
+        fmt::format("the {} joints that are served, and no others. Look where the joints stand; if at rest: "
+                    "another --log",
+                    names.size()));
+  };
   std::vector<double> positions;
   for (const std::string& name : names) {
-    if (!angles.contains(name) || !angles[name].is_number())
-      throw Error(path, field, "no angle of " + name, fmt::format("those of its {} joints", names.size()));
+    require(angles.contains(name) && angles[name].is_number(), "no angle of " + name);
     const double angle_deg = angles[name].get<double>();
     if (!(std::abs(angle_deg) <= 360)) throw Error(path, name, fmt::format("{}", angle_deg), "-360 to 360 degrees");
     positions.push_back(radians_from_degrees(angle_deg));
   }
-  if (angles.size() != names.size())
-    throw Error(path, field, fmt::format("{} joints", angles.size()), fmt::format("{}", names.size()));
+  require(angles.size() == names.size(), fmt::format("{} joints", angles.size()));
   return positions;
 }
 

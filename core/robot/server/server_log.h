@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/robot/server/receipt.h"
-#include "core/robot/server/robot_state.h"
+#include "core/robot/server/command_messages.h"
 #include "core/robot/server/stated_interval.h"
 
 namespace glovebench {

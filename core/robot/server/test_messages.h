@@ -1,6 +1,6 @@
 #pragma once
 
-// Messages for the tests of the servers. Not part of the library.
+// Messages for the tests of the server. Not part of the library.
 
 #include "core/base/angles.h"
 #include "core/robot/server/command_messages.h"

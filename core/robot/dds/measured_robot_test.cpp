@@ -1,13 +1,13 @@
-#include "core/robot/dds/measured_joints.h"
+#include "core/robot/dds/measured_robot.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <memory>
 
+#include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/test_bus.h"
 #include "core/robot/dds/test_peers.h"
-#include "core/robot/dds/topics.h"
 #include "core/robot/server/test_messages.h"
 
 namespace glovebench {

@@ -1,4 +1,5 @@
-#include "core/robot/server/hand_server.h"
+// A server of the hand; robot_server_arm_test.cpp has those with an arm.
+#include "core/robot/server/robot_server.h"
 
 #include <gmock/gmock.h>
 
@@ -24,19 +25,19 @@ constexpr double kHandRounding = 1e-12;
 class HandServerTest : public testing::Test {
  protected:
   Receipt fingers(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
-    return receive(HandTopic::fingers, trajectory_message(hand_trajectory_names(), angle_deg, stamp_us), sender);
+    return receive(RobotTopic::fingers, trajectory_message(hand_trajectory_names(), angle_deg, stamp_us), sender);
   }
   /// The first finger's J3 alone; all others at 0.
   Receipt first_finger(double angle_deg, int64_t stamp_us) {
     ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 0, stamp_us);
     message.points[0].positions[kFFJ3] = radians_from_degrees(angle_deg);
-    return receive(HandTopic::fingers, message);
+    return receive(RobotTopic::fingers, message);
   }
   Receipt wrist(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
-    return receive(HandTopic::wrist, trajectory_message(wrist_trajectory_names(), angle_deg, stamp_us), sender);
+    return receive(RobotTopic::wrist, trajectory_message(wrist_trajectory_names(), angle_deg, stamp_us), sender);
   }
   /// Sent `age_us` ago, by a sender whose clock is right.
-  Receipt receive(HandTopic topic, const ros::JointTrajectory& message, uint64_t sender = kFirst,
+  Receipt receive(RobotTopic topic, const ros::JointTrajectory& message, uint64_t sender = kFirst,
                   int64_t age_us = 0) {
     return server_.receive(topic, message, {sender, (now_us_ - age_us) * 1000, now_us_});
   }
@@ -76,11 +77,11 @@ class HandServerTest : public testing::Test {
     std::ranges::copy(state.position, joints.begin());
     return TestFingertips(joints).in_forearm();
   }
-  int64_t count(Receipt receipt) const { return server_.stream().receipts()[static_cast<size_t>(receipt)]; }
+  int64_t count(Receipt receipt) const { return server_.stream().count(receipt); }
 
   CommandLimits limits_;
   std::vector<double> start_ = std::vector<double>(kShadowJointCount, 0.0);
-  HandServer server_{limits_, {start_}};
+  RobotServer server_{limits_, {}, {start_}};
   int64_t now_us_ = 5'000'000;
   RobotState last_{0, CommandState::stopped, start_, {}};
 };
@@ -125,13 +126,13 @@ TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
 TEST(HandServer, SplitsByTheCouplingThatItIsTold) {
   CommandLimits limits;
   limits.coupling = ShadowCoupling::even;
-  HandServer server(limits, {std::vector<double>(kShadowJointCount, 0.0)});
+  RobotServer server(limits, {}, {std::vector<double>(kShadowJointCount, 0.0)});
   ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 0, 1);
   message.points[0].positions[kMFJ2] = 1;
   RobotState state;
   for (int64_t now_us = 10'000; now_us < 2'000'000; now_us += 10'000) {
     message.stamp = test_stamp(now_us);
-    server.receive(HandTopic::fingers, message, {kFirst, now_us * 1000, now_us});
+    server.receive(RobotTopic::fingers, message, {kFirst, now_us * 1000, now_us});
     state = server.tick({now_us, kEpochUs + now_us});
   }
   EXPECT_EQ(state.position[kMFJ1], 0.5);
@@ -142,7 +143,7 @@ TEST(HandServer, StartsWithAFingerThatTouchesSomething) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ2] = 1;
   start[kFFJ1] = 0.5;
-  HandServer server({}, {start});
+  RobotServer server({}, {}, {start});
   EXPECT_EQ(server.tick({1, kEpochUs}).position, start) << "what was measured stays until the finger moves";
 }
 
@@ -192,7 +193,7 @@ TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
   ros::JointTrajectory bad = trajectory_message(hand_trajectory_names(), 80, 2000);
   bad.points[0].positions[5] = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < 10; ++i) {
-    EXPECT_EQ(receive(HandTopic::fingers, bad), Receipt::not_finite);
+    EXPECT_EQ(receive(RobotTopic::fingers, bad), Receipt::not_finite);
     EXPECT_EQ(fingers(80, 999), Receipt::went_back);
     EXPECT_EQ(fingers(80, 1000), Receipt::went_back) << "the same once more";
     EXPECT_EQ(tick().position, good.position);
@@ -249,7 +250,7 @@ TEST_F(HandServerTest, AnOwnerThatHasGoneIsFollowedByTheNext) {
 
 TEST_F(HandServerTest, BadMessagesDoNotMakeAnOwner) {
   start();
-  EXPECT_EQ(receive(HandTopic::fingers, ros::JointTrajectory(), kSecond), Receipt::wrong_joints);
+  EXPECT_EQ(receive(RobotTopic::fingers, ros::JointTrajectory(), kSecond), Receipt::wrong_joints);
   EXPECT_EQ(fingers(10, 1, kFirst), Receipt::accepted);
 }
 
@@ -277,7 +278,7 @@ TEST_F(HandServerTest, WhatWaitedThroughAStandstillMovesNothing) {
   now_us_ += 6'500'000;  // stopped; its sender is dead, and commands of 1.5 s wait
   const std::vector<double> stood = last_.position;
   for (int i = 0; i < 150; ++i)
-    EXPECT_NE(receive(HandTopic::fingers, trajectory_message(hand_trajectory_names(), 80, 11 + i), kFirst,
+    EXPECT_NE(receive(RobotTopic::fingers, trajectory_message(hand_trajectory_names(), 80, 11 + i), kFirst,
                       6'500'000 - i * 10'000),
               Receipt::accepted);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().position, stood);
@@ -306,8 +307,8 @@ TEST_F(HandServerTest, ALateCommandMovesNothing) {
   for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(5, i), Receipt::accepted);
   EXPECT_EQ(ticks(16).state, CommandState::holding);
   const ros::JointTrajectory message = trajectory_message(hand_trajectory_names(), 80, 20);
-  EXPECT_EQ(receive(HandTopic::fingers, message, kFirst, 151'000), Receipt::stale);
-  EXPECT_EQ(receive(HandTopic::fingers, message, kFirst, 120'000), Receipt::accepted);
+  EXPECT_EQ(receive(RobotTopic::fingers, message, kFirst, 151'000), Receipt::stale);
+  EXPECT_EQ(receive(RobotTopic::fingers, message, kFirst, 120'000), Receipt::accepted);
   EXPECT_EQ(tick().state, CommandState::following) << "it is 130 ms old";
   EXPECT_EQ(ticks(2).state, CommandState::following);
   EXPECT_EQ(tick().state, CommandState::holding) << "160 ms";
@@ -353,7 +354,7 @@ TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
       highest.push_back(radians_from_degrees(info.max_deg) + outwards);
     }
     for (const std::vector<double>& start : {lowest, highest}) {
-      const RobotState state = HandServer({}, {start}).tick({1, 1});
+      const RobotState state = RobotServer({}, {}, {start}).tick({1, 1});
       for (size_t j = 0; j < start.size(); ++j) {
         EXPECT_NEAR(state.position[j], start[j], rounding * 1.001);
         EXPECT_GE(state.position[j], radians_from_degrees(shadow_joint_infos()[j].min_deg));
@@ -364,14 +365,14 @@ TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ2] = 1;
   start[kFFJ1] = 1 + rounding;
-  EXPECT_EQ(HandServer({}, {start}).tick({1, 1}).position[kFFJ1], 1) << "not above J2";
+  EXPECT_EQ(RobotServer({}, {}, {start}).tick({1, 1}).position[kFFJ1], 1) << "not above J2";
 }
 
 TEST(HandServer, NamesWhatIsOutside) {
   std::vector<double> start(kShadowJointCount, 0.0);
   const auto error = [&]() -> std::string {
     try {
-      HandServer({}, {start, "hand.jsonl"});
+      RobotServer({}, {}, {start, "hand.jsonl"});
     } catch (const Error& e) {
       return e.what();
     }
@@ -387,14 +388,14 @@ TEST(HandServer, NamesWhatIsOutside) {
 TEST(HandServer, StartsWhereTheJointsStandIfThatIsAPlace) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ3] = 1;
-  HandServer server({}, {start});
+  RobotServer server({}, {}, {start});
   EXPECT_EQ(server.tick({1, 1}).position, start);
   EXPECT_THROW(server.tick({1, 1}), std::logic_error);
   start[kFFJ3] = 4;
-  EXPECT_THROW(HandServer({}, {start}), Error);
+  EXPECT_THROW(RobotServer({}, {}, {start}), Error);
   start[kFFJ3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(HandServer({}, {start}), Error);
-  EXPECT_THROW(HandServer({}, StartPlace{}), Error);
+  EXPECT_THROW(RobotServer({}, {}, {start}), Error);
+  EXPECT_THROW(RobotServer({}, {}, StartPlace{}), Error);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/base/file.h"
+#include "core/base/input_file.h"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/mapped_memory.h"
+#include "core/base/whole_file.h"
 #include "core/test_folder.h"
 
 namespace glovebench {

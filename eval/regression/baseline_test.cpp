@@ -1,0 +1,67 @@
+// Baselines and runs that are replaced while they are read.
+#include "eval/regression/baseline.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <thread>
+
+#include "core/base/hash.h"
+#include "core/test_folder.h"
+#include "reports/example_result.h"
+#include "reports/json_text.h"
+#include "reports/results_json.h"
+
+namespace glovebench::eval {
+namespace {
+
+/// A baseline of which every file holds a number: 1, 2, ...
+void write_baseline(const std::string& folder, int number) {
+  reports::RunResult result = reports::small_result();
+  result.commit = std::to_string(number);
+  const std::string results = reports::results_json(result);
+  const reports::StageTimes times = {"processor", 1, {{"align", static_cast<double>(number)}}};
+  WholeFiles files(folder);
+  files.add("results.json", results);
+  files.add("speed.json", reports::speed_json({{"look_up", 1.0 * number, 1.0 * number, 1.0 * number}}));
+  files.add("provenance.json", reports::format_json({{"format", "glovebench-provenance"},
+                                                     {"version", 1},
+                                                     {"results_hash", hash_text(results)},
+                                                     {"times", reports::stage_times_json(times)}}));
+  files.commit();
+}
+
+TEST(Baseline, that_is_replaced_while_it_is_read_does_not_mix) {
+  const TestFolder folder;
+  write_baseline(folder.path(), 1);
+  std::atomic<bool> is_done = false;
+  std::jthread writer([&] {
+    for (int number = 2; !is_done; ++number) write_baseline(folder.path(), number);
+  });
+  constexpr int kReads = 100;
+  for (int reads = 0; reads < kReads;) {
+    try {
+      const Baseline baseline = load_baseline(folder.path());
+      const double number = std::stod(baseline.run.results.result.commit);
+      EXPECT_EQ(baseline.speed.at(0).ratio, number);
+      EXPECT_EQ(baseline.times.stages.at(0).median_ms, number);
+      ++reads;
+    } catch (const reports::Incomparable&) {
+      // It was replaced twice since its manifest was read: its files are gone.
+    }
+  }
+  is_done = true;
+}
+
+TEST(StoredRun, that_was_replaced_since_is_not_read_on) {
+  const TestFolder folder;
+  write_baseline(folder.path(), 1);
+  const StoredRun run = load_run(folder.path());
+  EXPECT_EQ(load_stage_times(run.files).stages.at(0).median_ms, 1);
+  write_baseline(folder.path(), 2);
+  EXPECT_EQ(run.results.result.commit, "1");
+  EXPECT_THROW(load_stage_times(run.files), reports::Incomparable);
+}
+
+}  // namespace
+}  // namespace glovebench::eval
