@@ -138,7 +138,8 @@ void finish_write(const std::string& folder, const std::optional<Manifest>& mani
     std::string line;
     // Of another manifest, which never came into its place, the list is void.
     if (std::getline(lines, line) && line == hash_file(folder + "/" + kManifest))
-      while (std::getline(lines, line)) removed.push_back(line);
+      while (std::getline(lines, line))
+        if (!manifest->contains(line)) removed.push_back(line);
   }
   place_files(folder, added, removed);
 }

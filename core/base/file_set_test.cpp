@@ -267,7 +267,7 @@ TEST(WholeFiles, follow_no_link_out_of_the_folder) {
   // As after a kill between the manifest and the moves: of a new file, then of one that is removed.
   write_file(set + "/.staged/tables/a", "tables/a");
   EXPECT_THAT([&] { WholeFiles{set}; }, is_a_link);
-  write_file(set + "/.staged/.removed", "tables/a\n");
+  write_file(set + "/.staged/.removed", hash_text(manifest_json({})) + "\ntables/a\n");
   write_file(set + "/manifest.json", manifest_json({}));
   EXPECT_THAT([&] { WholeFiles{set}; }, is_a_link);
   EXPECT_EQ(read_file(elsewhere + "/a"), "tables/a");
@@ -289,7 +289,7 @@ TEST(WholeFiles, finish_a_write_that_was_interrupted) {
   write_file(folder / "only-old", "old");
   fs::create_directories(folder / ".staged");
   fs::rename(folder / "a", folder / ".staged/a");
-  write_file(folder / ".staged/.removed", "only-old\nb\n");
+  write_file(folder / ".staged/.removed", hash_file(folder / kManifest) + "\nonly-old\nb\n");
   { const WholeFiles next(folder.path()); }
   EXPECT_EQ(read_file(folder / "a"), "new a");
   EXPECT_FALSE(fs::exists(folder / "only-old"));
