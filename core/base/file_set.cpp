@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 /// Older manifests also have a `kind`, which nobody reads.
 constexpr const char* kFormat = "glovebench-manifest";
-/// Lines in the staging folder: the files that the write removes.
+/// Lines in the staging folder: the hash of the new manifest, then the files that the write removes.
 constexpr const char* kRemoved = ".removed";
 
 std::string staged_folder(const std::string& folder) {
@@ -135,8 +135,11 @@ void finish_write(const std::string& folder, const std::optional<Manifest>& mani
       added.push_back(name);
   if (const std::string path = staged + "/" + kRemoved; manifest && is_file(path)) {
     std::istringstream lines(read_regular_file(path, kLargestManifest));
-    for (std::string name; std::getline(lines, name);)
-      if (!manifest->contains(name)) removed.push_back(name);
+    std::string line;
+    // Of another manifest, which never came into its place, the list is void.
+    if (std::getline(lines, line) && line == hash_file(folder + "/" + kManifest))
+      while (std::getline(lines, line))
+        if (!manifest->contains(line)) removed.push_back(line);
   }
   place_files(folder, added, removed);
 }
@@ -199,7 +202,12 @@ std::optional<std::string> FileSet::as_written(const std::string& name, const Ma
 }
 
 std::string FileSet::read(const std::string& name, uint64_t max_bytes) const {
-  if (!manifest_) return read_regular_file(path(name), max_bytes);
+  if (!manifest_) {
+    std::string content = read_regular_file(path(name), max_bytes);
+    if (fs::exists(path(kManifest)))
+      throw BrokenSet(path(name), "file", "one of a set that was written meanwhile", "the folder as it was");
+    return content;
+  }
   const ManifestEntry* const named = entry(name);
   if (!named) throw BrokenSet(path(name), "file", "none that manifest.json names", "a file of the set");
   if (std::optional<std::string> content = as_written(name, *named, max_bytes)) return *std::move(content);
@@ -260,10 +268,11 @@ void WholeFiles::commit() {
   const std::string staged = staged_folder(folder_), manifest = folder_ + "/" + kManifest;
   // Before the manifest: afterwards an error could only be reported.
   for (const std::string& needed : folders_of(folder_, added_)) make_folders(needed);
-  std::string lines;
+  const std::string text = manifest_json(manifest_);
+  std::string lines = hash_text(text) + "\n";
   for (const std::string& name : removed_) lines += name + "\n";
   write_new_file(staged + "/" + kRemoved, lines, std::nullopt, mode_, manifest);
-  write_new_file(staged + "/" + kManifest, manifest_json(manifest_), file_in_place(manifest), mode_, manifest);
+  write_new_file(staged + "/" + kManifest, text, file_in_place(manifest), mode_, manifest);
   for (const std::string& changed : folders_of(staged, added_)) sync_folder(changed);
   if (std::rename((staged + "/" + kManifest).c_str(), manifest.c_str()) != 0)
     throw Error(manifest, "file", std::strerror(errno), "a file that can be replaced");

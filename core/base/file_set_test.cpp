@@ -27,6 +27,29 @@ void write_set(const std::string& folder, const std::vector<std::string>& names,
   files.commit();
 }
 
+TEST(WholeFiles, of_a_write_without_its_manifest_remove_nothing) {
+  const TestFolder folder;
+  const std::string set = folder / "set";
+  write_set(set, {"a"}, "content of ");
+  write_file(set + "/mine.csv", "by hand");
+  // A kill after the list of what is removed, before the manifest that goes with it.
+  write_file(set + "/.staged/.removed", hash_text("another manifest") + "\nmine.csv\n");
+  write_set(set, {"b"}, "content of ");
+  EXPECT_EQ(read_file(set + "/mine.csv"), "by hand");
+  EXPECT_FALSE(std::filesystem::exists(set + "/.staged"));
+}
+
+TEST(FileSet, without_a_manifest_does_not_mix_with_one_that_is_written_meanwhile) {
+  const TestFolder folder;
+  const std::string set = folder / "set";
+  write_file(set + "/a", "old");
+  const FileSet before(set);
+  EXPECT_EQ(before.read("a"), "old");
+  write_set(set, {"a"}, "content of ");
+  EXPECT_THROW(before.read("a"), BrokenSet);
+  EXPECT_EQ(FileSet(set).read("a"), "content of a");
+}
+
 TEST(WholeFiles, are_in_their_places_with_a_manifest_that_names_them) {
   const TestFolder folder;
   write_set(folder / "set", {"tables/a.csv", "b.json"}, "content of ");
@@ -244,7 +267,7 @@ TEST(WholeFiles, follow_no_link_out_of_the_folder) {
   // As after a kill between the manifest and the moves: of a new file, then of one that is removed.
   write_file(set + "/.staged/tables/a", "tables/a");
   EXPECT_THAT([&] { WholeFiles{set}; }, is_a_link);
-  write_file(set + "/.staged/.removed", "tables/a\n");
+  write_file(set + "/.staged/.removed", hash_text(manifest_json({})) + "\ntables/a\n");
   write_file(set + "/manifest.json", manifest_json({}));
   EXPECT_THAT([&] { WholeFiles{set}; }, is_a_link);
   EXPECT_EQ(read_file(elsewhere + "/a"), "tables/a");
@@ -266,7 +289,7 @@ TEST(WholeFiles, finish_a_write_that_was_interrupted) {
   write_file(folder / "only-old", "old");
   fs::create_directories(folder / ".staged");
   fs::rename(folder / "a", folder / ".staged/a");
-  write_file(folder / ".staged/.removed", "only-old\nb\n");
+  write_file(folder / ".staged/.removed", hash_file(folder / kManifest) + "\nonly-old\nb\n");
   { const WholeFiles next(folder.path()); }
   EXPECT_EQ(read_file(folder / "a"), "new a");
   EXPECT_FALSE(fs::exists(folder / "only-old"));

@@ -70,7 +70,8 @@ class RecordingWriter {
   /// Depth time stamps increase; a color time stamp equal to the one before means the same image again. Throws
   /// Error on time stamps that go back or are negative, and on images that no Kinect could give.
   void write(const DeviceFrame& frame);
-  /// Until then the folder is no recording. Throws Error if no frame was written.
+  /// Until then the folder is no recording: an error, a full disk or a kill leaves none of its frames. So this is
+  /// for frames that can be made again, not for a live camera. Throws Error if no frame was written.
   void finish();
 
  private:

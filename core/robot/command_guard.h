@@ -40,7 +40,7 @@ enum class GuardedPart {
 /// - all values are finite, joints of hand and arm within their limits, J1 and J2 of a finger as its motor moves
 /// them
 ///   (ShadowCoupling), each motor's target that of its joints, rotations are rotations, the hand's origin and its
-///   fingertips are in the workspace;
+///   fingertips are in the workspace, with an arm to 0.1 mm;
 /// - time stamps rise; frame stamps do not go back, unless the stream had stopped;
 /// - from one command to the next, joints, hand, fingertips and arm move no farther than their speeds allow in the
 ///   time between the two stamps, or in `longest_step_s` if that is shorter: so also after a stop. What would be
