@@ -12,11 +12,21 @@ int pool_of(int size, DatabaseMemory memory) {
   return memory == DatabaseMemory::low && size > FieldRows::kLargestFinePool ? kLargestPool : kLargestPool / 2;
 }
 
-/// The least of each `pool` neighbors along a row, every one a cell.
-void pool_row(std::array<uint8_t, kWidest + kLargestPool>& row, int pool, int cells, uint8_t* minima) {
+constexpr int kRow = kWidest + kLargestPool;  // bytes
+
+// Loops over bytes are vectorized only without what std::array checks of an index, and without std::min's
+// references.
+
+uint8_t lesser(uint8_t a, uint8_t b) {
+  return a < b ? a : b;
+}
+
+/// The least of each `pool` neighbors along a row of kRow bytes, every one a cell.
+void pool_row(uint8_t* row, int pool, int cells, uint8_t* minima) {
   for (int step = 1; step < pool; step *= 2) {
-    const auto before = row;  // apart, so that the loop is vectorized
-    for (int u = 0; u < kWidest; ++u) row[u] = std::min(before[u], before[u + step]);
+    uint8_t before[kRow];
+    std::copy_n(row, kRow, before);
+    for (int u = 0; u < kWidest; ++u) row[u] = lesser(before[u], before[u + step]);
   }
   for (int cell = 0; cell < cells; ++cell) minima[cell] = row[cell * pool];
 }
@@ -25,10 +35,10 @@ void pool_row(std::array<uint8_t, kWidest + kLargestPool>& row, int pool, int ce
 void pool_entry(const uint8_t* fields, int size, int pool, int cells, uint8_t* minima) {
   for (int color = 0; color < kColorCount; ++color) {
     for (int top = 0; top < size; top += pool, minima += cells) {
-      std::array<uint8_t, kWidest + kLargestPool> row;
-      row.fill(255);
+      uint8_t row[kRow];
+      std::ranges::fill(row, uint8_t{255});
       for (int v = top; v < std::min(size, top + pool); ++v, fields += size)
-        for (int u = 0; u < size; ++u) row[u] = std::min(row[u], fields[u]);
+        for (int u = 0; u < size; ++u) row[u] = lesser(row[u], fields[u]);
       pool_row(row, pool, cells, minima);
     }
   }
@@ -53,18 +63,24 @@ void FieldRows::put(int first, std::span<const uint8_t> fields) {
   for (size_t i = 0; i * row_count() < pooled.size(); ++i)
     pool_entry(&fields[i * entry_bytes], size_, pool_, cells_, &pooled[i * row_count()]);
   const uint8_t* const values = exact() ? fields.data() : pooled.data();
-  const auto place = [&](size_t row, int entry) -> uint8_t& {
-    return values_.writable()[entry / kBlock * block_bytes() + row * kBlock + entry % kBlock];
+  const size_t rows = row_count();
+  const auto place_of = [&](int entry) {
+    return values_.writable().data() + entry / kBlock * block_bytes() + entry % kBlock;
   };
   // A few rows of all entries at a time, which stay in the nearest cache.
-  for (size_t begin = 0; begin < row_count(); begin += kBlock)
-    for (size_t i = 0; i < count; ++i)
-      for (size_t row = begin; row < std::min(begin + kBlock, row_count()); ++row)
-        place(row, first + static_cast<int>(i)) = values[i * row_count() + row];
+  for (size_t begin = 0; begin < rows; begin += kBlock) {
+    const size_t end = std::min(begin + kBlock, rows);
+    for (size_t i = 0; i < count; ++i) {
+      const uint8_t* const from = values + i * rows;
+      uint8_t* const place = place_of(first + static_cast<int>(i));
+      for (size_t row = begin; row < end; ++row) place[row * kBlock] = from[row];
+    }
+  }
   const int last = entry_count_ - 1;
   if (first + static_cast<int>(count) <= last) return;
-  for (size_t row = 0; row < row_count(); ++row)
-    std::fill_n(&place(row, last), kBlock - last % kBlock, place(row, last));
+  uint8_t* const place = place_of(last);
+  for (size_t row = 0; row < rows; ++row)
+    std::fill_n(place + row * kBlock, kBlock - last % kBlock, place[row * kBlock]);
 }
 
 uint32_t FieldRows::sum(int entry, std::span<const WeightedRow> rows) const {
