@@ -128,7 +128,10 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x"),
                        "--frames", "-1"}),
               HasSubstr("--frames"));
-  EXPECT_THAT(refusal({"record", "--trajectory", good_trajectory(), "-o", path("x")}), HasSubstr("--database"));
+  EXPECT_THAT(refusal({"record", "--trajectory", good_trajectory(), "-o", path("x.json")}),
+              HasSubstr("--database"));
+  EXPECT_THAT(refusal({"record", "--trajectory", "Tr4", "--database", "DB_open_power", "-o", path("x")}),
+              AllOf(HasSubstr("--output"), HasSubstr("the ending .json")));
 }
 
 TEST_F(CommandLine, MissingTrajectoryFile) {

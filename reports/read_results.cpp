@@ -20,13 +20,6 @@ std::optional<double> read_value(const JsonCursor& json) {
   return json.number_or_null(0, kLargestError);
 }
 
-/// Names of experiments become names of files, that of a suite the name of its baseline's folder.
-std::string read_name(const JsonCursor& json) {
-  const std::string name = json.text();
-  if (!is_name(name)) json.fail(kNameExpected);
-  return name;
-}
-
 std::vector<std::string> read_texts(const JsonCursor& json) {
   std::vector<std::string> texts;
   for (const JsonCursor& item : json.items()) texts.push_back(item.text());
@@ -162,11 +155,11 @@ void read_aggregates(const JsonCursor& json, ExperimentResult& experiment) {
 ExperimentKey read_key(const JsonCursor& json) {
   json["noise"].expect_keys({"model", "factor"});
   ExperimentKey key;
-  key.trajectory = read_name(json["trajectory"]);
-  key.database = read_name(json["database"]);
+  key.trajectory = json["trajectory"].name();
+  key.database = json["database"].name();
   key.truth = json["truth"].one_of<TruthKind>();
   key.subject = json["subject"].count();
-  key.noise = {read_name(json["noise"]["model"]), json["noise"]["factor"].number(0, kLargestError)};
+  key.noise = {json["noise"]["model"].name(), json["noise"]["factor"].number(0, kLargestError)};
   return key;
 }
 
@@ -219,7 +212,7 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   RunResult result;
   result.protocol = read_protocol(json["protocol"]);
   result.inputs = read_inputs(json["inputs"]);
-  if (!json["suite"].is_null()) result.suite = read_name(json["suite"]);
+  if (!json["suite"].is_null()) result.suite = json["suite"].name();
   result.program_version = json["program"]["version"].text();
   result.commit = json["program"]["commit"].text();
   json["configuration"].members();

@@ -136,7 +136,7 @@ void finish_write(const std::string& folder, const std::optional<Manifest>& mani
   if (const std::string path = staged + "/" + kRemoved; manifest && is_file(path)) {
     std::istringstream lines(read_regular_file(path, kLargestManifest));
     std::string line;
-    // Of another manifest, which never came into its place, the list is void.
+    // A list with the hash of another manifest is void: that manifest never came into its place.
     if (std::getline(lines, line) && line == hash_file(folder + "/" + kManifest))
       while (std::getline(lines, line))
         if (!manifest->contains(line)) removed.push_back(line);

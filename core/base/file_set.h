@@ -107,7 +107,7 @@ class WholeFiles {
   WholeFiles(const WholeFiles&) = delete;
   WholeFiles& operator=(const WholeFiles&) = delete;
 
-  /// What the manifest says after `commit`.
+  /// The manifest after `commit`.
   const Manifest& manifest() const { return manifest_; }
   /// `name` may have folders of its own, but stays in the folder (core/base/name.h). In its place may be a regular
   /// file, whose mode the new one takes, or nothing; a link is an error. A new manifest is as private as the most

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Where an output goes. What is replaced is a regular file: of a symbolic link its target, which may not exist
+/// Where an output goes. A regular file is replaced; of a symbolic link the target is, which may not exist
 /// yet. Devices, pipes, "-" (standard output) and open descriptors (/dev/stdout, /dev/fd/3) are written through.
 struct OutputTarget {
   bool is_stream = false;                 ///< is written through
@@ -30,22 +30,22 @@ int open_stream(const OutputTarget& target, const std::string& path);
 /// A negative number leaves the reason in errno.
 int create_like(const std::optional<struct stat>& older, const std::string& new_path, mode_t mode = 0644);
 
-/// What became of a text that was to be written.
+/// The outcome of a write.
 struct Written {
   size_t bytes = 0;  ///< that were written
   int error = 0;     ///< 0, or the number of the error that ended it
 };
 Written write_all(int descriptor, std::string_view content);
 
-/// What was written to a file survives a power failure. Pipes and most devices hold nothing that could be synced.
-/// Returns 0 or the number of the error.
+/// Makes what was written to a file survive a power failure. Pipes and most devices hold nothing that could be
+/// synced. Returns 0 or the number of the error.
 int sync_file(int descriptor);
 
 /// Creates a folder and those above it, and syncs the folders that hold the new ones. An empty path is the current
 /// folder. Throws Error.
 void make_folders(const std::string& folder);
-/// What was created, renamed or removed in a folder survives a power failure. Throws Error if the disk fails. File
-/// systems that cannot sync folders are left alone.
+/// Makes what was created, renamed or removed in a folder survive a power failure. Throws Error if the disk fails.
+/// File systems that cannot sync folders are left alone.
 void sync_folder(const std::string& folder);
 /// The folder that holds a path; "." for a plain name.
 std::string folder_above(const std::string& path);

@@ -26,7 +26,7 @@ struct StereoFit {
 /// or turned against each other more, than those of one device could.
 StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board, LensModel lens);
 
-/// What the fit is worth: errors of each view, standard deviations, what was left out and why. The keys are
+/// The quality of the fit: errors of each view, standard deviations, what was left out and why. The keys are
 /// documented in README.md.
 nlohmann::json report_json(const StereoFit& fit, const Chessboard& board);
 /// The same, short, as lines of Markdown.

@@ -60,7 +60,7 @@ nlohmann::json to_json(const RgbdCalibration& calibration);
 
 inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes: fifty times ours
 
-/// What a calibration file holds; it is read again bit for bit.
+/// The content of a calibration file. It is read again bit for bit.
 std::string calibration_text(const RgbdCalibration& calibration);
 /// A calibration file. Both throw Error.
 RgbdCalibration load_calibration(const std::string& path);

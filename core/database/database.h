@@ -96,7 +96,7 @@ class Database {
     const FieldRows* rows = nullptr;
   };
 
-  /// Of the sizes whose rows these are.
+  /// `rows`: by size of the tiny images, px.
   Database(std::shared_ptr<const MappedMemory> bytes, const DatabaseLayout& layout, std::map<int, FieldRows> rows);
   const SizeData& data(int size) const;
 

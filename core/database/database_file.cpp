@@ -36,10 +36,6 @@ uint64_t whole_pages(uint64_t bytes) {
   return (bytes + kPage - 1) / kPage * kPage;
 }
 
-std::string side_name(Side side) {
-  return side == Side::right ? "right" : "left";
-}
-
 json postures_to_json(const PostureSet& set) {
   json postures = json::array();
   for (size_t p = 0; p < set.postures.size(); ++p) {
@@ -69,7 +65,10 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
   DatabaseHeader header;
   header.postures.name = checked_name(text.at("name"), path, "name");
   header.input_hash = text.at("input_hash");
-  header.side = text.at("side") == side_name(Side::right) ? Side::right : Side::left;
+  const std::string side = text.at("side");
+  const auto known_side = from_name<Side>(side);
+  if (!known_side) throw Error(path, "side", quoted_excerpt(side), known_names<Side>());
+  header.side = *known_side;
   const std::string memory = text.at("memory");
   const auto known = from_name<DatabaseMemory>(memory);
   if (!known) throw Error(path, "memory", quoted_excerpt(memory), known_names<DatabaseMemory>());
@@ -193,7 +192,7 @@ std::string DatabaseLayout::header_text() const {
   std::string text = json{
       {"name", header_.postures.name},
       {"input_hash", header_.input_hash},
-      {"side", side_name(header_.side)},
+      {"side", to_string(header_.side)},
       {"memory", to_string(header_.memory)},
       {"field_cap_share", header_.field_cap_share},
       {"postures", postures_to_json(header_.postures)},
@@ -205,7 +204,7 @@ std::string DatabaseLayout::header_text() const {
 }
 
 std::string DatabaseLayout::content_hash() const {
-  json content = {{"side", side_name(header_.side)}, {"field_cap_share", header_.field_cap_share}};
+  json content = {{"side", to_string(header_.side)}, {"field_cap_share", header_.field_cap_share}};
   for (const Posture& angles : header_.postures.postures)
     content["angles_rad"].push_back(std::vector<double>(angles.begin(), angles.end()));
   content.update(json(hashes_));

@@ -124,6 +124,13 @@ TEST_F(DatabaseFile, of_a_memory_that_nobody_knows_is_an_error_that_says_what_is
                   AllOf(HasSubstr(path_ + ": memory: found \"tiny\""), HasSubstr("expected normal or low"))));
 }
 
+TEST_F(DatabaseFile, of_a_side_that_nobody_knows_is_an_error_that_says_what_is_known) {
+  write_file(path_, with_header(good_, "\"side\":\"right\"", "\"side\":\"north\""));
+  EXPECT_THAT([&] { Database::load(path_); },
+              ThrowsMessage<Error>(
+                  AllOf(HasSubstr(path_ + ": side: found \"north\""), HasSubstr("expected right or left"))));
+}
+
 TEST_F(DatabaseFile, of_low_memory_that_is_damaged_anywhere_is_an_error) {
   small_database(DatabaseMemory::low, kFewSizes).save(path_);
   const std::string good = read_file(path_);

@@ -18,6 +18,7 @@ enum class CommandState {
 constexpr auto names_of(CommandState) {
   return std::to_array<std::string_view>({"following", "holding", "stopped"});
 }
+static_assert(kCountOf<CommandState> == static_cast<int>(CommandState::stopped) + 1, "each value has a name");
 
 /// Why a command is not what was asked for.
 enum class Intervention {
@@ -44,6 +45,7 @@ constexpr auto names_of(Intervention) {
                                           "hand_turn_speed", "fingertip_speed", "arm_limit", "arm_speed",
                                           "arm_unreachable", "hold", "stop"});
 }
+static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1, "each value has a name");
 
 /// How often each kind happened. A kind counts once a command, however many joints it concerns.
 class Interventions {

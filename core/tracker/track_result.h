@@ -28,6 +28,7 @@ constexpr auto names_of(TrackStatus) {
                                           "too_few_points", "degenerate_cloud", "no_shared_color", "poor_match",
                                           "poor_alignment"});
 }
+static_assert(kCountOf<TrackStatus> == static_cast<int>(TrackStatus::poor_alignment) + 1, "each value has a name");
 
 /// The tracker's answer for one frame: (theta, R, P) of section III-C and what led to it.
 struct TrackResult {

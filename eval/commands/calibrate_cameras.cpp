@@ -32,7 +32,7 @@ struct CalibrateCameras {
   void run() const {
     const calibration::Chessboard chessboard = parse_board();
     const std::optional<calibration::LensModel> model = from_name<calibration::LensModel>(lens);
-    if (!model) throw Error("--lens", "value", lens, "none, radial or full");
+    if (!model) throw Error("--lens", "value", lens, known_names<calibration::LensModel>());
     const calibration::BoardViews ir_boards = boards_of(ir, chessboard, "IR");
     const calibration::BoardViews rgb_boards = boards_of(rgb, chessboard, "RGB");
     calibration::StereoFit fit = calibration::fit_stereo(ir_boards, rgb_boards, chessboard, *model);

@@ -104,7 +104,7 @@ void add_calibrate_colors(Command calibrate) {
   command.option("--seeds", state->seeds,
                  "where to begin, for a glove with other colors: a color table, or a JSON list of the ten colors "
                  "[the tracker's own table]");
-  command.option("--space", state->space, "axes of the table").one_of({"yuv", "rgb"});
+  command.option("--space", state->space, "axes of the table").one_of(all_names<ColorSpace>());
   command.option("--frames", state->frame_count, "frames to take, spread over the recording").in(1, 10'000);
   command.option("--config", state->common.config_file,
                  "JSON file with the fields to change; the working volume is what matters here");

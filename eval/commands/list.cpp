@@ -49,6 +49,11 @@ void list_noises() {
     fmt::print("{:<16} {}\n", noise.name, noise.description);
 }
 
+void list_formats() {
+  for (const trajectories::Format& format : trajectories::formats())
+    fmt::print("{:<16} {:<10} {}\n", format.name, format.ending, format.description);
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -69,6 +74,8 @@ void add_list(Command program) {
   list.subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.").runs(list_studies);
   list.subcommand("methods", "Ways to track, for --method.").runs(list_methods);
   list.subcommand("noises", "How the depth camera errs, for --noise.").runs(list_noises);
+  list.subcommand("formats", "Files of movements and postures, and captures for `glovebench import`.")
+      .runs(list_formats);
   list.subcommand("angles", "The 22 joint angles and their limits.").runs(list_angles);
   const auto limits = std::make_shared<LimitsFlag>();
   const Command mapping =

@@ -16,6 +16,8 @@ struct Record {
   std::string database;
 
   void run() {
+    if (!trajectories::is_trajectory_file(common.output))
+      throw Error("--output", "file name", common.output, "the ending .json, by which it is read again");
     const bool is_file = trajectories::is_trajectory_file(trajectory);
     const trajectories::Trajectory source = is_file
                                                 ? trajectories::load_trajectory(trajectory)

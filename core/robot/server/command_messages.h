@@ -72,6 +72,7 @@ constexpr auto names_of(Receipt) {
                                           "not_finite", "not_rotation", "stale", "starting", "went_back",
                                           "accepted"});
 }
+static_assert(kCountOf<Receipt> == static_cast<int>(Receipt::accepted) + 1, "each value has a name");
 
 /// What a server of the robot sends to its joints, and so where they stand.
 struct RobotState {
