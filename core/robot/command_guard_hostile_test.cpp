@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/random.h"
+#include "core/base/sanitizers.h"
 #include "core/robot/test_commands.h"
 #include "core/robot/test_stream_checker.h"
 
@@ -234,8 +235,12 @@ TEST(CommandGuardHostile, NothingThatHurtsLeaves) {
   run_streams(1, 100);
 }
 
-TEST(CommandGuardHostile, NothingThatHurtsLeavesInAMillionInputs) {
+TEST(CommandGuardHostile, NothingThatHurtsLeavesInManyInputs) {
+#ifdef GLOVEBENCH_ADDRESS_SANITIZER  // twenty times slower, and it sees a wrong access in far fewer
+  run_streams(1'000, 200);
+#else
   run_streams(1'000, 2'000);
+#endif
 }
 
 TEST(StreamChecker, SeesWhatTheGuardWouldLetThrough) {
