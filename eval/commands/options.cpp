@@ -70,7 +70,12 @@ Option Option::in(double low, double high) const {
 }
 
 Option Option::not_negative() const {
-  option_->check(CLI::NonNegativeNumber);
+  const auto problem = [](const std::string& text) -> std::string {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= 0) return {};
+    return fmt::format("found {}, expected 0 or more", printable(text));
+  };
+  option_->check(CLI::Validator(problem, "NONNEGATIVE"));
   return *this;
 }
 

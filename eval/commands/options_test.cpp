@@ -110,7 +110,7 @@ TEST_F(Options, RefusesValuesOutOfBounds) {
   EXPECT_THAT(refusal({"--steps", "1.5"}), HasSubstr("--steps: Value 1.5 not in range"));
   EXPECT_THAT(refusal({"--speed", "nan"}), HasSubstr("--speed: found nan, expected a number from 0 to 1"));
   EXPECT_THAT(refusal({"--speed", "1.5"}), HasSubstr("--speed: found 1.5, expected"));
-  EXPECT_THAT(refusal({"--seed", "-1"}), HasSubstr("--seed: "));
+  EXPECT_THAT(refusal({"--seed", "-1"}), HasSubstr("--seed: found -1, expected 0 or more"));
   EXPECT_THAT(refusal({"--gait", "odd"}), HasSubstr("--gait: odd not in {slow,fast}"));
   EXPECT_THAT(refusal({"--log", "-"}), HasSubstr("--log: found -, expected the name of a file or folder"));
   EXPECT_THAT(refusal({"--offset", "1"}), HasSubstr("--offset"));

@@ -116,8 +116,7 @@ void require_same_bytes(const FileSet& files) {
 Provenance parse_provenance(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   const JsonCursor json(document, where);
-  json["format"].expect_text(kProvenanceFormat);
-  json["version"].integer(1, 1);
+  json.expect_format(kProvenanceFormat, 1);
   return {json["results_hash"].text(), reports::stage_times_from(json["times"])};
 }
 

@@ -77,8 +77,7 @@ NoiseFloor read_noise_floor(const std::string& path) {
 NoiseFloor parse_noise_floor(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   const JsonCursor json(document, where);
-  json["format"].expect_text(kNoiseFloorFormat);
-  json["version"].integer(kVersion, kVersion);
+  json.expect_format(kNoiseFloorFormat, kVersion);
   json.expect_keys(
       {"format", "version", "suite", "seeds", "seeds_per_result", "family_error", "commit", "date", "entries"});
   NoiseFloor floor;

@@ -124,8 +124,7 @@ double read_ratio(const JsonCursor& json) {
 
 std::vector<SpeedRatio> read_own(const JsonCursor& json) {
   json.expect_keys({"format", "version", "ratios"});
-  json["format"].expect_text(kSpeedFormat);
-  json["version"].integer(1, 1);
+  json.expect_format(kSpeedFormat, 1);
   std::vector<SpeedRatio> ratios;
   for (const JsonCursor& item : json["ratios"].items()) {
     item.expect_keys({"name", "ratio", "low", "high"});

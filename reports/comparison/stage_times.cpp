@@ -30,8 +30,7 @@ StageTimes read_stage_times(const std::string& timings_path) {
 StageTimes parse_stage_times(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   const JsonCursor json(document, where);
-  json["format"].expect_text("glovebench-timings");
-  json["version"].integer(1, 1);
+  json.expect_format("glovebench-timings", 1);
   StageTimes times{json["processor"].text(), json["threads"].count(), {}};
   const JsonItems experiments = json["experiments"].items();
   std::vector<int> counts;

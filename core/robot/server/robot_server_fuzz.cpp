@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -73,7 +74,7 @@ class Judge {
           arrival);
     }
     if (receipt != Receipt::accepted) return;
-    (topic == RobotTopic::pose ? pose_us_ : hand_us_) = now_us_;
+    accepted_us_[static_cast<size_t>(topic)] = now_us_;
   }
 
   void tick(uint8_t action, FuzzInput& input) {
@@ -90,15 +91,20 @@ class Judge {
     check_fingertips(state, seconds);
     const bool moved = state.position != last_;
     check(!moved || may_move, "nothing moves that may not");
-    check(!moved || is_followed(std::max(hand_us_, pose_us_)), "nothing old moves anything");
-    check(is_followed(pose_us_) || std::equal(last_.begin() + kShadowJointCount, last_.end(),
-                                              state.position.begin() + kShadowJointCount),
-          "no old pose moves the arm");
+    for (size_t j = 0; j < last_.size(); ++j)
+      check(state.position[j] == last_[j] || is_followed(accepted_us_[static_cast<size_t>(topic_of(j))]),
+            "nothing old moves a joint");
     check(!moved || !gap_us_ || now_us_ - *gap_us_ >= kStartUs, "a gap needs a new start");
     last_ = state.position;
   }
 
  private:
+  /// Who commands a joint.
+  static RobotTopic topic_of(size_t joint) {
+    if (joint >= kShadowJointCount) return RobotTopic::pose;
+    return joint == kWRJ1 || joint == kWRJ2 ? RobotTopic::wrist : RobotTopic::fingers;
+  }
+
   bool is_followed(int64_t accepted_us) const {
     return now_us_ - accepted_us <= std::llround(limits_.silence_s * 1e6);
   }
@@ -147,7 +153,8 @@ class Judge {
   std::vector<double> last_ = robot_.at_rest();
   RobotServer server_{limits_, robot_, {last_}};
   int64_t now_us_ = 0, jumped_us_ = 0;
-  int64_t hand_us_ = -kEpochUs, pose_us_ = -kEpochUs;  ///< when the last one was accepted
+  /// When the last message of each topic was accepted.
+  std::array<int64_t, kRobotTopicCount> accepted_us_ = {-kEpochUs, -kEpochUs, -kEpochUs};
   std::optional<int64_t> gap_us_;
   bool begun_ = false, ticked_ = false;  ///< before that there is nothing for a gap to be in
 };

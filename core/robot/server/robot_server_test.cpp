@@ -22,7 +22,7 @@ constexpr int64_t kEpochUs = 1'800'000'000'000'000;
 constexpr double kHandRounding = 1e-12;
 
 /// A server and its clock; every state is checked against the limits.
-class HandServerTest : public testing::Test {
+class RobotServerHand : public testing::Test {
  protected:
   Receipt fingers(double angle_deg, int64_t stamp_us, uint64_t sender = kFirst) {
     return receive(RobotTopic::fingers, trajectory_message(hand_trajectory_names(), angle_deg, stamp_us), sender);
@@ -86,14 +86,14 @@ class HandServerTest : public testing::Test {
   RobotState last_{0, CommandState::stopped, start_, {}};
 };
 
-TEST_F(HandServerTest, StandsUntilSomethingComes) {
+TEST_F(RobotServerHand, StandsUntilSomethingComes) {
   const RobotState state = ticks(10);
   EXPECT_EQ(state.state, CommandState::stopped);
   EXPECT_THAT(state.position, Each(0.0));
   EXPECT_THAT(state.velocity, Each(0.0));
 }
 
-TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
+TEST_F(RobotServerHand, GoesToTheTargetAtTheSpeedOfTheLimits) {
   start();
   int moving = 0;
   for (int i = 0; i < 60; ++i) {
@@ -107,7 +107,7 @@ TEST_F(HandServerTest, GoesToTheTargetAtTheSpeedOfTheLimits) {
   EXPECT_NEAR(last_.position[kFFJ3], radians_from_degrees(30), kHandRounding);
 }
 
-TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
+TEST_F(RobotServerHand, SlowsDownAsAWholeForTheFingertips) {
   start();
   for (int i = 0; i < 150; ++i) {
     EXPECT_EQ(fingers(30, 1000 * (i + 1)), Receipt::accepted);
@@ -123,7 +123,7 @@ TEST_F(HandServerTest, SlowsDownAsAWholeForTheFingertips) {
   EXPECT_NEAR(last_.position[kFFJ2], radians_from_degrees(60), kHandRounding);
 }
 
-TEST(HandServer, SplitsByTheCouplingThatItIsTold) {
+TEST(RobotServerStart, SplitsByTheCouplingThatItIsTold) {
   CommandLimits limits;
   limits.coupling = ShadowCoupling::even;
   RobotServer server(limits, {}, {std::vector<double>(kShadowJointCount, 0.0)});
@@ -139,7 +139,7 @@ TEST(HandServer, SplitsByTheCouplingThatItIsTold) {
   EXPECT_EQ(state.position[kMFJ2], 0.5);
 }
 
-TEST(HandServer, StartsWithAFingerThatTouchesSomething) {
+TEST(RobotServerStart, StartsWithAFingerThatTouchesSomething) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ2] = 1;
   start[kFFJ1] = 0.5;
@@ -147,7 +147,7 @@ TEST(HandServer, StartsWithAFingerThatTouchesSomething) {
   EXPECT_EQ(server.tick({1, kEpochUs}).position, start) << "what was measured stays until the finger moves";
 }
 
-TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
+TEST_F(RobotServerHand, NobodyFinishesWhatAnotherBegan) {
   start();
   for (int i = 0; i < 2; ++i) {
     wrist(28, 1000 * (i + 1));
@@ -165,13 +165,13 @@ TEST_F(HandServerTest, NobodyFinishesWhatAnotherBegan) {
   EXPECT_EQ(last_.position[kWRJ1], stood);
 }
 
-TEST_F(HandServerTest, NothingThatCameBeforeItsFirstTickMovesIt) {
+TEST_F(RobotServerHand, NothingThatCameBeforeItsFirstTickMovesIt) {
   for (int i = 0; i < 60; ++i, now_us_ += kPeriodUs)
     EXPECT_NE(fingers(90, i), Receipt::accepted) << "more than 0.1 s without a tick are a gap";
   EXPECT_EQ(ticks(3).position, start_);
 }
 
-TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
+TEST_F(RobotServerHand, HoldsAndThenStopsWhenNothingComes) {
   start();
   first_finger(80, 1);
   EXPECT_EQ(ticks(15).state, CommandState::following);
@@ -186,7 +186,7 @@ TEST_F(HandServerTest, HoldsAndThenStopsWhenNothingComes) {
   EXPECT_NEAR(last_.position[kFFJ3] - held.position[kFFJ3], 0.02, kHandRounding) << "from where it stood";
 }
 
-TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
+TEST_F(RobotServerHand, BadMessagesAreAsIfTheyHadNotCome) {
   start();
   first_finger(10, 1000);
   const RobotState good = ticks(12);
@@ -204,7 +204,7 @@ TEST_F(HandServerTest, BadMessagesAreAsIfTheyHadNotCome) {
   EXPECT_EQ(count(Receipt::went_back), 20);
 }
 
-TEST_F(HandServerTest, ClampsWhatIsBeyondTheLimits) {
+TEST_F(RobotServerHand, ClampsWhatIsBeyondTheLimits) {
   start();
   for (int i = 1; i < 600; ++i) {
     EXPECT_EQ(fingers(i % 2 ? 1e6 : 500, i), Receipt::accepted);
@@ -214,7 +214,7 @@ TEST_F(HandServerTest, ClampsWhatIsBeyondTheLimits) {
   EXPECT_GT(server_.interventions()[Intervention::joint_limit], 0);
 }
 
-TEST_F(HandServerTest, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
+TEST_F(RobotServerHand, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
   start();
   for (int i = 1; i <= 50; ++i) {
     EXPECT_EQ(fingers(10, i, kFirst), Receipt::accepted);
@@ -238,7 +238,7 @@ TEST_F(HandServerTest, TheFirstSenderOwnsTheStreamUntilItIsSilent) {
   EXPECT_EQ(fingers(80, 1000, kFirst), Receipt::foreign) << "who comes back has to wait as well";
 }
 
-TEST_F(HandServerTest, AnOwnerThatHasGoneIsFollowedByTheNext) {
+TEST_F(RobotServerHand, AnOwnerThatHasGoneIsFollowedByTheNext) {
   start();
   EXPECT_EQ(fingers(10, 1'000'000, kFirst), Receipt::accepted);
   server_.stream().keep_only({kFirst, kSecond});
@@ -248,20 +248,20 @@ TEST_F(HandServerTest, AnOwnerThatHasGoneIsFollowedByTheNext) {
   EXPECT_EQ(fingers(10, 1, kSecond), Receipt::accepted) << "its stamps begin anew";
 }
 
-TEST_F(HandServerTest, BadMessagesDoNotMakeAnOwner) {
+TEST_F(RobotServerHand, BadMessagesDoNotMakeAnOwner) {
   start();
   EXPECT_EQ(receive(RobotTopic::fingers, ros::JointTrajectory(), kSecond), Receipt::wrong_joints);
   EXPECT_EQ(fingers(10, 1, kFirst), Receipt::accepted);
 }
 
-TEST_F(HandServerTest, StampsOfZeroMeanNow) {
+TEST_F(RobotServerHand, StampsOfZeroMeanNow) {
   start();
   for (int i = 0; i < 5; ++i) EXPECT_EQ(fingers(10, 0), Receipt::accepted);
   EXPECT_EQ(fingers(10, 1), Receipt::accepted);
   EXPECT_EQ(fingers(10, 0), Receipt::went_back);
 }
 
-TEST_F(HandServerTest, AFloodMovesNothingFaster) {
+TEST_F(RobotServerHand, AFloodMovesNothingFaster) {
   start();
   int64_t stamp = 0;
   for (int i = 0; i < 20; ++i) {
@@ -272,7 +272,7 @@ TEST_F(HandServerTest, AFloodMovesNothingFaster) {
   EXPECT_NEAR(last_.position[kFFJ3], 20 * 0.02, kHandRounding) << "the last one before a tick counts";
 }
 
-TEST_F(HandServerTest, WhatWaitedThroughAStandstillMovesNothing) {
+TEST_F(RobotServerHand, WhatWaitedThroughAStandstillMovesNothing) {
   start();
   for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(5, i), Receipt::accepted);
   now_us_ += 6'500'000;  // stopped; its sender is dead, and commands of 1.5 s wait
@@ -287,7 +287,7 @@ TEST_F(HandServerTest, WhatWaitedThroughAStandstillMovesNothing) {
   EXPECT_EQ(server_.stream().gaps(), 1);
 }
 
-TEST_F(HandServerTest, OwnGapsNeedANewStart) {
+TEST_F(RobotServerHand, OwnGapsNeedANewStart) {
   start();
   for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(80, i), Receipt::accepted);
   now_us_ += 95'000;  // the next tick is 105 ms after the last one
@@ -302,7 +302,7 @@ TEST_F(HandServerTest, OwnGapsNeedANewStart) {
   EXPECT_EQ(server_.stream().owners(), 2);
 }
 
-TEST_F(HandServerTest, ALateCommandMovesNothing) {
+TEST_F(RobotServerHand, ALateCommandMovesNothing) {
   start();
   for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(5, i), Receipt::accepted);
   EXPECT_EQ(ticks(16).state, CommandState::holding);
@@ -314,7 +314,7 @@ TEST_F(HandServerTest, ALateCommandMovesNothing) {
   EXPECT_EQ(tick().state, CommandState::holding) << "160 ms";
 }
 
-TEST_F(HandServerTest, AnOldTargetOfTheWristIsNotFollowedWhileTheFingersAre) {
+TEST_F(RobotServerHand, AnOldTargetOfTheWristIsNotFollowedWhileTheFingersAre) {
   start();
   EXPECT_EQ(wrist(28, 1), Receipt::accepted);
   std::vector<double> angles;
@@ -327,7 +327,7 @@ TEST_F(HandServerTest, AnOldTargetOfTheWristIsNotFollowedWhileTheFingersAre) {
   EXPECT_EQ(angles[39], angles[14]);
 }
 
-TEST_F(HandServerTest, HoldsWhileItMayNotMoveAndGoesOnThen) {
+TEST_F(RobotServerHand, HoldsWhileItMayNotMoveAndGoesOnThen) {
   start();
   first_finger(80, 1);
   for (int i = 0; i < 3; ++i, now_us_ += kPeriodUs)
@@ -336,7 +336,7 @@ TEST_F(HandServerTest, HoldsWhileItMayNotMoveAndGoesOnThen) {
   EXPECT_NEAR(last_.position[kFFJ3], 0.02, kHandRounding) << "and without making up for what it missed";
 }
 
-TEST_F(HandServerTest, AClockThatIsSetIsAGap) {
+TEST_F(RobotServerHand, AClockThatIsSetIsAGap) {
   start();
   for (int i = 1; i <= 10; ++i, tick()) EXPECT_EQ(fingers(80, i), Receipt::accepted);
   now_us_ += kPeriodUs;
@@ -345,7 +345,7 @@ TEST_F(HandServerTest, AClockThatIsSetIsAGap) {
   EXPECT_EQ(server_.stream().gaps(), 1);
 }
 
-TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
+TEST(RobotServerStart, StartsAtALimitWhateverALogHasRounded) {
   const double rounding = radians_from_degrees(5e-7);
   for (const double outwards : {-rounding, 0.0, rounding}) {
     std::vector<double> lowest, highest;
@@ -368,7 +368,7 @@ TEST(HandServer, StartsAtALimitWhateverALogHasRounded) {
   EXPECT_EQ(RobotServer({}, {}, {start}).tick({1, 1}).position[kFFJ1], 1) << "not above J2";
 }
 
-TEST(HandServer, NamesWhatIsOutside) {
+TEST(RobotServerStart, NamesWhatIsOutside) {
   std::vector<double> start(kShadowJointCount, 0.0);
   const auto error = [&]() -> std::string {
     try {
@@ -385,7 +385,7 @@ TEST(HandServer, NamesWhatIsOutside) {
   EXPECT_EQ(error(), "hand.jsonl: rh_FFJ1: found 45 degrees, expected at most the 0 of the joint before it");
 }
 
-TEST(HandServer, StartsWhereTheJointsStandIfThatIsAPlace) {
+TEST(RobotServerStart, StartsWhereTheJointsStandIfThatIsAPlace) {
   std::vector<double> start(kShadowJointCount, 0.0);
   start[kFFJ3] = 1;
   RobotServer server({}, {}, {start});
