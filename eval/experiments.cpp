@@ -16,6 +16,7 @@
 #include "eval/program_info.h"
 #include "eval/replay_all.h"
 #include "eval/robot_commands.h"
+#include "eval/sequence_metrics.h"
 #include "eval/share.h"
 #include "reports/report.h"
 #include "trajectories/catalog.h"
@@ -94,7 +95,7 @@ reports::ExperimentResult evaluate(const Gathered& experiment) {
   size_t keypoints = 0;
   for (size_t i = 0; i < experiment.passes.size(); ++i) {
     reports::SeedRun run{experiment.replays[i]->seed, {}};
-    for (const FrameErrors& errors : experiment.passes[i]->errors) {
+    for (const reports::FrameErrors& errors : experiment.passes[i]->errors) {
       run.frames.push_back(errors.record);
       joint_errors.insert(joint_errors.end(), errors.joint_errors_mm.begin(), errors.joint_errors_mm.end());
       keypoints += kForearmJoint;

@@ -66,17 +66,17 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
   }
   if (result.status == TrackStatus::tracked) {
     const HandModel& model = *workbench.model();
-    const FrameErrors errors =
-        measure_frame(frame, result,
-                      {replay.truth->frames[frame].posture, replay.truth->frames[frame].T_camera_hand,
-                       workbench.subject(replay.subject)->pose(replay.truth->frames[frame].posture).T_hand_joint,
-                       count_patches(taken.truth.patch)},
-                      model);
+    const reports::FrameErrors errors = reports::measure_frame(
+        frame, result,
+        {replay.truth->frames[frame].posture, replay.truth->frames[frame].T_camera_hand,
+         workbench.subject(replay.subject)->pose(replay.truth->frames[frame].posture).T_hand_joint,
+         reports::count_patches(taken.truth.patch)},
+        model);
     const PinholeCamera& camera = workbench.calibration().ir;
     panels.push_back(
         {"coarse pose over M", cropped(overlay(model, result, result.T_camera_hand_coarse, trace, camera))});
     panels.push_back({fmt::format("after ICP-T: {} iterations, {:.1f} mm, {:.1f} deg off", result.icp_iterations,
-                                  *errors.record.position_error_mm, *errors.record.rotation_error_deg),
+                                  *errors.record["position_error_mm"], *errors.record["rotation_error_deg"]),
                       cropped(overlay(model, result, result.T_camera_hand, trace, camera))});
   } else {
     panels.push_back({"lost: " + std::string(to_string(result.status)), {}});

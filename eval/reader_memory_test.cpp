@@ -295,7 +295,7 @@ TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
             i);
       },
       "");
-  const std::string metrics = repeated(",0", 2 * reports::kMetricCount);
+  const std::string metrics = repeated(",0", 2 * reports::frame_metrics().size());
   check(
       "results", "/experiments/1/runs/0/frames",
       [&](int i) { return fmt::format(R"([{0},{0},"lost",true,true,true,true,true,0{1}])", i, metrics); },

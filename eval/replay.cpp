@@ -63,13 +63,13 @@ bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config)
   return within >= config.detection.min_pixels && within > 2 * beyond;
 }
 
-FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel& subject,
-                    const render::RgbdImages& images) {
-  FrameTruth truth;
+reports::FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel& subject,
+                             const render::RgbdImages& images) {
+  reports::FrameTruth truth;
   truth.posture = frame.posture;
   truth.T_camera_hand = frame.T_camera_hand;
   truth.T_hand_joint = subject.pose(frame.posture).T_hand_joint;
-  truth.visible_pixels = count_patches(images.patch);
+  truth.visible_pixels = reports::count_patches(images.patch);
   return truth;
 }
 
@@ -110,11 +110,11 @@ class Pass {
     return render::make_device_frame(images, calibration, timestamp_us, kinect_.noise,
                                      {kinect_.seed, kinect_.sequence, number});
   }
-  void track(const DeviceFrame& frame, const FrameTruth& truth, int number) {
+  void track(const DeviceFrame& frame, const reports::FrameTruth& truth, int number) {
     for (size_t t = 0; t < methods_.size(); ++t) {
       const TrackResult result =
           methods_[t]->track(frame, [&](std::string_view stage) { timers_[t].begin(stage); });
-      tracked_[t].errors.push_back(measure_frame(number, result, truth, *model_));
+      tracked_[t].errors.push_back(reports::measure_frame(number, result, truth, *model_));
       tracked_[t].results.push_back(result);
     }
   }
@@ -179,7 +179,7 @@ std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, st
     std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
     const render::RgbdImages& images = kinect.truth();
-    FrameTruth truth = truth_of(true_frame, *subject, images);
+    reports::FrameTruth truth = truth_of(true_frame, *subject, images);
     const Replay* shown = &first;
     for (Pass& pass : passes) {
       if (!share_noise(*shown, pass.replay())) {

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "core/tracker/tracker_config.h"
-#include "eval/metrics.h"
 #include "eval/workbench.h"
 #include "render/synthetic_kinect.h"
-#include "reports/results.h"
+#include "reports/metrics/measure_frame.h"
 #include "reports/timings.h"
 #include "trajectories/trajectory.h"
 
@@ -43,8 +42,8 @@ std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay);
 /// What one tracker made of a replay.
 struct TrackedReplay {
   std::string database;
-  std::vector<TrackResult> results;  ///< one a frame
-  std::vector<FrameErrors> errors;   ///< one a frame
+  std::vector<TrackResult> results;          ///< one a frame
+  std::vector<reports::FrameErrors> errors;  ///< one a frame
   std::vector<reports::StageTiming> stages;
   std::vector<double> frame_ms;  ///< one a frame: all stages
 };

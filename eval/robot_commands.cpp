@@ -1,8 +1,8 @@
 #include "eval/robot_commands.h"
 
 #include "core/base/angles.h"
-#include "eval/metrics.h"
 #include "eval/thread_time.h"
+#include "reports/metrics/measure_frame.h"
 
 namespace glovebench::eval {
 namespace {
@@ -68,7 +68,7 @@ std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFr
 void CommandMeasurement::Errors::add(const RobotTargets& targets, const RobotTargets& of_truth) {
   joints_deg.push_back(rms_difference_deg(targets.hand.joints, of_truth.hand.joints));
   position_mm.push_back(1e3 * (targets.T_base_hand.translation() - of_truth.T_base_hand.translation()).norm());
-  rotation_deg.push_back(rotation_error_deg(targets.T_base_hand.linear(), of_truth.T_base_hand.linear()));
+  rotation_deg.push_back(reports::rotation_error_deg(targets.T_base_hand.linear(), of_truth.T_base_hand.linear()));
   if (targets.arm && of_truth.arm) arm_deg.push_back(rms_difference_deg(*targets.arm, *of_truth.arm));
 }
 

@@ -46,14 +46,14 @@ std::vector<TrackedReplay> example_replay() {
       result.icp_points = 999;
       result.icp_iterations = 13;
       result.icp_residual = -0.0;
-      FrameErrors errors;
+      reports::FrameErrors errors;
       errors.record.frame = frame;
       errors.record.timestamp_us = result.timestamp_us;
       errors.record.status = result.status;
       errors.record.covered = frame == 0;
       errors.record.false_lost = errors.record.ambiguous = frame == 1;
       errors.record.icp_iterations = 5;
-      errors.record.position_error_mm = random.normal();
+      errors.record["position_error_mm"] = random.normal();
       if (frame == 0) errors.joint_errors_mm = {random.uniform(), std::nextafter(1.0, 2.0)};
       pass.results.push_back(result);
       pass.errors.push_back(errors);

@@ -74,17 +74,16 @@ TrackResult result_of(const json& row) {
   return r;
 }
 
-json row_of(const FrameErrors& errors) {
+json row_of(const reports::FrameErrors& errors) {
   const reports::FrameRecord& r = errors.record;
   json values = json::array();
-  for (const reports::Metric& metric : reports::metrics())
-    values.push_back(r.*metric.value ? json(*(r.*metric.value)) : json());
+  for (const std::optional<double>& value : r.values) values.push_back(value ? json(*value) : json());
   return {r.frame,     r.timestamp_us, to_string(r.status), r.covered,         r.false_tracked,       r.false_lost,
           r.ambiguous, r.converged,    r.icp_iterations,    std::move(values), errors.joint_errors_mm};
 }
 
-FrameErrors errors_of(const json& row) {
-  FrameErrors errors;
+reports::FrameErrors errors_of(const json& row) {
+  reports::FrameErrors errors;
   reports::FrameRecord& r = errors.record;
   r.frame = row.at(0);
   r.timestamp_us = row.at(1);
@@ -95,8 +94,10 @@ FrameErrors errors_of(const json& row) {
   r.ambiguous = row.at(6);
   r.converged = row.at(7);
   r.icp_iterations = row.at(8);
-  for (int m = 0; m < reports::kMetricCount; ++m)
-    if (const json& value = row.at(9).at(m); !value.is_null()) r.*reports::metrics()[m].value = value.get<double>();
+  const json& values = row.at(9);
+  if (values.size() != r.values.size()) throw json::other_error::create(501, "other metrics", &row);
+  for (size_t m = 0; m < values.size(); ++m)
+    if (!values[m].is_null()) r.values[m] = values[m].get<double>();
   errors.joint_errors_mm = row.at(10).get<std::vector<double>>();
   return errors;
 }
@@ -104,7 +105,7 @@ FrameErrors errors_of(const json& row) {
 json object_of(const TrackedReplay& replay) {
   json results = json::array(), errors = json::array(), stages = json::array();
   for (const TrackResult& result : replay.results) results.push_back(row_of(result));
-  for (const FrameErrors& frame : replay.errors) errors.push_back(row_of(frame));
+  for (const reports::FrameErrors& frame : replay.errors) errors.push_back(row_of(frame));
   for (const reports::StageTiming& stage : replay.stages) stages.push_back({stage.stage, stage.frame_ms});
   return {{"database", replay.database},
           {"results", std::move(results)},

@@ -20,13 +20,13 @@ inline FrameRecord example_frame(int index, double position_mm, double posture_d
   frame.false_tracked = !frame.covered;
   frame.converged = true;
   frame.icp_iterations = 20;
-  for (const Metric& metric : metrics()) frame.*metric.value = posture_deg / 2;
-  frame.position_error_mm = position_mm;
-  frame.rotation_error_deg = rotation_deg;
-  frame.posture_rms_deg = posture_deg;
-  frame.posture_rms_hidden_deg.reset();  // nothing hidden
-  frame.vertex_error_mm = frame.joint_error_mm = position_mm * 1.25;
-  frame.fingertip_error_mm = position_mm * 1.5;
+  for (std::optional<double>& value : frame.values) value = posture_deg / 2;
+  frame["position_error_mm"] = position_mm;
+  frame["rotation_error_deg"] = rotation_deg;
+  frame["posture_rms_deg"] = posture_deg;
+  frame["posture_rms_hidden_deg"].reset();  // nothing hidden
+  frame["vertex_error_mm"] = frame["joint_error_mm"] = position_mm * 1.25;
+  frame["fingertip_error_mm"] = position_mm * 1.5;
   return frame;
 }
 
@@ -124,7 +124,7 @@ inline RunResult full_result() {
                                      {2, example_frames(name, 2, frames, level)}};
         std::vector<double> errors;
         for (const FrameRecord& frame : runs[0].frames)
-          if (frame.joint_error_mm) errors.push_back(*frame.joint_error_mm);
+          if (const auto& error = frame["joint_error_mm"]) errors.push_back(*error);
         result.experiments.push_back(summarize(key, std::move(runs), pck_curve(errors, frames), {0.4, 0.3, 2.9}));
         result.experiments.back().commands = example_commands(2 * frames, level);
       }

@@ -127,7 +127,7 @@ TEST(HostileResults, FramesThatDoNotFollowEachOther) {
     return r["experiments"][0]["runs"][run]["frames"][row];
   };
   EXPECT_THAT(hostile_error_of_change([&](json& r) { frame(r, 0, 1)[0] = 0; }),
-              HasSubstr("frames[1]: found an array of 23, expected a frame after 0"));
+              testing::ContainsRegex("frames\\[1\\]: found an array of [0-9]+, expected a frame after 0"));
   EXPECT_THAT(hostile_error_of_change([&](json& r) { frame(r, 0, 1)[1] = 0; }),
               HasSubstr("expected a time stamp after 0"));
   EXPECT_THAT(hostile_error_of_change([&](json& r) { frame(r, 1, 1)[1] = 7; }), HasSubstr("runs[1].frames[1]"));

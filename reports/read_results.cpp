@@ -62,7 +62,8 @@ constexpr size_t kFirstMetric = 9;
 JsonItems read_rows(const JsonCursor& json) {
   JsonItems rows = json.items();
   for (const JsonCursor& row : rows)
-    if (row.items().size() != kFirstMetric + kMetricCount) row.fail("one value for each of frame_columns");
+    if (row.items().size() != kFirstMetric + frame_metrics().size())
+      row.fail("one value for each of frame_columns");
   return rows;
 }
 
@@ -78,7 +79,7 @@ FrameRecord read_frame(const JsonCursor& json) {
   frame.ambiguous = row[6].boolean();
   frame.converged = row[7].boolean();
   frame.icp_iterations = row[8].count();
-  for (int m = 0; m < kMetricCount; ++m) frame.*metrics()[m].value = read_value(row[kFirstMetric + m]);
+  for (size_t m = 0; m < frame.values.size(); ++m) frame.values[m] = read_value(row[kFirstMetric + m]);
   return frame;
 }
 
@@ -126,13 +127,13 @@ Coverage read_coverage(const JsonCursor& json) {
 }
 
 /// A mean that its frames do not have was changed by hand, or the frames were.
-void check_aggregate(const JsonCursor& json, const Aggregate& aggregate, int metric,
+void check_aggregate(const JsonCursor& json, const Aggregate& aggregate, size_t metric,
                      const std::vector<SeedRun>& runs) {
   constexpr double kRounding = 2e-6;  // frames and mean are written to 1e-6
   std::vector<double> values;
   for (const SeedRun& run : runs)
     for (const FrameRecord& frame : run.frames)
-      if (const std::optional<double>& value = frame.*metrics()[metric].value) values.push_back(*value);
+      if (const std::optional<double>& value = frame.values[metric]) values.push_back(*value);
   if (aggregate.count != static_cast<int>(values.size()))
     json["count"].fail(fmt::format("{}, the frames that have it", values.size()));
   const std::optional<double> expected = mean(values);
@@ -142,9 +143,10 @@ void check_aggregate(const JsonCursor& json, const Aggregate& aggregate, int met
 }
 
 void read_aggregates(const JsonCursor& json, ExperimentResult& experiment) {
-  if (json.members().size() != kMetricCount) json.fail(std::to_string(kMetricCount) + " metrics");
-  for (int m = 0; m < kMetricCount; ++m) {
-    const JsonCursor item = json[metrics()[m].key];
+  const size_t count = frame_metrics().size();
+  if (json.members().size() != count) json.fail(std::to_string(count) + " metrics");
+  for (size_t m = 0; m < count; ++m) {
+    const JsonCursor item = json[frame_metrics()[m].key];
     item.expect_keys({"count", "mean", "median", "rms", "p95", "max", "interval"});
     experiment.aggregates[m] = read_aggregate(item);
     check_aggregate(item, experiment.aggregates[m], m, experiment.runs);
@@ -152,7 +154,7 @@ void read_aggregates(const JsonCursor& json, ExperimentResult& experiment) {
   }
 }
 
-ExperimentKey read_key(const JsonCursor& json) {
+ExperimentKey read_experiment_key(const JsonCursor& json) {
   json["noise"].expect_keys({"model", "factor"});
   ExperimentKey key;
   key.trajectory = json["trajectory"].name();
@@ -171,7 +173,7 @@ ExperimentResult read_experiment(const JsonCursor& json) {
   json["joint_pck"].expect_keys({"thresholds_mm", "shares", "area"});
   json["sequence"].expect_keys({"jitter_position_mm", "jitter_rotation_deg", "latency_frames"});
   ExperimentResult experiment;
-  experiment.key = read_key(json);
+  experiment.key = read_experiment_key(json);
   experiment.runs = read_runs(json["runs"]);
   experiment.coverage = read_coverage(json["coverage"]);
   if (experiment.coverage != count_coverage(experiment.runs))

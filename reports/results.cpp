@@ -4,38 +4,10 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
 #include "core/base/hash.h"
 #include "core/hand/posture.h"
 
 namespace glovebench::reports {
-
-const std::array<Metric, kMetricCount>& metrics() {
-  using F = FrameRecord;
-  static constexpr std::array<Metric, kMetricCount> all = {{
-      {"position_error_mm", &F::position_error_mm},
-      {"rotation_error_deg", &F::rotation_error_deg},
-      {"posture_rms_deg", &F::posture_rms_deg},
-      {"posture_mean_abs_deg", &F::posture_mean_abs_deg},
-      {"posture_rms_without_wrist_deg", &F::posture_rms_without_wrist_deg},
-      {"posture_mean_abs_without_wrist_deg", &F::posture_mean_abs_without_wrist_deg},
-      {"posture_rms_observed_deg", &F::posture_rms_observed_deg},
-      {"posture_rms_hidden_deg", &F::posture_rms_hidden_deg},
-      {"posture_rms_unfiltered_deg", &F::posture_rms_unfiltered_deg},
-      {"vertex_error_mm", &F::vertex_error_mm},
-      {"fingertip_error_mm", &F::fingertip_error_mm},
-      {"joint_error_mm", &F::joint_error_mm},
-      {"matching_error_px", &F::matching_error_px},
-      {"icp_residual_mm", &F::icp_residual_mm},
-  }};
-  return all;
-}
-
-int metric_index(std::string_view key) {
-  const auto found = std::ranges::find(metrics(), key, &Metric::key);
-  check(found != metrics().end(), "a metric of that key exists");
-  return static_cast<int>(found - metrics().begin());
-}
 
 std::string to_string(const ExperimentKey& key) {
   return fmt::format("{}_{}_{}_subject{}_{}_{}", key.trajectory, key.database, to_string(key.truth), key.subject,
@@ -69,13 +41,13 @@ ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurv
   result.pck = std::move(pck);
   result.sequence = sequence;
   result.coverage = count_coverage(result.runs);
-  for (int m = 0; m < kMetricCount; ++m) {
+  for (size_t m = 0; m < frame_metrics().size(); ++m) {
     std::vector<double> values;
     std::vector<std::vector<std::optional<double>>> by_seed;
     for (const SeedRun& run : result.runs) {
       by_seed.emplace_back();
       for (const FrameRecord& frame : run.frames) {
-        const std::optional<double>& value = frame.*metrics()[m].value;
+        const std::optional<double>& value = frame.values[m];
         by_seed.back().push_back(value);
         if (value) values.push_back(*value);
       }
@@ -94,7 +66,7 @@ std::string Protocol::id() const {
 Protocol make_protocol(std::string association) {
   Protocol protocol;
   for (const AngleInfo& info : angle_infos()) protocol.joint_order.emplace_back(info.name);
-  for (const Metric& metric : metrics()) protocol.metric_keys.emplace_back(metric.key);
+  for (const Metric& metric : frame_metrics()) protocol.metric_keys.emplace_back(metric.key);
   protocol.association = std::move(association);
   return protocol;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,13 +10,13 @@
 
 #include "core/tracker/track_result.h"
 #include "reports/commands.h"
+#include "reports/metrics/metric.h"
 #include "reports/statistics.h"
 #include "reports/study.h"
 
 namespace glovebench::reports {
 
-/// What one frame of a replay came to, against the truth. Errors are of the filtered estimate unless the name says
-/// otherwise; a value is empty where it cannot be told (a lost frame's errors, hidden joints when none is hidden).
+/// One frame of a replay against the truth.
 struct FrameRecord {
   int frame = 0;
   int64_t timestamp_us = 0;
@@ -29,33 +28,13 @@ struct FrameRecord {
   bool converged = false;      ///< of the alignment
   int icp_iterations = 0;
 
-  std::optional<double> position_error_mm;   ///< distance of the hand origins
-  std::optional<double> rotation_error_deg;  ///< geodesic angle
-  std::optional<double> posture_rms_deg;     ///< over the 22 angles: the headline posture error
-  std::optional<double> posture_mean_abs_deg;
-  std::optional<double> posture_rms_without_wrist_deg;
-  std::optional<double> posture_mean_abs_without_wrist_deg;
-  std::optional<double> posture_rms_observed_deg;    ///< angles that move at least 30 visible pixels
-  std::optional<double> posture_rms_hidden_deg;      ///< the others
-  std::optional<double> posture_rms_unfiltered_deg;  ///< before the smoothing
-  std::optional<double> vertex_error_mm;             ///< mean over the posed mesh, in the camera frame
-  std::optional<double> fingertip_error_mm;          ///< mean over the five tips
-  std::optional<double> joint_error_mm;              ///< mean over the joints
-  std::optional<double> matching_error_px;           ///< equation (2), of the best match
-  std::optional<double> icp_residual_mm;             ///< mean point-to-triangle distance at the end
+  /// One for each of frame_metrics(); empty where it cannot be told.
+  std::vector<std::optional<double>> values = std::vector<std::optional<double>>(frame_metrics().size());
+  std::optional<double>& operator[](std::string_view metric) { return values[metric_index(metric)]; }
+  const std::optional<double>& operator[](std::string_view metric) const { return values[metric_index(metric)]; }
 
   friend bool operator==(const FrameRecord&, const FrameRecord&) = default;
 };
-
-/// The metrics of a frame: the one list that files, tables and aggregates follow.
-struct Metric {
-  std::string_view key;  ///< with its unit
-  std::optional<double> FrameRecord::*value;
-};
-inline constexpr int kMetricCount = 14;
-const std::array<Metric, kMetricCount>& metrics();
-/// Index in metrics(); a key that does not exist is a broken invariant.
-int metric_index(std::string_view key);
 
 enum class TruthKind { recorded, source };
 constexpr auto names_of(TruthKind) {
@@ -119,13 +98,18 @@ struct ExperimentResult {
   std::vector<SeedRun> runs;
   // From here on: computed from the runs by `summarize`, but for what is handed to it.
   Coverage coverage;
-  std::array<Aggregate, kMetricCount> aggregates;  ///< over all frames and seeds that have the value
-  std::array<std::optional<ConfidenceInterval>, kMetricCount> intervals;  ///< of the means
-  PckCurve pck;                                                           ///< of the joints' position errors
+  /// Both: one for each of frame_metrics(), over all frames and seeds that have the value.
+  std::vector<Aggregate> aggregates = std::vector<Aggregate>(frame_metrics().size());
+  std::vector<std::optional<ConfidenceInterval>> intervals =
+      std::vector<std::optional<ConfidenceInterval>>(frame_metrics().size());  ///< of the means
+  PckCurve pck;                                                                ///< of the joints' position errors
   SequenceMetrics sequence;
   std::optional<CommandResult> commands = {};  ///< empty in results from before they were measured
 
   const Aggregate& aggregate_of(std::string_view metric) const { return aggregates[metric_index(metric)]; }
+  const std::optional<ConfidenceInterval>& interval_of(std::string_view metric) const {
+    return intervals[metric_index(metric)];
+  }
   friend bool operator==(const ExperimentResult&, const ExperimentResult&) = default;
 };
 /// Coverage, aggregates and intervals of the runs; the curve and the sequence's metrics are passed through.

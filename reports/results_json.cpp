@@ -13,8 +13,8 @@ using Json = nlohmann::ordered_json;
 
 Json aggregates_json(const ExperimentResult& experiment) {
   Json json = Json::object();
-  for (int m = 0; m < kMetricCount; ++m) {
-    Json& aggregate = json[std::string(metrics()[m].key)] = aggregate_json(experiment.aggregates[m]);
+  for (size_t m = 0; m < frame_metrics().size(); ++m) {
+    Json& aggregate = json[std::string(frame_metrics()[m].key)] = aggregate_json(experiment.aggregates[m]);
     aggregate["interval"] = interval_json(experiment.intervals[m]);
   }
   return json;
@@ -72,7 +72,7 @@ Json experiment_json(const ExperimentResult& experiment) {
 std::vector<std::string> frame_columns() {
   std::vector<std::string> columns = {"frame",      "timestamp_us", "status",    "covered",       "false_tracked",
                                       "false_lost", "ambiguous",    "converged", "icp_iterations"};
-  for (const Metric& metric : metrics()) columns.emplace_back(metric.key);
+  for (const Metric& metric : frame_metrics()) columns.emplace_back(metric.key);
   return columns;
 }
 
@@ -80,7 +80,7 @@ Json frame_row(const FrameRecord& frame) {
   Json row = {frame.frame,     frame.timestamp_us,  std::string(to_string(frame.status)),
               frame.covered,   frame.false_tracked, frame.false_lost,
               frame.ambiguous, frame.converged,     frame.icp_iterations};
-  for (const Metric& metric : metrics()) row.push_back(rounded_or_null(frame.*metric.value));
+  for (const std::optional<double>& value : frame.values) row.push_back(rounded_or_null(value));
   return row;
 }
 

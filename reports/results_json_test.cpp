@@ -116,7 +116,7 @@ TEST(ResultsJson, NoValueIsNull) {
 
 TEST(ResultsJson, NothingThatIsNotFiniteIsWritten) {
   RunResult result = small_result();
-  result.experiments[0].runs[0].frames[0].position_error_mm = std::numeric_limits<double>::quiet_NaN();
+  result.experiments[0].runs[0].frames[0]["position_error_mm"] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(results_json(result), std::logic_error);
 }
 

@@ -26,7 +26,7 @@ TEST(Results, AggregatesAreOverTheFramesThatHaveAValue) {
   EXPECT_DOUBLE_EQ(*position.p95, 4.9);
   EXPECT_DOUBLE_EQ(*position.max, 5);
   EXPECT_EQ(experiment.aggregate_of("posture_rms_hidden_deg"), Aggregate{});
-  const auto& interval = experiment.intervals[metric_index("position_error_mm")];
+  const auto& interval = experiment.interval_of("position_error_mm");
   ASSERT_TRUE(interval);
   EXPECT_EQ(interval->seeds, 2);
   EXPECT_GE(interval->low, 3);
@@ -64,6 +64,12 @@ TEST(Results, HeadlineNoiseIsThePapersWhereThatWasRun) {
   EXPECT_EQ(headline_noise(result), (NoiseSetting{"kinect", 0.5}));
   result.experiments.clear();
   EXPECT_EQ(headline_noise(result), NoiseSetting{});
+}
+
+TEST(Results, ProtocolIdOfTheFirstMetricsStays) {
+  Protocol protocol = make_protocol("by time stamp, exact");
+  protocol.metric_keys.resize(14);
+  EXPECT_EQ(protocol.id(), "59e61f1861e6abcb27e87148dcac07cb") << "the id of the baselines";
 }
 
 TEST(Results, ProtocolIdChangesWithWhateverItCovers) {

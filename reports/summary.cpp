@@ -19,7 +19,7 @@ std::string errors_cell(const ExperimentResult* experiment) {
 }
 
 std::string mean_with_interval(const ExperimentResult& experiment, std::string_view metric) {
-  const auto& interval = experiment.intervals[metric_index(metric)];
+  const auto& interval = experiment.interval_of(metric);
   const std::string mean = fixed(experiment.aggregate_of(metric).mean, 2);
   return interval ? fmt::format("{} [{:.2f}, {:.2f}]", mean, interval->low, interval->high) : mean;
 }

@@ -61,7 +61,7 @@ std::string figure4_csv_line(const ExperimentResult& experiment, const PaperErro
                 experiment.coverage.frames,
                 rounded_or_null(experiment.coverage.share())};
   for (const Headline& headline : kHeadlines) {
-    const auto& interval = experiment.intervals[metric_index(headline.metric)];
+    const auto& interval = experiment.interval_of(headline.metric);
     cells.push_back(rounded_or_null(experiment.aggregate_of(headline.metric).mean));
     cells.push_back(interval ? Json(rounded(interval->low)) : nullptr);
     cells.push_back(interval ? Json(rounded(interval->high)) : nullptr);
@@ -157,9 +157,9 @@ std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& pape
                     frame.frame,
                     frame.timestamp_us,
                     std::string(to_string(frame.status)),
-                    rounded_or_null(frame.position_error_mm),
-                    rounded_or_null(frame.posture_rms_deg),
-                    rounded_or_null(frame.rotation_error_deg)};
+                    rounded_or_null(frame["position_error_mm"]),
+                    rounded_or_null(frame["posture_rms_deg"]),
+                    rounded_or_null(frame["rotation_error_deg"])};
       if (i < paper.frames.size()) {
         const PaperErrors& errors = paper.frames[i];
         for (const double value : {errors.position_mm, errors.posture_deg, errors.rotation_deg})

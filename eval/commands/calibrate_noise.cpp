@@ -73,21 +73,21 @@ struct CalibrateNoise {
     return floor;
   }
 
-  /// A row for each quantity: the mean over all experiments, and the least sensitive of them.
+  /// A row for each metric: the mean over all experiments, and the least sensitive of them.
   static reports::TextTable smallest_changes(const reports::NoiseFloor& floor) {
     reports::TextTable table;
     table.heading = {"suite " + floor.suite, "all, same seeds", "all, other seeds", "worst experiment, same seeds",
                      "worst experiment, other seeds"};
     table.name_columns = 1;
-    for (const reports::Quantity& quantity : reports::quantities()) {
+    for (const reports::Metric& metric : reports::gated_metrics()) {
       std::optional<double> all_effect, all_detectable, effect, detectable;
       for (const reports::NoiseFloorEntry& entry : floor.entries) {
-        if (entry.quantity != quantity.key) continue;
+        if (entry.quantity != metric.key) continue;
         const bool is_all = entry.experiment == reports::kAllExperiments;
         raise(is_all ? all_effect : effect, entry.minimum_effect);
         raise(is_all ? all_detectable : detectable, entry.detectable);
       }
-      table.rows.push_back({std::string(quantity.key), reports::fixed(all_effect, 3),
+      table.rows.push_back({std::string(metric.key), reports::fixed(all_effect, 3),
                             reports::fixed(all_detectable, 3), reports::fixed(effect, 3),
                             reports::fixed(detectable, 3)});
     }

@@ -11,6 +11,7 @@
 #include "eval/studies/study.h"
 #include "eval/suite.h"
 #include "render/noise/noise_model.h"
+#include "reports/metrics/metric.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 
@@ -54,6 +55,11 @@ void list_formats() {
     fmt::print("{:<16} {:<10} {}\n", format.name, format.ending, format.description);
 }
 
+void list_metrics() {
+  for (const reports::Metric& metric : reports::metrics())
+    fmt::print("{:<36}{:<11}{}\n", metric.key, metric.gate ? "compared" : "", metric.description);
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -76,6 +82,8 @@ void add_list(Command program) {
   list.subcommand("noises", "How the depth camera errs, for --noise.").runs(list_noises);
   list.subcommand("formats", "Files of movements and postures, and captures for `glovebench import`.")
       .runs(list_formats);
+  list.subcommand("metrics", "What is measured of each frame, and which of it `compare` and `gate` compare.")
+      .runs(list_metrics);
   list.subcommand("angles", "The 22 joint angles and their limits.").runs(list_angles);
   const auto limits = std::make_shared<LimitsFlag>();
   const Command mapping =

@@ -57,7 +57,7 @@ class RegressionLong : public testing::Test {
     for (reports::ExperimentResult& experiment : result.experiments)
       for (reports::SeedRun& run : experiment.runs)
         for (reports::FrameRecord& frame : run.frames)
-          if (frame.position_error_mm) *frame.position_error_mm += mm;
+          if (auto& error = frame["position_error_mm"]) *error += mm;
   }
   static ProgramRun gate(const std::string& candidate, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"gate", candidate, "--baseline", path("baseline")};
@@ -258,7 +258,7 @@ TEST_F(RegressionLong, PicturesTheWorstFrames) {
   fs::remove(path("exit-worse/manifest.json"));  // of other results
   RunResult result = reports::read_results(path("exit/results.json"));
   reports::ExperimentResult& e = result.experiments[0];
-  *e.runs[0].frames[5].vertex_error_mm += 20;
+  *e.runs[0].frames[5]["vertex_error_mm"] += 20;
   e = summarize(e.key, e.runs, e.pck, e.sequence);
   reports::write_results(path("exit-worse/results.json"), result);
   const ProgramRun run = run_glovebench({"compare", path("exit"), path("exit-worse"), "-o", path("pictures")});

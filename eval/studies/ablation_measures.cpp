@@ -6,7 +6,6 @@ namespace glovebench::eval {
 namespace {
 
 using reports::Cell;
-using reports::FrameRecord;
 using reports::Measure;
 
 constexpr const char* kLatencyDatabase = "DB_open_pinch_power";
@@ -42,8 +41,8 @@ Measure movement_measure(const std::string& name, const std::string& unit, int m
 
 /// 1 in frames in which the look-up is wrong, else 0.
 Sample wrong_look_ups(const Passes& passes) {
-  return sample_of(passes, [](const TrackResult&, const FrameErrors& errors) -> std::optional<double> {
-    const std::optional<double>& posture = errors.record.posture_rms_unfiltered_deg;
+  return sample_of(passes, [](const TrackResult&, const reports::FrameErrors& errors) -> std::optional<double> {
+    const std::optional<double>& posture = errors.record["posture_rms_unfiltered_deg"];
     return posture && *posture > kWrongLookUp_deg ? 1.0 : 0.0;
   });
 }
@@ -54,8 +53,7 @@ struct Excess {
   Sample counted;
   Sample difference;
 };
-Excess excess_of(const AblationRuns& runs, const std::string& database,
-                 std::optional<double> FrameRecord::*metric) {
+Excess excess_of(const AblationRuns& runs, const std::string& database, std::string_view metric) {
   const Passes& sensitive = runs.at(kDefaultSetting, database);
   const Sample a = sample_of(runs.at(kColorBlind, database), metric), b = sample_of(sensitive, metric);
   Excess excess{wrong_look_ups(sensitive), a};
@@ -72,7 +70,7 @@ Excess excess_of(const AblationRuns& runs, const std::string& database,
 }
 
 Measure color_measure(const AblationRuns& runs, const std::string& name, const std::string& unit,
-                      std::optional<double> FrameRecord::*metric) {
+                      std::string_view metric) {
   std::vector<Sample> samples;
   for (const std::string& database : kColorDatabases) {
     Excess excess = excess_of(runs, database, metric);
@@ -93,7 +91,7 @@ Measure color_measure(const AblationRuns& runs, const std::string& name, const s
 
 /// 1 in frames whose matches are of several postures.
 Sample distinct_matches(const Passes& passes) {
-  return sample_of(passes, [](const TrackResult& result, const FrameErrors&) -> std::optional<double> {
+  return sample_of(passes, [](const TrackResult& result, const reports::FrameErrors&) -> std::optional<double> {
     if (result.status != TrackStatus::tracked) return std::nullopt;
     const auto posture = [](const Match& match) { return match.entry / kViewCount; };
     const auto differs = [&](const Match& match) { return posture(match) != posture(result.matches.front()); };
@@ -120,8 +118,8 @@ std::vector<Measure> lag_measures(const AblationRuns& runs) {
 }
 
 std::vector<Measure> color_measures(const AblationRuns& runs) {
-  return {color_measure(runs, "color.blind_excess_position_mm", "mm", &FrameRecord::position_error_mm),
-          color_measure(runs, "color.blind_excess_rotation_deg", "deg", &FrameRecord::rotation_error_deg)};
+  return {color_measure(runs, "color.blind_excess_position_mm", "mm", "position_error_mm"),
+          color_measure(runs, "color.blind_excess_rotation_deg", "deg", "rotation_error_deg")};
 }
 
 reports::Table color_table(const AblationRuns& runs) {
@@ -145,7 +143,7 @@ reports::Table color_table(const AblationRuns& runs) {
     for (const auto& stratum : wrong)
       for (const auto& seed : stratum) frames += std::ranges::count(seed, std::optional(1.0));
     std::vector<Cell> row = {database, frames};
-    for (const auto metric : {&FrameRecord::position_error_mm, &FrameRecord::rotation_error_deg})
+    for (const char* metric : {"position_error_mm", "rotation_error_deg"})
       for (const Passes* passes : {&sensitive, &blind})
         row.push_back(cell(mean(where(sample_of(*passes, metric), wrong))));
     table.rows.push_back(row);
@@ -155,7 +153,7 @@ reports::Table color_table(const AblationRuns& runs) {
 
 Measure interpolation_measure(const AblationRuns& runs) {
   const Passes& three = runs.at(kDefaultSetting, "DB_open_power");
-  const auto metric = &FrameRecord::posture_rms_unfiltered_deg;
+  const char* metric = "posture_rms_unfiltered_deg";
   const Sample one = sample_of(runs.at("1 neighbor", "DB_open_power"), metric);
   const Estimated excess = estimate_difference(where(sample_of(three, metric), distinct_matches(three)), one);
   return {"interpolation.distinct_excess_deg", "deg", excess.value, excess.interval};

@@ -9,7 +9,6 @@ namespace glovebench::eval {
 namespace {
 
 using reports::Cell;
-using reports::FrameRecord;
 using reports::SequenceMetrics;
 using reports::Table;
 using reports::TruthKind;
@@ -40,8 +39,7 @@ std::vector<Cell> row_of(const AblationRuns& runs, const Ablation& ablation, con
   const AblationRow& first = ablation.rows.front();
   const Passes& reference = runs.at(first.setting, first.database);
   std::vector<Cell> result = {ablation.name, row.label, row.database};
-  for (const auto metric :
-       {&FrameRecord::position_error_mm, &FrameRecord::posture_rms_deg, &FrameRecord::rotation_error_deg}) {
+  for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"}) {
     const Sample errors = sample_of(passes, metric);
     result.push_back(cell(mean(errors)));
     std::ranges::copy(

@@ -10,7 +10,6 @@ namespace glovebench::eval {
 namespace {
 
 using reports::Cell;
-using reports::FrameRecord;
 using reports::Measure;
 using reports::PaperCascade;
 using reports::percentile;
@@ -105,12 +104,12 @@ struct Measured {
 std::vector<Cell> errors_row(const std::string& database, const Cascade& cascade, Implementation implementation,
                              TruthKind truth, const Passes& passes, const std::vector<StageSurvival>& survival,
                              const Passes& timed) {
-  const Sample posture = sample_of(passes, &FrameRecord::posture_rms_deg);
+  const Sample posture = sample_of(passes, "posture_rms_deg");
   std::vector<Cell> row = {database, to_string(cascade), std::string(to_string(implementation)),
                            std::string(to_string(truth)), static_cast<int64_t>(times_ms(passes).size())};
   std::ranges::copy(cells(estimate_mean(posture)), std::back_inserter(row));
-  row.push_back(cell(mean(sample_of(passes, &FrameRecord::position_error_mm))));
-  row.push_back(cell(mean(sample_of(passes, &FrameRecord::rotation_error_deg))));
+  row.push_back(cell(mean(sample_of(passes, "position_error_mm"))));
+  row.push_back(cell(mean(sample_of(passes, "rotation_error_deg"))));
   row.push_back(cell(covered_percent(passes)));
   row.push_back(cell(mean(survival.back().survived_percent)));
   row.push_back(static_cast<int64_t>(times_ms(timed).size()));
@@ -156,7 +155,7 @@ std::optional<Roles> roles_of(const std::vector<Cascade>& cascades) {
 std::vector<Measure> error_measures(const PassesOfCascades& passes, const Roles& roles) {
   std::vector<Sample> posture;
   for (const size_t c : {roles.smallest_alone, roles.largest_alone, roles.two_stages, roles.three_stages})
-    posture.push_back(sample_of(passes[c][kLarge], &FrameRecord::posture_rms_deg));
+    posture.push_back(sample_of(passes[c][kLarge], "posture_rms_deg"));
   const Estimated excess = estimate(posture, [](std::span<const double> means) {
     return std::optional(means[0] - *std::ranges::max_element(means.subspan(1)));
   });

@@ -5,7 +5,6 @@
 namespace glovebench::eval {
 namespace {
 
-using reports::FrameRecord;
 using reports::Measure;
 using reports::Table;
 using reports::TruthKind;
@@ -65,10 +64,11 @@ using PassesOfFactors = std::vector<std::vector<Passes>>;
 void add_errors(Table& table, TruthKind truth, const PassesOfFactors& passes) {
   for (size_t f = 0; f < kFactors.size(); ++f) {
     const Passes& of_factor = passes[f][0];
-    const auto points = mean(sample_of(
-        of_factor, [](const TrackResult& r, const FrameErrors&) { return std::optional<double>(r.icp_points); }));
+    const auto points = mean(sample_of(of_factor, [](const TrackResult& r, const reports::FrameErrors&) {
+      return std::optional<double>(r.icp_points);
+    }));
     std::vector<reports::Cell> row = {std::string(to_string(truth)), int64_t{kFactors[f]}, cell(points)};
-    for (const auto metric : {&FrameRecord::position_error_mm, &FrameRecord::rotation_error_deg})
+    for (const char* metric : {"position_error_mm", "rotation_error_deg"})
       std::ranges::copy(cells(estimate_mean(sample_of(of_factor, metric))), std::back_inserter(row));
     row.push_back(cell(covered_percent(of_factor)));
     table.rows.push_back(row);
@@ -102,7 +102,7 @@ std::vector<Measure> time_measures(const Passes& sparsest) {
 std::vector<Measure> error_measures(const PassesOfFactors& passes) {
   std::vector<Sample> errors;
   for (const std::vector<Passes>& of_factor : passes)
-    errors.push_back(sample_of(of_factor[0], &FrameRecord::position_error_mm));
+    errors.push_back(sample_of(of_factor[0], "position_error_mm"));
   const auto per_doubling = [](std::span<const double> means) {
     return std::optional(std::pow(means[1] / means[0], 1.0 / (kFactors.size() - 1)) - 1);
   };

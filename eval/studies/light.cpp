@@ -9,7 +9,6 @@ namespace {
 
 using render::Lighting;
 using reports::Cell;
-using reports::FrameRecord;
 using reports::Measure;
 using reports::Table;
 
@@ -124,8 +123,7 @@ Table tracking_table(const StudyContext& context) {
       if (settings[i].tracker.segmentation.color_space != space) continue;
       std::vector<Cell> row = {std::string(to_string(space)), settings[i].lighting.strength,
                                settings[i].lighting.temperature_k};
-      for (const auto metric :
-           {&FrameRecord::position_error_mm, &FrameRecord::posture_rms_deg, &FrameRecord::rotation_error_deg})
+      for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"})
         row.push_back(cell(mean(sample_of(passes[i][0], metric))));
       row.push_back(cell(covered_percent(passes[i][0])));
       table.rows.push_back(row);

@@ -8,7 +8,6 @@ namespace glovebench::eval {
 namespace {
 
 using reports::Cell;
-using reports::FrameRecord;
 using reports::Table;
 using reports::TruthKind;
 
@@ -48,7 +47,7 @@ Estimated depth_error_cm(const Passes& passes) {
 }
 
 std::optional<double> tracked_percent(const Passes& passes) {
-  return mean(sample_of(passes, [](const TrackResult& result, const FrameErrors&) {
+  return mean(sample_of(passes, [](const TrackResult& result, const reports::FrameErrors&) {
     return std::optional(result.status == TrackStatus::tracked ? 100.0 : 0.0);
   }));
 }
@@ -87,8 +86,7 @@ std::vector<Cell> row_of(const Setting& setting, const std::string& database, co
   std::ranges::copy(cells(depth_error_cm(passes)), std::back_inserter(row));
   const auto lateral_mm = [](const Eigen::Vector3d& offset) { return 1000 * offset.head<2>().norm(); };
   row.push_back(cell(mean(offset_sample(passes, lateral_mm))));
-  for (const auto metric :
-       {&FrameRecord::position_error_mm, &FrameRecord::rotation_error_deg, &FrameRecord::posture_rms_deg})
+  for (const char* metric : {"position_error_mm", "rotation_error_deg", "posture_rms_deg"})
     row.push_back(cell(mean(sample_of(passes, metric))));
   row.push_back(cell(tracked_percent(passes)));
   return row;

@@ -13,7 +13,6 @@ namespace glovebench::eval {
 namespace {
 
 using reports::Cell;
-using reports::FrameRecord;
 
 constexpr const char* kChosen = "DB_20_postures";
 constexpr size_t kGrasps = 3;  ///< the first postures of that set: open, pinch, power
@@ -26,8 +25,7 @@ std::vector<Cell> row_of(const AblationRuns& runs, const PostureSet& set) {
   const Passes& passes = runs.at(kDefaultSetting, set.name);
   const Passes& reference = runs.at(kDefaultSetting, kChosen);
   std::vector<Cell> row = {set.name, covering_radius_deg(set)};
-  for (const auto metric :
-       {&FrameRecord::position_error_mm, &FrameRecord::posture_rms_deg, &FrameRecord::rotation_error_deg}) {
+  for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"}) {
     const Sample errors = sample_of(passes, metric);
     row.push_back(cell(mean(errors)));
     std::ranges::copy(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "eval/sequence_metrics.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
 
@@ -117,8 +118,9 @@ std::string times_explanation() {
       *kTimedFrames.count, *kQuickTimedFrames.count);
 }
 
-Sample sample_of(const Passes& passes,
-                 const std::function<std::optional<double>(const TrackResult&, const FrameErrors&)>& value) {
+Sample sample_of(
+    const Passes& passes,
+    const std::function<std::optional<double>(const TrackResult&, const reports::FrameErrors&)>& value) {
   Sample sample;
   for (const std::vector<TrackedReplay>& seeds : passes.strata) {
     auto& stratum = sample.emplace_back();
@@ -130,8 +132,9 @@ Sample sample_of(const Passes& passes,
   return sample;
 }
 
-Sample sample_of(const Passes& passes, std::optional<double> reports::FrameRecord::*metric) {
-  return sample_of(passes, [&](const TrackResult&, const FrameErrors& errors) { return errors.record.*metric; });
+Sample sample_of(const Passes& passes, std::string_view metric) {
+  return sample_of(passes,
+                   [&](const TrackResult&, const reports::FrameErrors& errors) { return errors.record[metric]; });
 }
 
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Passes& passes) {
@@ -158,7 +161,7 @@ std::vector<double> times_ms(const Passes& passes, std::string_view stage) {
 }
 
 std::optional<double> covered_percent(const Passes& passes) {
-  return mean(sample_of(passes, [](const TrackResult&, const FrameErrors& errors) {
+  return mean(sample_of(passes, [](const TrackResult&, const reports::FrameErrors& errors) {
     return std::optional(errors.record.covered ? 100.0 : 0.0);
   }));
 }

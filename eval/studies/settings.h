@@ -55,10 +55,11 @@ std::vector<std::vector<Passes>> time_settings(const StudyContext& context, cons
 std::string times_explanation();
 
 /// A value of each frame.
-Sample sample_of(const Passes& passes,
-                 const std::function<std::optional<double>(const TrackResult&, const FrameErrors&)>& value);
-/// A metric of each frame (reports::metrics()).
-Sample sample_of(const Passes& passes, std::optional<double> reports::FrameRecord::*metric);
+Sample sample_of(
+    const Passes& passes,
+    const std::function<std::optional<double>(const TrackResult&, const reports::FrameErrors&)>& value);
+/// A metric of each frame, by its key.
+Sample sample_of(const Passes& passes, std::string_view metric);
 
 /// Jitter and latency, of each stratum and noise seed in turn.
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Passes& passes);

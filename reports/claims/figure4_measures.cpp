@@ -48,13 +48,13 @@ bool can_share_draws(const Group& group) {
 
 /// The mean over the frames that were drawn.
 std::optional<double> drawn_mean(const ExperimentResult& experiment, std::string_view metric, const Draw& draw) {
-  const auto value = metrics()[metric_index(metric)].value;
+  const size_t value = metric_index(metric);
   double sum = 0;
   int count = 0;
   for (const int seed : draw.seeds) {
     const std::vector<FrameRecord>& frames = experiment.runs[seed].frames;
     for (const int frame : draw.frames) {
-      const std::optional<double>& error = frames[frame].*value;
+      const std::optional<double>& error = frames[frame].values[value];
       if (!error) continue;
       sum += *error;
       ++count;
@@ -152,8 +152,7 @@ void add_curve(std::vector<Measure>& measures, const RunResult& result, const st
   for (size_t e = 0; e < kErrors.size(); ++e) {
     const auto& [name, unit] = kNames[e];
     measures.push_back({figure + "." + std::string(name), std::string(unit),
-                        experiment->aggregate_of(kErrors[e]).mean, experiment->intervals[metric_index(kErrors[e])],
-                        false});
+                        experiment->aggregate_of(kErrors[e]).mean, experiment->interval_of(kErrors[e]), false});
   }
 }
 

@@ -179,7 +179,7 @@ TEST(Figure4Measures, CurvesAreTheRecordedExperimentsOfTheFigures) {
   EXPECT_EQ(value_of(result, "figure5.rotation_error_deg"), 2);
   EXPECT_EQ(measures[1].unit, "deg");
   ASSERT_TRUE(measures[0].interval);
-  EXPECT_EQ(*measures[0].interval, *result.experiments[0].intervals[metric_index("position_error_mm")]);
+  EXPECT_EQ(*measures[0].interval, *result.experiments[0].interval_of("position_error_mm"));
 }
 
 }  // namespace

@@ -29,13 +29,14 @@ FrameDifferences frame_differences(const ExperimentResult& baseline, const Exper
   result.experiment = to_string(baseline.key);
   if (baseline.runs.empty() || baseline.runs.front().frames.empty()) return result;
   result.first_frame = baseline.runs.front().frames.front().frame;
-  for (int q = 0; q < kQuantityCount; ++q) {
-    const auto by_seed = paired_differences(quantities()[q], baseline.runs, candidate.runs).by_seed;
+  for (const Metric& metric : gated_metrics()) {
+    const auto by_seed = paired_differences(metric, baseline.runs, candidate.runs).by_seed;
+    auto& differences = result.differences.emplace_back(&metric).values;
     for (size_t f = 0; f < by_seed.front().size(); ++f) {
       std::vector<double> values;
       for (const auto& row : by_seed)
         if (row[f]) values.push_back(*row[f]);
-      result.differences[q].push_back(mean(values));
+      differences.push_back(mean(values));
     }
   }
   return result;

@@ -6,7 +6,6 @@
 
 #include "reports/comparison/noise_floor.h"
 #include "reports/comparison/pairing.h"
-#include "reports/comparison/quantities.h"
 
 namespace glovebench::reports {
 
@@ -31,10 +30,10 @@ struct CompareConfig {
   uint64_t seed = 1;           ///< of the bootstrap
 };
 
-/// One quantity of one experiment, or of all.
+/// One metric of one experiment, or of all.
 struct ComparisonRow {
   std::string experiment;          ///< to_string of its key, or kAllExperiments
-  int quantity = 0;                ///< index in quantities()
+  const Metric* metric = nullptr;  ///< one of gated_metrics()
   int pairs = 0;                   ///< frames of all seeds that have the value in both
   int frames = 0;                  ///< frames of all seeds
   std::optional<double> baseline;  ///< mean over the pairs
@@ -57,11 +56,15 @@ struct ChangedFrame {
   std::optional<double> candidate_vertex_error_mm;
 };
 
-/// The paired differences of one experiment, frame by frame, of each quantity: mean over the seeds that have both.
+/// The paired differences of one experiment, frame by frame: mean over the seeds that have both.
 struct FrameDifferences {
   std::string experiment;
   int first_frame = 0;
-  std::array<std::vector<std::optional<double>>, kQuantityCount> differences;
+  struct OfMetric {
+    const Metric* metric;
+    std::vector<std::optional<double>> values;
+  };
+  std::vector<OfMetric> differences;  ///< of each gated metric
 };
 
 /// A field of the effective configurations that differs.

@@ -29,10 +29,9 @@ Json method_json(const Comparison& comparison) {
 }
 
 Json row_json(const ComparisonRow& row) {
-  const Quantity& quantity = quantities()[row.quantity];
   return {{"experiment", row.experiment},
-          {"quantity", quantity.key},
-          {"unit", quantity.unit},
+          {"quantity", row.metric->key},
+          {"unit", row.metric->unit},
           {"verdict", to_string(row.verdict)},
           {"stops", stops(row)},
           {"pairs", row.pairs},
@@ -68,10 +67,9 @@ Json changed_frame_json(const ChangedFrame& frame) {
 
 Json differences_json(const FrameDifferences& experiment) {
   Json differences = Json::object();
-  for (int q = 0; q < kQuantityCount; ++q) {
-    Json values = Json::array();
-    for (const auto& value : experiment.differences[q]) values.push_back(rounded_or_null(value));
-    differences[std::string(quantities()[q].key)] = std::move(values);
+  for (const auto& [metric, values] : experiment.differences) {
+    Json& row = differences[std::string(metric->key)] = Json::array();
+    for (const auto& value : values) row.push_back(rounded_or_null(value));
   }
   return {{"experiment", experiment.experiment},
           {"first_frame", experiment.first_frame},

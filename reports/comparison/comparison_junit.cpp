@@ -76,7 +76,7 @@ std::string junit(const std::vector<TestSuite>& suites) {
 
 TestCase row_case(const ComparisonRow& row) {
   TestCase test;
-  test.name = quantities()[row.quantity].key;
+  test.name = row.metric->key;
   std::string experiment = row.experiment;
   std::ranges::replace(experiment, '.', '_');  // a dot would begin another package
   test.class_name = "glovebench." + experiment;

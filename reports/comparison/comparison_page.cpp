@@ -87,16 +87,16 @@ bool shows_change(const std::vector<std::optional<double>>& values) {
   return std::ranges::any_of(values, [](const auto& value) { return value && *value != 0; });
 }
 
-/// A chart for each quantity that changed in some frame.
+/// A chart for each metric that changed in some frame.
 std::string difference_charts(const FrameDifferences& experiment) {
   std::string charts, unchanged;
-  for (int q = 0; q < kQuantityCount; ++q) {
-    const std::string key(quantities()[q].key);
-    if (!shows_change(experiment.differences[q])) {
+  for (const auto& [metric, values] : experiment.differences) {
+    const std::string key(metric->key);
+    if (!shows_change(values)) {
       unchanged += (unchanged.empty() ? "" : ", ") + key;
       continue;
     }
-    LineChart chart{key, "frame", key + ", candidate - baseline", {{key, experiment.differences[q]}}};
+    LineChart chart{key, "frame", key + ", candidate - baseline", {{key, values}}};
     chart.is_signed = true;
     chart.first_place = experiment.first_frame;
     charts += to_svg(chart);

@@ -26,7 +26,7 @@ std::string comparison_markdown(const ComparisonReport& report);
 std::string comparison_json(const ComparisonReport& report);  ///< reports/schema/comparison.schema.json
 std::string comparison_csv(const ComparisonReport& report);
 std::string comparison_latex(const ComparisonReport& report);  ///< a tabular (booktabs), to \input
-/// JUnit XML: a test suite for each experiment, a case for each quantity, one for each speed ratio. A case fails if
+/// JUnit XML: a test suite for each experiment, a case for each metric, one for each speed ratio. A case fails if
 /// it stops the change (gate.h), and is skipped where there is not enough data.
 std::string comparison_junit(const ComparisonReport& report);
 /// The same for results that could not be compared: one case with an error.

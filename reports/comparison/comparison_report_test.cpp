@@ -79,10 +79,10 @@ TEST(ComparisonText, OutcomeCountsEveryVerdict) {
 TEST(ComparisonText, RowsWorthReading) {
   std::vector<std::string> read;
   for (const ComparisonRow& row : small_comparison().comparison.rows)
-    if (is_worth_reading(row)) read.emplace_back(quantities()[row.quantity].key);
+    if (is_worth_reading(row)) read.emplace_back(row.metric->key);
   EXPECT_THAT(read, testing::ElementsAre("position_error_mm", "position_error_mm", "rotation_error_deg",
                                          "posture_rms_unfiltered_deg", "uncovered_percent"));
-  ComparisonRow row = example_row("a", 0, 3, 0, 1, Verdict::not_enough_data);
+  ComparisonRow row = example_row("a", "position_error_mm", 3, 0, 1, Verdict::not_enough_data);
   EXPECT_FALSE(is_worth_reading(row)) << "unchanged";
   row.difference = 0.1;
   EXPECT_TRUE(is_worth_reading(row));

@@ -24,13 +24,13 @@ void set_interval(ComparisonRow& row, const Eigen::VectorXd& means, double tail_
   row.high = *row.difference + half_width;
 }
 
-ResampledRow experiment_row(int quantity, const ExperimentResult& baseline, const ExperimentResult& candidate,
-                            const CompareConfig& config, Draws& draws) {
-  const PairedDifferences differences = paired_differences(quantities()[quantity], baseline.runs, candidate.runs);
+ResampledRow experiment_row(const Metric& metric, const ExperimentResult& baseline,
+                            const ExperimentResult& candidate, const CompareConfig& config, Draws& draws) {
+  const PairedDifferences differences = paired_differences(metric, baseline.runs, candidate.runs);
   ResampledRow result = {{}, baseline.key.trajectory, {}};
   ComparisonRow& row = result.row;
   row.experiment = to_string(baseline.key);
-  row.quantity = quantity;
+  row.metric = &metric;
   row.pairs = differences.pairs;
   row.frames = differences.frames;
   row.baseline = differences.baseline_mean;
@@ -63,10 +63,10 @@ std::map<std::string, int> blocks_by_trajectory(const std::vector<const Resample
   return blocks;
 }
 
-ComparisonRow all_row(int quantity, const std::vector<ResampledRow>& experiments, double tail_error) {
+ComparisonRow all_row(const Metric& metric, const std::vector<ResampledRow>& experiments, double tail_error) {
   ComparisonRow row;
   row.experiment = kAllExperiments;
-  row.quantity = quantity;
+  row.metric = &metric;
   const std::vector<const ResampledRow*> members = members_of_all(experiments);
   if (members.empty()) {
     for (const ResampledRow& experiment : experiments) row.frames += experiment.row.frames;
@@ -114,26 +114,26 @@ Verdict verdict_of(const ComparisonRow& row) {
   return farthest < row.minimum_effect - kNegligible ? Verdict::same : Verdict::not_enough_data;
 }
 
-double least_effect(const Quantity& quantity, int frames) {
+double least_effect(const Metric& metric, int frames) {
   constexpr double kFewestFrames = 2, kPercent = 100;
-  if (!quantity.is_share || frames == 0) return quantity.tolerance;
-  return std::max(quantity.tolerance, kPercent * kFewestFrames / frames);
+  if (!metric.is_share() || frames == 0) return metric.gate->tolerance;
+  return std::max(metric.gate->tolerance, kPercent * kFewestFrames / frames);
 }
 
-double minimum_effect(const Quantity& quantity, std::string_view experiment, int frames, int seeds,
+double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor) {
-  const NoiseFloorEntry* entry = floor ? floor->find(experiment, quantity.key) : nullptr;
-  double effect = quantity.default_minimum_effect;
+  const NoiseFloorEntry* entry = floor ? floor->find(experiment, metric.key) : nullptr;
+  double effect = metric.gate->minimum_effect;
   if (entry) {
     // A mean over fewer seeds than the floor was measured for is noisier.
     const double fewer = static_cast<double>(floor->seeds_per_result) / std::max(1, seeds);
     effect = entry->minimum_effect * std::sqrt(std::max(1.0, fewer));
   }
-  return std::max(effect, least_effect(quantity, frames));
+  return std::max(effect, least_effect(metric, frames));
 }
 
 int row_count(size_t experiments) {
-  return kQuantityCount * (static_cast<int>(experiments) + 1);
+  return static_cast<int>(gated_metrics().size() * (experiments + 1));
 }
 
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
@@ -142,15 +142,17 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
   const size_t experiments = pairing.experiments.size();
   const double tail_error = config.family_error / (2 * row_count(experiments));
   std::vector<ComparisonRow> rows(row_count(experiments));
-  for (int q = 0; q < kQuantityCount; ++q) {
+  const size_t metric_count = gated_metrics().size();
+  for (size_t m = 0; m < metric_count; ++m) {
+    const Metric& metric = gated_metrics()[m];
     std::vector<ResampledRow> resampled;
     for (const auto& [baseline, candidate] : pairing.experiments)
-      resampled.push_back(experiment_row(q, *baseline, *candidate, config, draws));
-    rows[q] = all_row(q, resampled, tail_error);
+      resampled.push_back(experiment_row(metric, *baseline, *candidate, config, draws));
+    rows[m] = all_row(metric, resampled, tail_error);
     for (size_t e = 0; e < experiments; ++e) {
       auto& [row, trajectory, means] = resampled[e];
       if (means.size() > 0) set_interval(row, means, tail_error, row.blocks - 1);
-      rows[(e + 1) * kQuantityCount + q] = row;
+      rows[(e + 1) * metric_count + m] = row;
     }
   }
   int seeds = std::numeric_limits<int>::max();
@@ -162,9 +164,8 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
     const int frames = is_all ? row.frames / static_cast<int>(std::max<size_t>(1, experiments)) : row.frames;
     // Where an experiment is missing, the mean over all is another one than the noise floor's.
     const bool has_entry = floor && !(is_all && !pairing.only_in_baseline.empty());
-    row.minimum_effect =
-        minimum_effect(quantities()[row.quantity], row.experiment, frames, seeds, has_entry ? floor : nullptr);
-    row.is_measured = has_entry && floor->find(row.experiment, quantities()[row.quantity].key) != nullptr;
+    row.minimum_effect = minimum_effect(*row.metric, row.experiment, frames, seeds, has_entry ? floor : nullptr);
+    row.is_measured = has_entry && floor->find(row.experiment, row.metric->key) != nullptr;
     row.verdict = verdict_of(row);
   }
   return rows;

@@ -17,10 +17,10 @@ Verdict verdict_of(const ComparisonRow& row);
 
 /// Below this a difference can come from another machine, or is fewer than two frames of a share. `frames` of all
 /// seeds.
-double least_effect(const Quantity& quantity, int frames);
+double least_effect(const Metric& metric, int frames);
 /// The noise floor's, or the default; never below least_effect. `seeds` of each result: fewer than the floor is for
 /// raise it, as the spread of their mean is larger. `floor` may be null.
-double minimum_effect(const Quantity& quantity, std::string_view experiment, int frames, int seeds,
+double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 
 /// Rows of all experiments together and of each: what the family error is shared by.

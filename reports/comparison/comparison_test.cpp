@@ -15,11 +15,17 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 const std::vector<uint64_t> kSeeds = {1, 2};
-constexpr int kUncovered = 6;
+constexpr std::string_view kPosition = "position_error_mm", kRotation = "rotation_error_deg",
+                           kUncovered = "uncovered_percent";
 
-/// Row `quantity` of experiment `e`; -1 is all of them.
-const ComparisonRow& row_of(const Comparison& comparison, int e, int quantity) {
-  return comparison.rows.at((e + 1) * kQuantityCount + quantity);
+size_t place_of(std::string_view gated_metric) {
+  const auto found = std::ranges::find(gated_metrics(), gated_metric, &Metric::key);
+  return static_cast<size_t>(found - gated_metrics().begin());
+}
+
+/// A row of experiment `e`; -1 is all of them.
+const ComparisonRow& row_of(const Comparison& comparison, int e, std::string_view metric) {
+  return comparison.rows.at((e + 1) * gated_metrics().size() + place_of(metric));
 }
 
 NamedResult noisy(const std::string& purpose, double shift_mm, int frames = 128) {
@@ -47,7 +53,7 @@ std::vector<std::optional<double>> positions(std::initializer_list<double> block
 TEST(Comparison, EqualResultsAreTheSame) {
   const Comparison comparison =
       compare_results(NamedResult{"a", full_result()}, NamedResult{"a", full_result()}, nullptr);
-  EXPECT_EQ(comparison.rows.size(), 46u * kQuantityCount);
+  EXPECT_EQ(comparison.rows.size(), 46 * gated_metrics().size());
   for (const ComparisonRow& row : comparison.rows) {
     EXPECT_EQ(row.difference, 0) << row.experiment;
     EXPECT_EQ(row.low, 0);
@@ -63,7 +69,7 @@ TEST(Comparison, HandComputed) {
   const Comparison comparison =
       compare_results(of_positions(positions({2, 2})), of_positions(positions({3, 5})), nullptr);
   for (const int e : {-1, 0}) {
-    const ComparisonRow& row = row_of(comparison, e, 0);
+    const ComparisonRow& row = row_of(comparison, e, kPosition);
     EXPECT_EQ(row.pairs, 32);
     EXPECT_EQ(row.frames, 32);
     EXPECT_EQ(row.blocks, 2);
@@ -77,25 +83,25 @@ TEST(Comparison, HandComputed) {
     EXPECT_NEAR(*row.low, 2 - half_width, 0.001 * half_width);
     EXPECT_EQ(row.verdict, Verdict::not_enough_data);
   }
-  EXPECT_EQ(row_of(comparison, -1, 0).experiment, kAllExperiments);
-  EXPECT_EQ(row_of(comparison, 0, 0).experiment, "Tr4_DB_open_power_source_subject1_gradient_1");
+  EXPECT_EQ(row_of(comparison, -1, kPosition).experiment, kAllExperiments);
+  EXPECT_EQ(row_of(comparison, 0, kPosition).experiment, "Tr4_DB_open_power_source_subject1_gradient_1");
 }
 
 TEST(Comparison, AShiftIsFoundAndItsReverseIsBetter) {
   const NamedResult before = noisy("a", 0), after = noisy("a", 0.5);
   const Comparison comparison = compare_results(before, after, nullptr);
   for (int e = -1; e < 3; ++e) {
-    EXPECT_EQ(row_of(comparison, e, 0).verdict, Verdict::worse) << "an equal amount in every frame";
-    EXPECT_NEAR(*row_of(comparison, e, 0).difference, 0.5, 1e-9);
-    EXPECT_EQ(row_of(comparison, e, 1).verdict, Verdict::same) << "the rotation did not change";
+    EXPECT_EQ(row_of(comparison, e, kPosition).verdict, Verdict::worse) << "an equal amount in every frame";
+    EXPECT_NEAR(*row_of(comparison, e, kPosition).difference, 0.5, 1e-9);
+    EXPECT_EQ(row_of(comparison, e, kRotation).verdict, Verdict::same) << "the rotation did not change";
   }
   const Comparison reverse = compare_results(after, before, nullptr);
-  for (int e = -1; e < 3; ++e) EXPECT_EQ(row_of(reverse, e, 0).verdict, Verdict::better);
+  for (int e = -1; e < 3; ++e) EXPECT_EQ(row_of(reverse, e, kPosition).verdict, Verdict::better);
 }
 
 TEST(Comparison, ARealChangeIsFoundUnderOtherNoise) {
   // 1 mm against a standard error of about 0.05 mm, and a t of about 12 at 7 degrees of freedom.
-  EXPECT_EQ(row_of(compare_results(noisy("a", 0), noisy("b", 1), nullptr), -1, 0).verdict, Verdict::worse);
+  EXPECT_EQ(row_of(compare_results(noisy("a", 0), noisy("b", 1), nullptr), -1, kPosition).verdict, Verdict::worse);
 }
 
 TEST(Comparison, NoiseAloneIsNeverWorseOrBetter) {
@@ -116,7 +122,7 @@ TEST(Comparison, IntervalsHoldTheTruthAtLeastAsOftenAsTheySay) {
     const auto a = noisy_experiment("Tr1", kSeeds, 128, std::to_string(trial) + "a", 0);
     const auto b = noisy_experiment("Tr1", kSeeds, 128, std::to_string(trial) + "b", 0.1);
     const auto rows = comparison_rows({{{&a, &b}}, {}, {}}, nullptr, config, draws);
-    held += *rows[kQuantityCount].low <= 0.1 && 0.1 <= *rows[kQuantityCount].high;
+    held += *rows[gated_metrics().size()].low <= 0.1 && 0.1 <= *rows[gated_metrics().size()].high;
   }
   EXPECT_GE(held, 0.95 * kTrials);
   EXPECT_LT(held, kTrials) << "an interval without limits would hold everything";
@@ -135,18 +141,18 @@ TEST(Comparison, ExperimentsOnOneTrajectoryAreNotIndependent) {
   const auto same = compare("Tr1"), different = compare("Tr2");
   const auto width = [](const ComparisonRow& row) { return *row.high - *row.low; };
   EXPECT_EQ(same[0].blocks, 8);
-  EXPECT_NEAR(width(same[0]), width(same[kQuantityCount]), 1e-9) << "the second one says nothing new";
+  EXPECT_NEAR(width(same[0]), width(same[gated_metrics().size()]), 1e-9) << "the second one says nothing new";
   EXPECT_EQ(different[0].blocks, 16);
-  EXPECT_LT(width(different[0]), 0.75 * width(different[kQuantityCount]));
+  EXPECT_LT(width(different[0]), 0.75 * width(different[gated_metrics().size()]));
 }
 
 TEST(Comparison, AllExperimentsCountAlike) {
   NamedResult before = noisy("a", 0), after = noisy("a", 0);
   after.result.experiments[1] = noisy_experiment("Tr4", kSeeds, 128, "a", 0.9);
   const Comparison comparison = compare_results(before, after, nullptr);
-  EXPECT_NEAR(*row_of(comparison, -1, 0).difference, 0.3, 1e-9);
-  EXPECT_EQ(row_of(comparison, -1, 0).pairs, 3 * 256);
-  EXPECT_EQ(row_of(comparison, -1, 0).blocks, 3 * 8);
+  EXPECT_NEAR(*row_of(comparison, -1, kPosition).difference, 0.3, 1e-9);
+  EXPECT_EQ(row_of(comparison, -1, kPosition).pairs, 3 * 256);
+  EXPECT_EQ(row_of(comparison, -1, kPosition).blocks, 3 * 8);
 }
 
 TEST(Comparison, LostFramesShowInTheSharesNotInTheErrors) {
@@ -154,12 +160,12 @@ TEST(Comparison, LostFramesShowInTheSharesNotInTheErrors) {
   for (int f = 20; f < 28; ++f) after[f].reset();
   const Comparison comparison =
       compare_results(of_positions(positions({3, 3, 3, 3})), of_positions(after), nullptr);
-  EXPECT_EQ(row_of(comparison, 0, 0).pairs, 56);
-  EXPECT_EQ(row_of(comparison, 0, 0).difference, 0);
+  EXPECT_EQ(row_of(comparison, 0, kPosition).pairs, 56);
+  EXPECT_EQ(row_of(comparison, 0, kPosition).difference, 0);
   EXPECT_EQ(row_of(comparison, 0, kUncovered).pairs, 64);
   EXPECT_DOUBLE_EQ(*row_of(comparison, 0, kUncovered).difference, 12.5);
-  EXPECT_EQ(comparison.frames[0].differences[0][24], std::nullopt);
-  EXPECT_EQ(comparison.frames[0].differences[kUncovered][24], 100);
+  EXPECT_EQ(comparison.frames[0].differences[place_of(kPosition)].values[24], std::nullopt);
+  EXPECT_EQ(comparison.frames[0].differences[place_of(kUncovered)].values[24], 100);
 }
 
 TEST(Comparison, TooLittleHasNoInterval) {
@@ -169,7 +175,7 @@ TEST(Comparison, TooLittleHasNoInterval) {
   };
   const auto expect_none = [](const Comparison& comparison, std::optional<double> difference, int blocks) {
     for (const int e : {-1, 0}) {
-      const ComparisonRow& row = row_of(comparison, e, 0);
+      const ComparisonRow& row = row_of(comparison, e, kPosition);
       EXPECT_EQ(row.difference, difference);
       EXPECT_EQ(row.blocks, blocks);
       EXPECT_EQ(row.low, std::nullopt);
@@ -212,11 +218,11 @@ TEST(Comparison, VerdictsNeedSignificanceAndEffect) {
 TEST(Comparison, DustIsNoDifference) {
   const Comparison comparison = compare_results(
       of_positions(positions({3, 2, 1})), of_positions(positions({3 + 1e-15, 2 + 1e-15, 1 + 1e-15})), nullptr);
-  EXPECT_EQ(row_of(comparison, 0, 0).verdict, Verdict::same);
+  EXPECT_EQ(row_of(comparison, 0, kPosition).verdict, Verdict::same);
 }
 
 TEST(Comparison, MinimumEffectsComeFromTheNoiseFloorWithinBounds) {
-  const Quantity &position = quantities()[0], &uncovered = quantities()[kUncovered];
+  const Metric &position = metric_of(kPosition), &uncovered = metric_of(kUncovered);
   NoiseFloor floor;
   floor.seeds_per_result = 2;
   floor.entries = {{"a", "position_error_mm", 0, 0.07, 0}, {"b", "position_error_mm", 0, 0.001, 0}};

@@ -31,10 +31,6 @@ std::string formatted_signed(double value) {
   return text.starts_with('-') ? text : "+" + text;
 }
 
-const Quantity& quantity_of(const ComparisonRow& row) {
-  return quantities()[row.quantity];
-}
-
 }  // namespace
 
 std::string outcome_line(const ComparisonReport& report) {
@@ -101,7 +97,7 @@ std::string verdict_text(const ComparisonRow& row) {
 
 std::string row_sentence(const ComparisonRow& row) {
   return fmt::format("{} -> {} {}, difference {} {}, minimum effect {}, {} of {} frames", number_text(row.baseline),
-                     number_text(row.candidate), quantity_of(row).unit, signed_number_text(row.difference),
+                     number_text(row.candidate), row.metric->unit, signed_number_text(row.difference),
                      interval_text(row), number_text(row.minimum_effect), row.pairs, row.frames);
 }
 
@@ -125,7 +121,7 @@ std::vector<std::string> row_heading() {
 }
 
 std::vector<std::string> row_cells(const ComparisonRow& row) {
-  return {std::string(quantity_of(row).key),
+  return {std::string(row.metric->key),
           number_text(row.baseline),
           number_text(row.candidate),
           signed_number_text(row.difference),

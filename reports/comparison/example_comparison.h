@@ -11,11 +11,11 @@
 namespace glovebench::reports {
 
 /// A row whose interval reaches as far as given on both sides of the difference.
-inline ComparisonRow example_row(const std::string& experiment, int quantity, double baseline, double difference,
-                                 double reach, Verdict verdict) {
+inline ComparisonRow example_row(const std::string& experiment, std::string_view metric, double baseline,
+                                 double difference, double reach, Verdict verdict) {
   ComparisonRow row;
   row.experiment = experiment;
-  row.quantity = quantity;
+  row.metric = &metric_of(metric);
   row.pairs = row.frames = 234;
   row.blocks = 14;
   row.baseline = baseline;
@@ -23,7 +23,7 @@ inline ComparisonRow example_row(const std::string& experiment, int quantity, do
   row.difference = difference;
   row.low = difference - reach;
   row.high = difference + reach;
-  row.minimum_effect = quantities()[quantity].is_share ? 1 : 0.1;
+  row.minimum_effect = row.metric->is_share() ? 1 : 0.1;
   row.verdict = verdict;
   return row;
 }
@@ -37,32 +37,34 @@ inline ComparisonReport small_comparison() {
   comparison.baseline = {"ci/baselines/quick", "0.1.0", "105ec9a", "quick"};
   comparison.candidate = {"out", "0.1.0", "82ad045", "quick"};
   comparison.seeds = 2;
-  comparison.rows = {example_row(std::string(kAllExperiments), 0, 3, 0.25, 0.125, Verdict::worse),
-                     example_row(experiment, 0, 3, 0.5, 0.25, Verdict::worse),
-                     example_row(experiment, 1, 4, -0.5, 0.25, Verdict::better),
-                     example_row(experiment, 2, 6, 0.01, 0.02, Verdict::same),
-                     example_row(experiment, 6, 1, 2, 4, Verdict::not_enough_data)};
+  comparison.rows = {example_row(std::string(kAllExperiments), "position_error_mm", 3, 0.25, 0.125, Verdict::worse),
+                     example_row(experiment, "position_error_mm", 3, 0.5, 0.25, Verdict::worse),
+                     example_row(experiment, "rotation_error_deg", 4, -0.5, 0.25, Verdict::better),
+                     example_row(experiment, "posture_rms_deg", 6, 0.01, 0.02, Verdict::same),
+                     example_row(experiment, "uncovered_percent", 1, 2, 4, Verdict::not_enough_data)};
   ComparisonRow none;
   none.experiment = experiment;
-  none.quantity = 3;
+  none.metric = &metric_of("posture_rms_unfiltered_deg");
   none.frames = 234;
   comparison.rows.insert(comparison.rows.begin() + 4, none);
   comparison.worst = {{{"Tr4", "DB_open_power", TruthKind::source, 1, {}}, 1, 1, 57, 3.5, std::nullopt}};
   comparison.configuration = {{"icp.max_iterations", "30", "3"}, {"segmentation.extra", "", "\"a|b\""}};
   comparison.frames = {{experiment, 5, {}}};
-  comparison.frames[0].differences[0] = {0.5, std::nullopt, -0.25};
+  for (const Metric& metric : gated_metrics()) comparison.frames[0].differences.push_back({&metric, {}});
+  comparison.frames[0].differences[0].values = {0.5, std::nullopt, -0.25};
   report.speed = {{"look_up", 8, 7.5, 8.5, 4, false}, {"align", 4, 1.5, 1.9, 2, true}};
   return report;
 }
 
 /// Frame by frame: noise, and after a third of the movement a change that fades away.
-inline std::vector<std::optional<double>> example_differences(const std::string& name, int quantity, double level,
+inline std::vector<std::optional<double>> example_differences(const std::string& name, size_t metric, double level,
                                                               bool loses_frames) {
   std::vector<std::optional<double>> values;
-  RandomStream random(1, name, quantity, "example");
+  RandomStream random(1, name, static_cast<int>(metric), "example");
   for (int i = 0; i < 117; ++i) {
-    if (quantities()[quantity].is_share) {
-      values.push_back(loses_frames && quantity == 6 && i > 60 && i < 66 ? 100 : 0);
+    if (gated_metrics()[metric].is_share()) {
+      values.push_back(loses_frames && gated_metrics()[metric].key == "uncovered_percent" && i > 60 && i < 66 ? 100
+                                                                                                              : 0);
     } else if (loses_frames && i > 60 && i < 66) {
       values.push_back(std::nullopt);
     } else {
@@ -76,22 +78,24 @@ inline void append_example_experiment(Comparison& comparison, const ExperimentKe
                                       bool loses_frames) {
   const std::string name = to_string(key);
   FrameDifferences frames{name, 0, {}};
-  for (int q = 0; q < kQuantityCount; ++q) {
-    frames.differences[q] = example_differences(name, q, level, loses_frames);
+  for (size_t m = 0; m < gated_metrics().size(); ++m) {
+    const Metric& metric = gated_metrics()[m];
+    const auto& values =
+        frames.differences.emplace_back(&metric, example_differences(name, m, level, loses_frames)).values;
     double sum = 0;
     int count = 0;
-    for (const auto& value : frames.differences[q]) {
+    for (const auto& value : values) {
       sum += value.value_or(0);
       count += value.has_value();
     }
-    const bool is_share = quantities()[q].is_share;
+    const bool is_share = metric.is_share();
     const double mean = sum / count, reach = is_share ? 6 * mean : 0.06 + std::abs(mean) / 4;
     const double minimum = is_share ? 1 : 0.1;
     Verdict verdict = Verdict::not_enough_data;
     if (mean - reach > 0 && mean > minimum) verdict = Verdict::worse;
     if (mean + reach < 0 && mean < -minimum) verdict = Verdict::better;
     if (mean - reach > -minimum && mean + reach < minimum) verdict = Verdict::same;
-    comparison.rows.push_back(example_row(name, q, is_share ? 1 : 3, mean, reach, verdict));
+    comparison.rows.push_back(example_row(name, metric.key, is_share ? 1 : 3, mean, reach, verdict));
     comparison.rows.back().pairs = 2 * count;
   }
   comparison.frames.push_back(std::move(frames));
@@ -103,9 +107,11 @@ inline ComparisonReport full_comparison() {
   Comparison& comparison = report.comparison;
   comparison.frames.clear();
   comparison.rows.clear();
-  for (int q = 0; q < kQuantityCount; ++q)
-    comparison.rows.push_back(example_row(std::string(kAllExperiments), q, 3, q == 0 ? 0.2 : 0.01, 0.05,
-                                          q == 0 ? Verdict::worse : Verdict::same));
+  for (const Metric& metric : gated_metrics()) {
+    const bool is_position = metric.key == "position_error_mm";
+    comparison.rows.push_back(example_row(std::string(kAllExperiments), metric.key, 3, is_position ? 0.2 : 0.01,
+                                          0.05, is_position ? Verdict::worse : Verdict::same));
+  }
   const auto source = TruthKind::source;
   append_example_experiment(comparison, {"Tr4", "DB_open_power", source, 1, {}}, 0.9, false);
   append_example_experiment(comparison, {"Tr1", "DB_20_postures", source, 1, {}}, -0.7, false);

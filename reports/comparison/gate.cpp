@@ -15,13 +15,12 @@ std::string number(const std::optional<double>& value) {
 std::string numbers(const ComparisonRow& row) {
   const std::string interval =
       row.low && row.high ? fmt::format("[{:.2f}, {:.2f}]", *row.low, *row.high) : "without an interval";
-  return fmt::format("{:.2f} {} {} ({} -> {}), minimum effect {:.2f}", *row.difference,
-                     quantities()[row.quantity].unit, interval, number(row.baseline), number(row.candidate),
-                     row.minimum_effect);
+  return fmt::format("{:.2f} {} {} ({} -> {}), minimum effect {:.2f}", *row.difference, row.metric->unit, interval,
+                     number(row.baseline), number(row.candidate), row.minimum_effect);
 }
 
 std::string name(const ComparisonRow& row) {
-  return fmt::format("{}, {}", row.experiment, quantities()[row.quantity].key);
+  return fmt::format("{}, {}", row.experiment, row.metric->key);
 }
 
 /// A change that the interval cannot tell from chance sits in a few stretches: the page shows where.
@@ -38,7 +37,7 @@ std::string failure_line(const SpeedRow& row) {
 }  // namespace
 
 double sure_effect(const ComparisonRow& row) {
-  return (quantities()[row.quantity].is_share ? 1 : kSurely) * row.minimum_effect;
+  return (row.metric->is_share() ? 1 : kSurely) * row.minimum_effect;
 }
 
 bool stops(const ComparisonRow& row) {

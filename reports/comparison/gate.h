@@ -10,7 +10,7 @@ namespace glovebench::reports {
 
 /// What lets a change pass or stops it.
 struct GateDecision {
-  std::vector<std::string> failures;  ///< a line each: experiment, quantity, numbers
+  std::vector<std::string> failures;  ///< a line each: experiment, metric, numbers
   std::vector<std::string> warnings;  ///< what could be a regression, but the data do not say so
   bool passed() const { return failures.empty(); }
 };

@@ -10,12 +10,12 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr int kGatedPosition = 0, kGatedUncovered = 6;
+constexpr std::string_view kGatedPosition = "position_error_mm", kGatedUncovered = "uncovered_percent";
 
-ComparisonRow row(int quantity, double difference, Verdict verdict) {
+ComparisonRow row(std::string_view metric, double difference, Verdict verdict) {
   ComparisonRow row;
   row.experiment = "Tr4_x";
-  row.quantity = quantity;
+  row.metric = &metric_of(metric);
   row.pairs = row.frames = 200;
   row.blocks = 8;
   row.baseline = 2.98;

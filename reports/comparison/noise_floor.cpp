@@ -19,15 +19,15 @@ constexpr double kPower = 0.9;
 /// The standard error of a draw is known to 2% of itself; the quantile over the draws is coarser than that.
 constexpr int kResamples = 1000;
 
-/// The mean of each seed; empty for a quantity that some seed has no value of.
+/// The mean of each seed; empty for a metric that some seed has no value of.
 using SeedMeans = std::optional<std::vector<double>>;
 
-SeedMeans seed_means(const Quantity& quantity, const ExperimentResult& experiment) {
+SeedMeans seed_means(const Metric& metric, const ExperimentResult& experiment) {
   std::vector<double> means;
   for (const SeedRun& run : experiment.runs) {
     std::vector<double> values;
     for (const FrameRecord& frame : run.frames)
-      if (const auto value = value_of(quantity, frame)) values.push_back(*value);
+      if (const auto value = value_of(metric, frame)) values.push_back(*value);
     if (values.empty()) return std::nullopt;
     means.push_back(*mean(values));
   }
@@ -41,7 +41,7 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(squares / (static_cast<double>(values.size()) - 1));
 }
 
-/// Of one quantity: over all experiments, and of each; empty where it has none.
+/// Of one metric: over all experiments, and of each; empty where it has none.
 struct Spreads {
   std::optional<double> all;
   std::vector<std::optional<double>> experiments;
@@ -50,11 +50,11 @@ struct Spreads {
 
 /// Few seeds estimate a spread badly, and one that came out too small would raise false alarms: the spread of all
 /// experiments, as a root mean square, bounds that of each from below.
-Spreads measure_spreads(const Quantity& quantity, const RunResult& result) {
+Spreads measure_spreads(const Metric& metric, const RunResult& result) {
   Spreads spreads;
   std::vector<double> measured, sums(result.experiments.front().runs.size());
   for (const ExperimentResult& experiment : result.experiments) {
-    const SeedMeans means = seed_means(quantity, experiment);
+    const SeedMeans means = seed_means(metric, experiment);
     spreads.experiments.emplace_back();
     if (!means) continue;
     measured.push_back(standard_deviation(*means));
@@ -78,12 +78,12 @@ std::vector<NoiseFloorEntry> measure_effects(const RunResult& result, const Nois
   const double tail_error = floor.family_error / (2 * row_count(result.experiments.size()));
   const double difference_of_means = std::sqrt(2.0 / floor.seeds_per_result);
   std::vector<NoiseFloorEntry> entries;
-  for (const Quantity& quantity : quantities()) {
-    const Spreads spreads = measure_spreads(quantity, result);
+  for (const Metric& metric : gated_metrics()) {
+    const Spreads spreads = measure_spreads(metric, result);
     const auto add = [&](std::string experiment, double spread, int degrees_of_freedom, int frames) {
       const double effect = student_t_above(tail_error, degrees_of_freedom) * spread * difference_of_means;
-      entries.push_back({std::move(experiment), std::string(quantity.key), spread,
-                         std::max(effect, least_effect(quantity, frames)), 0});
+      entries.push_back({std::move(experiment), std::string(metric.key), spread,
+                         std::max(effect, least_effect(metric, frames)), 0});
     };
     int all_frames = 0;
     for (size_t e = 0; e < result.experiments.size(); ++e) {
@@ -136,8 +136,7 @@ std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const Nois
     for (size_t e = 0; e < baseline.experiments.size(); ++e)
       pairing.experiments.emplace_back(&baseline.experiments[e], &candidate.experiments[e]);
     for (const ComparisonRow& row : comparison_rows(pairing, &floor, config, draws))
-      if (row.difference)
-        needed[{row.experiment, std::string(quantities()[row.quantity].key)}].push_back(needed_change(row));
+      if (row.difference) needed[{row.experiment, std::string(row.metric->key)}].push_back(needed_change(row));
   }
   std::vector<NoiseFloorEntry> entries;
   for (NoiseFloorEntry entry : floor.entries) {

@@ -11,9 +11,9 @@ namespace glovebench::reports {
 /// What nothing but another noise seed does to one row of a comparison.
 struct NoiseFloorEntry {
   std::string experiment;     ///< to_string of its key, or kAllExperiments
-  std::string quantity;       ///< its key
+  std::string quantity;       ///< key of a metric
   double spread = 0;          ///< standard deviation over seeds of the mean of one seed
-  double minimum_effect = 0;  ///< the smallest difference that counts, in the quantity's unit
+  double minimum_effect = 0;  ///< the smallest difference that counts, in the metric's unit
   double detectable = 0;      ///< the smallest change that the gate stops in 90% of runs with other seeds
 
   friend bool operator==(const NoiseFloorEntry&, const NoiseFloorEntry&) = default;
@@ -36,7 +36,7 @@ struct NoiseFloor {
 
 /// From one result with many seeds (at least 4 * seeds_per_result, else Error). The minimum effect is the quantile
 /// of Student's t that holds the family error over all entries, times the spread of a difference of two means of
-/// `seeds_per_result` seeds; never below the quantity's tolerance, and for a share never below two frames.
+/// `seeds_per_result` seeds; never below the metric's tolerance, and for a share never below two frames.
 /// `detectable` comes from comparing draws of disjoint seeds by the very procedure of compare_results, with the
 /// same amount added to every frame of one of them. A row without values, or too short for an interval, has no
 /// entry. All experiments have the same seeds, else Error. The date is the caller's to fill in.

@@ -7,7 +7,6 @@
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"
 #include "reports/comparison/noise_floor.h"
-#include "reports/comparison/quantities.h"
 #include "reports/json_text.h"
 
 namespace glovebench::reports {
@@ -27,7 +26,7 @@ NoiseFloorEntry read_entry(const JsonCursor& json) {
   json.expect_keys({"experiment", "quantity", "spread", "minimum_effect", "detectable"});
   NoiseFloorEntry entry = {json["experiment"].text(), json["quantity"].text(), read_amount(json["spread"]),
                            read_amount(json["minimum_effect"]), read_amount(json["detectable"])};
-  if (std::ranges::find(quantities(), entry.quantity, &Quantity::key) == quantities().end())
+  if (std::ranges::find(gated_metrics(), entry.quantity, &Metric::key) == gated_metrics().end())
     json["quantity"].fail("a quantity of a comparison");
   return entry;
 }

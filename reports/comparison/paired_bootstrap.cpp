@@ -9,7 +9,7 @@
 
 namespace glovebench::reports {
 
-PairedDifferences paired_differences(const Quantity& quantity, const std::vector<SeedRun>& baseline,
+PairedDifferences paired_differences(const Metric& metric, const std::vector<SeedRun>& baseline,
                                      const std::vector<SeedRun>& candidate) {
   check(baseline.size() == candidate.size(), "paired results have as many seeds");
   PairedDifferences differences;
@@ -19,8 +19,8 @@ PairedDifferences paired_differences(const Quantity& quantity, const std::vector
     differences.frames += static_cast<int>(baseline[s].frames.size());
     auto& row = differences.by_seed.emplace_back();
     for (size_t f = 0; f < baseline[s].frames.size(); ++f) {
-      const std::optional<double> before = value_of(quantity, baseline[s].frames[f]);
-      const std::optional<double> after = value_of(quantity, candidate[s].frames[f]);
+      const std::optional<double> before = value_of(metric, baseline[s].frames[f]);
+      const std::optional<double> after = value_of(metric, candidate[s].frames[f]);
       row.emplace_back();
       if (!before || !after) continue;
       row.back() = *after - *before;

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "reports/comparison/quantities.h"
+#include "reports/results.h"
 
 namespace glovebench::reports {
 
-/// What a quantity changed by from the baseline to the candidate: run by run, frame by frame; empty where either
+/// What a metric changed by from the baseline to the candidate: run by run, frame by frame; empty where either
 /// has no value.
 struct PairedDifferences {
   std::vector<std::vector<std::optional<double>>> by_seed;
@@ -22,7 +22,7 @@ struct PairedDifferences {
   std::optional<double> mean;
 };
 /// Both have as many runs, of as many frames.
-PairedDifferences paired_differences(const Quantity& quantity, const std::vector<SeedRun>& baseline,
+PairedDifferences paired_differences(const Metric& metric, const std::vector<SeedRun>& baseline,
                                      const std::vector<SeedRun>& candidate);
 
 /// Sums and counts of the differences, a row for each block of frames, a column for each seed.

@@ -9,8 +9,6 @@
 namespace glovebench::reports {
 namespace {
 
-const Quantity& kPosition = quantities()[0];
-
 /// One value a block of 16 frames, a row for each seed.
 PairedDifferences blockwise(const std::vector<std::vector<double>>& blocks_by_seed) {
   PairedDifferences differences;
@@ -26,35 +24,20 @@ double resampled_error(const PairedDifferences& differences, int resamples) {
   return *standard_error(resampled_means(block_sums(differences, 16), "Tr1", draws));
 }
 
-TEST(Quantities, SharesHaveAValueInEveryFrameAndErrorsWhereThereIsOne) {
-  const FrameRecord tracked = example_frame(0, 3, 5, 2), lost = example_lost_frame(1),
-                    far = example_frame(2, 60, 5, 2);
-  for (const Quantity& quantity : quantities()) {
-    EXPECT_TRUE(value_of(quantity, tracked)) << quantity.key;
-    EXPECT_EQ(value_of(quantity, lost).has_value(), quantity.is_share) << quantity.key;
-  }
-  EXPECT_EQ(value_of(kPosition, tracked), 3);
-  EXPECT_EQ(value_of(quantities()[6], tracked), 0);
-  EXPECT_EQ(value_of(quantities()[6], lost), 100);
-  EXPECT_EQ(value_of(quantities()[7], far), 100) << "far off, and says tracked";
-  EXPECT_EQ(value_of(quantities()[7], lost), 0);
-  EXPECT_EQ(value_of(quantities()[8], far), 0);
-  EXPECT_EQ(value_of(quantities()[8], lost), 100);
-}
-
 TEST(PairedDifferences, AreTakenWhereBothHaveAValue) {
   const SeedRun before = {1, {example_frame(0, 3, 1, 1), example_frame(1, 4, 1, 1), example_lost_frame(2)}};
   const SeedRun after = {1, {example_frame(0, 3.5, 1, 1), example_lost_frame(1), example_lost_frame(2)}};
-  const PairedDifferences position = paired_differences(kPosition, {before}, {after});
+  const Metric& metric = metric_of("position_error_mm");
+  const PairedDifferences position = paired_differences(metric, {before}, {after});
   EXPECT_THAT(position.by_seed, testing::ElementsAre(testing::ElementsAre(0.5, std::nullopt, std::nullopt)));
   EXPECT_EQ(position.pairs, 1);
   EXPECT_EQ(position.frames, 3);
   EXPECT_EQ(position.baseline_mean, 3) << "not of the frame that the candidate lost";
   EXPECT_EQ(position.candidate_mean, 3.5);
-  const PairedDifferences uncovered = paired_differences(quantities()[6], {before}, {after});
+  const PairedDifferences uncovered = paired_differences(metric_of("uncovered_percent"), {before}, {after});
   EXPECT_EQ(uncovered.pairs, 3);
   EXPECT_DOUBLE_EQ(*uncovered.mean, 100.0 / 3);
-  EXPECT_EQ(paired_differences(kPosition, {}, {}).mean, std::nullopt);
+  EXPECT_EQ(paired_differences(metric, {}, {}).mean, std::nullopt);
 }
 
 TEST(PairedBootstrap, BlocksAreOfEqualLengthAndHaveAPair) {

@@ -24,8 +24,8 @@ std::vector<ChangedFrame> frames_that_got_worse(const Pairing& pairing) {
                                     before.seed,
                                     after.seed,
                                     before.frames[f].frame,
-                                    before.frames[f].vertex_error_mm,
-                                    after.frames[f].vertex_error_mm};
+                                    before.frames[f]["vertex_error_mm"],
+                                    after.frames[f]["vertex_error_mm"]};
         if (change_of(frame) > kUnchanged_mm) frames.push_back(frame);
       }
     }

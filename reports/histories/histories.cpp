@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
-#include "reports/comparison/quantities.h"
 #include "reports/json_text.h"
 
 namespace glovebench::reports {
@@ -13,29 +11,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A quantity of an experiment; no value where no frame has one.
+/// A metric of an experiment; no value where no frame has one.
 struct Measurement {
   std::optional<double> value;
   std::optional<ConfidenceInterval> interval;
   int frames = 0;  ///< that the value is from
 };
 
-Measurement share_of(const Coverage& coverage, std::string_view key) {
-  if (coverage.frames == 0) return {};
-  int count = coverage.false_lost;
-  if (key == "uncovered_percent")
-    count = coverage.frames - coverage.covered;
-  else if (key == "false_tracked_percent")
-    count = coverage.false_tracked;
-  else
-    check(key == "false_lost_percent", "coverage counts that share");
-  return {100.0 * count / coverage.frames, {}, coverage.frames};
+Measurement share_of(const std::vector<SeedRun>& runs, const Metric& metric) {
+  std::vector<double> values;
+  for (const SeedRun& run : runs)
+    for (const FrameRecord& frame : run.frames) values.push_back(*value_of(metric, frame));
+  return {mean(values), {}, static_cast<int>(values.size())};
 }
 
-Measurement measure(const ExperimentResult& experiment, const Quantity& quantity) {
-  if (quantity.is_share) return share_of(experiment.coverage, quantity.key);
-  const Aggregate& aggregate = experiment.aggregate_of(quantity.key);
-  return {aggregate.mean, experiment.intervals[metric_index(quantity.key)], aggregate.count};
+Measurement measure(const ExperimentResult& experiment, const Metric& metric) {
+  if (metric.is_share()) return share_of(experiment.runs, metric);
+  const Aggregate& aggregate = experiment.aggregate_of(metric.key);
+  return {aggregate.mean, experiment.interval_of(metric.key), aggregate.count};
 }
 
 std::string extra_text(const Measurement& measurement, int frames) {
@@ -51,14 +44,14 @@ std::string extra_text(const Measurement& measurement, int frames) {
 std::string bencher_json(const RunResult& result) {
   Json benchmarks = Json::object();
   for (const ExperimentResult& experiment : result.experiments) {
-    for (const Quantity& quantity : quantities()) {
-      const Measurement measurement = measure(experiment, quantity);
+    for (const Metric& metric : gated_metrics()) {
+      const Measurement measurement = measure(experiment, metric);
       if (!measurement.value) continue;
-      Json& metric = benchmarks[to_string(experiment.key)][std::string(quantity.key)];
-      metric["value"] = rounded(*measurement.value);
+      Json& entry = benchmarks[to_string(experiment.key)][std::string(metric.key)];
+      entry["value"] = rounded(*measurement.value);
       if (!measurement.interval) continue;
-      metric["lower_value"] = rounded(measurement.interval->low);
-      metric["upper_value"] = rounded(measurement.interval->high);
+      entry["lower_value"] = rounded(measurement.interval->low);
+      entry["upper_value"] = rounded(measurement.interval->high);
     }
   }
   return format_json(benchmarks);
@@ -67,11 +60,11 @@ std::string bencher_json(const RunResult& result) {
 std::string github_action_benchmark_json(const RunResult& result) {
   Json entries = Json::array();
   for (const ExperimentResult& experiment : result.experiments) {
-    for (const Quantity& quantity : quantities()) {
-      const Measurement measurement = measure(experiment, quantity);
+    for (const Metric& metric : gated_metrics()) {
+      const Measurement measurement = measure(experiment, metric);
       if (!measurement.value) continue;
-      Json entry = {{"name", fmt::format("{} {}", to_string(experiment.key), quantity.key)},
-                    {"unit", std::string(quantity.unit)},
+      Json entry = {{"name", fmt::format("{} {}", to_string(experiment.key), metric.key)},
+                    {"unit", std::string(metric.unit)},
                     {"value", rounded(*measurement.value)}};
       // The format knows one number: the farther bound, so that the range covers the interval.
       if (const auto& interval = measurement.interval)

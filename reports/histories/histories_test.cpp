@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/comparison/quantities.h"
 #include "reports/example_result.h"
 
 namespace glovebench::reports {
@@ -20,9 +19,9 @@ TEST(Bencher, ValuesWithTheirIntervals) {
   ASSERT_EQ(json.size(), result.experiments.size());
   const ExperimentResult& experiment = result.experiments[3];
   const nlohmann::json& measures = json[to_string(experiment.key)];
-  EXPECT_EQ(measures.size(), static_cast<size_t>(kQuantityCount));
+  EXPECT_EQ(measures.size(), gated_metrics().size());
   const nlohmann::json& position = measures["position_error_mm"];
-  const auto& interval = experiment.intervals[metric_index("position_error_mm")];
+  const auto& interval = experiment.interval_of("position_error_mm");
   EXPECT_NEAR(position["value"].get<double>(), *experiment.aggregate_of("position_error_mm").mean, 1e-6);
   EXPECT_NEAR(position["lower_value"].get<double>(), interval->low, 1e-6);
   EXPECT_NEAR(position["upper_value"].get<double>(), interval->high, 1e-6);
@@ -43,14 +42,14 @@ TEST(Bencher, WhatHasNoValueIsLeftOut) {
   EXPECT_EQ(nlohmann::json::parse(bencher_json({})), nlohmann::json::object());
 }
 
-TEST(GithubActionBenchmark, AnEntryForEachQuantity) {
+TEST(GithubActionBenchmark, AnEntryForEachGatedMetric) {
   const RunResult result = full_result();
   const nlohmann::json json = nlohmann::json::parse(github_action_benchmark_json(result));
-  ASSERT_EQ(json.size(), result.experiments.size() * kQuantityCount);
+  ASSERT_EQ(json.size(), result.experiments.size() * gated_metrics().size());
   const nlohmann::json& position = json[0];
   EXPECT_EQ(position["name"], to_string(result.experiments[0].key) + " position_error_mm");
   EXPECT_EQ(position["unit"], "mm");
-  const auto& interval = result.experiments[0].intervals[metric_index("position_error_mm")];
+  const auto& interval = result.experiments[0].interval_of("position_error_mm");
   const double mean = *result.experiments[0].aggregate_of("position_error_mm").mean;
   ASSERT_THAT(position["range"].get<std::string>(), testing::StartsWith("± "));
   const double range = std::stod(position["range"].get<std::string>().substr(3));

@@ -43,7 +43,7 @@ TextTable curve_summary(const ExperimentResult& experiment, const PaperCurve& pa
   for (const CurveError& error : kCurveErrors) {
     std::vector<double> ours, theirs;
     for (const FrameRecord& frame : experiment.runs.front().frames)
-      if (const auto& value = frame.*metrics()[metric_index(error.metric)].value) ours.push_back(*value);
+      if (const auto& value = frame[error.metric]) ours.push_back(*value);
     for (const PaperErrors& errors : paper.frames) theirs.push_back(errors.*error.paper);
     table.rows.push_back({std::string(error.label), fixed(mean(ours), 2), fixed(paper.mean.*error.paper, 2),
                           largest(ours), largest(theirs)});

@@ -18,14 +18,13 @@ bool is_preferred(const ExperimentKey& key, const NoiseSetting& noise) {
 
 /// All frames that have the error, the largest first; of equal ones the earlier.
 std::vector<WorstFrame> ranked(const std::vector<const ExperimentResult*>& experiments, std::string_view metric) {
-  const auto value = metrics()[metric_index(metric)].value;
   std::vector<WorstFrame> frames;
   for (const ExperimentResult* experiment : experiments)
     for (const SeedRun& run : experiment->runs)
       for (const FrameRecord& frame : run.frames)
-        if (frame.*value) frames.push_back({experiment->key, run.seed, frame, std::string(metric)});
+        if (frame[metric]) frames.push_back({experiment->key, run.seed, frame, std::string(metric)});
   std::ranges::stable_sort(
-      frames, [&](const WorstFrame& a, const WorstFrame& b) { return *(a.frame.*value) > *(b.frame.*value); });
+      frames, [&](const WorstFrame& a, const WorstFrame& b) { return *a.frame[metric] > *b.frame[metric]; });
   return frames;
 }
 
@@ -78,8 +77,8 @@ std::string explain_command(const WorstFrame& worst) {
 std::string caption(const WorstFrame& worst) {
   return fmt::format("{} with {}, {} truth, frame {}, noise seed {}: {} mm, posture {} deg, rotation {} deg",
                      worst.key.trajectory, worst.key.database, to_string(worst.key.truth), worst.frame.frame,
-                     worst.seed, fixed(worst.frame.position_error_mm, 1), fixed(worst.frame.posture_rms_deg, 1),
-                     fixed(worst.frame.rotation_error_deg, 1));
+                     worst.seed, fixed(worst.frame["position_error_mm"], 1),
+                     fixed(worst.frame["posture_rms_deg"], 1), fixed(worst.frame["rotation_error_deg"], 1));
 }
 
 }  // namespace glovebench::reports

@@ -1,0 +1,34 @@
+#include "reports/metrics/measure_frame.h"
+
+namespace glovebench::reports {
+namespace {
+
+std::optional<double> matching_error_px(const TrackResult& estimate) {
+  if (estimate.matches.empty()) return {};
+  return estimate.matches[0].error;
+}
+
+std::optional<double> icp_residual_mm(const MeasuredFrame& frame) {
+  if (frame.estimate.icp_points == 0) return {};
+  return 1000 * frame.estimate.icp_residual;
+}
+
+}  // namespace
+
+std::vector<Metric> alignment_metrics() {
+  return {{.key = "matching_error_px",
+           .unit = "px",
+           .description = "equation (2) of the best match",
+           .place = 130,
+           .of_any = matching_error_px},
+          // A fit, not an error against the truth: it shows first when the sensor gets noisier or an alignment
+          // stops too early.
+          {.key = "icp_residual_mm",
+           .unit = "mm",
+           .description = "mean distance of the points from the aligned mesh",
+           .place = 140,
+           .gate = Metric::Gate{0.1, 0.01},
+           .of_tracked = icp_residual_mm}};
+}
+
+}  // namespace glovebench::reports

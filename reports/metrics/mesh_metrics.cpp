@@ -1,0 +1,47 @@
+#include "reports/metrics/measure_frame.h"
+#include "reports/statistics.h"
+
+namespace glovebench::reports {
+namespace {
+
+/// Poses the tracker's own mesh twice, so that it measures posture and pose, not the size of the hand.
+std::optional<double> vertex_error_mm(const MeasuredFrame& frame) {
+  const auto &estimated = frame.estimated_hand.vertices, &truth = frame.true_hand.vertices;
+  double sum = 0;
+  for (size_t v = 0; v < estimated.size(); ++v) {
+    sum += (frame.estimate.T_camera_hand * estimated[v].cast<double>() -
+            frame.truth.T_camera_hand * truth[v].cast<double>())
+               .norm();
+  }
+  return 1000 * sum / static_cast<double>(estimated.size());
+}
+
+std::optional<double> fingertip_error_mm(const MeasuredFrame& frame) {
+  std::vector<double> tips;
+  for (const int tip : fingertip_joints()) tips.push_back(frame.joint_errors_mm[tip]);
+  return mean(tips);
+}
+
+}  // namespace
+
+std::vector<Metric> mesh_metrics() {
+  return {{.key = "vertex_error_mm",
+           .unit = "mm",
+           .description = "mean distance of the vertices of the tracker's mesh in both postures and poses",
+           .place = 100,
+           .gate = Metric::Gate{0.2, 0.01},
+           .of_tracked = vertex_error_mm},
+          {.key = "fingertip_error_mm",
+           .unit = "mm",
+           .description = "mean distance of the five fingertips",
+           .place = 110,
+           .gate = Metric::Gate{0.2, 0.01},
+           .of_tracked = fingertip_error_mm},
+          {.key = "joint_error_mm",
+           .unit = "mm",
+           .description = "mean distance of the 25 joints",
+           .place = 120,
+           .of_tracked = [](const MeasuredFrame& frame) { return mean(frame.joint_errors_mm); }}};
+}
+
+}  // namespace glovebench::reports

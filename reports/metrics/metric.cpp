@@ -1,0 +1,68 @@
+#include "reports/metrics/metric.h"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+
+#include "core/base/check.h"
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+std::span<const std::vector<Metric>> metric_files();  // generated
+
+namespace {
+
+std::vector<Metric> sorted_metrics() {
+  std::vector<Metric> all;
+  for (const std::vector<Metric>& file : metric_files()) all.insert(all.end(), file.begin(), file.end());
+  std::ranges::sort(all, {}, [](const Metric& metric) { return std::tuple(metric.place, metric.key); });
+  for (const Metric& metric : all) {
+    check(std::ranges::count(all, metric.key, &Metric::key) == 1, "each metric has a key of its own");
+    check(!!metric.of_tracked + !!metric.of_any + !!metric.of_record == 1, "a metric has one function");
+  }
+  return all;
+}
+
+template <typename Condition>
+std::vector<Metric> metrics_if(Condition condition) {
+  std::vector<Metric> chosen;
+  std::ranges::copy_if(metrics(), std::back_inserter(chosen), condition);
+  return chosen;
+}
+
+}  // namespace
+
+std::span<const Metric> metrics() {
+  static const std::vector<Metric> all = sorted_metrics();
+  return all;
+}
+
+std::span<const Metric> frame_metrics() {
+  static const std::vector<Metric> columns = metrics_if([](const Metric& metric) { return !metric.is_share(); });
+  return columns;
+}
+
+std::span<const Metric> gated_metrics() {
+  static const std::vector<Metric> gated = metrics_if([](const Metric& metric) { return metric.gate.has_value(); });
+  return gated;
+}
+
+const Metric& metric_of(std::string_view key) {
+  const auto found = std::ranges::find(metrics(), key, &Metric::key);
+  check(found != metrics().end(), "a metric of that key exists");
+  return *found;
+}
+
+size_t metric_index(std::string_view key) {
+  const auto found = std::ranges::find(frame_metrics(), key, &Metric::key);
+  check(found != frame_metrics().end(), "a metric of that key exists");
+  return static_cast<size_t>(found - frame_metrics().begin());
+}
+
+std::optional<double> value_of(const Metric& metric, const FrameRecord& frame) {
+  if (!metric.is_share()) return frame[metric.key];
+  return metric.of_record(frame) ? 100 : 0;
+}
+
+}  // namespace glovebench::reports

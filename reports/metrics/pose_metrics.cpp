@@ -1,0 +1,31 @@
+#include "reports/metrics/measure_frame.h"
+
+namespace glovebench::reports {
+namespace {
+
+std::optional<double> position_error_mm(const MeasuredFrame& frame) {
+  return 1000 * (frame.estimate.T_camera_hand.translation() - frame.truth.T_camera_hand.translation()).norm();
+}
+
+std::optional<double> rotation_error(const MeasuredFrame& frame) {
+  return rotation_error_deg(frame.estimate.T_camera_hand.linear(), frame.truth.T_camera_hand.linear());
+}
+
+}  // namespace
+
+std::vector<Metric> pose_metrics() {
+  return {{.key = "position_error_mm",
+           .unit = "mm",
+           .description = "distance of the hand origins",
+           .place = 10,
+           .gate = Metric::Gate{0.2, 0.01},
+           .of_tracked = position_error_mm},
+          {.key = "rotation_error_deg",
+           .unit = "deg",
+           .description = "geodesic angle between the hands",
+           .place = 20,
+           .gate = Metric::Gate{0.3, 0.01},
+           .of_tracked = rotation_error}};
+}
+
+}  // namespace glovebench::reports

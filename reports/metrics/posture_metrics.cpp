@@ -1,0 +1,114 @@
+#include "core/base/angles.h"
+#include "reports/metrics/measure_frame.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Chosen = std::array<bool, kAngleCount>;
+
+/// Root mean square of the chosen angles, degrees; empty if none is chosen.
+std::optional<double> rms_deg(const Posture& difference, const Chosen& chosen) {
+  double sum = 0;
+  int count = 0;
+  for (int a = 0; a < kAngleCount; ++a) {
+    if (!chosen[a]) continue;
+    sum += difference[a] * difference[a];
+    ++count;
+  }
+  if (count == 0) return {};
+  return degrees_from_radians(std::sqrt(sum / count));
+}
+
+std::optional<double> mean_abs_deg(const Posture& difference, const Chosen& chosen) {
+  double sum = 0;
+  int count = 0;
+  for (int a = 0; a < kAngleCount; ++a) {
+    if (!chosen[a]) continue;
+    sum += std::abs(difference[a]);
+    ++count;
+  }
+  if (count == 0) return {};
+  return degrees_from_radians(sum / count);
+}
+
+Chosen all_angles() {
+  Chosen chosen;
+  chosen.fill(true);
+  return chosen;
+}
+
+Chosen without_wrist() {
+  Chosen chosen = all_angles();
+  chosen[kWristFlexion] = chosen[kWristAbduction] = false;
+  return chosen;
+}
+
+Chosen observed_angles(const std::array<int, kPatchCount>& visible_pixels) {
+  Chosen observed;
+  for (int a = 0; a < kAngleCount; ++a) {
+    int pixels = 0;
+    for (int p = 0; p < kPatchCount; ++p) {
+      if (patches_moved()[a] >> p & 1) pixels += visible_pixels[p];
+    }
+    observed[a] = pixels >= kObservedPixels;
+  }
+  return observed;
+}
+
+Chosen hidden_angles(const std::array<int, kPatchCount>& visible_pixels) {
+  Chosen hidden = observed_angles(visible_pixels);
+  for (bool& chosen : hidden) chosen = !chosen;
+  return hidden;
+}
+
+Posture difference(const MeasuredFrame& frame) {
+  return frame.estimate.posture - frame.truth.posture;
+}
+
+}  // namespace
+
+std::vector<Metric> posture_metrics() {
+  using Frame = const MeasuredFrame&;
+  return {
+      {.key = "posture_rms_deg",
+       .unit = "deg",
+       .description = "root mean square over the 22 angles: the headline posture error",
+       .place = 30,
+       .gate = Metric::Gate{0.5, 0.01},
+       .of_tracked = [](Frame f) { return rms_deg(difference(f), all_angles()); }},
+      {.key = "posture_mean_abs_deg",
+       .unit = "deg",
+       .description = "mean absolute difference over the 22 angles",
+       .place = 40,
+       .of_tracked = [](Frame f) { return mean_abs_deg(difference(f), all_angles()); }},
+      {.key = "posture_rms_without_wrist_deg",
+       .unit = "deg",
+       .description = "root mean square over the 20 angles of the fingers",
+       .place = 50,
+       .of_tracked = [](Frame f) { return rms_deg(difference(f), without_wrist()); }},
+      {.key = "posture_mean_abs_without_wrist_deg",
+       .unit = "deg",
+       .description = "mean absolute difference over the 20 angles of the fingers",
+       .place = 60,
+       .of_tracked = [](Frame f) { return mean_abs_deg(difference(f), without_wrist()); }},
+      {.key = "posture_rms_observed_deg",
+       .unit = "deg",
+       .description = "root mean square over the angles that move at least 30 visible pixels",
+       .place = 70,
+       .of_tracked = [](Frame f) { return rms_deg(difference(f), observed_angles(f.truth.visible_pixels)); }},
+      {.key = "posture_rms_hidden_deg",
+       .unit = "deg",
+       .description = "root mean square over the other angles",
+       .place = 80,
+       .of_tracked = [](Frame f) { return rms_deg(difference(f), hidden_angles(f.truth.visible_pixels)); }},
+      {.key = "posture_rms_unfiltered_deg",
+       .unit = "deg",
+       .description = "root mean square over the 22 angles, before the smoothing",
+       .place = 90,
+       .gate = Metric::Gate{0.5, 0.01},
+       .of_tracked =
+           [](Frame f) { return rms_deg(f.estimate.posture_unfiltered - f.truth.posture, all_angles()); }},
+  };
+}
+
+}  // namespace glovebench::reports

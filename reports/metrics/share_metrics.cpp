@@ -1,0 +1,28 @@
+#include "reports/results.h"
+
+namespace glovebench::reports {
+
+std::vector<Metric> share_metrics() {
+  // The tolerance is 0, since two frames, the least change that counts, are more.
+  constexpr Metric::Gate kGate = {1, 0};
+  return {{.key = "uncovered_percent",
+           .unit = "%",
+           .description = "frames that are lost, or 50 mm or 30 degrees off",
+           .place = 112,
+           .gate = kGate,
+           .of_record = [](const FrameRecord& frame) { return !frame.covered; }},
+          {.key = "false_tracked_percent",
+           .unit = "%",
+           .description = "tracked frames that are 50 mm or 30 degrees off",
+           .place = 114,
+           .gate = kGate,
+           .of_record = [](const FrameRecord& frame) { return frame.false_tracked; }},
+          {.key = "false_lost_percent",
+           .unit = "%",
+           .description = "lost frames in which the hand could be tracked",
+           .place = 116,
+           .gate = kGate,
+           .of_record = [](const FrameRecord& frame) { return frame.false_lost; }}};
+}
+
+}  // namespace glovebench::reports
