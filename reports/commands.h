@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/json_cursor.h"
 #include "core/robot/command_state.h"
 #include "reports/statistics.h"
 
@@ -49,5 +51,10 @@ struct CommandResult {
 
   friend bool operator==(const CommandResult&, const CommandResult&) = default;
 };
+
+/// "commands" of an experiment in results.json.
+nlohmann::ordered_json commands_json(const CommandResult& commands);
+/// Reads it back. Throws Error for whatever commands_json does not write.
+CommandResult read_commands(const JsonCursor& json);
 
 }  // namespace glovebench::reports

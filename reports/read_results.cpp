@@ -8,9 +8,9 @@
 #include "core/base/name.h"
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"
-#include "reports/commands_json.h"
+#include "reports/commands.h"
 #include "reports/results_json.h"
-#include "reports/statistics_json.h"
+#include "reports/statistics.h"
 #include "reports/study_json.h"
 
 namespace glovebench::reports {

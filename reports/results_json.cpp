@@ -1,9 +1,9 @@
 #include "reports/results_json.h"
 
 #include "core/base/whole_file.h"
-#include "reports/commands_json.h"
+#include "reports/commands.h"
 #include "reports/json_text.h"
-#include "reports/statistics_json.h"
+#include "reports/statistics.h"
 #include "reports/study_json.h"
 
 namespace glovebench::reports {

@@ -8,7 +8,7 @@
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/test_folder.h"
-#include "reports/commands_json.h"
+#include "reports/commands.h"
 #include "reports/example_result.h"
 #include "reports/json_text.h"
 

@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "core/base/json_cursor.h"
 
 namespace glovebench::reports {
 
@@ -88,5 +91,18 @@ std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
     const BootstrapConfig& config = {});
+
+/// No error is larger (a kilometre, in mm), so that sums and squares of what a file holds stay finite.
+inline constexpr double kLargestError = 1e6;
+
+/// An aggregate as every report writes it, without an interval.
+nlohmann::ordered_json aggregate_json(const Aggregate& aggregate);
+/// Reads the members back, whatever others there are; throws Error unless values lie in 0..kLargestError.
+Aggregate read_aggregate(const JsonCursor& json);
+
+/// An interval as every report writes it; null for none.
+nlohmann::ordered_json interval_json(const std::optional<ConfidenceInterval>& interval);
+/// Reads it back; throws Error unless both ends lie in min..max.
+std::optional<ConfidenceInterval> read_interval(const JsonCursor& json, double min, double max);
 
 }  // namespace glovebench::reports

@@ -7,7 +7,7 @@
 
 #include "core/base/check.h"
 #include "reports/json_text.h"
-#include "reports/statistics_json.h"
+#include "reports/statistics.h"
 
 namespace glovebench::reports {
 namespace {

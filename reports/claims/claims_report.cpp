@@ -7,7 +7,7 @@
 
 #include "reports/csv.h"
 #include "reports/json_text.h"
-#include "reports/statistics_json.h"
+#include "reports/statistics.h"
 #include "reports/summary.h"
 
 namespace glovebench::reports {
