@@ -299,7 +299,7 @@ TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
   check(
       "results", "/experiments/1/runs/0/frames",
       [&](int i) { return fmt::format(R"([{0},{0},"lost",true,true,true,true,true,0{1}])", i, metrics); },
-      "status");
+      "found \"lost\"");
   check(
       "results", "/experiments/1/runs/0/frames",
       [&](int i) { return fmt::format(R"([{0},{0},"no_hand",true,true,true,true,true,0{1}])", i, metrics); },
