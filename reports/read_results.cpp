@@ -37,7 +37,7 @@ Protocol read_protocol(const JsonCursor& json) {
   Protocol protocol;
   protocol.metric_definitions = json["metric_definitions"].count();
   protocol.joint_order = read_texts(json["joint_order"]);
-  protocol.metric_keys = read_texts(json["metric_keys"]);
+  for (const JsonCursor& key : json["metric_keys"].items()) protocol.metric_keys.push_back(key.name());
   protocol.association = json["association"].text();
   json["id"].expect_text(protocol.id());
   return protocol;
@@ -57,17 +57,31 @@ InputHashes read_inputs(const JsonCursor& json) {
 
 constexpr size_t kFirstMetric = 9;
 
+/// The metrics of the file, in its order: the key, and the index in frame_metrics(), if the program knows it.
+struct FileMetric {
+  std::string key;
+  std::optional<size_t> index;
+};
+using FileMetrics = std::vector<FileMetric>;
+
+FileMetrics read_metrics(const JsonCursor& columns, const std::vector<std::string>& metric_keys) {
+  if (read_texts(columns) != frame_columns(metric_keys))
+    columns.fail("those of a frame, then protocol.metric_keys");
+  FileMetrics metrics;
+  for (const std::string& key : metric_keys) metrics.push_back({key, find_frame_metric(key)});
+  return metrics;
+}
+
 /// Rows that are as long as a frame's, so that there can be room for as many frames: they are larger than what a
 /// row must hold.
-JsonItems read_rows(const JsonCursor& json) {
+JsonItems read_rows(const JsonCursor& json, const FileMetrics& metrics) {
   JsonItems rows = json.items();
   for (const JsonCursor& row : rows)
-    if (row.items().size() != kFirstMetric + frame_metrics().size())
-      row.fail("one value for each of frame_columns");
+    if (row.items().size() != kFirstMetric + metrics.size()) row.fail("one value for each of frame_columns");
   return rows;
 }
 
-FrameRecord read_frame(const JsonCursor& json) {
+FrameRecord read_frame(const JsonCursor& json, const FileMetrics& metrics) {
   const JsonItems row = json.items();
   FrameRecord frame;
   frame.frame = row[0].count();
@@ -79,7 +93,10 @@ FrameRecord read_frame(const JsonCursor& json) {
   frame.ambiguous = row[6].boolean();
   frame.converged = row[7].boolean();
   frame.icp_iterations = row[8].count();
-  for (size_t m = 0; m < frame.values.size(); ++m) frame.values[m] = read_value(row[kFirstMetric + m]);
+  for (size_t m = 0; m < metrics.size(); ++m) {
+    const std::optional<double> value = read_value(row[kFirstMetric + m]);
+    if (metrics[m].index) frame.values[*metrics[m].index] = value;
+  }
   return frame;
 }
 
@@ -97,7 +114,7 @@ void check_frame(const JsonCursor& json, const std::vector<FrameRecord>& before,
     json.fail("the frame and time stamp of the first seed");
 }
 
-std::vector<SeedRun> read_runs(const JsonCursor& json) {
+std::vector<SeedRun> read_runs(const JsonCursor& json, const FileMetrics& metrics) {
   std::vector<SeedRun> runs;
   for (const JsonCursor& item : json.items()) {
     item.expect_keys({"seed", "frames"});
@@ -105,10 +122,10 @@ std::vector<SeedRun> read_runs(const JsonCursor& json) {
     run.seed = item["seed"].unsigned_integer();
     if (std::ranges::find(runs, run.seed, &SeedRun::seed) != runs.end())
       item["seed"].fail("a seed that has not been before");
-    const JsonItems rows = read_rows(item["frames"]);
+    const JsonItems rows = read_rows(item["frames"], metrics);
     run.frames.reserve(rows.size());
     for (const JsonCursor& row : rows) {
-      const FrameRecord frame = read_frame(row);
+      const FrameRecord frame = read_frame(row, metrics);
       check_frame(row, run.frames, frame, runs);
       run.frames.push_back(frame);
     }
@@ -142,15 +159,17 @@ void check_aggregate(const JsonCursor& json, const Aggregate& aggregate, size_t 
   if (!agrees) json["mean"].fail("the mean of the frames in runs");
 }
 
-void read_aggregates(const JsonCursor& json, ExperimentResult& experiment) {
-  const size_t count = frame_metrics().size();
-  if (json.members().size() != count) json.fail(std::to_string(count) + " metrics");
-  for (size_t m = 0; m < count; ++m) {
-    const JsonCursor item = json[frame_metrics()[m].key];
+void read_aggregates(const JsonCursor& json, const FileMetrics& metrics, ExperimentResult& experiment) {
+  if (json.members().size() != metrics.size()) json.fail(fmt::format("{} metrics", metrics.size()));
+  for (const auto& [key, index] : metrics) {
+    const JsonCursor item = json[key];
     item.expect_keys({"count", "mean", "median", "rms", "p95", "max", "interval"});
-    experiment.aggregates[m] = read_aggregate(item);
-    check_aggregate(item, experiment.aggregates[m], m, experiment.runs);
-    experiment.intervals[m] = read_interval(item["interval"], 0, kLargestError);
+    const Aggregate aggregate = read_aggregate(item);
+    const std::optional<ConfidenceInterval> interval = read_interval(item["interval"], 0, kLargestError);
+    if (!index) continue;
+    check_aggregate(item, aggregate, *index, experiment.runs);
+    experiment.aggregates[*index] = aggregate;
+    experiment.intervals[*index] = interval;
   }
 }
 
@@ -165,7 +184,7 @@ ExperimentKey read_experiment_key(const JsonCursor& json) {
   return key;
 }
 
-ExperimentResult read_experiment(const JsonCursor& json) {
+ExperimentResult read_experiment(const JsonCursor& json, const FileMetrics& metrics) {
   const bool has_commands = json.has("commands");
   // A key of the others in its place where there is none.
   json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
@@ -174,11 +193,11 @@ ExperimentResult read_experiment(const JsonCursor& json) {
   json["sequence"].expect_keys({"jitter_position_mm", "jitter_rotation_deg", "latency_frames"});
   ExperimentResult experiment;
   experiment.key = read_experiment_key(json);
-  experiment.runs = read_runs(json["runs"]);
+  experiment.runs = read_runs(json["runs"], metrics);
   experiment.coverage = read_coverage(json["coverage"]);
   if (experiment.coverage != count_coverage(experiment.runs))
     json["coverage"].fail("the counts of the frames in runs");
-  read_aggregates(json["aggregates"], experiment);
+  read_aggregates(json["aggregates"], metrics, experiment);
   const JsonCursor pck = json["joint_pck"], sequence = json["sequence"];
   experiment.pck = {read_numbers(pck["thresholds_mm"], kLargestError), read_numbers(pck["shares"], 1),
                     pck["area"].number_or_null(0, 1)};
@@ -209,17 +228,16 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   json.expect_keys({"format", "version", "protocol", "inputs", "suite", "program", "configuration", "frame_columns",
                     "experiments", has_studies ? "studies" : "experiments"});
   json["program"].expect_keys({"version", "commit"});
-  if (read_texts(json["frame_columns"]) != frame_columns())
-    json["frame_columns"].fail("the columns of this version");
   RunResult result;
   result.protocol = read_protocol(json["protocol"]);
+  const FileMetrics metrics = read_metrics(json["frame_columns"], result.protocol.metric_keys);
   result.inputs = read_inputs(json["inputs"]);
   if (!json["suite"].is_null()) result.suite = json["suite"].name();
   result.program_version = json["program"]["version"].text();
   result.commit = json["program"]["commit"].text();
   json["configuration"].members();
   for (const JsonCursor& item : json["experiments"].items()) {
-    ExperimentResult experiment = read_experiment(item);
+    ExperimentResult experiment = read_experiment(item, metrics);
     if (find_experiment(result, experiment.key)) item.fail("an experiment that has not been before");
     result.experiments.push_back(std::move(experiment));
   }

@@ -66,7 +66,7 @@ std::string Protocol::id() const {
 Protocol make_protocol(std::string association) {
   Protocol protocol;
   for (const AngleInfo& info : angle_infos()) protocol.joint_order.emplace_back(info.name);
-  for (const Metric& metric : frame_metrics()) protocol.metric_keys.emplace_back(metric.key);
+  protocol.metric_keys = frame_metric_keys();
   protocol.association = std::move(association);
   return protocol;
 }

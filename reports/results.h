@@ -116,11 +116,12 @@ struct ExperimentResult {
 ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
                            const BootstrapConfig& bootstrap = {});
 
-/// How the numbers of a result are to be understood: results of different protocols are never compared.
+/// How the numbers of a result are to be understood. Results are compared in the metrics that both have; all else
+/// must be the same.
 struct Protocol {
   int metric_definitions = 1;            ///< raised whenever a metric changes its meaning
   std::vector<std::string> joint_order;  ///< the 22 angles
-  std::vector<std::string> metric_keys;  ///< with their units
+  std::vector<std::string> metric_keys;  ///< of the frames; a file of another version may have others
   std::string association;               ///< how estimates meet truths, e.g. "by time stamp, exact"
 
   std::string id() const;  ///< hash of all of the above

@@ -11,11 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json aggregates_json(const ExperimentResult& experiment) {
+Json aggregates_json(const ExperimentResult& experiment, std::span<const std::string> metric_keys) {
   Json json = Json::object();
-  for (size_t m = 0; m < frame_metrics().size(); ++m) {
-    Json& aggregate = json[std::string(frame_metrics()[m].key)] = aggregate_json(experiment.aggregates[m]);
-    aggregate["interval"] = interval_json(experiment.intervals[m]);
+  for (const std::string& key : metric_keys) {
+    Json& aggregate = json[key] = aggregate_json(experiment.aggregate_of(key));
+    aggregate["interval"] = interval_json(experiment.interval_of(key));
   }
   return json;
 }
@@ -36,17 +36,17 @@ Json pck_json(const PckCurve& pck) {
   return {{"thresholds_mm", thresholds}, {"shares", shares}, {"area", rounded_or_null(pck.area)}};
 }
 
-Json runs_json(const std::vector<SeedRun>& runs) {
+Json runs_json(const std::vector<SeedRun>& runs, std::span<const std::string> metric_keys) {
   Json json = Json::array();
   for (const SeedRun& run : runs) {
     Json frames = Json::array();
-    for (const FrameRecord& frame : run.frames) frames.push_back(frame_row(frame));
+    for (const FrameRecord& frame : run.frames) frames.push_back(frame_row(frame, metric_keys));
     json.push_back({{"seed", run.seed}, {"frames", std::move(frames)}});
   }
   return json;
 }
 
-Json experiment_json(const ExperimentResult& experiment) {
+Json experiment_json(const ExperimentResult& experiment, std::span<const std::string> metric_keys) {
   const ExperimentKey& key = experiment.key;
   const SequenceMetrics& sequence = experiment.sequence;
   Json json = {{"trajectory", key.trajectory},
@@ -55,13 +55,13 @@ Json experiment_json(const ExperimentResult& experiment) {
                {"subject", key.subject},
                {"noise", {{"model", key.noise.model}, {"factor", rounded(key.noise.factor)}}},
                {"coverage", coverage_json(experiment.coverage)},
-               {"aggregates", aggregates_json(experiment)},
+               {"aggregates", aggregates_json(experiment, metric_keys)},
                {"joint_pck", pck_json(experiment.pck)},
                {"sequence",
                 {{"jitter_position_mm", rounded_or_null(sequence.jitter_position_mm)},
                  {"jitter_rotation_deg", rounded_or_null(sequence.jitter_rotation_deg)},
                  {"latency_frames", rounded_or_null(sequence.latency_frames)}}},
-               {"runs", runs_json(experiment.runs)}};
+               {"runs", runs_json(experiment.runs, metric_keys)}};
   // Results from before there were any are the same bytes.
   if (experiment.commands) json["commands"] = commands_json(*experiment.commands);
   return json;
@@ -69,25 +69,27 @@ Json experiment_json(const ExperimentResult& experiment) {
 
 }  // namespace
 
-std::vector<std::string> frame_columns() {
+std::vector<std::string> frame_columns(std::span<const std::string> metric_keys) {
   std::vector<std::string> columns = {"frame",      "timestamp_us", "status",    "covered",       "false_tracked",
                                       "false_lost", "ambiguous",    "converged", "icp_iterations"};
-  for (const Metric& metric : frame_metrics()) columns.emplace_back(metric.key);
+  columns.insert(columns.end(), metric_keys.begin(), metric_keys.end());
   return columns;
 }
 
-Json frame_row(const FrameRecord& frame) {
+Json frame_row(const FrameRecord& frame, std::span<const std::string> metric_keys) {
   Json row = {frame.frame,     frame.timestamp_us,  std::string(to_string(frame.status)),
               frame.covered,   frame.false_tracked, frame.false_lost,
               frame.ambiguous, frame.converged,     frame.icp_iterations};
-  for (const std::optional<double>& value : frame.values) row.push_back(rounded_or_null(value));
+  for (const std::string& key : metric_keys) row.push_back(rounded_or_null(frame[key]));
   return row;
 }
 
 std::string results_json(const RunResult& result) {
-  const Protocol& protocol = result.protocol;
+  Protocol protocol = result.protocol;
+  std::erase_if(protocol.metric_keys, [](const std::string& key) { return !find_frame_metric(key); });
   Json experiments = Json::array();
-  for (const ExperimentResult& experiment : result.experiments) experiments.push_back(experiment_json(experiment));
+  for (const ExperimentResult& experiment : result.experiments)
+    experiments.push_back(experiment_json(experiment, protocol.metric_keys));
   Json json = {{"format", kResultsFormat},
                {"version", kResultsVersion},
                {"protocol",
@@ -104,7 +106,7 @@ std::string results_json(const RunResult& result) {
                {"suite", result.suite.empty() ? Json() : Json(result.suite)},
                {"program", {{"version", result.program_version}, {"commit", result.commit}}},
                {"configuration", result.configuration},
-               {"frame_columns", frame_columns()},
+               {"frame_columns", frame_columns(protocol.metric_keys)},
                {"experiments", std::move(experiments)}};
   // Results without studies stay the bytes that they were before there were any.
   if (!result.studies.empty()) json["studies"] = studies_json(result.studies);

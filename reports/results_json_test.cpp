@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/test_folder.h"
 #include "reports/commands.h"
+#include "reports/example_metrics.h"
 #include "reports/example_result.h"
 #include "reports/json_text.h"
 
@@ -112,6 +113,40 @@ TEST(ResultsJson, NoValueIsNull) {
   EXPECT_TRUE(lost["runs"][0]["frames"][0][9].is_null());
   EXPECT_EQ(lost["coverage"]["share"], 0);
   EXPECT_TRUE(results["experiments"][2]["coverage"]["share"].is_null());
+}
+
+TEST(ResultsJson, MetricsOfAnotherVersion) {
+  json results = json::parse(results_json(small_result()));
+  add_metric(results, "mood_deg");
+  remove_metric(results, "rotation_error_deg");
+  const RunResult read = parse_results(results.dump(), "results.json");
+  EXPECT_EQ(read.protocol.id(), results["protocol"]["id"]);
+  const FrameRecord& frame = read.experiments[0].runs[0].frames[0];
+  EXPECT_EQ(frame["position_error_mm"], 3) << "columns are found by name";
+  EXPECT_EQ(frame["posture_rms_deg"], 2);
+  EXPECT_EQ(frame["rotation_error_deg"], std::nullopt);
+  EXPECT_EQ(read.experiments[0].aggregate_of("rotation_error_deg"), Aggregate{});
+
+  const json written = json::parse(results_json(read));
+  EXPECT_EQ(written["frame_columns"].size(), frame_metrics().size() - 1 + 9) << "no mood, no rotation";
+  EXPECT_EQ(results_json(parse_results(written.dump(), "again")), results_json(read));
+
+  add_metric(results, "position_error_mm");
+  EXPECT_THAT(error_of(results.dump()), HasSubstr("aggregates: found an object")) << "twice";
+}
+
+TEST(ResultsJson, ColumnsAndAggregatesAreThoseOfTheProtocol) {
+  EXPECT_THAT(error_of_change([](json& r) { std::swap(r["frame_columns"][9], r["frame_columns"][10]); }),
+              HasSubstr("frame_columns: found an array"));
+  EXPECT_THAT(error_of_change([](json& r) { r["frame_columns"].push_back("mood_deg"); }),
+              HasSubstr("frame_columns: found an array"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"][0].push_back(1); }),
+              HasSubstr("frames[0]: found an array"));
+  EXPECT_THAT(error_of_change([](json& r) {
+                json& aggregates = r["experiments"][0]["aggregates"];
+                aggregates["mood_deg"] = aggregates["position_error_mm"];
+              }),
+              HasSubstr("aggregates: found an object"));
 }
 
 TEST(ResultsJson, NothingThatIsNotFiniteIsWritten) {

@@ -79,22 +79,23 @@ TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, co
 
 TextTable detail_summary(const RunResult& result) {
   TextTable table{experiment_heading(), {}, static_cast<int>(experiment_heading().size())};
+  table.heading.emplace_back("position mm [95%]");
+  for (const Metric& metric : frame_metrics())
+    if (!metric.heading.empty()) table.heading.emplace_back(metric.heading);
   for (const char* column :
-       {"position mm [95%]", "vertices mm", "fingertips mm", "joints mm", "PCK area", "jitter mm", "jitter deg",
-        "latency frames", "lost", "false tracked", "false lost", "frames"})
+       {"PCK area", "jitter mm", "jitter deg", "latency frames", "lost", "false tracked", "false lost", "frames"})
     table.heading.emplace_back(column);
   for (const ExperimentResult& experiment : result.experiments) {
     const Coverage& coverage = experiment.coverage;
     std::vector<std::string> row = experiment_cells(experiment.key);
+    row.push_back(mean_with_interval(experiment, "position_error_mm"));
+    for (const Metric& metric : frame_metrics())
+      if (!metric.heading.empty()) row.push_back(fixed(experiment.aggregate_of(metric.key).mean, 2));
     for (std::string cell :
-         {mean_with_interval(experiment, "position_error_mm"),
-          fixed(experiment.aggregate_of("vertex_error_mm").mean, 2),
-          fixed(experiment.aggregate_of("fingertip_error_mm").mean, 2),
-          fixed(experiment.aggregate_of("joint_error_mm").mean, 2), fixed(experiment.pck.area, 3),
-          fixed(experiment.sequence.jitter_position_mm, 2), fixed(experiment.sequence.jitter_rotation_deg, 2),
-          fixed(experiment.sequence.latency_frames, 1), std::to_string(coverage.lost),
-          std::to_string(coverage.false_tracked), std::to_string(coverage.false_lost),
-          std::to_string(coverage.frames)})
+         {fixed(experiment.pck.area, 3), fixed(experiment.sequence.jitter_position_mm, 2),
+          fixed(experiment.sequence.jitter_rotation_deg, 2), fixed(experiment.sequence.latency_frames, 1),
+          std::to_string(coverage.lost), std::to_string(coverage.false_tracked),
+          std::to_string(coverage.false_lost), std::to_string(coverage.frames)})
       row.push_back(std::move(cell));
     table.rows.push_back(std::move(row));
   }

@@ -138,11 +138,13 @@ std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, cons
 }
 
 std::string frames_csv(const ExperimentResult& experiment) {
+  const std::vector<std::string> keys = frame_metric_keys();
   std::string csv = "seed";
-  for (const std::string& column : frame_columns()) csv += "," + column;
+  for (const std::string& column : frame_columns(keys)) csv += "," + column;
   csv += "\n";
   for (const SeedRun& run : experiment.runs)
-    for (const FrameRecord& frame : run.frames) csv += fmt::format("{},{}", run.seed, csv_line(frame_row(frame)));
+    for (const FrameRecord& frame : run.frames)
+      csv += fmt::format("{},{}", run.seed, csv_line(frame_row(frame, keys)));
   return csv;
 }
 

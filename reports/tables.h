@@ -36,7 +36,7 @@ std::string figure4_table(const RunResult& result, const PaperNumbers& paper, co
 /// The same rows, one line an experiment, with the intervals of the means and the paper's numbers.
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
-/// Every frame of an experiment, seed after seed: the columns of frame_columns() after the seed's. Empty cells are
+/// Every frame of an experiment, seed after seed: the columns of frame_columns after the seed's. Empty cells are
 /// values that a frame does not have.
 std::string frames_csv(const ExperimentResult& experiment);
 /// The three errors of figures 5 and 6, frame by frame, beside those that the paper printed (another movement:

@@ -118,6 +118,27 @@ TEST_F(RegressionLong, GatePassesWhatIsTheSameAndStopsWhatIsWorse) {
   EXPECT_EQ(gate(slightly).exit_code, 0) << "below the minimum effect";
 }
 
+TEST_F(RegressionLong, AMetricOfOneVersionAloneDecidesNothing) {
+  const auto without_residual = [](RunResult& r) { std::erase(r.protocol.metric_keys, "icp_residual_mm"); };
+  const std::string fewer = write_changed("fewer", without_residual);
+  const std::string fewer_worse = write_changed("fewer-worse", [&](RunResult& r) {
+    without_residual(r);
+    add_position_error(r, 1);
+  });
+  copy_baseline();
+  const ProgramRun passed = gate(fewer);
+  EXPECT_EQ(passed.exit_code, 0);
+  EXPECT_THAT(passed.out, HasSubstr("not compared: icp_residual_mm (not in the candidate)"));
+  EXPECT_EQ(gate(fewer_worse).exit_code, 1);
+
+  fs::copy_file(fewer + "/results.json", path("baseline/results.json"), fs::copy_options::overwrite_existing);
+  const ProgramRun same = gate(path("same"), {"-o", path("fewer-report")});
+  EXPECT_EQ(same.exit_code, 0);
+  EXPECT_THAT(same.out, HasSubstr("not compared: icp_residual_mm (not in the baseline)"));
+  EXPECT_THAT(read_file(path("fewer-report/index.html")), HasSubstr("icp_residual_mm (not in the baseline)"));
+  EXPECT_EQ(gate(fewer_worse).exit_code, 1);
+}
+
 TEST_F(RegressionLong, LostFramesStopAChangeAndMissingOnesAreNamed) {
   copy_baseline();
   const auto lose = [](RunResult& r, int from, int to) {

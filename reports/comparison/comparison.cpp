@@ -24,14 +24,15 @@ bool have_other_seeds(const Pairing& pairing) {
   return false;
 }
 
-FrameDifferences frame_differences(const ExperimentResult& baseline, const ExperimentResult& candidate) {
+FrameDifferences frame_differences(const std::vector<const Metric*>& metrics, const ExperimentResult& baseline,
+                                   const ExperimentResult& candidate) {
   FrameDifferences result;
   result.experiment = to_string(baseline.key);
   if (baseline.runs.empty() || baseline.runs.front().frames.empty()) return result;
   result.first_frame = baseline.runs.front().frames.front().frame;
-  for (const Metric& metric : gated_metrics()) {
-    const auto by_seed = paired_differences(metric, baseline.runs, candidate.runs).by_seed;
-    auto& differences = result.differences.emplace_back(&metric).values;
+  for (const Metric* metric : metrics) {
+    const auto by_seed = paired_differences(*metric, baseline.runs, candidate.runs).by_seed;
+    auto& differences = result.differences.emplace_back(metric).values;
     for (size_t f = 0; f < by_seed.front().size(); ++f) {
       std::vector<double> values;
       for (const auto& row : by_seed)
@@ -91,12 +92,13 @@ Comparison compare_results(const NamedResult& baseline, const NamedResult& candi
   comparison.rows = comparison_rows(pairing, floor, config, draws);
   for (const auto& [before, after] : pairing.experiments) {
     comparison.seeds = std::max(comparison.seeds, static_cast<int>(before->runs.size()));
-    comparison.frames.push_back(frame_differences(*before, *after));
+    comparison.frames.push_back(frame_differences(pairing.metrics, *before, *after));
   }
   comparison.worst = worst_frames(pairing);
   comparison.configuration = configuration_changes(baseline.result, candidate.result);
   comparison.only_in_baseline = pairing.only_in_baseline;
   comparison.only_in_candidate = pairing.only_in_candidate;
+  comparison.uncompared_metrics = uncompared_metrics(baseline.result.protocol, candidate.result.protocol);
   return comparison;
 }
 

@@ -33,7 +33,7 @@ struct CompareConfig {
 /// One metric of one experiment, or of all.
 struct ComparisonRow {
   std::string experiment;          ///< to_string of its key, or kAllExperiments
-  const Metric* metric = nullptr;  ///< one of gated_metrics()
+  const Metric* metric = nullptr;  ///< gated
   int pairs = 0;                   ///< frames of all seeds that have the value in both
   int frames = 0;                  ///< frames of all seeds
   std::optional<double> baseline;  ///< mean over the pairs
@@ -64,7 +64,7 @@ struct FrameDifferences {
     const Metric* metric;
     std::vector<std::optional<double>> values;
   };
-  std::vector<OfMetric> differences;  ///< of each gated metric
+  std::vector<OfMetric> differences;
 };
 
 /// A field of the effective configurations that differs.
@@ -94,6 +94,7 @@ struct Comparison {
   std::vector<ConfigurationChange> configuration;
   std::vector<std::string> only_in_baseline;
   std::vector<std::string> only_in_candidate;
+  std::map<std::string, std::string> uncompared_metrics;  ///< key: why
 };
 inline constexpr int kWorstFrames = 6;
 

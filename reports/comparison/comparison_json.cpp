@@ -108,6 +108,7 @@ std::string comparison_json(const ComparisonReport& report) {
        {"configuration_changes", array_of(comparison.configuration, change_json)},
        {"only_in_baseline", comparison.only_in_baseline},
        {"only_in_candidate", comparison.only_in_candidate},
+       {"uncompared_metrics", comparison.uncompared_metrics},
        {"worst_frames", array_of(comparison.worst, changed_frame_json)},
        {"frame_differences", array_of(comparison.frames, differences_json)}});
 }

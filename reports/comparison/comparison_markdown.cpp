@@ -66,6 +66,7 @@ std::string comparison_markdown(const ComparisonReport& report) {
     text.append("\n") += escaped_table(configuration_table(comparison.configuration));
   text += names_markdown("Only in the baseline", comparison.only_in_baseline);
   text += names_markdown("Only in the candidate", comparison.only_in_candidate);
+  text += names_markdown("Metrics that are not compared", uncompared_texts(comparison));
   if (!report.times.stages.empty())
     text += fmt::format("\n<details><summary>Times</summary>\n\n{}\n{}\n\n</details>\n",
                         escaped_table(times_table(report.times)), times_sentence(report.times));

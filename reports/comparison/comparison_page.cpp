@@ -178,8 +178,10 @@ std::string comparison_page(const ComparisonReport& report) {
   if (!comparison.configuration.empty())
     body += "<h2>Configuration</h2>\n" + to_html(configuration_table(comparison.configuration));
   body += names_html("Only in the baseline", comparison.only_in_baseline) +
-          names_html("Only in the candidate", comparison.only_in_candidate) + worst_frames_html(comparison.worst) +
-          picture_section("Pictures", report.pictures) + experiments_html(comparison);
+          names_html("Only in the candidate", comparison.only_in_candidate) +
+          names_html("Metrics that are not compared", uncompared_texts(comparison)) +
+          worst_frames_html(comparison.worst) + picture_section("Pictures", report.pictures) +
+          experiments_html(comparison);
   return html_document("glovebench comparison", body);
 }
 

@@ -45,6 +45,7 @@ ComparisonReport hostile_comparison() {
   comparison.candidate.name = name + "\xff";
   comparison.configuration[0].candidate = name;
   comparison.only_in_baseline = {name};
+  comparison.uncompared_metrics = {{name, name}};
   report.speed[0].name = name;
   report.pictures = {{name, "png"}};
   return report;

@@ -132,19 +132,18 @@ double minimum_effect(const Metric& metric, std::string_view experiment, int fra
   return std::max(effect, least_effect(metric, frames));
 }
 
-int row_count(size_t experiments) {
-  return static_cast<int>(gated_metrics().size() * (experiments + 1));
+int row_count(size_t metrics, size_t experiments) {
+  return static_cast<int>(metrics * (experiments + 1));
 }
 
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
                                            const CompareConfig& config, Draws& draws) {
   check_config(config);
-  const size_t experiments = pairing.experiments.size();
-  const double tail_error = config.family_error / (2 * row_count(experiments));
-  std::vector<ComparisonRow> rows(row_count(experiments));
-  const size_t metric_count = gated_metrics().size();
-  for (size_t m = 0; m < metric_count; ++m) {
-    const Metric& metric = gated_metrics()[m];
+  const size_t experiments = pairing.experiments.size(), metrics = pairing.metrics.size();
+  const double tail_error = config.family_error / (2 * row_count(metrics, experiments));
+  std::vector<ComparisonRow> rows(row_count(metrics, experiments));
+  for (size_t m = 0; m < metrics; ++m) {
+    const Metric& metric = *pairing.metrics[m];
     std::vector<ResampledRow> resampled;
     for (const auto& [baseline, candidate] : pairing.experiments)
       resampled.push_back(experiment_row(metric, *baseline, *candidate, config, draws));
@@ -152,7 +151,7 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
     for (size_t e = 0; e < experiments; ++e) {
       auto& [row, trajectory, means] = resampled[e];
       if (means.size() > 0) set_interval(row, means, tail_error, row.blocks - 1);
-      rows[(e + 1) * metric_count + m] = row;
+      rows[(e + 1) * metrics + m] = row;
     }
   }
   int seeds = std::numeric_limits<int>::max();

@@ -24,7 +24,7 @@ double minimum_effect(const Metric& metric, std::string_view experiment, int fra
                       const NoiseFloor* floor);
 
 /// Rows of all experiments together and of each: what the family error is shared by.
-int row_count(size_t experiments);
+int row_count(size_t metrics, size_t experiments);
 /// The rows of compare_results: first those over all experiments, then experiment by experiment. `draws` are of
 /// config's seed and number of resamples; one object may serve many comparisons.
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,

@@ -91,6 +91,8 @@ std::string comparison_table(const ComparisonReport& report, bool all_rows) {
   for (const auto& [names, side] :
        {std::pair{&comparison.only_in_baseline, "baseline"}, std::pair{&comparison.only_in_candidate, "candidate"}})
     if (!names->empty()) text += wrapped(fmt::format("only in the {}: {}", side, fmt::join(*names, " ")));
+  if (!comparison.uncompared_metrics.empty())
+    text += wrapped(fmt::format("not compared: {}", fmt::join(uncompared_texts(comparison), ", ")));
   return text + wrapped(comparison_explanation(comparison)) + outcome_line(report) + "\n";
 }
 

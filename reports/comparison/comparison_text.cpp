@@ -157,6 +157,13 @@ TextTable times_table(const StageTimeChanges& times) {
   return table;
 }
 
+std::vector<std::string> uncompared_texts(const Comparison& comparison) {
+  std::vector<std::string> texts;
+  for (const auto& [metric, why] : comparison.uncompared_metrics)
+    texts.push_back(fmt::format("{} ({})", metric, why));
+  return texts;
+}
+
 std::string times_sentence(const StageTimeChanges& times) {
   return times.same_machine
              ? "Wall times of the same processor and number of threads, for information: other work slows them."

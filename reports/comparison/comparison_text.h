@@ -47,6 +47,8 @@ TextTable rows_table(std::span<const ComparisonRow> rows);
 TextTable speed_table(const std::vector<SpeedRow>& speed);
 /// The tracker's stages; empty where no times were kept.
 TextTable times_table(const StageTimeChanges& times);
+/// "palm_error_mm (not in the baseline)"
+std::vector<std::string> uncompared_texts(const Comparison& comparison);
 /// What wall times say, and what not.
 std::string times_sentence(const StageTimeChanges& times);
 TextTable configuration_table(const std::vector<ConfigurationChange>& changes);

@@ -119,6 +119,7 @@ inline ComparisonReport full_comparison() {
   append_example_experiment(comparison, {"Exit", "DB_open_power", source, 1, {}}, 0.1, true);
   comparison.worst.push_back({{"Exit", "DB_open_power", source, 1, {}}, 2, 2, 64, 4.25, 31.5});
   comparison.only_in_candidate = {"Tr4_DB_open_power_source_subject1_kinect_1"};
+  comparison.uncompared_metrics = {{"mood_deg", "not in the baseline"}};
   return report;
 }
 

@@ -49,6 +49,8 @@ GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& s
   GateDecision decision;
   if (!comparison.has_noise_floor)
     decision.warnings.emplace_back("no noise floor: the minimum effects are defaults, not measured");
+  for (const auto& [metric, why] : comparison.uncompared_metrics)
+    decision.warnings.push_back(fmt::format("{}: not compared, {}", metric, why));
   for (const ComparisonRow& row : comparison.rows) {
     if (stops(row))
       decision.failures.push_back(fmt::format("{}: {} {}", name(row), how(row), numbers(row)));

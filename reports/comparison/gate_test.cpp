@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "reports/comparison/example_runs.h"
+#include "reports/example_metrics.h"
+#include "reports/results_json.h"
 
 namespace glovebench::reports {
 namespace {
@@ -52,6 +54,42 @@ TEST(Gate, TwiceTheMinimumEffectStopsWithoutSignificance) {
   in_places.high.reset();
   EXPECT_TRUE(stops(in_places)) << "too short for an interval";
   EXPECT_FALSE(stops(row(kGatedPosition, -0.5, Verdict::not_enough_data)));
+}
+
+/// A result as another version of the program writes it.
+NamedResult of_version(double shift_mm, const std::function<void(nlohmann::json&)>& change) {
+  NamedResult named = example_named("run", {noisy_experiment("Tr4", {1, 2}, 117, "a", shift_mm)});
+  for (ExperimentResult& e : named.result.experiments) e = summarize(e.key, e.runs, pck_curve({}, 0), {});
+  nlohmann::json json = nlohmann::json::parse(results_json(named.result));
+  change(json);
+  named.result = parse_results(json.dump(), "results.json");
+  return named;
+}
+
+TEST(Gate, AMetricOfOneVersionAloneDecidesNothing) {
+  const auto none = [](nlohmann::json&) {};
+  const auto other = [](nlohmann::json& json) {
+    remove_metric(json, "icp_residual_mm");
+    add_metric(json, "mood_deg");
+  };
+  for (const double shift_mm : {0.0, 1.0}) {
+    const bool passed = shift_mm == 0;
+    EXPECT_EQ(decide(compare_results(of_version(0, none), of_version(shift_mm, none), nullptr), {}).passed(),
+              passed);
+    for (const bool is_baseline : {false, true}) {
+      const NamedResult baseline = is_baseline ? of_version(0, other) : of_version(0, none),
+                        candidate = is_baseline ? of_version(shift_mm, none) : of_version(shift_mm, other);
+      const Comparison comparison = compare_results(baseline, candidate, nullptr);
+      EXPECT_EQ(decide(comparison, {}).passed(), passed);
+      EXPECT_THAT(decide(comparison, {}).warnings,
+                  testing::Contains("mood_deg: not compared, unknown to this program"));
+      EXPECT_EQ(comparison.rows.size(), 2 * (gated_metrics().size() - 1));
+      EXPECT_EQ(comparison.frames[0].differences.size(), gated_metrics().size() - 1);
+      EXPECT_EQ(comparison.uncompared_metrics.at("icp_residual_mm"),
+                is_baseline ? "not in the baseline" : "not in the candidate");
+      EXPECT_EQ(comparison.uncompared_metrics.at("mood_deg"), "unknown to this program");
+    }
+  }
 }
 
 TEST(Gate, AStretchThatWentWrongStops) {

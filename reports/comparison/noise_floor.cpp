@@ -75,15 +75,16 @@ int frames_of(const ExperimentResult& experiment, int seeds) {
 
 /// One entry for each row of a comparison that has a spread, without `detectable`.
 std::vector<NoiseFloorEntry> measure_effects(const RunResult& result, const NoiseFloor& floor) {
-  const double tail_error = floor.family_error / (2 * row_count(result.experiments.size()));
+  const std::vector<const Metric*> metrics = shared_metrics(result.protocol, result.protocol);
+  const double tail_error = floor.family_error / (2 * row_count(metrics.size(), result.experiments.size()));
   const double difference_of_means = std::sqrt(2.0 / floor.seeds_per_result);
   std::vector<NoiseFloorEntry> entries;
-  for (const Metric& metric : gated_metrics()) {
-    const Spreads spreads = measure_spreads(metric, result);
+  for (const Metric* metric : metrics) {
+    const Spreads spreads = measure_spreads(*metric, result);
     const auto add = [&](std::string experiment, double spread, int degrees_of_freedom, int frames) {
       const double effect = student_t_above(tail_error, degrees_of_freedom) * spread * difference_of_means;
-      entries.push_back({std::move(experiment), std::string(metric.key), spread,
-                         std::max(effect, least_effect(metric, frames)), 0});
+      entries.push_back({std::move(experiment), std::string(metric->key), spread,
+                         std::max(effect, least_effect(*metric, frames)), 0});
     };
     int all_frames = 0;
     for (size_t e = 0; e < result.experiments.size(); ++e) {
@@ -133,6 +134,7 @@ std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const Nois
   for (int d = 0; d < kDraws; ++d) {
     const auto [baseline, candidate] = draw_results(result, floor.seeds_per_result, d);
     Pairing pairing;
+    pairing.metrics = shared_metrics(result.protocol, result.protocol);
     for (size_t e = 0; e < baseline.experiments.size(); ++e)
       pairing.experiments.emplace_back(&baseline.experiments[e], &candidate.experiments[e]);
     for (const ComparisonRow& row : comparison_rows(pairing, &floor, config, draws))

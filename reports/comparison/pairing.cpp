@@ -27,7 +27,6 @@ void check_protocol(const std::string& where, const Protocol& found, const Proto
   check_equal(where, "protocol.metric_definitions", std::to_string(found.metric_definitions),
               std::to_string(expected.metric_definitions));
   check_names(where, "protocol.joint_order", found.joint_order, expected.joint_order);
-  check_names(where, "protocol.metric_keys", found.metric_keys, expected.metric_keys);
   check_equal(where, "protocol.association", found.association, expected.association);
 }
 
@@ -115,13 +114,37 @@ Pairing pair_experiments(const RunResult& baseline, const RunResult& candidate) 
   return pairing;
 }
 
+bool has(const Protocol& protocol, const Metric& metric) {
+  return metric.is_share() || std::ranges::find(protocol.metric_keys, metric.key) != protocol.metric_keys.end();
+}
+
 }  // namespace
+
+std::vector<const Metric*> shared_metrics(const Protocol& baseline, const Protocol& candidate) {
+  std::vector<const Metric*> shared;
+  for (const Metric& metric : gated_metrics())
+    if (has(baseline, metric) && has(candidate, metric)) shared.push_back(&metric);
+  return shared;
+}
+
+std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, const Protocol& candidate) {
+  std::map<std::string, std::string> why;
+  for (const Metric& metric : gated_metrics()) {
+    if (!has(baseline, metric)) why[std::string(metric.key)] = "not in the baseline";
+    if (!has(candidate, metric)) why[std::string(metric.key)] = "not in the candidate";
+  }
+  for (const Protocol* protocol : {&baseline, &candidate})
+    for (const std::string& key : protocol->metric_keys)
+      if (!find_frame_metric(key)) why[key] = "unknown to this program";
+  return why;
+}
 
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options) {
   check_protocol(candidate.name, candidate.result.protocol, baseline.result.protocol);
   check_unique(baseline);
   check_unique(candidate);
   Pairing pairing = pair_experiments(baseline.result, candidate.result);
+  pairing.metrics = shared_metrics(baseline.result.protocol, candidate.result.protocol);
   for (const auto& [expected, found] : pairing.experiments) check_inputs(baseline, candidate, expected->key);
   for (const auto& [expected, found] : pairing.experiments)
     check_seeds(candidate.name, *found, *expected, options.other_seeds);

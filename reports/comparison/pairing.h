@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// Two results that say nothing about each other: of another protocol, truth, database, or other frames. The
+/// Two results that say nothing about each other: of other definitions, truths, databases or frames. The
 /// message is that of an Error. The command line ends with exit code 3.
 class Incomparable : public Error {
  public:
@@ -30,18 +31,24 @@ struct PairingOptions {
   bool partial = false;
 };
 
-/// The experiments that both results have, of the same frames: run i of one belongs to run i of the other, frame j
+/// What both results have. Experiments are of the same frames: run i of one belongs to run i of the other, frame j
 /// to frame j. The pointers refer to the results.
 struct Pairing {
+  std::vector<const Metric*> metrics;  ///< gated ones, in their order
   std::vector<std::pair<const ExperimentResult*, const ExperimentResult*>> experiments;  ///< baseline, candidate
   std::vector<std::string> only_in_baseline;                                             ///< names of experiments
   std::vector<std::string> only_in_candidate;
 };
 
-/// Throws Incomparable naming the first field that differs: protocol (which member of it), the hash of a shared
-/// truth or database (also if a file does not say it), an experiment that is there twice, seeds, frame numbers and
-/// time stamps (a frame that left the result, lost or not, is one that differs), or an experiment that the
-/// candidate lacks; also if there is nothing to compare.
+/// The gated metrics that both results have, and why others are not compared: one lacks them, or the program does
+/// not know them.
+std::vector<const Metric*> shared_metrics(const Protocol& baseline, const Protocol& candidate);
+std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, const Protocol& candidate);
+
+/// Throws Incomparable naming the first field that differs: a member of the protocol but its metrics, the hash of a
+/// shared truth or database (also if a file does not say it), an experiment that is there twice, seeds, frame
+/// numbers and time stamps (a frame that left the result, lost or not, is one that differs), or an experiment that
+/// the candidate lacks; also if there is nothing to compare.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 
 }  // namespace glovebench::reports

@@ -52,12 +52,27 @@ TEST(Pairing, OtherProtocolsAreRefusedByTheMemberThatDiffers) {
             "out/new: protocol.metric_definitions: found 2, expected 1");
   EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.joint_order[3] = std::string("elbow"); }),
               HasSubstr("protocol.joint_order[3]: found elbow, expected "));
-  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.metric_keys.pop_back(); }),
-              HasSubstr("protocol.metric_keys[13]: found nothing, expected icp_residual_mm"));
-  EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.metric_keys.push_back("more"); }),
-              HasSubstr("protocol.metric_keys[14]: found more, expected nothing"));
   EXPECT_THAT(refusal_of_change([](RunResult& r) { r.protocol.association = "nearest"; }),
               HasSubstr("protocol.association: found nearest, expected by time stamp, exact"));
+}
+
+TEST(Pairing, GatedMetricsThatBothHaveAreCompared) {
+  NamedResult fewer = two_experiments("fewer"), more = two_experiments("more");
+  std::erase(fewer.result.protocol.metric_keys, "rotation_error_deg");
+  std::erase(fewer.result.protocol.metric_keys, "joint_error_mm");  // is not gated
+  more.result.protocol.metric_keys.push_back("mood_deg");
+  std::vector<const Metric*> shared;
+  for (const Metric& metric : gated_metrics())
+    if (metric.key != "rotation_error_deg") shared.push_back(&metric);
+  EXPECT_EQ(pair_results(fewer, more).metrics, shared);
+  EXPECT_EQ(pair_results(more, fewer).metrics, shared);
+  using Why = std::map<std::string, std::string>;
+  EXPECT_EQ(uncompared_metrics(fewer.result.protocol, more.result.protocol),
+            (Why{{"rotation_error_deg", "not in the baseline"}, {"mood_deg", "unknown to this program"}}));
+  EXPECT_EQ(uncompared_metrics(more.result.protocol, fewer.result.protocol),
+            (Why{{"rotation_error_deg", "not in the candidate"}, {"mood_deg", "unknown to this program"}}));
+  EXPECT_EQ(uncompared_metrics(fewer.result.protocol, fewer.result.protocol),
+            (Why{{"rotation_error_deg", "not in the candidate"}}));
 }
 
 TEST(Pairing, OtherTruthsAndDatabasesAreRefused) {

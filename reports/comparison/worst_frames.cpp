@@ -36,6 +36,7 @@ std::vector<ChangedFrame> frames_that_got_worse(const Pairing& pairing) {
 }  // namespace
 
 std::vector<ChangedFrame> worst_frames(const Pairing& pairing) {
+  if (std::ranges::find(pairing.metrics, "vertex_error_mm", &Metric::key) == pairing.metrics.end()) return {};
   std::vector<ChangedFrame> frames = frames_that_got_worse(pairing);
   std::ranges::stable_sort(frames, std::greater(), change_of);
   std::vector<ChangedFrame> worst;

@@ -43,6 +43,12 @@ std::span<const Metric> frame_metrics() {
   return columns;
 }
 
+std::vector<std::string> frame_metric_keys() {
+  std::vector<std::string> keys;
+  for (const Metric& metric : frame_metrics()) keys.emplace_back(metric.key);
+  return keys;
+}
+
 std::span<const Metric> gated_metrics() {
   static const std::vector<Metric> gated = metrics_if([](const Metric& metric) { return metric.gate.has_value(); });
   return gated;
@@ -55,8 +61,14 @@ const Metric& metric_of(std::string_view key) {
 }
 
 size_t metric_index(std::string_view key) {
+  const std::optional<size_t> index = find_frame_metric(key);
+  check(index.has_value(), "a metric of that key is a column");
+  return *index;
+}
+
+std::optional<size_t> find_frame_metric(std::string_view key) {
   const auto found = std::ranges::find(frame_metrics(), key, &Metric::key);
-  check(found != frame_metrics().end(), "a metric of that key exists");
+  if (found == frame_metrics().end()) return {};
   return static_cast<size_t>(found - frame_metrics().begin());
 }
 

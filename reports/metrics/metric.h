@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Metric {
   std::string_view key;   ///< in files; ends in its unit: "_mm", "_deg", "_px", "_percent"
   std::string_view unit;  ///< in tables: "mm", "deg", "px", "%"
   std::string_view description;
+  std::string_view heading = {};  ///< of its mean in the table "More metrics"; empty: not there
   /// Order in files; equal places by key. The ids of protocols depend on it: keep the places of old metrics.
   int place = 1000;
   std::optional<Gate> gate = {};  ///< empty: not compared
@@ -41,13 +43,16 @@ struct Metric {
 std::span<const Metric> metrics();
 /// Those that are columns of frames: FrameRecord::values has their order.
 std::span<const Metric> frame_metrics();
+std::vector<std::string> frame_metric_keys();
 /// Those that comparisons and the gate look at.
 std::span<const Metric> gated_metrics();
 
 /// An unknown key is a broken invariant.
 const Metric& metric_of(std::string_view key);
-/// Index in frame_metrics().
+/// Index in frame_metrics(); an unknown key is a broken invariant.
 size_t metric_index(std::string_view key);
+/// The same; empty for an unknown key, since a file may hold the metrics of another version.
+std::optional<size_t> find_frame_metric(std::string_view key);
 
 /// The value of one frame: 100 or 0 for a share, empty if the frame has none.
 std::optional<double> value_of(const Metric& metric, const FrameRecord& frame);

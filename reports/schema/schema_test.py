@@ -44,10 +44,9 @@ class SchemaTest(unittest.TestCase):
             "unknown truth": lambda r: r["experiments"][0].update(truth="guessed"),
             "unknown status": lambda r: frame(r).__setitem__(2, "fine"),
             "text for an error": lambda r: frame(r).__setitem__(9, "3 mm"),
-            "short frame": lambda r: frame(r).pop(),
-            "long frame": lambda r: frame(r).append(1.0),
+            "no whole frame": lambda r: frame(r).__delitem__(slice(8, None)),
             "share over one": lambda r: r["experiments"][0]["coverage"].update(share=1.5),
-            "missing metric": lambda r: r["experiments"][0]["aggregates"].pop("position_error_mm"),
+            "metric without a unit": lambda r: r["protocol"]["metric_keys"].append("error"),
             "other columns": lambda r: r["frame_columns"].reverse(),
         }
         for name, change in changes.items():
