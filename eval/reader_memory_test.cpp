@@ -308,17 +308,16 @@ TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
 
 std::vector<Reader> text_readers() {
   const std::string w = "x";
-  const auto capture = [=](const std::string& format) {
-    return [=](const std::string& text) { motion::find_marker_format(format).markers(text, Side::right, w); };
-  };
-  return {{"csv capture", capture("csv"), ""},
-          {"trc capture", capture("trc"), ""},
-          {"handpose", capture("handpose"), ""},
-          {"posture table", [=](auto& text) { motion::parse_postures_csv(text, "set", w); }, ""},
-          {"estimates", [=](auto& text) { reports::parse_estimates(text, w); }, ""},
-          {"recording index", [=](auto& text) { parse_recording_index(text, w); }, ""},
-          {"server log", [=](auto& text) { last_state(text, {"a"}, w); }, ""},
-          {"picture", [=](auto& text) { calibration::decode_gray(text, w); }, ""}};
+  std::vector<Reader> readers = {
+      {"posture table", [=](auto& text) { motion::parse_postures_csv(text, "set", w); }, ""},
+      {"estimates", [=](auto& text) { reports::parse_estimates(text, w); }, ""},
+      {"recording index", [=](auto& text) { parse_recording_index(text, w); }, ""},
+      {"server log", [=](auto& text) { last_state(text, {"a"}, w); }, ""},
+      {"picture", [=](auto& text) { calibration::decode_gray(text, w); }, ""}};
+  for (const motion::Format* format : motion::formats_with(&motion::Format::markers))
+    readers.push_back(
+        {fmt::format("{} capture", format->name), [=](auto& text) { format->markers(text, Side::right, w); }, ""});
+  return readers;
 }
 
 TEST(ReaderMemory, of_texts_is_bounded_whatever_they_hold) {
