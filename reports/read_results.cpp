@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/name.h"
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"
 #include "reports/commands.h"
+#include "reports/metrics/measure_frame.h"
 #include "reports/results_json.h"
 #include "reports/statistics.h"
 #include "reports/study_json.h"
@@ -39,7 +41,9 @@ Protocol read_protocol(const JsonCursor& json) {
   protocol.joint_order = read_texts(json["joint_order"]);
   protocol.metric_keys = read_texts(json["metric_keys"]);
   protocol.association = json["association"].text();
-  json["id"].expect_text(protocol.id());
+  const JsonCursor id = json["id"];
+  if (id.text() != protocol.id())
+    throw Incomparable(id.place() + ": found " + quoted_excerpt(id.text()) + ", expected " + protocol.id());
   return protocol;
 }
 
@@ -67,6 +71,28 @@ JsonItems read_rows(const JsonCursor& json) {
   return rows;
 }
 
+/// What a frame says of itself follows from its errors: whoever drops or changes some is found.
+void check_errors(const JsonItems& row, const FrameRecord& frame) {
+  constexpr double kRounding = 1e-6;  // as errors are written: one at the bound may be rounded over it
+  const bool is_tracked = frame.status == TrackStatus::tracked;
+  for (size_t m = 0; m < frame.values.size(); ++m) {
+    const Metric& metric = frame_metrics()[m];
+    if (!metric.of_tracked) continue;
+    if (is_tracked && !metric.is_partial && !frame.values[m])
+      row[kFirstMetric + m].fail("a number, since the frame is tracked");
+    if (!is_tracked && frame.values[m]) row[kFirstMetric + m].fail("null, since the frame is lost");
+  }
+  const auto is_covered = [&](double slack) {
+    return is_tracked && frame["position_error_mm"] < kCoveredPosition_mm + slack &&
+           frame["rotation_error_deg"] < kCoveredRotation_deg + slack;
+  };
+  if (frame.covered ? !is_covered(kRounding) : is_covered(-kRounding))
+    row[3].fail(fmt::format("{}, as the errors say", !frame.covered));
+  if (frame.false_tracked != (is_tracked && !frame.covered))
+    row[4].fail(fmt::format("{}, as status and covered say", !frame.false_tracked));
+  if (frame.false_lost && is_tracked) row[5].fail("false, since the frame is tracked");
+}
+
 FrameRecord read_frame(const JsonCursor& json) {
   const JsonItems row = json.items();
   FrameRecord frame;
@@ -80,6 +106,7 @@ FrameRecord read_frame(const JsonCursor& json) {
   frame.converged = row[7].boolean();
   frame.icp_iterations = row[8].count();
   for (size_t m = 0; m < frame.values.size(); ++m) frame.values[m] = read_value(row[kFirstMetric + m]);
+  check_errors(row, frame);
   return frame;
 }
 
