@@ -46,8 +46,8 @@ make_baseline() {
   local floor="ci/baselines/$1/noise_floor.json"
   [[ -f "$floor" ]] || fail "$floor is missing; run: glovebench calibrate noise --suite $1 --output ci/baselines"
   run_suite "$1" "$work/undisturbed/$1"
-  mkdir -p "$work/baseline/$1"
-  cp "$work/undisturbed/$1/results.json" "$floor" "$work/baseline/$1/"
+  quietly "$program" gate "$work/undisturbed/$1" --baseline "$work/baseline/$1" --update
+  cp "$floor" "$work/baseline/$1/"
 }
 
 # gate SUITE CANDIDATE LOG [OPTION...]: the exit code, as a number on standard output.

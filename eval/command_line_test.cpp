@@ -75,6 +75,8 @@ TEST_F(CommandLine, MissingOrUnknownWords) {
 TEST_F(CommandLine, FlagsOutOfRange) {
   const std::string trajectory = good_trajectory();
   EXPECT_THAT(refusal(run_of(trajectory, {"--seed", "-1"})), HasSubstr("--seed"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--seed", "18446744073709551615", "--seeds", "2"})),
+              HasSubstr("--seed: value: found 18446744073709551615, expected at most 18446744073709551614"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--threads", "5000"})), HasSubstr("--threads"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--subject", "3"})), HasSubstr("--subject"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--noise", "loud"})), HasSubstr("--noise"));
@@ -106,6 +108,39 @@ TEST_F(CommandLine, StandardOutputIsNoFileWhereSomethingElseIsPrinted) {
   for (const std::vector<std::string>& command : commands)
     EXPECT_THAT(refusal(command), HasSubstr("found -, expected the name of a file or folder")) << command[0];
   EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
+TEST_F(CommandLine, OneFileIsNotWrittenTwice) {
+  fs::create_symlink("x.jsonl", path("link.jsonl"));
+  const auto track = [&](const std::string& output, const std::string& robot) {
+    return refusal(
+        {"track", "--source", "fakenect:none", "--database", "DB_open_power", "-o", output, "--robot-out", robot});
+  };
+  for (const char* other : {"x.jsonl", "./x.jsonl", "link.jsonl", "x.jsonl.partial", "x.jsonl.partial-2"}) {
+    const std::string expected = "expected another than that of --output";
+    EXPECT_THAT(track(path("x.jsonl"), path(other)),
+                AllOf(HasSubstr("--robot-out: file: found"), HasSubstr(expected)));
+    EXPECT_THAT(track(path(other), path("x.jsonl")), HasSubstr(expected));
+  }
+  EXPECT_THAT(track("-", "/dev/stdout"), HasSubstr("--robot-out: file"));
+  EXPECT_THAT(track(path("x.jsonl"), path("y.jsonl")), HasSubstr("none")) << "two files may be";
+  EXPECT_THAT(refusal({"calibrate", "colors", "--source", "fakenect:none", "-o", path("c.json"), "--report",
+                       path("./c.json")}),
+              HasSubstr("--report: file"));
+  EXPECT_THAT(refusal({"calibrate", "cameras", "--ir", "none", "--rgb", "none", "-o", path("c.json"), "--report",
+                       path("./c.json")}),
+              HasSubstr("--report: file"));
+}
+
+TEST_F(CommandLine, WhatIsReadIsNotReplaced) {
+  const std::string trajectory = good_trajectory(), movement = read_file(trajectory);
+  EXPECT_THAT(refusal({"record", "--trajectory", trajectory, "--database", "DB_open_power", "-o",
+                       path("./" + fs::path(trajectory).filename().string())}),
+              HasSubstr("--output: file"));
+  EXPECT_EQ(read_file(trajectory), movement);
+  write_file(path("in.json"), "{}");
+  EXPECT_THAT(refusal({"import", "markers", path("in.json"), "--format", "handpose", "-o", path("./in.json")}),
+              HasSubstr("--output: file: found"));
 }
 
 TEST_F(CommandLine, NamesThatDoNotExist) {

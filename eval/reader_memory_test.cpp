@@ -205,7 +205,7 @@ std::vector<Reader> json_readers() {
   const std::string w = "x.json";
   reports::Timings timings;
   timings.experiments = {{{"Tr1", "D", reports::TruthKind::source, 1, {}}, 1, {{"align", {1, 2, 3}}}}};
-  const reports::NoiseFloor floor = {"quick", 16, 2, 0.01, "0", "2026", {{"all", "position_error_mm", 0, 0, 0}}};
+  const reports::NoiseFloor floor = {"quick", 16, 2, 0.01, "0", "2026", {{"all", "position_error_mm", 0, 0.1, 0}}};
   reports::RunResult result = reports::full_result();
   result.experiments = reports::small_result().experiments;
   const std::vector<reports::SpeedRatio> ratios = {{"a", 2, 1, 3}};

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/name.h"
 #include "core/base/parse_json.h"
 #include "core/base/read_limits.h"
 #include "reports/commands.h"
+#include "reports/metrics/measure_frame.h"
 #include "reports/results_json.h"
 #include "reports/statistics.h"
 #include "reports/study_json.h"
@@ -39,7 +41,9 @@ Protocol read_protocol(const JsonCursor& json) {
   protocol.joint_order = read_texts(json["joint_order"]);
   for (const JsonCursor& key : json["metric_keys"].items()) protocol.metric_keys.push_back(key.name());
   protocol.association = json["association"].text();
-  json["id"].expect_text(protocol.id());
+  const JsonCursor id = json["id"];
+  if (id.text() != protocol.id())
+    throw Incomparable(id.place() + ": found " + quoted_excerpt(id.text()) + ", expected " + protocol.id());
   return protocol;
 }
 
@@ -81,6 +85,32 @@ JsonItems read_rows(const JsonCursor& json, const FileMetrics& metrics) {
   return rows;
 }
 
+/// What a frame says of itself follows from its errors: whoever drops or changes some is found.
+void check_errors(const JsonItems& row, const FileMetrics& metrics, const FrameRecord& frame) {
+  constexpr double kRounding = 1e-6;  // as errors are written: one at the bound may be rounded over it
+  const bool is_tracked = frame.status == TrackStatus::tracked;
+  for (size_t m = 0; m < metrics.size(); ++m) {
+    if (!metrics[m].index) continue;
+    const Metric& metric = frame_metrics()[*metrics[m].index];
+    const bool is_empty = !frame.values[*metrics[m].index];
+    if (!metric.of_tracked) continue;
+    if (is_tracked && !metric.is_partial && is_empty)
+      row[kFirstMetric + m].fail("a number, since the frame is tracked");
+    if (!is_tracked && !is_empty) row[kFirstMetric + m].fail("null, since the frame is lost");
+  }
+  // An error that the file lacks contradicts nothing.
+  const auto is_covered = [&](double slack) {
+    return is_tracked && frame["position_error_mm"].value_or(0) < kCoveredPosition_mm + slack &&
+           frame["rotation_error_deg"].value_or(0) < kCoveredRotation_deg + slack;
+  };
+  const bool has_both = frame["position_error_mm"] && frame["rotation_error_deg"];
+  if (frame.covered ? !is_covered(kRounding) : has_both && is_covered(-kRounding))
+    row[3].fail(fmt::format("{}, as the errors say", !frame.covered));
+  if (frame.false_tracked != (is_tracked && !frame.covered))
+    row[4].fail(fmt::format("{}, as status and covered say", !frame.false_tracked));
+  if (frame.false_lost && is_tracked) row[5].fail("false, since the frame is tracked");
+}
+
 FrameRecord read_frame(const JsonCursor& json, const FileMetrics& metrics) {
   const JsonItems row = json.items();
   FrameRecord frame;
@@ -97,6 +127,7 @@ FrameRecord read_frame(const JsonCursor& json, const FileMetrics& metrics) {
     const std::optional<double> value = read_value(row[kFirstMetric + m]);
     if (metrics[m].index) frame.values[*metrics[m].index] = value;
   }
+  check_errors(row, metrics, frame);
   return frame;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/tracker/track_result.h"
 #include "reports/commands.h"
 #include "reports/metrics/metric.h"
@@ -129,6 +130,13 @@ struct Protocol {
 };
 /// The protocol of this program.
 Protocol make_protocol(std::string association);
+
+/// Two results that say nothing about each other: of another protocol, truth, database, or other frames. The
+/// message is that of an Error. The command line ends with exit code 3.
+class Incomparable : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Content hashes of what the experiments were made of. They stand beside the protocol, not in it, so that a part
 /// of a run can be compared with the whole: experiments are comparable when their own truth and database are the

@@ -182,6 +182,42 @@ TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
               HasSubstr("experiments[0].aggregates"));
 }
 
+TEST(ResultsJson, AFramesStatusCoverAndErrorsAgree) {
+  constexpr int kStatus = 2, kCovered = 3, kFalseTracked = 4, kFalseLost = 5, kFirst = 9;
+  const auto error_of_frame = [](int frame, const std::function<void(json&)>& change) {
+    return error_of_change([&](json& r) { change(r["experiments"][0]["runs"][0]["frames"][frame]); });
+  };
+  for (const Metric& metric : frame_metrics()) {
+    const size_t column = kFirst + metric_index(metric.key);
+    const std::string field = "frames[0][" + std::to_string(column) + "]";
+    if (metric.of_tracked && !metric.is_partial)
+      EXPECT_THAT(error_of_frame(0, [&](json& f) { f[column] = nullptr; }),
+                  HasSubstr(field + ": found null, expected a number, since the frame is tracked"));
+    if (metric.of_tracked)
+      EXPECT_THAT(error_of_frame(1, [&](json& f) { f[column] = 1; }),
+                  HasSubstr("found 1, expected null, since the frame is lost"));
+  }
+  EXPECT_THAT(error_of_frame(0, [](json& f) { f[kCovered] = false; }), HasSubstr("frames[0][3]: found false"));
+  EXPECT_THAT(error_of_frame(0, [](json& f) { f[kFirst] = 50.1; }),
+              HasSubstr("frames[0][3]: found true, expected false, as the errors say"));
+  EXPECT_THAT(error_of_frame(0, [](json& f) { f[kFirst + 1] = 30.1; }), HasSubstr("frames[0][3]: found true"));
+  EXPECT_THAT(error_of_frame(1, [](json& f) { f[kCovered] = true; }), HasSubstr("frames[1][3]: found true"));
+  EXPECT_THAT(error_of_frame(0, [](json& f) { f[kFalseTracked] = true; }), HasSubstr("frames[0][4]: found true"));
+  EXPECT_THAT(error_of_frame(1, [](json& f) { f[kFalseTracked] = true; }), HasSubstr("frames[1][4]: found true"));
+  EXPECT_THAT(error_of_frame(0, [](json& f) { f[kFalseLost] = true; }), HasSubstr("frames[0][5]: found true"));
+  EXPECT_THAT(error_of_frame(0, [](json& f) { f[kStatus] = "no_hand"; }), HasSubstr("since the frame is lost"));
+}
+
+TEST(ResultsJson, ErrorsThatAreRoundedToTheBoundOfCoverageAreRead) {
+  for (const double error_mm : {49.9999999, 50.0, 50.0000001}) {
+    RunResult result = small_result();
+    const SeedRun run = {1, {example_frame(0, error_mm, 2, 1)}};
+    result.experiments = {
+        summarize({"Tr4", "DB_open_power", TruthKind::recorded, 1, {}}, {run}, pck_curve({}, 1), {})};
+    EXPECT_EQ(error_of(results_json(result)), "no error") << error_mm;
+  }
+}
+
 TEST(ResultsJson, MissingFileIsAnError) {
   EXPECT_THROW(read_results(test_folder() + "/no_such_results.json"), Error);
 }

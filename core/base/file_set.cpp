@@ -17,6 +17,7 @@
 #include "core/base/excerpt.h"
 #include "core/base/hash.h"
 #include "core/base/input_file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/name.h"
 #include "core/base/parse_json.h"
 #include "core/base/whole_file.h"
@@ -160,8 +161,7 @@ std::string manifest_json(const Manifest& manifest, uint64_t max_bytes) {
 Manifest parse_manifest(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   try {
-    if (document.at("format") != kFormat || document.at("version") != 1)
-      throw Error(where, "format", excerpt(document.at("format")), "glovebench-manifest, version 1");
+    JsonCursor(document, where).expect_format(kFormat, 1);
     Manifest manifest;
     for (const nlohmann::json& json : document.at("files")) {
       const auto [place, is_new] = manifest.insert(entry_from(json, where));

@@ -345,8 +345,10 @@ TEST(Manifest, is_read_as_it_was_written_and_nothing_else) {
         entry(R"({"name": "a", "bytes": 1, "hash": 2})"), entry(R"({"name": "a", "bytes": 1})"),
         entry(R"({"name": "a", "bytes": 1, "hash": "h", "more": 1})"),
         std::string(R"({"format": "another", "version": 1, "files": []})"),
-        std::string(R"({"format": "glovebench-manifest", "version": 2, "files": []})")})
+        std::string(R"({"format": "glovebench-manifest", "files": []})")})
     EXPECT_THAT([&] { parse_manifest(bad, "m"); }, ThrowsMessage<Error>(HasSubstr("m"))) << bad;
+  EXPECT_THAT([] { parse_manifest(R"({"format": "glovebench-manifest", "version": 2, "files": []})", "m"); },
+              ThrowsMessage<Error>(HasSubstr("m: version: found 2, expected")));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -136,6 +137,7 @@ WholeFile::WholeFile(const std::string& path, mode_t mode) : path_(path), target
     descriptor_ = create_like(target_.older, temporary_, mode);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "a file that can be written");
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);  // a wish: remove_leftovers leaves it alone
 }
 
 WholeFile::~WholeFile() {
@@ -185,7 +187,12 @@ void remove_leftovers(const std::string& folder, const std::function<bool(const 
     std::smatch match;
     if (std::regex_match(name, match, temporary) && is_such(match[1])) leftovers.push_back(entry.path());
   }
-  for (const fs::path& path : leftovers) fs::remove(path, error);
+  for (const fs::path& path : leftovers) {
+    const int opened = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    if (opened < 0) continue;
+    if (::flock(opened, LOCK_EX | LOCK_NB) == 0) fs::remove(path, error);
+    ::close(opened);
+  }
 }
 
 }  // namespace glovebench

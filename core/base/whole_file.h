@@ -81,8 +81,8 @@ class WholeFile {
 /// Writes all of a file through WholeFile.
 void write_file(const std::string& path, std::string_view content);
 
-/// Removes from a folder the temporary files of writes that a kill or a crash ended, of files with such names. For
-/// whoever knows that no other process is writing them.
+/// Removes from a folder the temporary files of writes that a kill or a crash ended, of files with such names; not
+/// those that are being written, which are locked. A file system that cannot lock keeps all.
 void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 
 }  // namespace glovebench

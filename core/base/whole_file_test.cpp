@@ -127,13 +127,17 @@ TEST(WholeFile, does_not_stumble_over_what_a_killed_process_of_its_number_left) 
   EXPECT_EQ(read_file(path), "whole");
 }
 
-TEST(WholeFile, leftovers_are_removed_by_the_name_of_their_file) {
+TEST(WholeFile, leftovers_are_removed_by_the_name_of_their_file_unless_they_are_being_written) {
   const TestFolder folder;
   for (const char* name : {"a.csv", "a.csv.tmp-12-0", "b.csv.tmp-1-34", "a.csv.tmp-", "a.csv.tmp-12", "tmp-1-2"})
     write_file(folder / name, name);
+  WholeFile writing(folder / "a.csv");
   remove_leftovers(folder.path(), [](const std::string& name) { return name == "a.csv"; });
   EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.tmp-12-0"));
-  EXPECT_EQ(folder.file_count(), 5);
+  EXPECT_EQ(folder.file_count(), 6) << "with the one that is being written";
+  writing.append("whole");
+  writing.commit();
+  EXPECT_EQ(read_file(folder / "a.csv"), "whole");
   remove_leftovers(folder / "none", [](const std::string&) { return true; });  // is none
 }
 

@@ -18,10 +18,17 @@ constexpr int kFewestTilted = 3;
 constexpr double kTilted_deg = 10;
 constexpr double kLargestDeviation = 0.05;  // of the focal length
 
-void require_views(size_t count, const std::string& where) {
-  if (count < kFewestViews)
-    throw Error(where, "views with a whole chessboard", fmt::format("{}", count),
-                fmt::format("at least {}, tilted in different ways", kFewestViews));
+/// Says why there are too few, of the first pictures that are left out.
+void require_views(size_t count, const std::vector<LeftOut>& left_out, const std::string& where) {
+  constexpr size_t kMostNamed = 3;
+  if (count >= kFewestViews) return;
+  std::string found = fmt::format("{}", count);
+  for (size_t i = 0; i < std::min(left_out.size(), kMostNamed); ++i)
+    found += fmt::format("{}{}: {}", i == 0 ? " (left out: " : "; ", left_out[i].name, left_out[i].reason);
+  if (!left_out.empty())
+    found += left_out.size() > kMostNamed ? fmt::format("; and {} more)", left_out.size() - kMostNamed) : ")";
+  throw Error(where, "views with a whole chessboard", found,
+              fmt::format("at least {}, tilted in different ways", kFewestViews));
 }
 
 /// Of a board's pose, between its normal and the optical axis.
@@ -106,7 +113,7 @@ CameraFit fit_camera(const BoardViews& boards, const Chessboard& board, LensMode
   std::vector<LeftOut> left_out = boards.left_out;
   CameraFit fit;
   do {
-    require_views(views.size(), where);
+    require_views(views.size(), left_out, where);
     fit = fit_all(views, board, lens, cv::Size(boards.width_px, boards.height_px));
   } while (leave_out_misfits(fit, views, left_out));
   require_fit(fit.error_px, where);

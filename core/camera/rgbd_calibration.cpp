@@ -19,10 +19,13 @@ using nlohmann::json;
 constexpr int kCalibrationVersion = 1;
 constexpr double kOrthonormalTolerance = 1e-6;  // calibration tools print at least seven digits
 
-double read_positive(const JsonCursor& json) {
-  const double number = json.number();
-  if (number <= 0) json.fail("a number above 0");
-  return number;
+/// Beyond every camera's: such a number is damage, and every frame would be lost.
+constexpr double kLeastFocal_px = 1, kMost_px = 1e5, kMostCoefficient = 1000, kMostTranslation_m = 10;
+constexpr double kLeastA_per_m = 1e-6, kMostA_per_m = 1, kMostB_per_m = 1000;
+
+double read_within(const JsonCursor& json, double least, double most) {
+  json.number();
+  return json.number(least, most);
 }
 
 Eigen::Matrix3d read_rotation(const JsonCursor& json) {
@@ -45,28 +48,24 @@ PinholeCamera read_camera(const JsonCursor& json) {
               "at most " + std::to_string(kMostPixels) + " pixels, such as 1920x1080");
   return {.width = width,
           .height = height,
-          .fx = read_positive(json["fx_px"]),
-          .fy = read_positive(json["fy_px"]),
-          .cx = json["cx_px"].number(),
-          .cy = json["cy_px"].number()};
+          .fx = read_within(json["fx_px"], kLeastFocal_px, kMost_px),
+          .fy = read_within(json["fy_px"], kLeastFocal_px, kMost_px),
+          .cx = read_within(json["cx_px"], -kMost_px, kMost_px),
+          .cy = read_within(json["cy_px"], -kMost_px, kMost_px)};
 }
 
 LensDistortion read_lens(const JsonCursor& camera) {
   if (!camera.has("distortion")) return {};
   const JsonCursor lens = camera["distortion"];
   lens.expect_keys({"k1", "k2", "p1", "p2", "k3"});
-  return {.k1 = lens["k1"].number(),
-          .k2 = lens["k2"].number(),
-          .p1 = lens["p1"].number(),
-          .p2 = lens["p2"].number(),
-          .k3 = lens["k3"].number()};
+  const auto read = [&](const char* key) { return read_within(lens[key], -kMostCoefficient, kMostCoefficient); };
+  return {.k1 = read("k1"), .k2 = read("k2"), .p1 = read("p1"), .p2 = read("p2"), .k3 = read("k3")};
 }
 
 DisparityLine read_disparity(const JsonCursor& json) {
   json.expect_keys({"a_per_m", "b_per_m"});
-  const double a = json["a_per_m"].number();
-  if (a >= 0) json["a_per_m"].fail("a number below 0");
-  return {a, read_positive(json["b_per_m"])};
+  return {read_within(json["a_per_m"], -kMostA_per_m, -kLeastA_per_m),
+          read_within(json["b_per_m"], kLeastA_per_m, kMostB_per_m)};
 }
 
 json camera_to_json(const PinholeCamera& camera, const LensDistortion& lens) {
@@ -116,7 +115,7 @@ RgbdCalibration calibration_from_json(const json& json, const std::string& where
   calibration.ir_lens = read_lens(root["ir"]);
   calibration.rgb_lens = read_lens(root["rgb"]);
   calibration.T_rgb_ir.linear() = read_rotation(T["rotation"]);
-  calibration.T_rgb_ir.translation() = T["translation_m"].vector3();
+  calibration.T_rgb_ir.translation() = T["translation_m"].vector3(kMostTranslation_m);
   if (root.has("disparity")) calibration.disparity = read_disparity(root["disparity"]);
   return calibration;
 }

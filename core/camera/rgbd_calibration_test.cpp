@@ -131,7 +131,17 @@ TEST(Calibration, NamesTheWrongField) {
   const auto error_of_line = [&](const json& a, const json& b) {
     return error_with("/disparity", {{"a_per_m", a}, {"b_per_m", b}});
   };
+  for (const char* pointer : {"/ir/fx_px", "/rgb/fy_px"})
+    for (const double focal_px : {0.0, 1e-300, 1e6, 1e300})
+      EXPECT_NE(error_with(pointer, focal_px), "") << pointer << " " << focal_px;
+  EXPECT_TRUE(starts_with(error_with("/ir/cx_px", 1e300), "here.json: ir.cx_px: found 1e+300"));
+  EXPECT_TRUE(
+      starts_with(error_with("/T_rgb_ir/translation_m", {0, 0, 1e300}), "here.json: T_rgb_ir.translation_m"));
+  EXPECT_TRUE(starts_with(error_with("/ir/distortion", {{"k1", 1e6}, {"k2", 0}, {"p1", 0}, {"p2", 0}, {"k3", 0}}),
+                          "here.json: ir.distortion.k1: found 1000000"));
   EXPECT_EQ(error_of_line(-0.003, 3.33), "");
+  EXPECT_TRUE(starts_with(error_of_line(-1e300, 3.33), "here.json: disparity.a_per_m: found -1e+300"));
+  EXPECT_TRUE(starts_with(error_of_line(-0.003, 1e300), "here.json: disparity.b_per_m: found 1e+300"));
   EXPECT_TRUE(starts_with(error_of_line(0, 3.33), "here.json: disparity.a_per_m: found 0"));
   EXPECT_TRUE(starts_with(error_of_line(-0.003, 0), "here.json: disparity.b_per_m: found 0"));
   EXPECT_TRUE(starts_with(error_with("/disparity", nullptr), "here.json: disparity: found null"));

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <atomic>
+#include <filesystem>
 #include <mutex>
 #include <numbers>
 
@@ -162,6 +163,9 @@ std::string Database::build_file(const std::string& path, const PostureSet& post
                                  DatabaseMemory memory) {
   const BuildInputs inputs{postures, model, views, renderers};
   DatabaseLayout layout = layout_of(inputs, sizes, memory);
+  // What killed builds left, each as large as a database.
+  remove_leftovers(folder_above(path),
+                   [&](const std::string& name) { return name == std::filesystem::path(path).filename(); });
   WholeFile file(path);
   MappedMemory bytes = file.map(layout.bytes());
   fill(inputs, layout, threads, progress, bytes);

@@ -78,8 +78,6 @@ Database DatabaseCache::get(const PostureSet& postures, const HandModel& model, 
       message(fmt::format("{}; rebuilding it", e.what()));
     }
   }
-  // What a killed build left, as large as a database; no other process builds this one.
-  remove_leftovers(folder, [&](const std::string& name) { return folder + "/" + name == file; });
   remove_outdated(*this, begin, file);
   Database::build_file(file, postures, model, views, renderers, threads, progress, kTinySizes, memory);
   return load();

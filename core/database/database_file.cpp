@@ -88,6 +88,9 @@ DatabaseHeader header_from_json(const json& text, const std::string& path) {
     }
     header.sizes_px.insert(px);
   }
+  const std::vector<std::string>& names = header.postures.posture_names;
+  if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
+    throw Error(path, "names of postures", "one twice", "names that differ");
   if (header.postures.postures.empty()) throw Error(path, "postures", "none", "at least one");
   return header;
 }

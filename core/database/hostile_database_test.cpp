@@ -117,6 +117,21 @@ TEST_P(HostileDatabase, a_posture_that_no_hand_has_is_an_error) {
   }
 }
 
+TEST(HostileDatabaseHeader, two_postures_of_one_name_are_an_error) {
+  DatabaseLayout layout({.postures = {"set", {"open", "open"}, {Posture::Zero(), Posture::Zero()}},
+                         .side = Side::right,
+                         .input_hash = "painted",
+                         .memory = DatabaseMemory::low,
+                         .field_cap_share = 0.5,
+                         .sizes_px = {8}});
+  MappedMemory file = MappedMemory::zeros(layout.bytes());
+  auto* const rays = reinterpret_cast<Eigen::Vector3d*>(file.writable().data() + layout.box_rays().offset);
+  std::fill_n(rays, 2 * kViewCount, Eigen::Vector3d::UnitZ());
+  layout.seal(file);
+  EXPECT_THAT([&] { DatabaseLayout(file.bytes(), "db"); },
+              ThrowsMessage<Error>(HasSubstr("names of postures: found one twice")));
+}
+
 /// A query of each size, none of them an entry's image.
 TinyImages queries(const Cascade& cascade, int number) {
   TinyImages query;

@@ -30,6 +30,7 @@ struct CalibrateCameras {
   bool quiet = false;
 
   void run() const {
+    require_different_files({{"--output", output}, {"--report", report}});
     const calibration::Chessboard chessboard = parse_board();
     const std::optional<calibration::LensModel> model = from_name<calibration::LensModel>(lens);
     if (!model) throw Error("--lens", "value", lens, known_names<calibration::LensModel>());
@@ -49,7 +50,7 @@ struct CalibrateCameras {
     calibration::BoardViews views = calibration::find_boards(
         source, chessboard, most,
         [&](size_t done, size_t count) { progress.show(static_cast<double>(done) / static_cast<double>(count)); });
-    say_changed(source, views.changed);
+    say_changed(source, views.changed, quiet);
     return views;
   }
 

@@ -27,7 +27,7 @@ struct CalibrateColors {
   void run() {
     check_endings();
     const calibration::ColorSeeds begin = seeds_to_begin_with();
-    TrackSource source = open_source(from);
+    TrackSource source = open_source(from, common.quiet);
     calibration::ColorSamples samples(calibration::SampleConfig{
         .volume = common.tracker_config().volume, .registration = common.tracker_config().registration});
     const std::vector<calibration::VolumeView> views = take_frames(source, samples);
@@ -47,6 +47,7 @@ struct CalibrateColors {
       throw Error("--report", "file name", report, "the ending .json");
     if (!picture.empty() && !picture.ends_with(".png"))
       throw Error("--picture", "file name", picture, "the ending .png");
+    require_different_files({{"--output", common.output}, {"--report", report}, {"--picture", picture}});
     for (const std::string& path : {common.output, report, picture})
       if (!path.empty()) const WholeFile probe(path);  // never committed: nothing stays
   }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
+#include <map>
 #include <thread>
 
 #include "core/base/error.h"
@@ -75,6 +77,14 @@ Workbench CommonFlags::workbench() const {
     config.calibration = calibration_from_json(calibration_json, "calibration of the run");
   if (!calibration.empty()) config.calibration = load_calibration(calibration).rectified();
   return Workbench(config);
+}
+
+std::vector<uint64_t> CommonFlags::seeds(int count) const {
+  const uint64_t largest = std::numeric_limits<uint64_t>::max() - static_cast<uint64_t>(count - 1);
+  if (seed > largest) throw Error("--seed", "value", fmt::format("{}", seed), fmt::format("at most {}", largest));
+  std::vector<uint64_t> seeds;
+  for (int s = 0; s < count; ++s) seeds.push_back(seed + static_cast<uint64_t>(s));
+  return seeds;
 }
 
 Option MountingFlag::add(Command command) {
@@ -169,6 +179,39 @@ RobotOutput RobotFlags::output_of(Workbench& workbench) const {
                          {"flange_wrist", transform_json(robot.setup.T_flange_wrist)},
                          {"limits", to_json(robot.limits)}};
   return robot;
+}
+
+namespace {
+
+/// The same for all names of a file, whether it is there yet or not.
+std::string identity(const std::string& path) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(path, ignored);  // its reader or writer refuses it
+  const OutputTarget target = is_folder ? OutputTarget{.path = path} : find_output(path);
+  if (target.is_stream) {
+    struct stat found = {};
+    const bool is_open = target.descriptor >= 0;
+    if ((is_open ? ::fstat(target.descriptor, &found) : ::stat(path.c_str(), &found)) == 0)
+      return fmt::format("device {}, inode {}", found.st_dev, found.st_ino);
+  }
+  std::error_code error;
+  const std::filesystem::path found =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(target.path), error);
+  return error ? target.path : found.string();
+}
+
+}  // namespace
+
+void require_different_files(const std::vector<FileFlag>& files) {
+  std::map<std::string, std::string> flags;  // by identity
+  for (const FileFlag& file : files) {
+    if (file.path.empty()) continue;
+    const std::string own = identity(file.path);
+    for (const auto& [other, flag] : flags)
+      if (own == other || own.starts_with(other + ".partial") || other.starts_with(own + ".partial"))
+        throw Error(file.flag, "file", file.path, "another than that of " + flag);
+    flags[own] = file.flag;
+  }
 }
 
 void CommonFlags::check_output_folder() const {

@@ -38,6 +38,8 @@ struct CommonFlags {
   /// Defaults < profile < file < command line. Throws Error.
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
+  /// Counted up from `seed`. Throws Error if there are not so many.
+  std::vector<uint64_t> seeds(int count) const;
   /// Throws Error if no file can be written to the output folder: before the work, not after it. Makes the folder.
   void check_output_folder() const;
 };
@@ -61,6 +63,16 @@ struct LimitsFlag {
   /// Throws Error.
   CommandLimits limits() const;
 };
+
+/// A file of the command line.
+struct FileFlag {
+  std::string flag;
+  std::string path;  ///< empty: none
+};
+/// Throws Error if two of them are one file under whatever names, or one is where the lines of another are kept
+/// until it is whole (core/base/line_file.h): one would replace the other. For all files that a command writes, and
+/// those that it reads and could write.
+void require_different_files(const std::vector<FileFlag>& files);
 
 /// Where robot commands go, and how a hand becomes one.
 struct RobotFlags {

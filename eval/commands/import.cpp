@@ -38,7 +38,13 @@ struct ImportMarkers {
     }
     if (!output.ends_with(".json")) throw Error("--output", "file name", output, "the ending .json");
     const std::string name = std::filesystem::path(output).stem().string();
+    const std::string residuals = name + ".residuals.csv";
     if (!is_name(name)) throw Error("--output", "file name", name, kNameExpected);
+    std::vector<std::string> inputs = files;
+    inputs.push_back(layout);
+    for (const std::string& input : inputs)
+      require_different_files(
+          {{"input", input}, {"--output", output}, {"residuals", folder_above(output) + "/" + residuals}});
     const trajectories::CapturePlacement placement{side, T_capture_camera};
     const trajectories::MarkerLayout markers =
         layout.empty()
@@ -55,7 +61,7 @@ struct ImportMarkers {
       made.add(name + ".json",
                trajectories::canonical_text(trajectories::trajectory_of(fit, placement, name, every)));
     }
-    made.add(name + ".residuals.csv", trajectories::residual_table(fit));
+    made.add(residuals, trajectories::residual_table(fit));
     made.commit();
     fmt::print("{}: {}\n", output, trajectories::summary(fit));
   }

@@ -5,8 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/base/error.h"
@@ -30,6 +32,22 @@ CLI::Validator number_within(double low, double high) {
           fmt::format("FLOAT in [{} - {}]", low, high)};
 }
 
+/// CLI11 takes 010 for 8, and the largest number for one that is larger.
+template <typename Number>
+CLI::Validator whole_number() {
+  return {[](const std::string& text) -> std::string {
+            Number number = 0;
+            const char* const end = text.data() + text.size();
+            const auto read = std::from_chars(text.data(), end, number);
+            const std::string_view digits = std::string_view(text).substr(text.starts_with("-"));
+            const bool is_decimal = !digits.starts_with("0") || digits == "0";
+            if (read.ec == std::errc() && read.ptr == end && is_decimal) return {};
+            return fmt::format("found {}, expected a whole number from {} to {}", printable(text),
+                               std::numeric_limits<Number>::min(), std::numeric_limits<Number>::max());
+          },
+          ""};
+}
+
 Eigen::Isometry3d rigid_transform(const std::string& flag, const std::vector<double>& values) {
   for (const double value : values)
     if (!std::isfinite(value)) throw Error(flag, "transform", fmt::format("{}", value), "finite numbers");
@@ -39,6 +57,15 @@ Eigen::Isometry3d rigid_transform(const std::string& flag, const std::vector<dou
   }
   return Eigen::Translation3d(values[0], values[1], values[2]) * q.normalized();
 }
+
+template <typename Value>
+struct WithoutOptional {
+  using Type = Value;
+};
+template <typename Value>
+struct WithoutOptional<std::optional<Value>> {
+  using Type = Value;
+};
 
 template <typename Value>
 bool is_empty(const Value& value) {
@@ -134,6 +161,8 @@ Option Command::option(const std::string& names, Value& value, const std::string
   } else {
     CLI::Option* const added = app_->add_option(names, value, help);
     if (!is_empty(value)) added->capture_default_str();
+    using Number = typename WithoutOptional<Value>::Type;
+    if constexpr (std::is_integral_v<Number>) added->check(whole_number<Number>());
     return Option(*added);
   }
 }

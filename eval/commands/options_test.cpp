@@ -107,10 +107,16 @@ TEST_F(Options, KeepsDefaultsOfWhatIsNotGiven) {
 
 TEST_F(Options, RefusesValuesOutOfBounds) {
   EXPECT_THAT(refusal({"--steps", "11"}), HasSubstr("--steps: Value 11 not in range 0 to 10"));
-  EXPECT_THAT(refusal({"--steps", "1.5"}), HasSubstr("--steps: Value 1.5 not in range"));
+  EXPECT_THAT(refusal({"--steps", "1.5"}), HasSubstr("--steps: found 1.5, expected a whole number"));
   EXPECT_THAT(refusal({"--speed", "nan"}), HasSubstr("--speed: found nan, expected a number from 0 to 1"));
   EXPECT_THAT(refusal({"--speed", "1.5"}), HasSubstr("--speed: found 1.5, expected"));
-  EXPECT_THAT(refusal({"--seed", "-1"}), HasSubstr("--seed: found -1, expected 0 or more"));
+  for (const char* seed_text : {"-1", "18446744073709551616", "010", "0x10", "1e3", "1.0", "+1", " 1", "1'000", ""})
+    EXPECT_THAT(refusal({"--seed", seed_text}), HasSubstr("--seed: ")) << seed_text;
+  EXPECT_THAT(refusal({"--seed", "010"}),
+              HasSubstr("found 010, expected a whole number from 0 to 18446744073709551615"));
+  EXPECT_THAT(refusal({"--limit", "2147483648"}), HasSubstr("--limit: found 2147483648"));
+  EXPECT_THAT(refusal({"--limit", "-010"}), HasSubstr("--limit: found -010"));
+  EXPECT_THAT(refusal({"--limit", "-2147483649"}), HasSubstr("--limit: found"));
   EXPECT_THAT(refusal({"--gait", "odd"}), HasSubstr("--gait: odd not in {slow,fast}"));
   EXPECT_THAT(refusal({"--log", "-"}), HasSubstr("--log: found -, expected the name of a file or folder"));
   EXPECT_THAT(refusal({"--offset", "1"}), HasSubstr("--offset"));

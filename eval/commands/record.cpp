@@ -19,6 +19,7 @@ struct Record {
     if (!trajectories::is_trajectory_file(common.output))
       throw Error("--output", "file name", common.output, "the ending .json, by which it is read again");
     const bool is_file = trajectories::is_trajectory_file(trajectory);
+    if (is_file) require_different_files({{"--trajectory", trajectory}, {"--output", common.output}});
     const trajectories::Trajectory source = is_file
                                                 ? trajectories::load_trajectory(trajectory)
                                                 : trajectories::source_trajectory(trajectory_folder(), trajectory);

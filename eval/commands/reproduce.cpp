@@ -27,7 +27,7 @@ struct Reproduce {
     refuse_twice("--only", options.only);
     options.study.tracker = common.tracker_config();  // a wrong configuration is named before anything is built
     if (common.output.empty()) common.output = "out";
-    for (int s = 0; s < seed_count; ++s) options.study.seeds.push_back(common.seed + s);
+    options.study.seeds = common.seeds(seed_count);
     if (all_gains) options.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
     plan_reproduction(options);  // and so is a wrong name
     common.check_output_folder();

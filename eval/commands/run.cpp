@@ -58,7 +58,7 @@ struct Run {
     const Study& chosen = study(study_name);
     StudyOptions options{common.tracker_config(), {}, quick, {}};
     if (!common.cascade.empty()) options.cascades = {options.tracker.lookup.cascade};
-    for (int s = 0; s < seed_count; ++s) options.seeds.push_back(common.seed + static_cast<uint64_t>(s));
+    options.seeds = common.seeds(seed_count);
     Workbench workbench = common.workbench();
     if (common.output.empty()) return print_study(chosen.run({workbench, options}));
     common.check_output_folder();
@@ -79,10 +79,8 @@ struct Run {
     Suite suite = suite_name.empty() ? suite_of_flags() : load_suite(suite_name);
     const bool keeps_its_seeds = !suite_name.empty() && !command.given("--seed") && !command.given("--seeds");
     if (keeps_its_seeds) return suite;
-    const size_t count =
-        suite_name.empty() || command.given("--seeds") ? static_cast<size_t>(seed_count) : suite.seeds.size();
-    suite.seeds.clear();
-    for (size_t s = 0; s < count; ++s) suite.seeds.push_back(common.seed + s);
+    const bool has_count = suite_name.empty() || command.given("--seeds");
+    suite.seeds = common.seeds(has_count ? seed_count : static_cast<int>(suite.seeds.size()));
     return suite;
   }
 

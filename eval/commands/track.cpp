@@ -56,13 +56,12 @@ struct Track {
   bool is_whole = true;          ///< no command failed, and every line was written
 
   void run() {
-    if (robot.output == common.output)
-      throw Error("--robot-out", "file", robot.output, "another than that of --output");
+    require_different_files({{"--output", common.output}, {"--robot-out", robot.output}});
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());
     RobotOutputs outputs({robot.output, bus, topics, robot.arm != "none", robot.mounting.T_flange_wrist()});
-    TrackSource source = open_source(from);
+    TrackSource source = open_source(from, common.quiet);
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
     const TrackerConfig config = common.tracker_config();

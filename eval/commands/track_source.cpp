@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::string_view kRecording = "fakenect:", kLive = "freenect";
 
-TrackSource open_recording(const SourceFlags& flags) {
+TrackSource open_recording(const SourceFlags& flags, bool quiet) {
   const std::string folder = flags.source.substr(kRecording.size());
   auto device = flags.calibration.empty()
                     ? std::make_unique<RecordingDevice>(folder)
                     : std::make_unique<RecordingDevice>(folder, load_calibration(flags.calibration));
   const RecordingDevice* recording = device.get();
-  say_changed(flags.source, recording->changed());
+  say_changed(flags.source, recording->changed(), quiet);
   return {std::move(device), recording->frame_count(),
           [recording] { return recording->unpaired_depth_count() + recording->repeated_count(); },
           system_us,  // it is read when it is asked for
@@ -68,15 +68,20 @@ TrackSource open_live(const SourceFlags& flags) {
 
 }  // namespace
 
-void say_changed(const std::string& source, const std::vector<std::string>& files) {
-  if (!files.empty()) say("glovebench: {}: {} changed since it was recorded\n", source, fmt::join(files, ", "));
+void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet) {
+  if (!quiet && !files.empty())
+    say("glovebench: {}: {} changed since it was recorded\n", source, fmt::join(files, ", "));
 }
 
-TrackSource open_source(const SourceFlags& flags) {
+TrackSource open_source(const SourceFlags& flags, bool quiet) {
   const bool is_recording = flags.source.starts_with(kRecording);
   if (!is_recording && !flags.source.starts_with(kLive)) refuse(flags.source);
-  TrackSource source = is_recording ? open_recording(flags) : open_live(flags);
-  source.device = without_lens_distortion(std::move(source.device));
+  TrackSource source = is_recording ? open_recording(flags, quiet) : open_live(flags);
+  try {
+    source.device = without_lens_distortion(std::move(source.device));
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}: {}", flags.calibration.empty() ? flags.source : flags.calibration, e.what()));
+  }
   return source;
 }
 

@@ -24,11 +24,12 @@ struct SourceFlags {
   bool every_frame = false;
 };
 
-/// Says if a recording was changed by hand. Throws Error: an unknown kind, no such device, no such recording, a
-/// build without libfreenect.
-TrackSource open_source(const SourceFlags& flags);
+/// Says if a recording was changed by hand, unless it is to be quiet. Throws Error: an unknown kind, no such
+/// device, no such recording, a build without libfreenect.
+TrackSource open_source(const SourceFlags& flags, bool quiet);
 
-/// Says on stderr which files of a recording were changed since it was recorded; nothing if none was.
-void say_changed(const std::string& source, const std::vector<std::string>& files);
+/// Says on stderr which files of a recording were changed since it was recorded; nothing if none was, or if it is
+/// to be quiet.
+void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);
 
 }  // namespace glovebench::eval

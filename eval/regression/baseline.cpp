@@ -103,7 +103,6 @@ Json describe_replaced(const FileSet& files, const reports::NamedResult& run) {
 
 /// The results are those that the provenance speaks of: a change by hand is found.
 void require_same_bytes(const FileSet& files) {
-  if (!files.has(kProvenance)) return;
   const std::string expected = read_provenance(files).results_hash, found = hash_text(read_of(files, kResults));
   if (found != expected) {
     throw Incomparable(files.path(kResults), "hash", found,
@@ -149,10 +148,9 @@ reports::StageTimes load_stage_times(const FileSet& files) {
 
 Baseline load_baseline(const std::string& folder) {
   const FileSet files(folder);
-  if (!files.has(kResults)) {
-    throw Incomparable(files.path(kResults), "baseline", "none",
-                       "the results of an earlier run (glovebench gate --update makes it)");
-  }
+  for (const char* name : {kResults, kProvenance})
+    if (!files.has(name))
+      throw Incomparable(files.path(name), "baseline", "none", "that of an earlier run (glovebench gate --update)");
   require_finished(folder);
   require_same_bytes(files);
   Baseline baseline{{files, results_of(files)}, load_noise_floor_beside(files), {}, load_stage_times(files)};

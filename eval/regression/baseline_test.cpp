@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <atomic>
+#include <filesystem>
 #include <thread>
 
 #include "core/base/hash.h"
@@ -51,6 +52,17 @@ TEST(Baseline, that_is_replaced_while_it_is_read_does_not_mix) {
     }
   }
   is_done = true;
+}
+
+TEST(Baseline, without_provenance_is_refused) {
+  const TestFolder folder;
+  write_baseline(folder.path(), 1);
+  EXPECT_NO_THROW(load_baseline(folder.path()));
+  for (const bool has_manifest : {true, false}) {
+    if (!has_manifest) std::filesystem::remove(folder.path() + "/manifest.json");
+    std::filesystem::remove(folder.path() + "/provenance.json");
+    EXPECT_THROW(load_baseline(folder.path()), reports::Incomparable) << "nothing ties the results to a run";
+  }
 }
 
 TEST(StoredRun, that_was_replaced_since_is_not_read_on) {

@@ -64,9 +64,8 @@ class RegressionLong : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_glovebench(arguments);
   }
-  static void copy_baseline() {
-    fs::create_directories(path("baseline"));
-    fs::copy_file(path("run/results.json"), path("baseline/results.json"), fs::copy_options::overwrite_existing);
+  static void make_baseline() {
+    ASSERT_EQ(gate(path("run"), {"--update", "--suite", path("mine.json")}).exit_code, 0);
   }
 
  private:
@@ -93,7 +92,7 @@ TEST_F(RegressionLong, WithoutABaselineNothingPasses) {
 
 TEST_F(RegressionLong, GateRefusesTheBaselineAsItsOutputAndLeavesIt) {
   fs::remove_all(path("baseline"));
-  ASSERT_EQ(gate(path("run"), {"--update", "--suite", path("mine.json")}).exit_code, 0);
+  make_baseline();
   const auto files = read_folder(path("baseline"));
   EXPECT_EQ(gate(path("same"), {"-o", path("baseline")}).exit_code, 2);
   EXPECT_EQ(gate(path("none"), {"-o", path("baseline")}).exit_code, 2);
@@ -102,7 +101,7 @@ TEST_F(RegressionLong, GateRefusesTheBaselineAsItsOutputAndLeavesIt) {
 }
 
 TEST_F(RegressionLong, GatePassesWhatIsTheSameAndStopsWhatIsWorse) {
-  copy_baseline();
+  make_baseline();
   EXPECT_EQ(gate(path("same")).exit_code, 0);
 
   const std::string worse = write_changed("worse", [](RunResult& r) { add_position_error(r, 1); });
@@ -140,7 +139,7 @@ TEST_F(RegressionLong, AMetricOfOneVersionAloneDecidesNothing) {
 }
 
 TEST_F(RegressionLong, LostFramesStopAChangeAndMissingOnesAreNamed) {
-  copy_baseline();
+  make_baseline();
   const auto lose = [](RunResult& r, int from, int to) {
     for (reports::SeedRun& run : r.experiments[0].runs) {
       for (reports::FrameRecord& frame : run.frames) {
@@ -179,6 +178,10 @@ TEST_F(RegressionLong, RefusesWhatIsNotComparableAndSaysWhy) {
               HasSubstr("inputs.databases.DB_open_power: found 0f"));
   EXPECT_THAT(refusal(write_changed("metrics", [](RunResult& r) { ++r.protocol.metric_definitions; })),
               HasSubstr("metric_definitions"));
+  std::string edited = read_file(path("run/results.json"));
+  edited.insert(edited.find("\"id\": \"") + 7, "0");
+  write_file(path("id/results.json"), edited);
+  EXPECT_THAT(refusal(path("id")), HasSubstr("protocol.id: found \"0"));
   EXPECT_THAT(refusal(write_changed("part", [](RunResult& r) { r.experiments.pop_back(); })),
               HasSubstr("wave_DB_open_pinch"));
   EXPECT_EQ(run_glovebench({"compare", path("run"), path("part"), "--partial"}).exit_code, 0);
@@ -207,7 +210,7 @@ TEST_F(RegressionLong, BadInputIsOneLineAndLosesNothing) {
   EXPECT_THAT(refusal({"compare", path("run"), path("same"), "--noise-floor", path("floor.json")}),
               HasSubstr("floor.json"));
   write_file(path("bench.json"), "[]");
-  copy_baseline();
+  make_baseline();
   EXPECT_THAT(refusal({"gate", path("run"), "--baseline", path("baseline"), "--speed", path("bench.json")}),
               HasSubstr("bench.json"));
   EXPECT_THAT(refusal({"calibrate", "noise", "-o", path("x")}), HasSubstr("neither"));
@@ -217,7 +220,7 @@ TEST_F(RegressionLong, BadInputIsOneLineAndLosesNothing) {
 TEST_F(RegressionLong, AnUnfinishedRunIsNoResult) {
   fs::copy(path("run"), path("killed"), fs::copy_options::recursive);
   fs::create_directories(path("killed/.unfinished"));
-  copy_baseline();
+  make_baseline();
   for (const ProgramRun& run : {gate(path("killed")), run_glovebench({"compare", path("run"), path("killed")})}) {
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_THAT(run.err, AllOf(HasSubstr("killed"), HasSubstr("unfinished")));

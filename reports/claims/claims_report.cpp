@@ -56,11 +56,18 @@ Json or_null(const std::optional<std::string>& text) {
   return text ? Json(*text) : Json();
 }
 
+/// As claims.json of this program has it, but for a rule, which is in words.
+Json field_json(const ClaimDefinition& definition, const std::string& field) {
+  if (field == "required") return definition.required;
+  if (field == "withdrawn") return definition.withdrawn;
+  return field_text(definition, field);
+}
+
 Json history_json(const Claim& claim) {
   Json history = Json::array();
   for (const ClaimChange& change : claim.history) {
     Json set = Json::object();
-    for (const std::string& field : change.set) set[field] = field_text(change.definition, field);
+    for (const std::string& field : change.set) set[field] = field_json(change.definition, field);
     history.push_back({{"date", change.date},
                        {"commit", or_null(change.commit)},
                        {"set", std::move(set)},

@@ -89,6 +89,8 @@ TEST(ClaimsReport, HistoriesAreTold) {
   ASSERT_EQ(history.size(), 2U);
   EXPECT_EQ(history[0]["came_out"], "8 < 9 mm: reproduced");
   EXPECT_EQ(history[1]["set"]["rule"], "below 2.5");
+  const auto own = nlohmann::json::parse(claims_json(judge(claims(), {})));
+  EXPECT_EQ(own["verdicts"][0]["history"][0]["set"]["withdrawn"], false) << "no text";
   EXPECT_TRUE(history[1]["commit"].is_null());
   EXPECT_EQ(json["judging"].size(), claim_set().judging.size());
 }

@@ -152,7 +152,7 @@ std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const Nois
 
 void check_seeds(const RunResult& result, int seeds_per_result) {
   constexpr const char* kWhere = "noise floor";
-  const int fewest = 4 * seeds_per_result;
+  const int fewest = kSeedsForEach * seeds_per_result;
   if (result.experiments.empty()) throw Error(kWhere, "experiments", "none", "at least one");
   const std::vector<SeedRun>& first = result.experiments.front().runs;
   for (const ExperimentResult& experiment : result.experiments) {
@@ -174,7 +174,8 @@ const NoiseFloorEntry* NoiseFloor::find(std::string_view experiment, std::string
 }
 
 NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error) {
-  check(seeds_per_result >= 1 && family_error > 0 && family_error < 1, "a noise floor has seeds and an error");
+  check(seeds_per_result >= 1 && family_error > 0 && family_error <= kLargestFamilyError,
+        "a noise floor has seeds and an error");
   check_seeds(result, seeds_per_result);
   NoiseFloor floor;
   floor.suite = result.suite;

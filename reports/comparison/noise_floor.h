@@ -19,6 +19,10 @@ struct NoiseFloorEntry {
   friend bool operator==(const NoiseFloorEntry&, const NoiseFloorEntry&) = default;
 };
 
+/// A noise floor is measured from at least this many seeds for each seed of a result.
+inline constexpr int kSeedsForEach = 4;
+inline constexpr double kLargestFamilyError = 0.1;
+
 /// Measured by `glovebench calibrate noise`, stored beside a baseline.
 struct NoiseFloor {
   std::string suite;
@@ -34,11 +38,11 @@ struct NoiseFloor {
   friend bool operator==(const NoiseFloor&, const NoiseFloor&) = default;
 };
 
-/// From one result with many seeds (at least 4 * seeds_per_result, else Error). The minimum effect is the quantile
-/// of Student's t that holds the family error over all entries, times the spread of a difference of two means of
-/// `seeds_per_result` seeds; never below the metric's tolerance, and for a share never below two frames.
-/// `detectable` comes from comparing draws of disjoint seeds by the very procedure of compare_results, with the
-/// same amount added to every frame of one of them. A row without values, or too short for an interval, has no
+/// From one result with many seeds (at least kSeedsForEach * seeds_per_result, else Error). The minimum effect is
+/// the quantile of Student's t that holds the family error over all entries, times the spread of a difference of
+/// two means of `seeds_per_result` seeds; never below the metric's tolerance, and for a share never below two
+/// frames. `detectable` comes from comparing draws of disjoint seeds by the very procedure of compare_results, with
+/// the same amount added to every frame of one of them. A row without values, or too short for an interval, has no
 /// entry. All experiments have the same seeds, else Error. The date is the caller's to fill in.
 NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error = 0.01);
 

@@ -14,23 +14,14 @@ namespace {
 constexpr std::string_view kNoiseFloorFormat = "glovebench-noise-floor";
 constexpr int kVersion = 1;
 
-double read_amount(const JsonCursor& json) {
-  constexpr double kLargest = 1e6;  // of millimeters, degrees and percents: damage, and still fit to be rounded
-  const double amount = json.number();
-  if (amount < 0 || amount > kLargest) json.fail("a number in 0..1e6");
-  return amount;
-}
+/// Of millimeters, degrees and percents: more is damage, and less is written as 0.
+constexpr double kLargestAmount = 1e6, kSmallestAmount = 1e-6;
 
 NoiseFloorEntry read_entry(const JsonCursor& json) {
   json.expect_keys({"experiment", "quantity", "spread", "minimum_effect", "detectable"});
-  return {json["experiment"].text(), json["quantity"].name(), read_amount(json["spread"]),
-          read_amount(json["minimum_effect"]), read_amount(json["detectable"])};
-}
-
-double read_family_error(const JsonCursor& json) {
-  const double error = json.number();
-  if (error <= 0 || error >= 1) json.fail("a probability between 0 and 1");
-  return error;
+  return {json["experiment"].text(), json["quantity"].name(), json["spread"].number(0, kLargestAmount),
+          json["minimum_effect"].number(kSmallestAmount, kLargestAmount),
+          json["detectable"].number(0, kLargestAmount)};
 }
 
 std::vector<NoiseFloorEntry> read_entries(const JsonCursor& json) {
@@ -77,9 +68,9 @@ NoiseFloor parse_noise_floor(const std::string& text, const std::string& where) 
       {"format", "version", "suite", "seeds", "seeds_per_result", "family_error", "commit", "date", "entries"});
   NoiseFloor floor;
   floor.suite = json["suite"].text();
-  floor.seeds = static_cast<int>(json["seeds"].integer(1, std::numeric_limits<int>::max()));
-  floor.seeds_per_result = static_cast<int>(json["seeds_per_result"].integer(1, std::numeric_limits<int>::max()));
-  floor.family_error = read_family_error(json["family_error"]);
+  floor.seeds = static_cast<int>(json["seeds"].integer(kSeedsForEach, std::numeric_limits<int>::max()));
+  floor.seeds_per_result = static_cast<int>(json["seeds_per_result"].integer(1, floor.seeds / kSeedsForEach));
+  floor.family_error = json["family_error"].number(kSmallestAmount, kLargestFamilyError);
   floor.commit = json["commit"].text();
   floor.date = json["date"].text();
   floor.entries = read_entries(json["entries"]);

@@ -174,7 +174,13 @@ TEST(NoiseFloor, ErrorsNameTheField) {
   EXPECT_THAT(refused([](json& j) { j["version"] = 2; }), HasSubstr("version: found 2"));
   EXPECT_THAT(refused([](json& j) { j["more"] = 2; }), HasSubstr("unknown key \"more\""));
   EXPECT_THAT(refused([](json& j) { j["seeds"] = 0; }), HasSubstr("seeds: found 0"));
-  EXPECT_THAT(refused([](json& j) { j["family_error"] = 1; }), HasSubstr("family_error: found 1"));
+  EXPECT_THAT(refused([](json& j) { j["seeds"] = 7; }), HasSubstr("seeds_per_result: found 2, expected"));
+  EXPECT_THAT(refused([](json& j) { j["seeds_per_result"] = 1000000; }),
+              HasSubstr("seeds_per_result: found 1000000, expected"));
+  EXPECT_THAT(refused([](json& j) { j["family_error"] = 0.2; }), HasSubstr("family_error: found 0.2"));
+  EXPECT_THAT(refused([](json& j) { j["family_error"] = 0; }), HasSubstr("family_error: found 0"));
+  EXPECT_THAT(refused([](json& j) { j["entries"][0]["minimum_effect"] = 0; }),
+              HasSubstr("entries[0].minimum_effect: found 0"));
   EXPECT_THAT(refused([](json& j) { j["entries"][0]["spread"] = -1; }), HasSubstr("entries[0].spread: found -1"));
   EXPECT_THAT(refused([](json& j) { j["entries"][0]["minimum_effect"] = 1e300; }), HasSubstr("minimum_effect"));
   EXPECT_THAT(refused([](json& j) { j["entries"][0]["quantity"] = ""; }), HasSubstr("quantity: found \"\""));

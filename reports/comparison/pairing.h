@@ -5,17 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/error.h"
 #include "reports/results.h"
 
 namespace glovebench::reports {
-
-/// Two results that say nothing about each other: of other definitions, truths, databases or frames. The
-/// message is that of an Error. The command line ends with exit code 3.
-class Incomparable : public Error {
- public:
-  using Error::Error;
-};
 
 /// A result and what it is called in messages: its file or folder.
 struct NamedResult {

@@ -28,7 +28,8 @@ std::vector<Metric> alignment_metrics() {
            .description = "mean distance of the points from the aligned mesh",
            .place = 140,
            .gate = Metric::Gate{0.1, 0.01},
-           .of_tracked = icp_residual_mm}};
+           .of_tracked = icp_residual_mm,
+           .is_partial = true}};
 }
 
 }  // namespace glovebench::reports

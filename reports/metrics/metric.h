@@ -33,6 +33,7 @@ struct Metric {
   std::optional<Gate> gate = {};  ///< empty: not compared
 
   std::optional<double> (*of_tracked)(const MeasuredFrame&) = nullptr;  ///< a column; empty in lost frames
+  bool is_partial = false;                                              ///< empty in some tracked frames, too
   std::optional<double> (*of_any)(const TrackResult&) = nullptr;        ///< a column, also in lost frames
   bool (*of_record)(const FrameRecord&) = nullptr;                      ///< a share of all frames; no column
 

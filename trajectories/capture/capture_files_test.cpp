@@ -71,6 +71,17 @@ void expect_three_frames(const MarkerSequence& sequence) {
   EXPECT_LT((sequence.frames[1].points[1] - Eigen::Vector3d(0.004, 0.005, 0.006)).norm(), 1e-12);
 }
 
+TEST(CaptureFiles, an_hour_at_120_hz_is_the_most) {
+  const auto refusal_of_frames = [](size_t count) {
+    std::string text = "time_s,wrist_x_m,wrist_y_m,wrist_z_m\n";
+    for (size_t i = 0; i < count; ++i) text += fmt::format("{},,,\n", i);
+    return refusal_of([&] { parsed("csv", text, "c.csv"); });
+  };
+  EXPECT_EQ(refusal_of_frames(kMaxMarkerFrames), "accepted");
+  EXPECT_THAT(refusal_of_frames(kMaxMarkerFrames + 1),
+              HasSubstr("c.csv: line 432002, time_s: found more frames, expected 432000 at most"));
+}
+
 TEST(CaptureFiles, csv_holds_points_gaps_and_times) {
   const MarkerSequence sequence = parsed("csv", kCsv, "file");
   EXPECT_THAT(sequence.names, testing::ElementsAre("index_tip", "unlabeled_1"));

@@ -61,6 +61,8 @@ void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSeq
     throw Error(where, field, fmt::format("{} s", static_cast<double>(frame.timestamp_us + first_us) / 1e6),
                 "a time after that of the frame before");
   }
+  if (sequence.frames.size() == kMaxMarkerFrames)
+    throw Error(where, field, "more frames", fmt::format("{} at most, an hour at 120 Hz", kMaxMarkerFrames));
   constexpr size_t any = 300'000, bytes_of_a_point = 3;  // the commas between its cells
   if ((sequence.frames.size() + 1) * frame.points.size() > any + text_bytes / bytes_of_a_point) {
     throw Error(where, field, fmt::format("most points of {} frames left out", sequence.frames.size() + 1),

@@ -24,6 +24,7 @@ struct MarkerSequence {
 
 /// A file may hold as many, and coordinates this large (m).
 inline constexpr size_t kMaxMarkers = 200;
+inline constexpr size_t kMaxMarkerFrames = 432'000;  ///< an hour at 120 Hz
 inline constexpr double kMaxCoordinate = 100;
 
 /// The place of a point that was not seen.
@@ -48,8 +49,8 @@ Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale
 void add_name(std::string_view name, MarkerSequence& sequence, const std::string& where, const std::string& field);
 
 /// Adds a frame; times count from the first frame's. Throws Error if its time is not after that of the one before,
-/// or if most points of a long capture are left out: `text_bytes`, the capture's size, does not say then how many
-/// there are.
+/// if there are too many, or if most points of a long capture are left out: `text_bytes`, the capture's size, does
+/// not say then how many there are.
 void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence,
                const std::string& where, const std::string& field);
 

@@ -80,6 +80,8 @@ TEST_F(SecurityKeys, AreNeverReplaced) {
   EXPECT_THROW(make_security_keys(path("keys/"), kGood), Error);
   EXPECT_THROW(make_security_keys(path("keys/sender.key"), kGood), Error);
   EXPECT_THROW(make_security_keys(path("missing/keys"), kGood), Error);
+  EXPECT_THROW(make_security_keys("", kGood), Error);
+  EXPECT_THROW(make_security_keys(path("a <x>&"), kGood), Error) << "--security refuses such a path";
   EXPECT_EQ(read_file(path("keys/sender.key")), before);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing is left over";
   fs::create_directory(path("empty"));
