@@ -69,7 +69,7 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
     const FrameErrors errors =
         measure_frame(frame, result,
                       {replay.truth->frames[frame].posture, replay.truth->frames[frame].T_camera_hand,
-                       workbench.subject(replay.subject)->pose(replay.truth->frames[frame].posture).T_hand_joint,
+                       workbench.subject(replay.subject).joints(replay.truth->frames[frame].posture),
                        count_patches(taken.truth.patch)},
                       model);
     const PinholeCamera& camera = workbench.calibration().ir;

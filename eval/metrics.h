@@ -37,8 +37,9 @@ struct FrameErrors {
 };
 
 /// One estimate against the truth. The vertex error poses the tracker's own mesh twice, so that it measures posture
-/// and pose, not the size of the hand; fingertips and joints are those of the hand that was rendered. A tracked
-/// estimate or a truth that is not finite is a broken invariant.
+/// and pose, not the size of the hand: no vertex is compared with one of another mesh, and the error says nothing
+/// about the surface of a subject with another one. Fingertips and joints are those of the hand that was rendered.
+/// A tracked estimate or a truth that is not finite is a broken invariant.
 FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth,
                           const HandModel& tracker_model);
 

@@ -11,6 +11,7 @@
 #include "eval/studies/study.h"
 #include "eval/suite.h"
 #include "render/noise/noise_model.h"
+#include "render/subjects/subject.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 
@@ -54,6 +55,16 @@ void list_formats() {
     fmt::print("{:<16} {:<10} {}\n", format.name, format.ending, format.description);
 }
 
+void list_subjects() {
+  fmt::print(
+      " 1 the tracker's own hand\n 2 the tracker's mesh, 5% larger, with other segments, borders and dyes\n");
+  for (int number = render::kFirstCapsuleSubject; number <= render::kSubjectCount; ++number) {
+    const render::HandDimensions hand = render::draw_dimensions(static_cast<uint64_t>(number));
+    fmt::print("{:>2} {:<5} {:.0f} mm long, {:.0f} mm broad: tapered capsules\n", number,
+               hand.woman ? "woman" : "man", 1000 * hand.length, 1000 * hand.breadth);
+  }
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -76,6 +87,7 @@ void add_list(Command program) {
   list.subcommand("noises", "How the depth camera errs, for --noise.").runs(list_noises);
   list.subcommand("formats", "Files of movements and postures, and captures for `glovebench import`.")
       .runs(list_formats);
+  list.subcommand("subjects", "The hands in front of the camera, for --subject.").runs(list_subjects);
   list.subcommand("angles", "The 22 joint angles and their limits.").runs(list_angles);
   const auto limits = std::make_shared<LimitsFlag>();
   const Command mapping =
