@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The one line of a refusal; a test failure if the program did anything else.
 std::string refusal(const std::vector<std::string>& arguments, const ProgramSetting& setting = {}) {
@@ -78,7 +79,8 @@ TEST_F(CommandLine, FlagsOutOfRange) {
   EXPECT_THAT(refusal(run_of(trajectory, {"--seed", "18446744073709551615", "--seeds", "2"})),
               HasSubstr("--seed: value: found 18446744073709551615, expected at most 18446744073709551614"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--threads", "5000"})), HasSubstr("--threads"));
-  EXPECT_THAT(refusal(run_of(trajectory, {"--subject", "3"})), HasSubstr("--subject"));
+  EXPECT_THAT(refusal(run_of(trajectory, {"--subject", "23"})),
+              AllOf(HasSubstr("--subject"), HasSubstr("found 23, expected 1 to 22")));
   EXPECT_THAT(refusal(run_of(trajectory, {"--noise", "loud"})), HasSubstr("--noise"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--gain", "-1"})), HasSubstr("--gain"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--gain", "nan"})), HasSubstr("--gain"));
@@ -363,6 +365,8 @@ TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list", "databases"}).out, HasSubstr("DB_20_postures"));
   EXPECT_THAT(run_glovebench({"list", "suites"}).out, AllOf(HasSubstr("quick"), HasSubstr("full")));
   EXPECT_THAT(run_glovebench({"list", "methods"}).out, AllOf(HasSubstr("schroeder2012"), HasSubstr("monocular")));
+  EXPECT_THAT(run_glovebench({"list", "subjects"}).out,
+              AllOf(HasSubstr("\n 3 woman 181 mm long"), HasSubstr("\n22 "), Not(HasSubstr("\n23 "))));
   EXPECT_THAT(run_glovebench({"list", "angles"}).out, HasSubstr("little_dip_flexion"));
   const ProgramRun config = run_glovebench({"list", "config", "--cascade", "8:9"});
   EXPECT_EQ(json::parse(config.out).at("lookup").at("cascade"), "8:9");

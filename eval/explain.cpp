@@ -66,12 +66,12 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
   }
   if (result.status == TrackStatus::tracked) {
     const HandModel& model = *workbench.model();
-    const reports::FrameErrors errors = reports::measure_frame(
-        frame, result,
-        {replay.truth->frames[frame].posture, replay.truth->frames[frame].T_camera_hand,
-         workbench.subject(replay.subject)->pose(replay.truth->frames[frame].posture).T_hand_joint,
-         reports::count_patches(taken.truth.patch)},
-        model);
+    const reports::FrameErrors errors =
+        reports::measure_frame(frame, result,
+                               {replay.truth->frames[frame].posture, replay.truth->frames[frame].T_camera_hand,
+                                workbench.subject(replay.subject).joints(replay.truth->frames[frame].posture),
+                                reports::count_patches(taken.truth.patch)},
+                               model);
     const PinholeCamera& camera = workbench.calibration().ir;
     panels.push_back(
         {"coarse pose over M", cropped(overlay(model, result, result.T_camera_hand_coarse, trace, camera))});

@@ -128,18 +128,18 @@ LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& fra
 std::vector<std::vector<LabelErrors>> measure_label_errors(
     Workbench& workbench, int subject, std::span<const render::Lighting> lightings,
     std::span<const std::shared_ptr<const ColorTable>> tables) {
-  const auto model = workbench.subject(subject);
+  const render::Subject hand = workbench.subject(subject);
   const RgbdCalibration& calibration = workbench.calibration();
   render::SceneConfig scene;
-  scene.shader = subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
-  render::RgbdRenderer renderer(calibration, model, scene);
+  scene.shader = render::shader_of(subject);
+  render::RgbdRenderer renderer(calibration, hand, scene);
   const std::vector<trajectories::TrajectoryFrame> frames = sample_frames();
   std::vector<std::vector<LabelErrors>> errors;
   int64_t view = 0;
   for (const render::Lighting& lighting : lightings) {
     std::vector<LabelErrors>& of_lighting = errors.emplace_back(tables.size());
     for (const trajectories::TrajectoryFrame& frame : frames) {
-      const render::RgbdImages images = renderer.render(model->pose(frame.posture), frame.T_camera_hand, lighting);
+      const render::RgbdImages images = renderer.render(hand.pose(frame.posture), frame.T_camera_hand, lighting);
       const DeviceFrame device_frame =
           render::make_device_frame(images, calibration, 0, {}, {1, "label errors", view++});
       for (size_t t = 0; t < tables.size(); ++t)

@@ -63,19 +63,19 @@ bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config)
   return within >= config.detection.min_pixels && within > 2 * beyond;
 }
 
-reports::FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const HandModel& subject,
+reports::FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const render::Subject& subject,
                              const render::RgbdImages& images) {
   reports::FrameTruth truth;
   truth.posture = frame.posture;
   truth.T_camera_hand = frame.T_camera_hand;
-  truth.T_hand_joint = subject.pose(frame.posture).T_hand_joint;
+  truth.T_hand_joint = subject.joints(frame.posture);
   truth.visible_pixels = reports::count_patches(images.patch);
   return truth;
 }
 
 render::SyntheticKinectConfig kinect_config(const Replay& replay) {
   render::SyntheticKinectConfig config;
-  config.scene.shader = replay.subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
+  config.scene.shader = render::shader_of(replay.subject);
   config.scene.clutter_in_volume = replay.clutter_in_volume;
   config.noise.depth = replay.noise.model;
   config.noise.gain_factor = replay.noise.factor;
@@ -171,7 +171,7 @@ std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, st
     check(share_images(first, replay), "replays that are rendered once show the same");
     passes.emplace_back(workbench, replay);
   }
-  const std::shared_ptr<const HandModel> subject = workbench.subject(first.subject);
+  const render::Subject subject = workbench.subject(first.subject);
 
   render::SyntheticKinect kinect = make_kinect(workbench, first);
   int number = first.range.first;
@@ -179,7 +179,7 @@ std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, st
     std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
     const render::RgbdImages& images = kinect.truth();
-    reports::FrameTruth truth = truth_of(true_frame, *subject, images);
+    reports::FrameTruth truth = truth_of(true_frame, subject, images);
     const Replay* shown = &first;
     for (Pass& pass : passes) {
       if (!share_noise(*shown, pass.replay())) {

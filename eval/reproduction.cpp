@@ -61,7 +61,7 @@ std::string study_key(Workbench& workbench, const Study& study, const StudyOptio
   for (const std::string& name : trajectories::posture_set_names())
     inputs.push_back(Database::input_hash(trajectories::posture_set(folder, name), *workbench.model(),
                                           workbench.config().views));
-  inputs.push_back(workbench.subject(2)->hash());
+  inputs.push_back(workbench.subject(2).hash());
   inputs.push_back(hash_bytes(
       std::as_bytes(std::span(workbench.color_table(options.tracker.segmentation.color_space)->labels()))));
   std::vector<std::string> cascades;

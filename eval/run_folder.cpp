@@ -156,7 +156,7 @@ std::string replay_key(Workbench& workbench, const Replay& replay) {
        {replay.lighting.strength, replay.lighting.temperature_k, replay.lighting.ambient_share,
         std::vector<double>(replay.lighting.direction_to_light.begin(), replay.lighting.direction_to_light.end())}},
       {"clutter_in_volume", replay.clutter_in_volume},
-      {"subject", {replay.subject, workbench.subject(replay.subject)->hash()}},
+      {"subject", {replay.subject, workbench.subject(replay.subject).hash()}},
       {"hand_model", workbench.model()->hash()},
       {"databases", databases},
       {"calibration", to_json(workbench.calibration())},

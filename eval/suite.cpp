@@ -59,7 +59,7 @@ SuiteEntry entry_from(const JsonCursor& field, const fs::path& folder) {
     const std::string database = item.text();
     entry.databases.push_back(is_database_file(database) ? (folder / database).string() : database);
   }
-  if (field.has("subject")) entry.subject = static_cast<int>(field["subject"].integer(1, 2));
+  if (field.has("subject")) entry.subject = static_cast<int>(field["subject"].integer(1, render::kSubjectCount));
   if (field.has("noise")) entry.noise = noise_from(field["noise"]);
   if (field.has("frames")) entry.frames = frames_from(field["frames"]);
   return entry;

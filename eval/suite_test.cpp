@@ -110,7 +110,7 @@ TEST(Suite, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(changed("/experiments/1/truth", "both"),
               AllOf(HasSubstr("experiments[1].truth"), HasSubstr("recorded or source")));
   EXPECT_THAT(changed("/experiments/1/databases", json::array()), HasSubstr("experiments[1].databases"));
-  EXPECT_THAT(changed("/experiments/2/subject", 3), HasSubstr("experiments[2].subject"));
+  EXPECT_THAT(changed("/experiments/2/subject", 23), HasSubstr("experiments[2].subject"));
   EXPECT_THAT(changed("/experiments/2/noise/model", "loud"), HasSubstr("experiments[2].noise.model"));
   EXPECT_THAT(changed("/experiments/2/noise/factor", -1), HasSubstr("experiments[2].noise.factor"));
   EXPECT_THAT(changed("/experiments/2/frames/count", 0), HasSubstr("experiments[2].frames.count"));

@@ -18,18 +18,16 @@ namespace glovebench::eval {
 Workbench::Workbench(WorkbenchConfig config) : config_(std::move(config)) {}
 
 std::shared_ptr<const HandModel> Workbench::model() {
-  return subject(1);
+  const std::lock_guard lock(mutex_);
+  if (!model_) model_ = std::make_shared<HandModel>(HandModel::load(hand_mesh_path(), config_.side));
+  return model_;
 }
 
-std::shared_ptr<const HandModel> Workbench::subject(int number) {
-  if (number != 1 && number != 2) throw Error("subject", "number", std::to_string(number), "1 or 2");
+render::Subject Workbench::subject(int number) {
   const std::lock_guard lock(mutex_);
-  std::shared_ptr<const HandModel>& model = subjects_[number];
-  if (!model) {
-    model = std::make_shared<HandModel>(
-        HandModel::load(hand_mesh_path(), config_.side, number == 1 ? HandShape{} : second_subject()));
-  }
-  return model;
+  const auto known = subjects_.find(number);
+  if (known != subjects_.end()) return known->second;
+  return subjects_.emplace(number, render::make_subject(number, hand_mesh_path(), model())).first->second;
 }
 
 std::shared_ptr<const ColorTable> Workbench::color_table(ColorSpace space) {

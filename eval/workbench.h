@@ -9,6 +9,7 @@
 #include "core/database/database_cache.h"
 #include "core/methods/method.h"
 #include "core/segmentation/color_table.h"
+#include "render/subjects/subject.h"
 
 namespace glovebench::eval {
 
@@ -31,8 +32,8 @@ class Workbench {
   const WorkbenchConfig& config() const { return config_; }
   /// The tracker's hand, which is also the first subject's.
   std::shared_ptr<const HandModel> model();
-  /// The hand in front of the camera: subject 1 or 2.
-  std::shared_ptr<const HandModel> subject(int number);
+  /// The hand in front of the camera (render::make_subject).
+  render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
   /// Calibrated on pictures of the synthetic Kinect's own cameras, whatever the calibration: colors have no place.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
@@ -60,7 +61,8 @@ class Workbench {
   PostureSet postures_of(const std::string& name) const;
 
   std::recursive_mutex mutex_;
-  std::map<int, std::shared_ptr<const HandModel>> subjects_;
+  std::shared_ptr<const HandModel> model_;
+  std::map<int, render::Subject> subjects_;
   std::map<std::string, PostureSet> postures_;  ///< of files, by name
   std::map<std::string, std::shared_ptr<const Database>> databases_;
   std::map<ColorSpace, std::shared_ptr<const ColorTable>> color_tables_;

@@ -63,7 +63,7 @@ struct LabelRenderer::State {
 
   void load(const HandModel& model) {
     if (model.hash() == model_hash) return;
-    mesh = make_hand_mesh(model);
+    mesh = make_hand_mesh(model.triangles());
     vertices.set_bytes(kLabel, mesh.labels);
     vertices.set_bytes(kLabelPatch, mesh.patches);
     vertices.set_indices(mesh.indices);

@@ -90,22 +90,21 @@ struct RgbdRenderer::State {
     DepthImage depth;
   };
 
-  State(std::shared_ptr<const HandModel> hand_model, const SceneConfig& config)
-      : model(std::move(hand_model)),
-        scene(make_scene(config)),
-        forearm_mesh(make_forearm(*model)),
-        mesh(make_hand_mesh(*model)) {
+  State(Subject drawn_subject, const SceneConfig& config)
+      : subject(std::move(drawn_subject)), scene(make_scene(config)), mesh(make_hand_mesh(subject.triangles())) {
+    const PosedHand straight = subject.pose(Posture::Zero());
+    forearm_mesh = make_forearm(straight);
     load_static(surroundings, scene.surroundings);
     load_static(forearm, forearm_mesh);
     hand_vertices.set_bytes(kMaterial, mesh.labels);
     hand_vertices.set_bytes(kPatch, mesh.patches);
-    hand_vertices.set_floats(kPatternPosition, spread(mesh, model->pose(Posture::Zero()).vertices), GL_STATIC_DRAW);
+    hand_vertices.set_floats(kPatternPosition, spread(mesh, straight.vertices), GL_STATIC_DRAW);
     hand_vertices.set_indices(mesh.indices);
   }
 
   void load(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand) {
     hand_vertices.set_floats(kPosition, spread(mesh, hand.vertices), GL_STREAM_DRAW);
-    hand_vertices.set_floats(kNormal, spread(mesh, vertex_normals(*model, hand)), GL_STREAM_DRAW);
+    hand_vertices.set_floats(kNormal, spread(mesh, vertex_normals(subject.triangles(), hand)), GL_STREAM_DRAW);
     T_ir_hand = T_camera_hand;
     T_ir_forearm = T_camera_hand * hand.T_hand_joint[kForearmJoint];
     hand_points = hand.vertices;
@@ -249,7 +248,7 @@ struct RgbdRenderer::State {
   }
 
   Context context;
-  std::shared_ptr<const HandModel> model;
+  Subject subject;
   Scene scene;
   SurfaceMesh forearm_mesh;
   HandMesh mesh;
@@ -271,9 +270,8 @@ struct RgbdRenderer::State {
   gl::VertexArray no_attributes;
 };
 
-RgbdRenderer::RgbdRenderer(const RgbdCalibration& calibration, std::shared_ptr<const HandModel> model,
-                           const SceneConfig& scene)
-    : calibration_(calibration), state_(std::make_unique<State>(std::move(model), scene)) {
+RgbdRenderer::RgbdRenderer(const RgbdCalibration& calibration, Subject subject, const SceneConfig& scene)
+    : calibration_(calibration), state_(std::make_unique<State>(std::move(subject), scene)) {
   state_->context.release();
 }
 

@@ -4,9 +4,9 @@
 
 #include "core/base/image.h"
 #include "core/camera/rgbd_calibration.h"
-#include "core/hand/hand_model.h"
 #include "render/lighting.h"
 #include "render/scene.h"
+#include "render/subjects/subject.h"
 
 namespace glovebench::render {
 
@@ -25,8 +25,7 @@ struct RgbdImages {
 class RgbdRenderer {
  public:
   /// Throws Error if no OpenGL context can be had.
-  RgbdRenderer(const RgbdCalibration& calibration, std::shared_ptr<const HandModel> model,
-               const SceneConfig& scene);
+  RgbdRenderer(const RgbdCalibration& calibration, Subject subject, const SceneConfig& scene);
   ~RgbdRenderer();
 
   RgbdImages render(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand, const Lighting& lighting);

@@ -102,8 +102,7 @@ struct CuffEnd {
   float z;
 };
 
-CuffEnd find_cuff_end(const HandModel& model) {
-  const PosedHand hand = model.pose(Posture::Zero());
+CuffEnd find_cuff_end(const PosedHand& hand) {
   const Eigen::Isometry3f T_forearm_hand = hand.T_hand_joint[kForearmJoint].inverse().cast<float>();
   float z_end = 0;
   for (const Eigen::Vector3f& vertex : hand.vertices) z_end = std::max(z_end, (T_forearm_hand * vertex).z());
@@ -135,12 +134,12 @@ Scene make_scene(const SceneConfig& config) {
   return scene;
 }
 
-SurfaceMesh make_forearm(const HandModel& model) {
+SurfaceMesh make_forearm(const PosedHand& hand) {
   constexpr uint32_t kRings = 8;
   constexpr uint32_t kAround = 32;
   constexpr float kLength = 0.20f;       // m
   constexpr float kInsideCuff = 0.010f;  // m
-  const CuffEnd cuff = find_cuff_end(model);
+  const CuffEnd cuff = find_cuff_end(hand);
   SurfaceMesh mesh;
   for (uint32_t ring = 0; ring < kRings; ++ring) {
     const float along = static_cast<float>(ring) / (kRings - 1);

@@ -54,7 +54,7 @@ struct Scene {
 Scene make_scene(const SceneConfig& config);
 
 /// The bare forearm that comes out of the glove's cuff, 200 mm long, in the frame of the forearm joint. Its cross
-/// section is fitted to the cuff's end.
-SurfaceMesh make_forearm(const HandModel& model);
+/// section is fitted to the cuff's end of that hand, whose posture does not matter.
+SurfaceMesh make_forearm(const PosedHand& hand);
 
 }  // namespace glovebench::render

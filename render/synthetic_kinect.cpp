@@ -27,10 +27,10 @@ DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& c
   return frame;
 }
 
-SyntheticKinect::SyntheticKinect(const RgbdCalibration& calibration, std::shared_ptr<const HandModel> model,
-                                 std::vector<HandFrame> frames, SyntheticKinectConfig config)
-    : renderer_(calibration, model, config.scene),
-      model_(std::move(model)),
+SyntheticKinect::SyntheticKinect(const RgbdCalibration& calibration, Subject subject, std::vector<HandFrame> frames,
+                                 SyntheticKinectConfig config)
+    : renderer_(calibration, subject, config.scene),
+      subject_(std::move(subject)),
       frames_(std::move(frames)),
       config_(std::move(config)) {
   require_possible(config_.noise);
@@ -39,7 +39,7 @@ SyntheticKinect::SyntheticKinect(const RgbdCalibration& calibration, std::shared
 std::optional<DeviceFrame> SyntheticKinect::next_frame() {
   if (next_ == frames_.size()) return std::nullopt;
   const HandFrame& frame = frames_[next_];
-  truth_ = renderer_.render(model_->pose(frame.posture), frame.T_camera_hand, config_.lighting);
+  truth_ = renderer_.render(subject_.pose(frame.posture), frame.T_camera_hand, config_.lighting);
   const FrameKey key{config_.seed, config_.sequence, config_.first_frame + static_cast<int64_t>(next_)};
   ++next_;
   return make_device_frame(truth_, calibration(), frame.timestamp_us, config_.noise, key);

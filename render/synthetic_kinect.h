@@ -35,8 +35,8 @@ DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& c
 class SyntheticKinect : public Device {
  public:
   /// Throws Error if no OpenGL context can be had or the configuration is impossible.
-  SyntheticKinect(const RgbdCalibration& calibration, std::shared_ptr<const HandModel> model,
-                  std::vector<HandFrame> frames, SyntheticKinectConfig config);
+  SyntheticKinect(const RgbdCalibration& calibration, Subject subject, std::vector<HandFrame> frames,
+                  SyntheticKinectConfig config);
 
   const RgbdCalibration& calibration() const override { return renderer_.calibration(); }
   std::optional<DeviceFrame> next_frame() override;
@@ -46,7 +46,7 @@ class SyntheticKinect : public Device {
 
  private:
   RgbdRenderer renderer_;
-  std::shared_ptr<const HandModel> model_;
+  Subject subject_;
   std::vector<HandFrame> frames_;
   SyntheticKinectConfig config_;
   size_t next_ = 0;

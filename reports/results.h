@@ -55,7 +55,7 @@ struct ExperimentKey {
   std::string trajectory;  ///< "Tr4"
   std::string database;    ///< "DB_open_power"
   TruthKind truth = TruthKind::recorded;
-  int subject = 1;  ///< the hand in front of the camera: 1 is the tracker's own, 2 another
+  int subject = 1;  ///< the hand in front of the camera: 1 is the tracker's own
   NoiseSetting noise;
 
   friend bool operator==(const ExperimentKey&, const ExperimentKey&) = default;

@@ -56,10 +56,14 @@ std::vector<std::string> experiment_heading() {
   return {"trajectory", "database", "truth", "noise"};
 }
 
+std::string truth_cell(const ExperimentKey& key) {
+  const std::string truth(to_string(key.truth));
+  if (key.subject == 1) return truth;
+  return key.subject == 2 ? truth + ", second subject" : fmt::format("{}, subject {}", truth, key.subject);
+}
+
 std::vector<std::string> experiment_cells(const ExperimentKey& key) {
-  return {key.trajectory, key.database,
-          fmt::format("{}{}", to_string(key.truth), key.subject == 1 ? "" : ", second subject"),
-          fmt::format("{} x {}", key.noise.model, key.noise.factor)};
+  return {key.trajectory, key.database, truth_cell(key), fmt::format("{} x {}", key.noise.model, key.noise.factor)};
 }
 
 TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {

@@ -11,6 +11,7 @@
 #include "eval/studies/study.h"
 #include "eval/suite.h"
 #include "render/noise/noise_model.h"
+#include "render/subjects/subject.h"
 #include "reports/metrics/metric.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
@@ -60,6 +61,16 @@ void list_metrics() {
     fmt::print("{:<36}{:<11}{}\n", metric.key, metric.gate ? "compared" : "", metric.description);
 }
 
+void list_subjects() {
+  fmt::print(
+      " 1 the tracker's own hand\n 2 the tracker's mesh, 5% larger, with other segments, borders and dyes\n");
+  for (int number = render::kFirstCapsuleSubject; number <= render::kSubjectCount; ++number) {
+    const render::HandDimensions hand = render::draw_dimensions(static_cast<uint64_t>(number));
+    fmt::print("{:>2} {:<5} {:.0f} mm long, {:.0f} mm broad: tapered capsules\n", number,
+               hand.woman ? "woman" : "man", 1000 * hand.length, 1000 * hand.breadth);
+  }
+}
+
 void list_angles() {
   for (const AngleInfo& info : angle_infos())
     fmt::print("{:<24}{:>5} to {:>4} deg\n", info.name, info.min_deg, info.max_deg);
@@ -84,6 +95,7 @@ void add_list(Command program) {
       .runs(list_formats);
   list.subcommand("metrics", "What is measured of each frame, and which of it `compare` and `gate` compare.")
       .runs(list_metrics);
+  list.subcommand("subjects", "The hands in front of the camera, for --subject.").runs(list_subjects);
   list.subcommand("angles", "The 22 joint angles and their limits.").runs(list_angles);
   const auto limits = std::make_shared<LimitsFlag>();
   const Command mapping =

@@ -48,6 +48,15 @@ CLI::Validator whole_number() {
           ""};
 }
 
+CLI::Validator whole_number_within(int low, int high) {
+  return {[=](const std::string& text) -> std::string {
+            int value = 0;
+            if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
+            return fmt::format("found {}, expected {} to {}", printable(text), low, high);
+          },
+          fmt::format("INT in [{} - {}]", low, high)};
+}
+
 Eigen::Isometry3d rigid_transform(const std::string& flag, const std::vector<double>& values) {
   for (const double value : values)
     if (!std::isfinite(value)) throw Error(flag, "transform", fmt::format("{}", value), "finite numbers");
@@ -92,7 +101,8 @@ Option Option::required() const {
 
 Option Option::in(double low, double high) const {
   const bool is_whole = !option_->get_type_name().starts_with("FLOAT");
-  option_->check(is_whole ? CLI::Range(static_cast<int>(low), static_cast<int>(high)) : number_within(low, high));
+  option_->check(is_whole ? whole_number_within(static_cast<int>(low), static_cast<int>(high))
+                          : number_within(low, high));
   return *this;
 }
 

@@ -106,7 +106,8 @@ void add_render(Command program) {
               "fakenect: a recording that libfreenect's fakenect and `glovebench track` play")
       .one_of({"png", "exr", "fakenect"});
   command.option("--noise", state->noise, "depth noise").one_of(render::depth_noise_names());
-  command.option("--subject", state->subject, "whose hand").in(1, 2);
+  command.option("--subject", state->subject, "whose hand (`glovebench list subjects`)")
+      .in(1, render::kSubjectCount);
   command.option("--database", state->database, "exr: track with this database and add the tracker's view");
   state->common.add_tracker(command);
   state->common.add_seed(command);

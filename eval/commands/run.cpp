@@ -139,8 +139,8 @@ void add_run(Command program) {
   command.option("--truth", state->truth, "which truth of a named one").one_of({"source", "recorded"});
   command.option("--noise", state->noise, "depth noise").one_of(render::depth_noise_names());
   command.option("--gain", state->gain, "factor on the noise's gain").in(0, 100);
-  command.option("--subject", state->subject, "whose hand is in front of the camera; the tracker's own is 1")
-      .in(1, 2);
+  command.option("--subject", state->subject, "whose hand is in front of the camera (`glovebench list subjects`)")
+      .in(1, render::kSubjectCount);
   command
       .option("--seeds", state->seed_count,
               "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")

@@ -56,26 +56,27 @@ class Scene {
   Scene(Workbench& workbench, const ChangedFrame& change, std::shared_ptr<const trajectories::Trajectory> truth)
       : workbench_(workbench), camera_(workbench.calibration().ir) {
     const Replay replay{truth, change.key.subject, change.key.noise, change.candidate_seed, {}, {change.frame, 1}};
-    const trajectories::TrajectoryFrame& frame = frames_of(replay).front();
-    const DeviceFrame device = make_kinect(workbench, replay).next_frame().value();
+    render::SyntheticKinect kinect = make_kinect(workbench, replay);
+    const DeviceFrame device = kinect.next_frame().value();
     picture_ =
         register_color(depth_from_disparity(device.raw_disparity), device.color, workbench.calibration(), {}).color;
-    true_hand_ = silhouette(*workbench.subject(change.key.subject), frame.posture, frame.T_camera_hand);
+    true_hand_ = silhouette(kinect.truth().label);
   }
 
   ColorImage picture() const { return cropped(picture_); }
   ColorImage with_outlines(const std::optional<Estimate>& estimate, const Rgb& color) {
     ColorImage image = render::overlay_outline(picture_, true_hand_, kTruth);
     if (estimate) {
-      const LabelImage hand = silhouette(*workbench_.model(), estimate->posture, estimate->T_camera_hand);
-      image = render::overlay_outline(image, hand, color);
+      const HandModel& model = *workbench_.model();
+      const LabelImage hand =
+          renderer_.render_labels(model, model.pose(estimate->posture), camera_, estimate->T_camera_hand);
+      image = render::overlay_outline(image, silhouette(hand), color);
     }
     return cropped(image);
   }
 
  private:
-  LabelImage silhouette(const HandModel& model, const Posture& posture, const Eigen::Isometry3d& T_camera_hand) {
-    LabelImage labels = renderer_.render_labels(model, model.pose(posture), camera_, T_camera_hand);
+  static LabelImage silhouette(LabelImage labels) {
     for (uint8_t& label : labels) label = label > 0;
     return labels;
   }

@@ -40,14 +40,14 @@ struct TrueFrame {
 std::vector<TrueFrame> render_under(Workbench& workbench, int subject, const LightPoint& point,
                                     const std::vector<trajectories::TrajectoryFrame>& poses,
                                     const std::string& sequence) {
-  const auto model = workbench.subject(subject);
+  const render::Subject hand = workbench.subject(subject);
   render::SceneConfig scene;
-  scene.shader = subject == 1 ? render::Shader::first_subject : render::Shader::second_subject;
-  render::RgbdRenderer renderer(workbench.calibration(), model, scene);
+  scene.shader = render::shader_of(subject);
+  render::RgbdRenderer renderer(workbench.calibration(), hand, scene);
   std::vector<TrueFrame> frames;
   for (const trajectories::TrajectoryFrame& pose : poses) {
     TrueFrame& made = frames.emplace_back();
-    made.images = renderer.render(model->pose(pose.posture), pose.T_camera_hand, point.lighting);
+    made.images = renderer.render(hand.pose(pose.posture), pose.T_camera_hand, point.lighting);
     made.images.color = render::with_white_balance(made.images.color, point.white_balance);
     const auto number = static_cast<int64_t>(frames.size());
     made.frame =
