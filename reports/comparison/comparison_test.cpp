@@ -112,6 +112,11 @@ TEST(Comparison, NoiseAloneIsNeverWorseOrBetter) {
   }
 }
 
+std::vector<const Metric*> every_metric() {
+  const Protocol ours = make_protocol("");
+  return shared_metrics(ours, ours);
+}
+
 TEST(Comparison, IntervalsHoldTheTruthAtLeastAsOftenAsTheySay) {
   // 18 rows at a family error of 0.9 leave 5% for each. The true difference is 0.1 mm.
   constexpr int kTrials = 400;
@@ -121,7 +126,7 @@ TEST(Comparison, IntervalsHoldTheTruthAtLeastAsOftenAsTheySay) {
   for (int trial = 0; trial < kTrials; ++trial) {
     const auto a = noisy_experiment("Tr1", kSeeds, 128, std::to_string(trial) + "a", 0);
     const auto b = noisy_experiment("Tr1", kSeeds, 128, std::to_string(trial) + "b", 0.1);
-    const auto rows = comparison_rows({{{&a, &b}}, {}, {}}, nullptr, config, draws);
+    const auto rows = comparison_rows({every_metric(), {{&a, &b}}, {}, {}}, nullptr, config, draws);
     held += *rows[gated_metrics().size()].low <= 0.1 && 0.1 <= *rows[gated_metrics().size()].high;
   }
   EXPECT_GE(held, 0.95 * kTrials);
@@ -136,7 +141,8 @@ TEST(Comparison, ExperimentsOnOneTrajectoryAreNotIndependent) {
     second.key.trajectory = changed_second.key.trajectory = other;
     const CompareConfig config;
     Draws draws(config.seed, config.resamples);
-    return comparison_rows({{{&first, &changed}, {&second, &changed_second}}, {}, {}}, nullptr, config, draws);
+    return comparison_rows({every_metric(), {{&first, &changed}, {&second, &changed_second}}, {}, {}}, nullptr,
+                           config, draws);
   };
   const auto same = compare("Tr1"), different = compare("Tr2");
   const auto width = [](const ComparisonRow& row) { return *row.high - *row.low; };
