@@ -77,7 +77,7 @@ TEST_F(Dds, AWholeStreamArrives) {
   ASSERT_EQ(poses.size(), size_t{kCommands});
   for (int i = 0; i < kCommands; ++i) {
     const auto at = static_cast<size_t>(i);
-    const std::string head = stamp(i) + " \"\" point 0.033333000";
+    const std::string head = stamp(i) + " \"\" point 0.100000000";
     EXPECT_EQ(without_times(hands[at]), "hand " + head + values(hand_trajectory_names(), 0, i));
     EXPECT_EQ(without_times(wrists[at]), "wrist " + head + values(wrist_trajectory_names(), kWRJ1, i));
     const ros::PoseStamped pose = pose_message(command(i));

@@ -26,7 +26,9 @@ class SoakJudge : public testing::Test {
         if (!latency) continue;
         log += fmt::format(
             R"({{"event":"received","time_us":{},"topic":"{}","receipt":"{}","stamp_ns":{},"source_us":{}}})",
-            kSent + i + *latency, topic, i <= refused_ ? receipt_ : "accepted", int64_t{i} * 33'000'000, kSent + i);
+            kSent + i + *latency, topic,
+            i <= refused_ && refuses_.find(topic) != std::string::npos ? receipt_ : "accepted",
+            int64_t{i} * step_us_ * 1000, kSent + i);
         log += "\n";
       }
     }
@@ -36,19 +38,22 @@ class SoakJudge : public testing::Test {
   ProgramRun judge(const HandLatency& latency_us, const char* status = "tracked") {
     std::string estimates;
     for (int i = 0; i < kFrames; ++i)
-      estimates += fmt::format("{{\"timestamp_us\":{},\"status\":\"{}\"}}\n", i * 33'000,
+      estimates += fmt::format("{{\"timestamp_us\":{},\"status\":\"{}\"}}\n", i * step_us_,
                                i == 0 || i == kLost ? "no_hand" : status);
     write_file(folder_ + "/estimates.jsonl", estimates);
     write_file(folder_ + "/robot.jsonl",
                received({"fingers", "wrist"}, latency_us) + received({"pose"}, [](int) { return 4000; }));
-    return run_program({"/usr/bin/python3", build_paths::source("ci/soak_judge.py"), folder_, "6"});
+    return run_program({"/usr/bin/python3", build_paths::source("ci/soak_judge.py"), folder_, seconds_});
   }
 
   static constexpr int kFrames = 200, kLost = 100;
   static constexpr int64_t kSent = 1'795'363'200'000'000;
   std::string folder_ = test_folder();
-  std::string receipt_ = "starting";  ///< of the first commands
-  int refused_ = 7;                   ///< how many; a server checks a stream for 0.2 s before it follows it
+  std::string seconds_ = "6";
+  int64_t step_us_ = 33'000;
+  std::string refuses_ = "fingers wrist pose";  ///< topics
+  std::string receipt_ = "starting";            ///< of the first commands
+  int refused_ = 7;  ///< how many; a server checks a stream for 0.2 s before it follows it
 };
 
 TEST_F(SoakJudge, IsContentWithAllInTime) {
@@ -84,6 +89,21 @@ TEST_F(SoakJudge, IsNotContentWhereNothingIsFollowed) {
   EXPECT_EQ(judge(in_time).exit_code, 0) << "starts that add up to a second";
   refused_ = 31;
   EXPECT_EQ(judge(in_time).exit_code, kMissed);
+}
+
+TEST_F(SoakJudge, IsNotContentWithoutAStream) {
+  const auto in_time = [](int) { return std::optional(3000); };
+  seconds_ = "7";
+  EXPECT_EQ(judge(in_time).exit_code, kMissed) << "210 frames were played";
+  seconds_ = "6";
+  step_us_ = 1'000'000;
+  EXPECT_EQ(judge(in_time).exit_code, kMissed) << "1 Hz";
+  step_us_ = 33'000;
+  EXPECT_EQ(judge([](int) { return std::optional(-3000); }).exit_code, kLate) << "received before it was sent";
+  receipt_ = "stale", refuses_ = "fingers", refused_ = 5;
+  EXPECT_EQ(judge(in_time).exit_code, kLate) << "5 of 198, 0.8% of all topics";
+  refused_ = 1;
+  EXPECT_EQ(judge(in_time).exit_code, 0);
 }
 
 #ifdef GLOVEBENCH_SOAK

@@ -59,7 +59,11 @@ TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
               AllOf(HasSubstr("found unknown key \"hand_sped_m_s\""), HasSubstr("hand_speed_m_s")));
   EXPECT_THAT(limits_error({{"hand_speed_m_s", "fast"}}),
               HasSubstr("limits.json: hand_speed_m_s: found \"fast\", expected a number"));
-  EXPECT_THAT(limits_error({{"hand_speed_m_s", 0}}), HasSubstr("hand_speed is not above 0"));
+  EXPECT_THAT(limits_error({{"hand_speed_m_s", 0}}),
+              HasSubstr("limits.json: hand_speed_m_s: found 0, expected above 0 and at most 10"));
+  for (const char* key :
+       {"hand_joint_speed_rad_s", "hand_speed_m_s", "hand_turn_speed_rad_s", "fingertip_speed_m_s"})
+    EXPECT_THAT(limits_error({{key, 1e308}}), HasSubstr(std::string(key) + ": found 1e+308, expected above 0 and"));
   EXPECT_THAT(limits_error({{"arm_speed_share", 1.5}}), HasSubstr("arm_speed_share"));
   EXPECT_THAT(limits_error({{"workspace_min_m", {0, 0}}}),
               HasSubstr("workspace_min_m: found 2 elements, expected 3"));
@@ -67,10 +71,12 @@ TEST(CommandLimitsJson, ErrorsNameFileFieldAndExpectation) {
   EXPECT_THAT(limits_error({{"workspace_min_m", {0, 0, 3}}}), HasSubstr("the workspace is empty"));
   EXPECT_THAT(limits_error({{"workspace_min_m", {0, 0, 1.8}}}),
               HasSubstr("a side of the workspace is shorter than 0.3 m"));
-  EXPECT_THAT(limits_error({{"fingertip_speed_m_s", -0.5}}), HasSubstr("fingertip_speed is not above 0"));
-  EXPECT_THAT(limits_error({{"stop_after_s", 1e99}}), HasSubstr("stop_after_s is not silence_s to 60"));
+  EXPECT_THAT(limits_error({{"fingertip_speed_m_s", -0.5}}),
+              HasSubstr("fingertip_speed_m_s: found -0.5, expected above 0"));
+  EXPECT_THAT(limits_error({{"stop_after_s", 1e99}}),
+              HasSubstr("stop_after_s: found 1e+99, expected silence_s to 60"));
   EXPECT_THAT(limits_error({{"longest_step_s", 3}}), HasSubstr("longest_step_s"));
-  EXPECT_THAT(limits_error({{"silence_s", 2}}), HasSubstr("stop_after_s is not silence_s to 60"));
+  EXPECT_THAT(limits_error({{"silence_s", 2}}), HasSubstr("stop_after_s: found 0.5, expected silence_s to 60"));
   EXPECT_THAT(limits_error({{"stop_after_s", std::numeric_limits<double>::infinity()}}),
               HasSubstr("limits.json: "));
 }

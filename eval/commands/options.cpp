@@ -22,6 +22,13 @@ namespace {
 constexpr int kWrongCommandLine = 2;
 constexpr int kHelpColumn = 34;
 
+/// An empty value looks like an option that is not there, as of a variable of a script that is not set.
+CLI::Validator not_empty() {
+  return {
+      [](const std::string& text) -> std::string { return text.empty() ? "found nothing, expected a value" : ""; },
+      ""};
+}
+
 /// A number from `low` to `high`. CLI::Range lets pass what is no number.
 CLI::Validator number_within(double low, double high) {
   return {[=](const std::string& text) -> std::string {
@@ -167,9 +174,10 @@ Option Command::option(const std::string& names, Value& value, const std::string
     const auto read = [names, &value](const std::vector<double>& values) {
       value = rigid_transform(names, values);
     };
-    return Option(*app_->add_option_function<std::vector<double>>(names, read, help)->expected(7));
+    return Option(
+        *app_->add_option_function<std::vector<double>>(names, read, help)->expected(7)->check(not_empty()));
   } else {
-    CLI::Option* const added = app_->add_option(names, value, help);
+    CLI::Option* const added = app_->add_option(names, value, help)->check(not_empty());
     if (!is_empty(value)) added->capture_default_str();
     using Number = typename WithoutOptional<Value>::Type;
     if constexpr (std::is_integral_v<Number>) added->check(whole_number<Number>());

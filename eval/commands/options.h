@@ -49,10 +49,10 @@ class Command {
   /// Adds a command. A command that has others needs one of them on the command line.
   Command subcommand(const std::string& name, const std::string& description) const;
   /// Adds an option, whose value is written to `value`. `names` is `-o,--output`, or `file` for an argument without
-  /// a flag. The help shows the default unless it is empty or the option is required. A bool is a flag. A transform
-  /// is seven numbers, X Y Z (m) QW QX QY QZ; throws Error when it is read unless all are finite and the quaternion
-  /// has unit length. Other types: int, uint64_t, double, std::string, optional numbers, and lists (std::vector) of
-  /// strings and doubles.
+  /// a flag. An empty value is an error. The help shows the default unless it is empty or the option is required. A
+  /// bool is a flag. A transform is seven numbers, X Y Z (m) QW QX QY QZ; throws Error when it is read unless all
+  /// are finite and the quaternion has unit length. Other types: int, uint64_t, double, std::string, optional
+  /// numbers, and lists (std::vector) of strings and doubles.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
   /// Whether the command line names the option.

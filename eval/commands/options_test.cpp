@@ -78,6 +78,15 @@ TEST_F(Options, HelpShowsDefaultsUnlessEmptyOrRequired) {
                          HasSubstr("--pose FLOAT x 7 "), HasSubstr("--back ")));
 }
 
+TEST_F(Options, RefuseAnEmptyValue) {
+  for (const char* name : {"--steps", "--seed", "--speed", "--gait", "--log", "--limit", "--stops"})
+    EXPECT_THAT(refusal({name, ""}), AllOf(HasSubstr(name), HasSubstr("found nothing, expected a value")));
+  EXPECT_THAT(refusal({"--gait", "slow", "--shoes", ""}), HasSubstr("--shoes: found nothing, expected a value"));
+  EXPECT_THAT(refusal({"--offset", "1", ""}), HasSubstr("--offset: found nothing, expected a value"));
+  EXPECT_EQ(run({"walk", ""}), 2);
+  EXPECT_THAT(err, HasSubstr("where: found nothing, expected a value"));
+}
+
 TEST_F(Options, ReadsAllKinds) {
   EXPECT_EQ(run({"walk",    "home", "--steps",  "10",   "--seed",  "18446744073709551615",
                  "--speed", "0.25", "--gait",   "fast", "--shoes", "red",

@@ -40,14 +40,13 @@ namespace {
 
 constexpr double kFirstWait = 3;    // s, for a measured state: participants find each other in less than one
 constexpr double kStartWait = 0.5;  // s, for one when the first command is there: it has been there before
-constexpr int64_t kFirstStepUs = 33'333;
 
 DdsAccess access_of(const BusFlags& bus) {
   return {bus.interface, bus.security, "sender"};
 }
 DdsSinkOptions sink_options(const RobotStream& stream) {
-  if (!stream.to_controller()) return {access_of(stream.bus), topics::kOwn, true};
-  return {access_of(stream.bus), topics::kController, stream.arm};
+  if (!stream.to_controller()) return {access_of(stream.bus), topics::kOwn, true, stream.longest_step_s};
+  return {access_of(stream.bus), topics::kController, stream.arm, stream.longest_step_s, true};
 }
 
 }  // namespace
@@ -82,7 +81,7 @@ class RobotOutputs::Stream {
                                     .eval();
     guard.start_from(targets_at(measured_->state(kStartWait), T_flange_wrist_, T_base_hand));
     const int64_t measured_us = now_us(command);
-    guard.tick(measured_us - kFirstStepUs);  // the first step is as long as the time that it is given
+    guard.tick(measured_us - 1);  // the first command is the place where the robot stands
     return measured_us;
   }
 

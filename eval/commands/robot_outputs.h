@@ -30,6 +30,7 @@ struct RobotStream {
   std::string topics = "own";                                   ///< or "controller"
   bool arm = true;                                              ///< whether a controller's arm is spoken to
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();  ///< how the hand is mounted on it
+  double longest_step_s = CommandLimits().longest_step_s;       ///< of the guard of the commands
 
   bool to_controller() const { return !bus.middleware.empty() && topics == "controller"; }
 };

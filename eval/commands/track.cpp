@@ -60,7 +60,8 @@ struct Track {
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());
-    RobotOutputs outputs({robot.output, bus, topics, robot.arm != "none", robot.mounting.T_flange_wrist()});
+    RobotOutputs outputs({robot.output, bus, topics, robot.arm != "none", robot.mounting.T_flange_wrist(),
+                          guard.limits().longest_step_s});
     TrackSource source = open_source(from, common.quiet);
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);

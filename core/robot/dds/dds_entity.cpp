@@ -15,6 +15,7 @@
 #include <map>
 #include <mutex>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "core/base/error.h"
@@ -26,6 +27,7 @@ namespace {
 
 constexpr int kLastDomain = 230;  // later ones have no ports
 constexpr int kLinesPerSecond = 10;
+constexpr std::chrono::milliseconds kLook{1000};
 constexpr const char* kUsable = "a network interface that CYCLONEDDS_URI allows, and keys that DDS Security takes";
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
@@ -161,6 +163,36 @@ dds_entity_t DdsParticipant::make_reader_of_others(dds_entity_t topic, int depth
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return checked_dds(dds_create_reader(entity_, topic, qos.get(), nullptr), "reader", "one");
+}
+
+DdsOtherWriters::DdsOtherWriters(const DdsParticipant& participant, std::vector<std::string> topics)
+    : topics_(std::move(topics)),
+      publications_(
+          checked_dds(dds_create_reader(participant.entity(), DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr),
+                      "publications", "a reader")) {
+  checked_dds(dds_get_domainid(participant.entity(), &domain_), "participant", "one in a domain");
+  checked_dds(dds_get_instance_handle(participant.entity(), &own_), "participant", "one with a handle");
+  const auto end = std::chrono::steady_clock::now() + kLook;
+  for (refuse(); std::chrono::steady_clock::now() < end; refuse()) std::this_thread::sleep_for(kLook / 100);
+}
+
+void DdsOtherWriters::refuse() {
+  for (;;) {
+    void* sample = nullptr;
+    dds_sample_info_t info;
+    if (dds_take(publications_, &sample, &info, 1, 1) <= 0) break;
+    const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
+    if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
+      writers_.erase(info.instance_handle);
+    } else if (endpoint.participant_instance_handle != own_ &&
+               std::ranges::find(topics_, endpoint.topic_name) != topics_.end()) {
+      writers_[info.instance_handle] = endpoint.topic_name;
+    }
+    dds_return_loan(publications_, &sample, 1);
+  }
+  if (writers_.empty()) return;
+  throw Error(fmt::format("DDS domain {}", domain_), writers_.begin()->second, "another process that writes it",
+              "one writer: two would share no limit");
 }
 
 std::optional<uint64_t> DdsSenders::look_up(dds_instance_handle_t writer) const {

@@ -3,12 +3,14 @@
 #include <dds/dds.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "core/robot/dds/dds_access.h"
 #include "core/robot/dds/dds_types.h"
@@ -82,6 +84,22 @@ class DdsWriter {
  private:
   std::string topic_;
   dds_entity_t writer_;
+};
+
+/// Watches for writers of other participants on some topics, of which only one may write.
+class DdsOtherWriters {
+ public:
+  /// Looks for a second, long enough for whoever the middleware finds. Throws Error as `refuse`.
+  DdsOtherWriters(const DdsParticipant& participant, std::vector<std::string> topics);
+  /// Throws Error if there is such a writer now.
+  void refuse();
+
+ private:
+  dds_domainid_t domain_ = 0;
+  std::vector<std::string> topics_;
+  dds_instance_handle_t own_ = 0;
+  dds_entity_t publications_;
+  std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with their topics
 };
 
 /// Writers that a reader tells apart. What further ones send is not read: peers without end take neither time nor

@@ -138,6 +138,7 @@ class Service {
       if (now_us >= look_us) {
         port_.server.stream().keep_only(port_.present());
         look_for_others();
+        look_at_log();
         look_us = now_us + kLookAroundUs;
       }
       receive();
@@ -160,6 +161,10 @@ class Service {
     if (!joint) return;
     if (seen_others_++ == 0)
       options_.tell(fmt::format("{}: another process tells of {}, too: two servers of one robot?", name_, *joint));
+  }
+  void look_at_log() {
+    if (log_.lost() > 0 && !std::exchange(told_of_log_, true))
+      options_.tell(fmt::format("{}: found {}: lines are lost, and the joints hold", options_.log, log_.failure()));
   }
   void tick(int64_t now_us) {
     if (now_us <= last_.clock_us) return;
@@ -210,7 +215,8 @@ class Service {
   DdsWaitset waitset_;
   RobotState last_;
   int64_t longest_gap_us_ = 0, states_sent_ = 0;
-  int64_t waited_ = 0;   ///< states at which a command had to wait for the disk
+  int64_t waited_ = 0;  ///< states at which a command had to wait for the disk
+  bool told_of_log_ = false;
   int seen_others_ = 0;  ///< looks at which there was another
 };
 
@@ -259,8 +265,6 @@ DdsServerSummary serve(const DdsServerOptions& options) {
   if (!options.log.empty() && !std::filesystem::is_regular_file(options.log))
     options.tell(fmt::format("{}: no regular file, so nothing on it is durable and no joint moves", options.log));
   const LoggedStart logged = log.start(robot.at_rest(), system_us(), options.max_log_age_s, kPeriodUs * 1e-6);
-  if (!logged.age.empty() && logged.doubt.empty())
-    options.tell(fmt::format("{}: starts at its last state, of {}", logged.source, logged.age));
   std::optional<StartPlace> start = StartPlace{logged.joints, logged.source};
   if (logged.doubt.empty()) RobotServer(options.limits, robot, *start);  // throws where that is no place
   const DdsParticipant participant(options.domain, options.access);
@@ -269,6 +273,10 @@ DdsServerSummary serve(const DdsServerOptions& options) {
   if (!logged.doubt.empty()) start = await_measured(participant, logged, others, options);
   if (!start) return {fmt::format("{}: ended before the joints were measured", robot.name()), 0};
   Port port(participant, robot, RobotServer(options.limits, robot, *start));
+  if (logged.doubt.empty())
+    options.tell(logged.age.empty()
+                     ? fmt::format("{}: no state in a log: starts at rest", robot.name())
+                     : fmt::format("{}: starts at its last state, of {}", logged.source, logged.age));
   log.started(system_us(), logged.doubt.empty() ? logged.from : "measured");
   return Service(port, participant, options, others, log).run();
 }

@@ -11,9 +11,6 @@
 
 namespace glovebench {
 
-/// Older than this, a state is not believed; nor is one that is farther ahead in time.
-inline constexpr int64_t kMeasuredAgeUs = 100'000;
-
 /// Where a robot's joints are, as its driver tells other processes: sensor_msgs/JointState on a topic.
 ///
 /// A message is believed if it has each of the joints once, with a finite position; joints of other names do not

@@ -216,6 +216,12 @@ class KeyFolder {
   fs::path folder_;
 };
 
+/// The path becomes part of a document in which Cyclone DDS replaces ${...}.
+void check_path(const fs::path& folder) {
+  if (folder.string().find_first_of("<>&\"'$") != std::string::npos)
+    throw Error(folder.string(), "folder", "one of < > & \" ' $ in its path", "none of them");
+}
+
 }  // namespace
 
 const std::vector<SecurityRole>& security_roles() {
@@ -296,22 +302,12 @@ std::string permissions_document(const SecurityRole& role, const Validity& valid
                      topic_list("subscribe", role.reads));
 }
 
-namespace {
-
-/// The path becomes part of a document in which Cyclone DDS replaces ${...}.
-void require_plain_path(const fs::path& folder) {
-  if (folder.string().find_first_of("<>&\"'$") != std::string::npos)
-    throw Error(folder.string(), "folder", "one of < > & \" ' $ in its path", "none of them");
-}
-
-}  // namespace
-
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others) {
   if (folder.empty()) throw Error("keys", "folder", "an empty name", "the name of a new folder");
   const fs::path target = fs::absolute(folder).lexically_normal();
-  require_plain_path(target);
   const fs::path whole = target.has_filename() ? target : target.parent_path();
+  check_path(fs::weakly_canonical(whole));
   std::string made = whole.string() + ".XXXXXX";
   if (!mkdtemp(made.data())) refuse(folder, "folder", "a place for a new folder");  // mode 0700
   try {
@@ -331,7 +327,7 @@ std::string security_configuration(const std::string& folder, const std::string&
   const fs::path from = fs::canonical(folder, error);
   if (error || !fs::is_directory(from))
     throw Error(folder, "folder", error ? error.message() : "a file", "one of `glovebench robot-server keys`");
-  require_plain_path(from);
+  check_path(from);
   const KeyFolder keys(from);
   const std::string certificate = role + ".pem", key = role + ".key", rights = role + ".p7s";
   if (!fs::exists(from / certificate) && fs::exists(from / "hand.pem"))

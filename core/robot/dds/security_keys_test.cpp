@@ -149,6 +149,7 @@ TEST_F(SecurityKeys, NameAFolderThatIsNone) {
   for (const char* name : {"a$b", "a&b", "a<b", "a\"b"}) {
     fs::rename(path("keys"), path(name));
     EXPECT_THROW(security_configuration(path(name), "sender", kNow), Error) << name;
+    EXPECT_THROW(make_security_keys(path(std::string(name) + "/new"), kGood), Error) << "no keys that are refused";
     fs::rename(path(name), path("keys"));
   }
 }

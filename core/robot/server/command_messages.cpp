@@ -23,12 +23,12 @@ bool is_time(const ros::Time& time) {
 }
 
 ros::JointTrajectory trajectory(const RobotCommand& command, const std::vector<std::string>& names, int first,
-                                int64_t period_us) {
+                                int64_t time_us) {
   ros::JointTrajectory message;
   message.stamp = ros_time(command.frame_timestamp_us);
   message.joint_names = names;
   ros::JointTrajectoryPoint& point = message.points.emplace_back();
-  point.time_from_start = ros_time(period_us);
+  point.time_from_start = ros_time(time_us);
   for (size_t j = 0; j < names.size(); ++j) {
     const double angle = command.targets->hand.joints.at(static_cast<size_t>(first) + j);
     if (!std::isfinite(angle)) throw Error("robot command", names[j], fmt::format("{}", angle), "a finite number");
@@ -80,12 +80,16 @@ int64_t nanoseconds(const ros::Time& time) {
   return int64_t{time.sec} * kNanosecondsOfASecond + time.nanosec;
 }
 
-ros::JointTrajectory hand_message(const RobotCommand& command, int64_t period_us) {
-  return trajectory(command, hand_trajectory_names(), 0, period_us);
+int64_t time_to_targets_us(double longest_step_s) {
+  return std::max(static_cast<int64_t>(std::ceil(longest_step_s * 1e6)), kMeasuredAgeUs);
 }
 
-ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t period_us) {
-  return trajectory(command, wrist_trajectory_names(), kWRJ1, period_us);
+ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us) {
+  return trajectory(command, hand_trajectory_names(), 0, time_us);
+}
+
+ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us) {
+  return trajectory(command, wrist_trajectory_names(), kWRJ1, time_us);
 }
 
 ros::PoseStamped pose_message(const RobotCommand& command) {

@@ -98,10 +98,19 @@ ros::Time ros_time(int64_t time_us);
 /// Of any ros::Time.
 int64_t nanoseconds(const ros::Time& time);
 
+/// Older than this, a measured state is not believed; nor is one that is farther ahead in time.
+inline constexpr int64_t kMeasuredAgeUs = 100'000;
+
+/// How long a controller shall take to a command's targets. One that goes there straight from where it is then
+/// keeps the guard's limits of speed, whenever commands come: it is never farther away than it gets in that time.
+/// For after a time t it still has at most the rest to go to the last targets, and the next ones are at most min(t,
+/// `longest_step_s`) farther; and where a motion starts was measured at most kMeasuredAgeUs ago.
+int64_t time_to_targets_us(double longest_step_s);
+
 /// A command's targets, which must be there, as the controllers of hand and wrist take them: one point, to be
-/// reached `period_us` later; stamped with the time of the frame. Throws Error if a target is not finite.
-ros::JointTrajectory hand_message(const RobotCommand& command, int64_t period_us);
-ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t period_us);
+/// reached `time_us` later; stamped with the time of the frame. Throws Error if a target is not finite.
+ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us);
+ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us);
 /// Where the arm shall take the wrist: the frame of WRJ2, which is fixed to the forearm (`shadow_T_wrist_hand`), so
 /// that the hand gets to T_base_hand when its wrist has bent, too. In kBaseFrame, stamped alike.
 ros::PoseStamped pose_message(const RobotCommand& command);

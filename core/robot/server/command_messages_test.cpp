@@ -2,9 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <vector>
 
 #include "core/base/error.h"
+#include "core/base/random.h"
+#include "core/robot/command_guard.h"
 #include "core/robot/server/test_messages.h"
 #include "core/robot/shadow_kinematics.h"
 #include "core/robot/test_commands.h"
@@ -40,6 +46,86 @@ TEST(CommandMessages, CarryTheTargets) {
   EXPECT_EQ(hand.points[0].positions[kFFJ3], 0.5);
   EXPECT_EQ(hand.joint_names[kFFJ3], "rh_FFJ3");
   EXPECT_THAT(wrist.points[0].positions, ElementsAre(0, -0.25));
+}
+
+/// A controller of joints that goes straight from where it is to the last targets, in the time that they give it.
+class Controller {
+ public:
+  using Joints = std::array<double, kShadowJointCount>;
+  explicit Controller(const Joints& at) : from_(at), to_(at) {}
+
+  Joints at(int64_t now_us) const {
+    const double share =
+        std::clamp(static_cast<double>(now_us - begin_us_) / static_cast<double>(time_us_), 0.0, 1.0);
+    Joints joints;
+    for (size_t j = 0; j < joints.size(); ++j) joints[j] = from_[j] + share * (to_[j] - from_[j]);
+    return joints;
+  }
+  /// Returns the largest speed of a joint on the new way, rad/s.
+  double take(const RobotCommand& command, int64_t time_us) {
+    const ros::JointTrajectory hand = hand_message(command, time_us), wrist = wrist_message(command, time_us);
+    from_ = at(command.timestamp_us);
+    std::ranges::copy(wrist.points[0].positions, std::ranges::copy(hand.points[0].positions, to_.begin()).out);
+    begin_us_ = command.timestamp_us;
+    time_us_ = nanoseconds(hand.points[0].time_from_start) / 1000;
+    double farthest = 0;
+    for (size_t j = 0; j < to_.size(); ++j) farthest = std::max(farthest, std::abs(to_[j] - from_[j]));
+    return farthest / (static_cast<double>(time_us_) * 1e-6);
+  }
+
+ private:
+  Joints from_, to_;
+  int64_t begin_us_ = 0, time_us_ = 1;
+};
+
+/// The largest speed of a joint of a controller, rad/s. `gaps_us`: between commands, again and again; empty: random
+/// ones, many of them shorter than a way and some of them pauses.
+double fastest(const CommandLimits& limits, const std::vector<int64_t>& gaps_us) {
+  RandomStream random(1, "controller", 0, "stamps");
+  const RobotTargets start = *good_command(0).targets;
+  CommandGuard guard(limits);
+  guard.start_from(start);
+  Controller controller(start.hand.joints);
+  int64_t now_us = 1'000'000;
+  double fastest = 0;
+  for (size_t i = 0; i < 3000; ++i) {
+    now_us += gaps_us.empty() ? 1 + static_cast<int64_t>(300'000 * std::pow(random.uniform(), 5))
+                              : gaps_us[i % gaps_us.size()];
+    if (i % 17 == 16) {
+      guard.guard(lost_command(now_us));
+      continue;
+    }
+    RobotCommand command = good_command(now_us);
+    set_joint(*command.targets, kFFJ3, random.uniform() < 0.3 ? 0 : 1.5);
+    set_joint(*command.targets, kWRJ1, random.uniform() < 0.5 ? -0.6 : 0.4);
+    if (guard.state_at(now_us) != CommandState::following) {  // as `track` before a controller
+      RobotTargets measured = start;
+      measured.hand.joints = controller.at(now_us - kMeasuredAgeUs);
+      make_actuators(measured.hand);
+      guard.start_from(measured);
+      guard.tick(now_us - 1);
+    }
+    if (const std::optional<RobotCommand> sent = guard.guard(command))
+      fastest = std::max(fastest, controller.take(*sent, time_to_targets_us(limits.longest_step_s)));
+  }
+  return fastest;
+}
+
+TEST(CommandMessages, LeaveAControllerWithinTheLimitsWheneverTheyCome) {
+  const std::vector<std::vector<int64_t>> streams = {
+      {33'333}, {100'000, 1'000}, {500'000, 1, 1, 1, 1, 1, 1, 1, 1}, {2'000'000, 1'000, 140'000, 1'000}, {}};
+  for (const double longest_step_s : {0.01, 0.1, 1.0}) {
+    CommandLimits limits;
+    limits.longest_step_s = longest_step_s;
+    limits.fingertip_speed = 5;  // so that the joints' speed is what counts
+    double of_all = 0;
+    for (const std::vector<int64_t>& gaps_us : streams) {
+      const double speed = fastest(limits, gaps_us);
+      EXPECT_LE(speed, limits.hand_joint_speed * (1 + 1e-9)) << longest_step_s << testing::PrintToString(gaps_us);
+      of_all = std::max(of_all, speed);
+    }
+    EXPECT_GE(of_all, limits.hand_joint_speed * 0.25) << "it does move";
+  }
 }
 
 TEST(CommandMessages, TellTheArmWhereTheWristGoes) {

@@ -59,17 +59,21 @@ std::string read_tail(const std::string& path, uint64_t max_bytes) {
 }
 
 struct LogWriter::Shared {
-  explicit Shared(const std::string& path);
+  explicit Shared(const std::string& its_path);
   ~Shared() { ::close(descriptor); }
   Shared(const Shared&) = delete;
   Shared& operator=(const Shared&) = delete;
 
   /// Writes one line or more, given without the last line end. Returns how many were lost, and why.
   std::pair<int64_t, int> append(const std::string& lines);
+  /// Why who opens the file by its name does not find all that was written; empty if they do.
+  std::string misplaced() const;
 
   // The thread's own.
+  const std::string path;
   int descriptor;
   bool is_regular = false;
+  off_t size = 0;       ///< with all that was written
   bool is_cut = false;  ///< the file does not end with a whole line
 
   mutable std::mutex mutex;
@@ -80,8 +84,8 @@ struct LogWriter::Shared {
   Progress progress;
 };
 
-LogWriter::Shared::Shared(const std::string& path)
-    : descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
+LogWriter::Shared::Shared(const std::string& its_path)
+    : path(its_path), descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
   if (descriptor < 0) throw Error(path, "file", std::strerror(errno), "one that can be appended to");
   struct stat status {};
   is_regular = fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
@@ -93,13 +97,25 @@ LogWriter::Shared::Shared(const std::string& path)
     ::close(descriptor);
     throw;
   }
+  size = status.st_size;
   is_cut = ends_within_a_line(descriptor);
+}
+
+std::string LogWriter::Shared::misplaced() const {
+  struct stat held {};
+  struct stat named {};
+  if (!is_regular) return "";
+  if (fstat(descriptor, &held) != 0) return std::strerror(errno);
+  if (stat(path.c_str(), &named) != 0 || named.st_dev != held.st_dev || named.st_ino != held.st_ino)
+    return "a file that was removed or renamed";
+  return held.st_size < size ? "a file that was cut" : "";
 }
 
 std::pair<int64_t, int> LogWriter::Shared::append(const std::string& lines) {
   const std::string whole = (is_cut ? "\n" : "") + lines + "\n";
   const Written written = write_all(descriptor, whole);
   if (written.bytes > 0) is_cut = whole[written.bytes - 1] != '\n';
+  size += static_cast<off_t>(written.bytes);
   if (written.error == 0) return {0, 0};
   futimens(descriptor, nullptr);  // takes no room, and tells the next reader that there was more
   int64_t lost = std::ranges::count(whole.substr(written.bytes), '\n');
@@ -167,13 +183,17 @@ void LogWriter::write_lines(const std::shared_ptr<Shared>& shared) {
     sync |= now - synced >= kSyncPeriod;
     if (sync) synced = now;
     if (const int failed = sync ? sync_file(shared->descriptor) : 0; error == 0) error = failed;
+    const std::string misplaced = shared->misplaced();
+    const std::string failure = !misplaced.empty() ? misplaced : error != 0 ? std::strerror(error) : "";
+    if (!misplaced.empty()) lost = lines.empty() ? 0 : std::ranges::count(lines, '\n') + 1;
     lock.lock();
     Progress& progress = shared->progress;
     progress.done = number;
     progress.lost += lost;
-    if (error != 0) progress.failed = number;
-    if (error == 0 && sync && shared->is_regular) progress.durable = number;
-    if (error != 0 && progress.failure.empty()) progress.failure = std::strerror(error);
+    progress.misplaced = !misplaced.empty();
+    if (!failure.empty()) progress.failed = number;
+    if (failure.empty() && sync && shared->is_regular) progress.durable = number;
+    if (progress.failure.empty()) progress.failure = failure;
     if (!last) continue;
     shared->ended = true;
     shared->changed.notify_all();

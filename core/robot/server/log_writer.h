@@ -31,11 +31,12 @@ class LogWriter {
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
-    uint64_t done = 0;     ///< this line and all before it were written, or lost
-    uint64_t durable = 0;  ///< all after `failed` up to this one are on the disk; a device or a pipe has none
-    uint64_t failed = 0;   ///< this line or one before it is not, perhaps
-    int64_t lost = 0;      ///< lines
-    std::string failure;   ///< the first one
+    uint64_t done = 0;       ///< this line and all before it were written, or lost
+    uint64_t durable = 0;    ///< all after `failed` up to this one are on the disk; a device or a pipe has none
+    uint64_t failed = 0;     ///< this line or one before it is not, perhaps
+    int64_t lost = 0;        ///< lines
+    std::string failure;     ///< the first one
+    bool misplaced = false;  ///< the file was removed, renamed or cut: its name does not lead to all lines
   };
   Progress progress() const;
 

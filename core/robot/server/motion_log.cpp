@@ -20,6 +20,13 @@ double widest_deg(const JointInterval& interval) {
   return degrees_from_radians(widest);
 }
 
+/// An interval is rounded outwards, so a state that was inside is still.
+bool holds(const JointInterval& interval, const std::vector<double>& positions) {
+  for (size_t j = 0; j < positions.size(); ++j)
+    if (!(positions[j] >= interval.min[j] && positions[j] <= interval.max[j])) return false;
+  return true;
+}
+
 }  // namespace
 
 MotionLog::MotionLog(const std::string& path, std::vector<std::string> names, std::vector<JointMotion> joints)
@@ -38,13 +45,16 @@ LoggedStart MotionLog::start(const std::vector<double>& rest, int64_t now_us, do
   const std::string tail = read_tail(path_, kTailBytes);
   const std::optional<LoggedState> last = last_state(tail, names_, path_);
   const std::optional<JointInterval> interval = last_interval(tail, names_, path_);
-  if (!last && !interval) return start;
+  // Joints move only after a state and an interval were written: no server with this log has moved any.
+  if (!last && !interval && tail.size() < kTailBytes) return start;
   start.source = path_;
   start.from = "log";
   if (!last || !interval) {
     start.doubt = "the log does not say within which limits the joints were";
   } else if (!is_one_step(*interval, joints_, period_s)) {
     start.doubt = fmt::format("the log says only within {:.1f} degrees where a joint was", widest_deg(*interval));
+  } else if (!holds(*interval, last->positions)) {
+    start.doubt = "the log's last state is outside of its last interval";
   }
   if (!last) return start;
   if (start.doubt.empty()) {  // else the place is measured, and nobody believes the log
@@ -53,8 +63,6 @@ LoggedStart MotionLog::start(const std::vector<double>& rest, int64_t now_us, do
   }
   start.age = age_text(*last, now_us);
   start.joints = last->positions;
-  for (size_t j = 0; interval && j < start.joints.size(); ++j)
-    start.joints[j] = std::clamp(start.joints[j], interval->min[j], interval->max[j]);
   return start;
 }
 
@@ -106,7 +114,7 @@ void MotionLog::finish(const RobotState& its, int64_t time_us) {
 bool MotionLog::may_move(const std::vector<double>& positions, double seconds) {
   if (!writer_) return true;
   update();
-  return stated_.allows(positions, seconds);
+  return !writer_->progress().misplaced && stated_.allows(positions, seconds);
 }
 
 }  // namespace glovebench

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -111,9 +112,46 @@ TEST_F(MotionLogTest, AKillInMotionNeedsAMeasuredStateAndOneAtRestDoesNot) {
   write_file(path_, in_motion + interval_line({{0, 1}, {0.02, 1.005}}, 1, names) + "\n");
   EXPECT_EQ(start().doubt, "") << "one step";
   write_file(path_, in_motion + interval_line({{0.5, 1}, {0.5, 1}}, 1, names) + "\n");
-  EXPECT_NEAR(start().joints[0], 0.5, 1e-7) << "an interval that is newer than the last state";
+  EXPECT_THAT(start().doubt, HasSubstr("outside of its last interval"));
   write_file(path_, state_line({1, CommandState::stopped, {0, 1}, {}}, system_us(), names) + "\n");
   EXPECT_NE(start().doubt, "") << "a log of an older version";
+}
+
+TEST_F(MotionLogTest, ALogWhoseStatesAreOutOfSightNeedsAMeasuredState) {
+  {
+    MotionLog log = open(path_);
+    ASSERT_TRUE(comes_to_move(log, {0, 1}));
+    log.finish({clock_us_ + 1, CommandState::holding, {0, 1}, {}}, system_us());
+  }
+  ASSERT_EQ(start().doubt, "");
+  std::string flood;
+  while (flood.size() < (1 << 20)) flood += received_line({}) + "\n";
+  write_file(path_, read_file(path_) + flood);
+  EXPECT_THAT(start().doubt, HasSubstr("does not say"));
+  write_file(path_, received_line({}) + "\n");
+  EXPECT_EQ(start().from, "rest") << "nothing ever moved";
+}
+
+TEST_F(MotionLogTest, HoldsTheJointsWhereItsNameDoesNotLeadToIt) {
+  const auto cut = [&] { std::filesystem::resize_file(path_, 10); };
+  const auto rename = [&] { std::filesystem::rename(path_, path_ + ".1"); };
+  const auto replace = [&] { write_file(path_, ""); };  // another file gets the name
+  const auto remove = [&] { std::filesystem::remove(path_); };
+  for (const std::function<void()>& harm : std::vector<std::function<void()>>{cut, rename, replace, remove}) {
+    std::filesystem::remove(path_);
+    MotionLog log = open(path_);
+    ASSERT_TRUE(comes_to_move(log, {0, 1}));
+    EXPECT_EQ(log.failure(), "");
+    harm();
+    int64_t moving = 0;
+    for (int i = 0; i < 200; ++i) {
+      moving = tick(log, {0, 1 + 1e-9 * i}, false) ? moving + 1 : 0;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    EXPECT_EQ(moving, 0) << "states since the last that had to hold";
+    EXPECT_GT(log.lost(), 0);
+    EXPECT_THAT(log.failure(), HasSubstr("a file that was "));
+  }
 }
 
 TEST_F(MotionLogTest, AFloodFillsNoDisk) {
