@@ -291,18 +291,19 @@ TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
       "noise floor", "/entries",
       [](int i) {
         return fmt::format(
-            R"({{"experiment":"{}","quantity":"rotation_error_deg","spread":0,"minimum_effect":0,"detectable":0}})",
+            R"({{"experiment":"{}","quantity":"rotation_error_deg","spread":0,"minimum_effect":1,"detectable":0}})",
             i);
       },
       "");
   const std::string metrics = repeated(",0", 2 * reports::frame_metrics().size());
+  const std::string no_metrics = repeated(",null", 5 * reports::frame_metrics().size());
   check(
       "results", "/experiments/1/runs/0/frames",
       [&](int i) { return fmt::format(R"([{0},{0},"lost",true,true,true,true,true,0{1}])", i, metrics); },
       "found \"lost\"");
   check(
       "results", "/experiments/1/runs/0/frames",
-      [&](int i) { return fmt::format(R"([{0},{0},"no_hand",true,true,true,true,true,0{1}])", i, metrics); },
+      [&](int i) { return fmt::format(R"([{0},{0},"no_hand",false,false,true,true,true,0{1}])", i, no_metrics); },
       "counts of the frames");  // read to its end first
 }
 

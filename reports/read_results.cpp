@@ -39,7 +39,11 @@ Protocol read_protocol(const JsonCursor& json) {
   Protocol protocol;
   protocol.metric_definitions = json["metric_definitions"].count();
   protocol.joint_order = read_texts(json["joint_order"]);
-  for (const JsonCursor& key : json["metric_keys"].items()) protocol.metric_keys.push_back(key.name());
+  for (const JsonCursor& key : json["metric_keys"].items()) {
+    if (std::ranges::find(protocol.metric_keys, key.name()) != protocol.metric_keys.end())
+      key.fail("a metric that has not been before");
+    protocol.metric_keys.push_back(key.name());
+  }
   protocol.association = json["association"].text();
   const JsonCursor id = json["id"];
   if (id.text() != protocol.id())

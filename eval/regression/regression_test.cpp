@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <nlohmann/json.hpp>
 
+#include "core/base/hash.h"
 #include "eval/share.h"
 #include "eval/test_program.h"
 #include "reports/results_json.h"
@@ -14,6 +16,7 @@ namespace glovebench::eval {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 using reports::RunResult;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -124,13 +127,18 @@ TEST_F(RegressionLong, AMetricOfOneVersionAloneDecidesNothing) {
     without_residual(r);
     add_position_error(r, 1);
   });
-  copy_baseline();
+  make_baseline();
   const ProgramRun passed = gate(fewer);
   EXPECT_EQ(passed.exit_code, 0);
   EXPECT_THAT(passed.out, HasSubstr("not compared: icp_residual_mm (not in the candidate)"));
   EXPECT_EQ(gate(fewer_worse).exit_code, 1);
 
-  fs::copy_file(fewer + "/results.json", path("baseline/results.json"), fs::copy_options::overwrite_existing);
+  const std::string results = read_file(fewer + "/results.json");
+  json provenance = json::parse(read_file(path("baseline/provenance.json")));
+  provenance["results_hash"] = hash_text(results);
+  fs::remove(path("baseline/manifest.json"));
+  write_file(path("baseline/results.json"), results);
+  write_file(path("baseline/provenance.json"), provenance.dump());
   const ProgramRun same = gate(path("same"), {"-o", path("fewer-report")});
   EXPECT_EQ(same.exit_code, 0);
   EXPECT_THAT(same.out, HasSubstr("not compared: icp_residual_mm (not in the baseline)"));

@@ -312,7 +312,6 @@ static void act(dds_entity_t* writers, char* line) {
 static int talk(dds_entity_t participant, const char* script) {
   dds_entity_t writers[kTopics + 1] = {0};
   writers[kTopics] = participant;
-  for (int t = 0; t < kStates; ++t) writer_of(writers, t);
   FILE* file = fopen(script, "r");
   if (!file) return 1;
   static char line[64000];
