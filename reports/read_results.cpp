@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/base/excerpt.h"
 #include "core/base/input_file.h"
@@ -39,9 +40,9 @@ Protocol read_protocol(const JsonCursor& json) {
   Protocol protocol;
   protocol.metric_definitions = json["metric_definitions"].count();
   protocol.joint_order = read_texts(json["joint_order"]);
+  std::set<std::string> known;  // a file may hold millions
   for (const JsonCursor& key : json["metric_keys"].items()) {
-    if (std::ranges::find(protocol.metric_keys, key.name()) != protocol.metric_keys.end())
-      key.fail("a metric that has not been before");
+    if (!known.insert(key.name()).second) key.fail("a metric that has not been before");
     protocol.metric_keys.push_back(key.name());
   }
   protocol.association = json["association"].text();
