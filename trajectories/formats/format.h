@@ -59,7 +59,7 @@ PostureSet load_posture_set(const std::string& path);
 
 /// The format of markers with that name. Throws Error listing the known ones.
 const Format& find_marker_format(std::string_view name);
-/// "csv, handpose, trc, webxr"
+/// Separated by commas, for messages and help.
 std::string marker_format_names();
 
 }  // namespace glovebench::trajectories
