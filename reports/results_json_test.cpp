@@ -1,5 +1,6 @@
 #include "reports/results_json.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -172,8 +173,8 @@ TEST(ResultsJson, ErrorsNameFileFieldAndExpectation) {
               HasSubstr("experiments[0].runs: found nothing"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][1]["frames"][0][2] = "lucky"; }),
               HasSubstr("experiments[0].runs[1].frames[0][2]: found \"lucky\", expected tracked, no_hand, "));
-  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"][0].erase(22); }),
-              HasSubstr("frames[0]: found an array of 22"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"][0].erase(9); }),
+              HasSubstr(fmt::format("frames[0]: found an array of {}", 9 + frame_metrics().size() - 1)));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["coverage"]["lost"] = 0; }),
               HasSubstr("experiments[0].coverage"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["runs"][0]["frames"].erase(1); }),
