@@ -46,6 +46,7 @@ std::vector<TrackedReplay> example_replay() {
       result.icp_points = 999;
       result.icp_iterations = 13;
       result.icp_residual = -0.0;
+      if (frame == 1) result.certainty = {result.posture, 0x2aaaaa};
       reports::FrameErrors errors;
       errors.record.frame = frame;
       errors.record.timestamp_us = result.timestamp_us;
@@ -83,6 +84,11 @@ TEST(StoredReplay, ComesBackToTheLastBit) {
                 std::tie(s.timestamp_us, s.status, s.ambiguous, s.converged, s.cloud_points, s.icp_points));
       EXPECT_EQ(r.icp_iterations, s.icp_iterations);
       EXPECT_TRUE(std::signbit(r.icp_residual)) << "minus zero";
+      ASSERT_EQ(r.certainty.has_value(), f == 1);
+      if (r.certainty) {
+        EXPECT_EQ(r.certainty->deviation, s.certainty->deviation);
+        EXPECT_EQ(r.certainty->hidden, 0x2aaaaaU);
+      }
       EXPECT_TRUE(r.posture == s.posture && r.posture_unfiltered == s.posture_unfiltered);
       expect_same_bits(r.T_camera_hand, s.T_camera_hand);
       expect_same_bits(r.T_camera_hand_unfiltered, s.T_camera_hand_unfiltered);

@@ -46,7 +46,8 @@ json row_of(const TrackResult& r) {
           r.cloud_points,
           r.icp_points,
           r.icp_iterations,
-          r.icp_residual};
+          r.icp_residual,
+          r.certainty ? json{row_of(r.certainty->deviation), r.certainty->hidden} : json()};
 }
 
 TrackStatus status_of(const json& value) {
@@ -71,6 +72,8 @@ TrackResult result_of(const json& row) {
   r.icp_points = row.at(11);
   r.icp_iterations = row.at(12);
   r.icp_residual = row.at(13);
+  if (const json& certainty = row.at(14); !certainty.is_null())
+    r.certainty = {posture_of(certainty.at(0)), certainty.at(1).get<uint32_t>()};
   return r;
 }
 

@@ -230,7 +230,36 @@ HWY_EXPORT(FindClosest);
 HWY_EXPORT(LaneCount);
 }  // namespace
 
+void ClosestPointSearch::keep_nearest_as_triangles() {
+  for (PointGroup& group : groups_) {
+    for (int i = 0; i < group.nearest_count; ++i)
+      group.nearest[i] = triangles_[group.label][colors_[group.label].faces[group.nearest[i]].face];
+  }
+}
+
+void ClosestPointSearch::find_nearest_of_triangles(const Surface& surface) {
+  places_.clear();
+  for (uint8_t label = 0; label < colors_.size(); ++label) {
+    triangles_[label].clear();
+    for (const Surface::Face& face : surface.faces(label)) {
+      if (places_.size() <= face.triangle) places_.resize(face.triangle + 1);
+      places_[face.triangle] = {colors_[label].place[triangles_[label].size()], label};
+      triangles_[label].push_back(static_cast<int32_t>(face.triangle));
+    }
+  }
+  for (PointGroup& group : groups_) {
+    int kept = 0;
+    for (int i = 0; i < group.nearest_count; ++i) {
+      const auto triangle = static_cast<size_t>(group.nearest[i]);
+      if (triangle < places_.size() && places_[triangle].face >= 0 && places_[triangle].label == group.label)
+        group.nearest[kept++] = places_[triangle].face;
+    }
+    group.nearest_count = kept;
+  }
+}
+
 void ClosestPointSearch::start(const Surface& surface) {
+  keep_nearest_as_triangles();
   middles_.clear();
   for (uint8_t label = 0; label < colors_.size(); ++label)
     for (const Surface::Face& face : surface.faces(label))
@@ -249,7 +278,7 @@ void ClosestPointSearch::start(const Surface& surface) {
   constexpr size_t kBehind = FacePackets::kFaces;  // where a compressing store may write
   scratch_.candidates.resize(most + kBehind);
   scratch_.doubt.resize(most + kBehind);
-  for (PointGroup& group : groups_) group.nearest_count = 0;
+  find_nearest_of_triangles(surface);
 }
 
 void ClosestPointSearch::group(std::span<const LabeledPoint> points_hand) {

@@ -46,17 +46,27 @@ class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;
   explicit ClosestPointSearch(const Surface& surface) { start(surface); }
-  /// Another surface, or others of its faces; the points may stay the same. The surface is copied.
+  /// Another surface, or others of its faces; the points may stay the same. The surface is copied. The faces that
+  /// were nearest to points are measured first if they are still there: a hand that moves a little keeps them.
   void start(const Surface& surface);
   /// Valid until the next call.
   const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);
   const SearchWork& work() const { return work_; }
 
  private:
+  /// Names the nearest faces of all groups by their triangles in the model; and back, those that the surface has.
+  void keep_nearest_as_triangles();
+  void find_nearest_of_triangles(const Surface& surface);
   /// Unless they have the labels that they had.
   void group(std::span<const LabeledPoint> points_hand);
 
   std::array<FacePackets, kColorCount + 1> colors_;
+  std::array<RecycledVector<int32_t>, kColorCount + 1> triangles_;  ///< of the faces of each color
+  struct Place {
+    int32_t face = -1;  ///< in FacePackets::faces; -1 where the surface does not have the triangle
+    uint8_t label = 0;
+  };
+  RecycledVector<Place> places_;  ///< of the triangles
   PlaceOrder order_;
   RecycledVector<LabeledPoint> middles_;  ///< of the faces; reused by `start`
   RecycledVector<uint8_t> labels_;        ///< of the points that are grouped

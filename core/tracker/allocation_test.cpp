@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/sanitizers.h"
+#include "core/methods/method.h"
 #include "core/tracker/test_scene.h"
 
 // The sanitizers put functions of their own in the place of these.
@@ -77,13 +78,15 @@ const std::vector<DeviceFrame>& frames() {
   return shot;
 }
 
-/// Of the third time that a tracker sees them.
+/// Of the third time that a method sees them.
 std::vector<int> requests_a_frame(const TrackerConfig& config) {
-  Tracker tracker = make_tracker(config);
+  const std::unique_ptr<Method> method = find_method(config.method)
+                                             .make({config, synthetic_calibration(), borrowed(render::test_hand()),
+                                                    borrowed(test_database()), borrowed(test_color_table())});
   for (int round = 0; round < 2; ++round)
-    for (const DeviceFrame& frame : frames()) EXPECT_EQ(tracker.track(frame).status, TrackStatus::tracked);
+    for (const DeviceFrame& frame : frames()) EXPECT_EQ(method->track(frame).status, TrackStatus::tracked);
   std::vector<int> counts;
-  for (const DeviceFrame& frame : frames()) counts.push_back(requests_of([&] { tracker.track(frame); }));
+  for (const DeviceFrame& frame : frames()) counts.push_back(requests_of([&] { method->track(frame); }));
   return counts;
 }
 
@@ -137,6 +140,10 @@ TEST(Allocation, does_not_happen_once_a_tracker_has_begun) {
   filtered.segmentation.largest_component = true;
   filtered.icp.cull_each_iteration = true;
   EXPECT_THAT(requests_a_frame(filtered), testing::Each(0));
+
+  TrackerConfig articulated;
+  articulated.method = "articulated";
+  EXPECT_THAT(requests_a_frame(articulated), testing::Each(0));
 }
 
 }  // namespace

@@ -33,6 +33,15 @@ std::string estimate_line(int frame, const TrackResult& result) {
   line["icp_residual_mm"] = rounded(1000 * result.icp_residual);
   line["ambiguous"] = result.ambiguous;
   line["converged"] = result.converged;
+  if (result.certainty) {
+    nlohmann::ordered_json deviations = nlohmann::ordered_json::array(), hidden = nlohmann::ordered_json::array();
+    for (int a = 0; a < kAngleCount; ++a) {
+      deviations.push_back(rounded(degrees_from_radians(result.certainty->deviation[a])));
+      if (result.certainty->hidden >> a & 1) hidden.push_back(angle_infos()[a].name);
+    }
+    line["angle_deviations_deg"] = deviations;
+    line["hidden"] = hidden;
+  }
   return line.dump();
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 
 #include "core/base/enum_names.h"
 #include "core/database/look_up.h"
@@ -30,6 +31,12 @@ constexpr auto names_of(TrackStatus) {
 }
 static_assert(kCountOf<TrackStatus> == static_cast<int>(TrackStatus::poor_alignment) + 1, "each value has a name");
 
+/// What a method knows of the angles that it gives.
+struct AngleCertainty {
+  Posture deviation = Posture::Zero();  ///< standard deviation of each angle, rad
+  uint32_t hidden = 0;  ///< bit a: hardly a point of what angle a moves was seen; the angle is the prior's
+};
+
 /// The tracker's answer for one frame: (theta, R, P) of section III-C and what led to it.
 struct TrackResult {
   int64_t timestamp_us = 0;  ///< of the depth image
@@ -48,7 +55,8 @@ struct TrackResult {
   int cloud_points = 0;    ///< |C|
   int icp_points = 0;      ///< used by the alignment
   int icp_iterations = 0;
-  double icp_residual = 0;  ///< mean point-to-triangle distance at the end, m
+  double icp_residual = 0;                  ///< mean point-to-triangle distance at the end, m
+  std::optional<AngleCertainty> certainty;  ///< of methods that know it
 };
 
 }  // namespace glovebench

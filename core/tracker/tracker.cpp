@@ -6,7 +6,6 @@
 #include "core/pose/interpolate.h"
 
 namespace glovebench {
-namespace {
 
 TrackStatus status_of(AlignmentStatus status) {
   switch (status) {
@@ -22,8 +21,6 @@ TrackStatus status_of(AlignmentStatus status) {
   }
   return TrackStatus::too_few_points;
 }
-
-}  // namespace
 
 void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
                   const ColorTable& table) {

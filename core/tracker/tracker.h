@@ -22,6 +22,9 @@ void check_inputs(const TrackerConfig& config, const HandModel& model, const Dat
 /// Is the best match farther away than `max_matching_error`? `matches` is not empty.
 bool is_poor_match(std::span<const Match> matches, const LookupConfig& config);
 
+/// `tracked` unless the alignment had no answer.
+TrackStatus status_of(AlignmentStatus status);
+
 /// Color-glove hand tracking after Schroeder et al. 2012: from device frames to posture and pose. Sees device
 /// frames and calibration only. One tracker follows one hand; frames are given in time order.
 class Tracker {

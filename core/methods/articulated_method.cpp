@@ -1,0 +1,146 @@
+// Not the paper's: what its outlook names. The look-up's postures are only where the fit begins; then pose and
+// posture follow the points and the outline of the hand.
+
+#include "core/methods/method.h"
+#include "core/pose/articulated_fit.h"
+#include "core/pose/interpolate.h"
+#include "core/tracker/detection.h"
+
+namespace glovebench {
+namespace {
+
+constexpr float kDepthStep = 0.010;  ///< m: a point beside a larger one lies on an edge and may be anywhere
+constexpr float kBehindHand = 0.13;  ///< m: what is this much farther than the hand's mean depth is not the hand
+constexpr int kMaskMargin_px = 40;
+
+/// The points of a cloud none of whose four neighbors lies at another depth, or at none.
+RecycledVector<LabeledPoint> points_off_edges(const LabeledCloud& cloud, const DepthImage& depth) {
+  RecycledVector<LabeledPoint> points;
+  points.reserve(cloud.points.size());
+  size_t next = 0;
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      if (cloud.labels(u, v) == 0) continue;
+      const LabeledPoint& point = cloud.points[next++];
+      if (u == 0 || v == 0 || u + 1 == depth.width() || v + 1 == depth.height()) continue;
+      const float z = depth(u, v);
+      const float farthest = std::max(std::max(std::abs(depth(u - 1, v) - z), std::abs(depth(u + 1, v) - z)),
+                                      std::max(std::abs(depth(u, v - 1) - z), std::abs(depth(u, v + 1) - z)));
+      if (farthest <= kDepthStep) points.push_back(point);
+    }
+  }
+  return points;
+}
+
+float mean_depth(std::span<const LabeledPoint> points) {
+  double sum = 0;
+  for (const LabeledPoint& point : points) sum += point.p.z();
+  return static_cast<float>(sum / static_cast<double>(points.size()));
+}
+
+class Articulated : public Method {
+ public:
+  explicit Articulated(const MethodInputs& inputs)
+      : in_(inputs), fit_(inputs.model, {}, inputs.config.icp.implementation), smoother_({0, 0, 15}) {
+    check_inputs(in_.config, *in_.model, *in_.database, *in_.table);
+  }
+
+  TrackResult track(const DeviceFrame& frame, const StageObserver& observe) override {
+    TrackResult result = estimate(
+        frame, observe ? observe : [](std::string_view) {});
+    result.timestamp_us = frame.depth_timestamp_us;
+    if (result.status == TrackStatus::tracked) {
+      previous_ = {result.posture_unfiltered, result.T_camera_hand_unfiltered};
+      lost_frames_ = 0;
+    } else if (++lost_frames_ >= in_.config.smoothing.forget_after) {
+      previous_.reset();
+    }
+    result = smoother_.smooth(std::move(result));  // repeats the last answer in a lost frame, and does no more
+    if (observe) observe("");
+    return result;
+  }
+
+ private:
+  TrackResult estimate(const DeviceFrame& frame, const StageObserver& observe);
+  /// The matches, their mean, and the frame before.
+  RecycledVector<ArticulatedPose> starts(const TrackResult& result, const CoarseEstimate& mean,
+                                         const Eigen::Vector3d& ray, const LabeledCloud& cloud) const;
+
+  MethodInputs in_;
+  ArticulatedFit fit_;
+  Smoother smoother_;
+  HandMask mask_;
+  std::optional<ArticulatedPose> previous_;
+  int lost_frames_ = 0;
+};
+
+RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, const CoarseEstimate& mean,
+                                                    const Eigen::Vector3d& ray, const LabeledCloud& cloud) const {
+  RecycledVector<ArticulatedPose> all = {{mean.posture, result.T_camera_hand_coarse}};
+  if (previous_) all.push_back(*previous_);
+  for (const Match& match : result.matches) {
+    const CoarseEstimate one =
+        interpolate(*in_.database, std::span(&match, 1), ray, in_.config.lookup.interpolation_epsilon);
+    const PosedHand hand = in_.model->pose(one.posture);
+    all.push_back({one.posture, coarse_pose(*in_.model, hand, one.R_camera_hand, cloud.points)});
+  }
+  return all;
+}
+
+TrackResult Articulated::estimate(const DeviceFrame& frame, const StageObserver& observe) {
+  TrackResult result;
+  const Sighting seen = see(frame, in_.calibration, *in_.table, in_.config, observe, Extent::reach);
+  result.cloud_points = static_cast<int>(seen.cloud.points.size());
+  result.status = seen.status;
+  if (result.status != TrackStatus::tracked) return result;
+
+  observe("tiny_images");
+  const Cascade& cascade = in_.config.lookup.cascade;
+  const Square square = bounding_square(seen.cloud.labels);
+  const TinyImages query = make_tiny_images(seen.cloud.labels, square, cascade);
+
+  observe("look_up");
+  result.matches = look_up(*in_.database, query, cascade, in_.config.lookup.implementation);
+  if (result.matches.empty()) return result.status = TrackStatus::no_hand, result;
+  if (is_poor_match(result.matches, in_.config.lookup)) return result.status = TrackStatus::poor_match, result;
+  const Eigen::Vector3d ray = square_ray(square, in_.calibration.ir);
+  const CoarseEstimate mean =
+      interpolate(*in_.database, result.matches, ray, in_.config.lookup.interpolation_epsilon);
+  result.ambiguous = mean.ambiguous;
+  result.T_camera_hand_coarse =
+      coarse_pose(*in_.model, in_.model->pose(mean.posture), mean.R_camera_hand, seen.cloud.points);
+
+  observe("mask");
+  mask_.assign(seen.depth, frame.raw_disparity, label_box(seen.cloud.labels, kMaskMargin_px),
+               mean_depth(seen.cloud.points) + kBehindHand);
+  const RecycledVector<LabeledPoint> points = points_off_edges(seen.cloud, seen.depth);
+
+  observe("fit");
+  const ArticulatedEstimate fitted =
+      fit_({points, mask_, in_.calibration.ir}, starts(result, mean, ray, seen.cloud),
+           previous_ ? &previous_->posture : nullptr);
+  result.posture_unfiltered = fitted.pose.posture;
+  result.T_camera_hand_unfiltered = fitted.pose.T_camera_hand;
+  result.converged = fitted.status == AlignmentStatus::converged;
+  result.icp_points = fitted.points;
+  result.icp_iterations = fitted.steps;
+  result.icp_residual = fitted.residual;
+  if (result.converged) result.certainty = {fitted.deviation, fitted.hidden};
+  result.status = status_of(fitted.status);
+  if (result.converged && fitted.residual > in_.config.max_residual) result.status = TrackStatus::poor_alignment;
+  return result;
+}
+
+std::unique_ptr<Method> make_articulated(const MethodInputs& inputs) {
+  return std::make_unique<Articulated>(inputs);
+}
+
+}  // namespace
+
+MethodEntry articulated_method() {
+  return {"articulated",
+          "pose and 22 angles refined against points and outline, from the look-up's postures and the frame before",
+          make_articulated};
+}
+
+}  // namespace glovebench

@@ -1,0 +1,310 @@
+#include "core/pose/articulated_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/angles.h"
+#include "core/base/check.h"
+#include "core/pose/matcher.h"
+
+namespace glovebench {
+namespace {
+
+constexpr double kPointsOfWeights = 1000;  ///< the weights are those of so many points
+constexpr double kInside = 1e-3;           ///< barycentric coordinates above it: not on an edge
+constexpr double kApart = 1e-5;            ///< m: nearer points have no direction
+/// What the points of a frame tell, per mm^2 of the equations' rows for 1,000 points, and how far an angle may be
+/// off that no point shows. Chosen so that errors on generated movements lie within one and two deviations as often
+/// as they should.
+constexpr double kInformation = 4;
+constexpr double kUnseenDeviation_deg = 15;
+constexpr double kOutlineSlack_px = 1;  ///< a vertex on the outline may lie this far from the nearest pixel
+
+double between(const double (&ends)[2], int step, int steps) {
+  if (steps == 1) return ends[1];
+  return ends[0] * std::pow(ends[1] / ends[0], static_cast<double>(step) / (steps - 1));
+}
+double evenly_between(const double (&ends)[2], int step, int steps) {
+  if (steps == 1) return ends[1];
+  return ends[0] + (ends[1] - ends[0]) * step / (steps - 1);
+}
+
+/// What a step of a stage takes from its schedule.
+struct StepWeights {
+  double tukey_mm, start_weight, tangential;
+};
+
+double tukey(double distance, double width) {
+  const double share = distance / width, rest = 1 - share * share;
+  return rest > 0 ? rest * rest : 0;
+}
+
+Eigen::Vector3d barycentric(const Surface::Face& face, const Eigen::Vector3f& p) {
+  const Eigen::Vector3d ab = (face.b - face.a).cast<double>(), ac = (face.c - face.a).cast<double>();
+  const Eigen::Vector3d ap = (p - face.a).cast<double>(), normal = ab.cross(ac);
+  const double area = normal.squaredNorm();
+  if (!(area > 0)) return Eigen::Vector3d::Unit(0);
+  const double b = ap.cross(ac).dot(normal) / area, c = ab.cross(ap).dot(normal) / area;
+  return {1 - b - c, b, c};
+}
+
+FaceBodies bodies_of_face(const std::array<uint32_t, 3>& corners, std::span<const BodyShares> shares) {
+  FaceBodies face;
+  for (uint8_t body = 0; body < kBodyCount; ++body) {
+    std::array<float, 3> of_corners;
+    for (int c = 0; c < 3; ++c) of_corners[c] = shares[corners[c]][body];
+    if (of_corners == std::array<float, 3>{0, 0, 0}) continue;
+    check(face.count < FaceBodies::kMost, "the corners of a face hang on eight bodies at most");
+    for (int c = 0; c < 3; ++c) face.share[c][face.count] = of_corners[c];
+    face.body[face.count++] = body;
+  }
+  return face;
+}
+
+/// At a place in a face.
+BodyList bodies_at(const FaceBodies& face, const Eigen::Vector3d& barycentric) {
+  BodyList list;
+  list.count = face.count;
+  for (int i = 0; i < face.count; ++i) {
+    list.body[i] = face.body[i];
+    for (int c = 0; c < 3; ++c) list.share[i] += barycentric[c] * static_cast<double>(face.share[c][i]);
+  }
+  return list;
+}
+BodyList bodies_at(const BodyShares& shares) {
+  BodyList list;
+  for (uint8_t body = 0; body < kBodyCount; ++body) {
+    if (shares[body] == 0) continue;
+    list.body[list.count] = body;
+    list.share[list.count++] = static_cast<double>(shares[body]);
+  }
+  return list;
+}
+
+/// One start on its way, against the points of a stage.
+class Run {
+ public:
+  Run(const HandModel& model, std::span<const BodyShares> shares, std::span<const FaceBodies> faces,
+      const FitSchedule& schedule, const HandObservation& seen, const IcpConfig& search, int max_points)
+      : model_(model),
+        shares_(shares),
+        faces_(faces),
+        schedule_(schedule),
+        seen_(seen),
+        matcher_(model, hand_, subsample(seen.points, max_points), search) {}
+
+  /// Poses the hand and finds the closest points. `same_surface`: with the posture and the faces of the last call.
+  void match(const ArticulatedPose& pose, bool same_surface) {
+    if (!same_surface) {
+      hand_ = model_.pose(pose.posture);
+      matcher_.cull(pose.T_camera_hand);
+    }
+    matcher_.match(pose.T_camera_hand);
+  }
+
+  /// The normal equations of points and outline at the pose that was matched.
+  NormalEquations equations(const ArticulatedPose& pose, const StepWeights& weights, bool outline_moves_pose) {
+    const std::array<Screw, kAngleCount> screws = angle_screws(model_, hand_);
+    PullSums of_points(screws), of_outline(screws);
+    add_points(of_points, weights);
+    for_each_outside(pose, [&](size_t vertex, const Pull& pull) {
+      RowSums pulls;
+      pulls.add(pull);
+      of_outline.add(pulls, bodies_at(shares_[vertex]));
+    });
+    NormalEquations sum = of_points.equations(), outline = of_outline.equations();
+    const double scale = kPointsOfWeights / std::max(1, points());
+    if (!outline_moves_pose) {
+      outline.H.topRows<6>().setZero();
+      outline.H.leftCols<6>().setZero();
+      outline.g.head<6>().setZero();
+    }
+    sum.H *= scale;
+    H_points_ = sum.H;
+    sum.H += outline.H;
+    sum.g = scale * sum.g + outline.g;
+    return sum;
+  }
+
+  /// Standard deviation of each angle, rad, from the points of the last equations.
+  Posture deviation() const {
+    StepMatrix information = kInformation * H_points_;
+    for (int a = 0; a < kAngleCount; ++a)
+      information(6 + a, 6 + a) += 1 / (kUnseenDeviation_deg * kUnseenDeviation_deg);
+    const StepMatrix covariance = information.ldlt().solve(StepMatrix::Identity());
+    Posture result;
+    for (int a = 0; a < kAngleCount; ++a)
+      result[a] = radians_from_degrees(std::sqrt(std::max(0.0, covariance(6 + a, 6 + a))));
+    return result;
+  }
+  /// The angles that move few of the points, as bits.
+  uint32_t hidden() const {
+    std::array<int, kPatchCount> of_patches{};
+    for (size_t i = 0; i < matcher_.closest().size(); ++i) {
+      const ClosestPoint& closest = matcher_.closest()[i];
+      if (closest.face < 0) continue;
+      const Surface::Face& face = matcher_.surface().faces(matcher_.cloud()[i].label)[closest.face];
+      ++of_patches[model_.triangles()[face.triangle].patch];
+    }
+    const size_t stride = (seen_.points.size() + points() - 1) / points();
+    uint32_t hidden = 0;
+    for (int a = 0; a < kAngleCount; ++a) {
+      size_t moved_points = 0;
+      for (int patch = 0; patch < kPatchCount; ++patch)
+        if (patches_moved()[a] >> patch & 1) moved_points += of_patches[patch] * stride;
+      if (moved_points < kSeenPoints) hidden |= uint32_t{1} << a;
+    }
+    return hidden;
+  }
+
+  int points() const { return static_cast<int>(matcher_.closest().size()); }
+  int matched_points() const {
+    return static_cast<int>(std::ranges::count_if(matcher_.closest(), [](auto& c) { return c.face >= 0; }));
+  }
+  double mean_distance() const {
+    double sum = 0;
+    for (const ClosestPoint& closest : matcher_.closest()) sum += closest.distance;
+    return sum / std::max(1, matched_points());
+  }
+
+  /// How badly the pose that was matched fits: mean squared distances of points, and of vertices to the mask, each
+  /// cut off; mm^2.
+  double score(const ArticulatedPose& pose) const {
+    const auto cost = [&](double distance_mm) {
+      const double cut = std::min(distance_mm, schedule_.score_cut_mm);
+      return cut * cut;
+    };
+    double of_points = 0, of_outline = 0;
+    for (const ClosestPoint& closest : matcher_.closest())
+      of_points += cost(closest.face < 0 ? schedule_.score_cut_mm : 1000 * static_cast<double>(closest.distance));
+    for_each_outside(pose, [&](size_t, const Pull& pull) { of_outline += cost(pull.distance_mm); });
+    const double vertices = static_cast<double>(hand_.vertices.size()) / schedule_.outline_stride;
+    return of_points / std::max(1, points()) + of_outline / vertices;
+  }
+
+ private:
+  void add_points(PullSums& sums, const StepWeights& weights) const {
+    for (size_t i = 0; i < matcher_.closest().size(); ++i) {
+      const ClosestPoint& closest = matcher_.closest()[i];
+      if (closest.face < 0) continue;
+      const double weight = tukey(1000 * static_cast<double>(closest.distance), weights.tukey_mm);
+      if (weight == 0) continue;
+      const Surface::Face& face = matcher_.surface().faces(matcher_.cloud()[i].label)[closest.face];
+      const Eigen::Vector3d q = closest.p_hand.cast<double>();
+      const Eigen::Vector3d apart = matcher_.points_hand()[i].p.cast<double>() - q;
+      const Eigen::Vector3d at = barycentric(face, closest.p_hand);
+      Eigen::Vector3d direction = (face.b - face.a).cross(face.c - face.a).normalized().cast<double>();
+      if (at.minCoeff() < kInside && apart.norm() > kApart) direction = apart.normalized();
+      RowSums pulls;
+      pulls.add({q, direction, 1000 * direction.dot(apart), weight * (1 - weights.tangential)});
+      if (weights.tangential > 0) pulls.add_along_axes(q, 1000 * apart, weight * weights.tangential);
+      sums.add(pulls, bodies_at(faces_[face.triangle], at));
+    }
+  }
+
+  /// Calls `visit` with each vertex that is seen outside the mask and the way back.
+  template <typename Visit>
+  void for_each_outside(const ArticulatedPose& pose, const Visit& visit) const {
+    const PinholeCamera& camera = seen_.camera;
+    for (size_t vertex = 0; vertex < hand_.vertices.size(); vertex += schedule_.outline_stride) {
+      const Eigen::Vector3d q = hand_.vertices[vertex].cast<double>(), p = pose.T_camera_hand * q;
+      if (!(p.z() > 0.1)) continue;
+      const Eigen::Vector2d uv = camera.project(p);
+      if (uv.x() < 0 || uv.y() < 0 || uv.x() > camera.width - 1 || uv.y() > camera.height - 1) continue;
+      const std::optional<Eigen::Vector2d> way = seen_.mask.way_back_px(uv);
+      if (!way) continue;
+      const double slope = way->x() * p.x() / p.z() + way->y() * p.y() / p.z();
+      const Eigen::Vector3d direction = Eigen::Vector3d(way->x(), way->y(), -slope).normalized();
+      visit(vertex, Pull{q, pose.T_camera_hand.linear().transpose() * direction,
+                         1000 * (way->norm() - kOutlineSlack_px) * p.z() / camera.fx, schedule_.outline_weight});
+    }
+  }
+
+  const HandModel& model_;
+  std::span<const BodyShares> shares_;
+  std::span<const FaceBodies> faces_;
+  const FitSchedule& schedule_;
+  const HandObservation& seen_;
+  PosedHand hand_;
+  Matcher matcher_;
+  StepMatrix H_points_ = StepMatrix::Zero();
+};
+
+/// Holds the posture near those of the start and of the frame before.
+void hold(NormalEquations& equations, const Posture& posture, const Posture& held, double weight) {
+  for (int a = 0; a < kAngleCount; ++a) equations.hold(a, degrees_from_radians(held[a] - posture[a]), weight);
+}
+
+}  // namespace
+
+ArticulatedFit::ArticulatedFit(std::shared_ptr<const HandModel> model, const FitSchedule& schedule,
+                               Implementation implementation)
+    : model_(std::move(model)), shares_(body_shares(*model_)), schedule_(schedule) {
+  for (const Triangle& triangle : model_->triangles()) faces_.push_back(bodies_of_face(triangle.vertices, shares_));
+  search_.implementation = implementation;
+}
+
+ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std::span<const ArticulatedPose> starts,
+                                               const Posture* previous) const {
+  ArticulatedEstimate best;
+  if (seen.points.size() < 3) return best;
+
+  /// A start on its way.
+  struct Candidate {
+    int start;
+    ArticulatedPose pose;
+    double score = 0;  ///< before its last step
+  };
+  // Takes the steps of a stage; `converged`, or why it cannot.
+  const auto run_stage = [&](Run& run, const FitStage& stage, Candidate& candidate) {
+    ArticulatedPose& pose = candidate.pose;
+    for (int i = 0; i < stage.steps; ++i) {
+      run.match(pose, i > 0 && i < stage.rigid_steps);
+      if (run.matched_points() < 3) return AlignmentStatus::no_shared_color;
+      candidate.score = run.score(pose);
+      const StepWeights weights{between(stage.tukey_mm, i, stage.steps),
+                                between(stage.start_weight, i, stage.steps),
+                                evenly_between(stage.tangential, i, stage.steps)};
+      NormalEquations equations = run.equations(pose, weights, stage.outline_moves_pose);
+      hold(equations, pose.posture, starts[candidate.start].posture, weights.start_weight);
+      if (previous != nullptr) hold(equations, pose.posture, *previous, schedule_.previous_weight);
+      const auto step = solve_within_limits(equations, pose.posture, i < stage.rigid_steps);
+      if (!step) return AlignmentStatus::degenerate_cloud;
+      pose = moved(pose, *step);
+    }
+    return AlignmentStatus::converged;
+  };
+  // Those that can take the steps of a stage, best first, at most so many.
+  const auto best_of = [&](const FitStage& stage, const RecycledVector<Candidate>& from, int most) {
+    Run run(*model_, shares_, faces_, schedule_, seen, search_, stage.max_points);
+    RecycledVector<Candidate> to;
+    for (Candidate candidate : from) {
+      best.status = run_stage(run, stage, candidate);
+      if (best.status == AlignmentStatus::converged) to.push_back(candidate);
+    }
+    std::ranges::sort(to, {}, [](const Candidate& c) { return std::pair(c.score, c.start); });
+    if (static_cast<int>(to.size()) > most) to.resize(most, to.front());
+    return to;
+  };
+
+  RecycledVector<Candidate> candidates;
+  for (int s = 0; s < static_cast<int>(starts.size()); ++s) candidates.push_back({s, starts[s]});
+  candidates = best_of(schedule_.trial, candidates, schedule_.kept_starts);
+  candidates = best_of(schedule_.rough, candidates, 1);
+  if (candidates.empty()) return best;
+
+  Run fine(*model_, shares_, faces_, schedule_, seen, search_, schedule_.fine.max_points);
+  best.status = run_stage(fine, schedule_.fine, candidates.front());
+  if (best.status != AlignmentStatus::converged) return best;
+  best.start = candidates.front().start;
+  best.pose = candidates.front().pose;
+  best.points = fine.points();
+  best.steps = schedule_.trial.steps + schedule_.rough.steps + schedule_.fine.steps;
+  best.residual = fine.mean_distance();
+  best.deviation = fine.deviation();
+  best.hidden = fine.hidden();
+  return best;
+}
+
+}  // namespace glovebench
