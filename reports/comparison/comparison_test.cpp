@@ -118,7 +118,7 @@ std::vector<const Metric*> every_metric() {
 }
 
 TEST(Comparison, IntervalsHoldTheTruthAtLeastAsOftenAsTheySay) {
-  // 18 rows at a family error of 0.9 leave 5% for each. The true difference is 0.1 mm.
+  // 20 rows at a family error of 0.9 leave 4.5% for each. The true difference is 0.1 mm.
   constexpr int kTrials = 400;
   const CompareConfig config = {.family_error = 0.9, .resamples = 400};
   Draws draws(config.seed, config.resamples);
