@@ -66,11 +66,20 @@ InputFile::InputFile(const std::string& path, Kind kind) : path_(path) {
     throw Error(path, "file", error != 0 ? std::strerror(error) : kind_name(status.st_mode), kInputExpected);
   }
   if (is_file) size_ = static_cast<uint64_t>(status.st_size);
+  modified_ = status.st_mtim;
   if (is_pipe) wait_for_writer(descriptor_);
 }
 
 InputFile::~InputFile() {
   ::close(descriptor_);
+}
+
+void InputFile::require_unchanged() const {
+  struct stat now = {};
+  const bool is_same = ::fstat(descriptor_, &now) == 0 && static_cast<uint64_t>(now.st_size) == size_ &&
+                       now.st_mtim.tv_sec == modified_.tv_sec && now.st_mtim.tv_nsec == modified_.tv_nsec;
+  if (!is_same)
+    throw Error(path_, "file", "one that was changed while it was in use", "one that is replaced whole");
 }
 
 size_t InputFile::read(std::span<char> room) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <time.h>
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -22,6 +24,9 @@ class InputFile {
   /// Bytes of a regular file; none for a pipe. The files of /proc say 0.
   std::optional<uint64_t> size() const { return size_; }
   int descriptor() const { return descriptor_; }
+  /// Throws Error if the file was written to since it was opened, as far as its size and time tell. A file that
+  /// took its name is another one.
+  void require_unchanged() const;
   /// Reads bytes into the front of `room`; 0 at the end of the file. Throws Error.
   size_t read(std::span<char> room);
 
@@ -29,6 +34,7 @@ class InputFile {
   std::string path_;
   int descriptor_ = -1;
   std::optional<uint64_t> size_;
+  struct timespec modified_ = {};
 };
 
 /// Files are refused from this size on where nobody says what they may hold.

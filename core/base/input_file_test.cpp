@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <thread>
@@ -20,6 +21,7 @@
 namespace glovebench {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -102,6 +104,23 @@ TEST(MappedMemory, of_a_file_is_its_content_and_outlives_its_name) {
   write_file(path, "another");
   EXPECT_TRUE(std::ranges::equal(memory.bytes(), std::as_bytes(std::span(content)), {}, {},
                                  [](std::byte b) { return static_cast<uint8_t>(b); }));
+}
+
+TEST(MappedMemory, tells_a_file_that_was_changed_from_one_that_was_replaced) {
+  const TestFolder folder;
+  const std::string path = folder / "file";
+  write_file(path, bytes(10'000));
+  const MappedMemory memory = MappedMemory::of_file(path);
+  EXPECT_NO_THROW(memory.require_unchanged());
+  std::filesystem::rename(path, folder / "old");
+  write_file(path, "another");
+  EXPECT_NO_THROW(memory.require_unchanged());
+  std::filesystem::last_write_time(folder / "old", std::filesystem::file_time_type::clock::now());
+  EXPECT_THAT([&] { memory.require_unchanged(); },
+              ThrowsMessage<Error>(AllOf(HasSubstr(path), HasSubstr("changed while it was in use"))));
+  const MappedMemory other = MappedMemory::of_file(path);
+  std::filesystem::resize_file(path, 3);
+  EXPECT_THROW(other.require_unchanged(), Error);
 }
 
 TEST(MappedMemory, of_what_is_no_file_is_an_error) {

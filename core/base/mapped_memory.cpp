@@ -23,12 +23,14 @@ MappedMemory MappedMemory::zeros(size_t bytes) {
 }
 
 MappedMemory MappedMemory::of_file(const std::string& path) {
-  const InputFile file(path, InputFile::Kind::regular);
-  const auto bytes = static_cast<size_t>(*file.size());
+  const auto file = std::make_shared<const InputFile>(path, InputFile::Kind::regular);
+  const auto bytes = static_cast<size_t>(*file->size());
   if (bytes == 0) return {};
-  void* const data = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file.descriptor(), 0);
+  void* const data = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, file->descriptor(), 0);
   if (data == MAP_FAILED) throw Error(path, "file", std::strerror(errno), "a file that can be mapped");
-  return {data, bytes, true};
+  MappedMemory memory(data, bytes, true);
+  memory.input_ = file;
+  return memory;
 }
 
 MappedMemory MappedMemory::of_descriptor(int descriptor, size_t bytes, const std::string& path) {
@@ -46,6 +48,10 @@ void MappedMemory::expect_random_reads(size_t offset, size_t bytes) const {
   advise(offset, bytes, MADV_RANDOM);
 }
 
+void MappedMemory::require_unchanged() const {
+  if (input_) input_->require_unchanged();
+}
+
 void MappedMemory::advise(size_t offset, size_t bytes, int advice) const {
   if (!is_file_) return;  // private memory would be lost
   const auto page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
@@ -60,12 +66,14 @@ MappedMemory::~MappedMemory() {
 MappedMemory::MappedMemory(MappedMemory&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)),
       size_(std::exchange(other.size_, 0)),
-      is_file_(std::exchange(other.is_file_, false)) {}
+      is_file_(std::exchange(other.is_file_, false)),
+      input_(std::move(other.input_)) {}
 
 MappedMemory& MappedMemory::operator=(MappedMemory&& other) noexcept {
   std::swap(data_, other.data_);
   std::swap(size_, other.size_);
   std::swap(is_file_, other.is_file_);
+  std::swap(input_, other.input_);
   return *this;
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
 namespace glovebench {
+
+class InputFile;
 
 /// Whole pages of memory: of this process alone, or of a file whose bytes they are.
 class MappedMemory {
@@ -14,8 +17,9 @@ class MappedMemory {
   /// std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
   /// The bytes of a file, to read; they come into memory when they are looked at, and may leave it again. The file
-  /// must be replaced (WholeFile), not changed, while it is mapped: other bytes would be seen, and a byte that is
-  /// no longer there, or that the disk cannot read, ends the process (SIGBUS). Throws Error.
+  /// must be replaced (WholeFile), not changed, while it is mapped (`require_unchanged`): other bytes would be
+  /// seen, and a byte that is no longer there, or that the disk cannot read, ends the process (SIGBUS). Throws
+  /// Error.
   static MappedMemory of_file(const std::string& path);
   /// The first bytes of an open file, to write. Throws Error naming `path`.
   static MappedMemory of_descriptor(int descriptor, size_t bytes, const std::string& path);
@@ -29,6 +33,9 @@ class MappedMemory {
   /// Says that this range of a file will be looked at here and there: a page that is missing comes alone.
   void expect_random_reads(size_t offset, size_t bytes) const;
 
+  /// Throws Error if it is the memory of a file that was written to since it was mapped.
+  void require_unchanged() const;
+
   std::span<const uint8_t> bytes() const { return {data_, size_}; }
   /// Not of memory from `of_file`.
   std::span<uint8_t> writable() { return {data_, size_}; }
@@ -41,6 +48,7 @@ class MappedMemory {
   uint8_t* data_ = nullptr;
   size_t size_ = 0;
   bool is_file_ = false;
+  std::shared_ptr<const InputFile> input_;  ///< of memory from `of_file`
 };
 
 }  // namespace glovebench

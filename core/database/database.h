@@ -62,6 +62,8 @@ class Database {
   /// Throws Error naming the database unless its fields are those of its labels, in all sizes that were loaded.
   /// Takes about as long as making them. Uses the threads of the caller's TBB arena.
   void check() const;
+  /// Throws Error if the file that it was loaded from was written to since. Takes less than a microsecond.
+  void require_unchanged() const { bytes_->require_unchanged(); }
   /// What a database made of these inputs would have as `input_hash()`.
   static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <filesystem>
 #include <sstream>
 
 #include "core/base/error.h"
@@ -12,6 +13,7 @@
 #include "core/base/random.h"
 #include "core/base/sanitizers.h"
 #include "core/base/whole_file.h"
+#include "core/database/look_up.h"
 #include "core/database/test_block_database.h"
 #include "core/test_folder.h"
 
@@ -52,6 +54,18 @@ TEST_F(DatabaseFile, truncated_anywhere_is_an_error) {
   RandomStream random(1, "database file", 0, "lengths");
   for (int i = 0; i < 20; ++i) lengths.push_back(random.index(good_.size()));
   for (const size_t length : lengths) expect_refused(good_.substr(0, length), std::to_string(length) + " bytes");
+}
+
+TEST_F(DatabaseFile, changed_in_place_is_looked_up_no_more) {
+  write_file(path_, good_);
+  const Database database = Database::load(path_, kFewSizes);
+  const Cascade cascade = {{8, 3}};
+  TinyImages query;
+  query.images.push_back(database.labels(8, 0));
+  EXPECT_NO_THROW(look_up(database, query, cascade));
+  std::filesystem::resize_file(path_, 4096);
+  EXPECT_THAT([&] { look_up(database, query, cascade); },
+              ThrowsMessage<Error>(AllOf(HasSubstr(path_), HasSubstr("changed while it was in use"))));
 }
 
 TEST_F(DatabaseFile, a_flipped_bit_anywhere_is_an_error) {

@@ -74,6 +74,7 @@ std::vector<float> distances(const Database& database, const LabelImage& query) 
 
 RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
                               Implementation implementation, LookUpTrace* trace) {
+  database.require_unchanged();
   if (trace != nullptr) trace->kept.clear();
   return implementation == Implementation::plain ? look_up_plain(database, query, cascade, trace)
                                                  : look_up_fast(database, query, cascade, trace);
