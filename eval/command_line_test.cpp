@@ -80,7 +80,7 @@ TEST_F(CommandLine, FlagsOutOfRange) {
               HasSubstr("--seed: value: found 18446744073709551615, expected at most 18446744073709551614"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--threads", "5000"})), HasSubstr("--threads"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--subject", "23"})),
-              AllOf(HasSubstr("--subject"), HasSubstr("found 23, expected 1 to 22")));
+              AllOf(HasSubstr("--subject"), HasSubstr("found 23, expected a number from 1 to 22")));
   EXPECT_THAT(refusal(run_of(trajectory, {"--noise", "loud"})), HasSubstr("--noise"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--gain", "-1"})), HasSubstr("--gain"));
   EXPECT_THAT(refusal(run_of(trajectory, {"--gain", "nan"})), HasSubstr("--gain"));

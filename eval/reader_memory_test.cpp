@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 
@@ -37,53 +35,7 @@
 // The sanitizers put functions of their own in the place of these.
 #if !defined(GLOVEBENCH_ADDRESS_SANITIZER) && !defined(GLOVEBENCH_THREAD_SANITIZER)
 
-namespace {
-
-thread_local bool counting = false;
-thread_local int64_t now_bytes = 0, most_bytes = 0;
-
-void* taken(void* memory) {
-  if (!counting) return memory;
-  now_bytes += static_cast<int64_t>(malloc_usable_size(memory));
-  most_bytes = std::max(most_bytes, now_bytes);
-  return memory;
-}
-void given_back(void* memory) {
-  if (counting && memory) now_bytes -= static_cast<int64_t>(malloc_usable_size(memory));
-}
-
-}  // namespace
-
-// The C library's functions, in front of its own: they count, and pass on.
-extern "C" {
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* memory, size_t size);
-void* __libc_memalign(size_t alignment, size_t size);
-void __libc_free(void* memory);
-
-void* malloc(size_t size) {
-  return taken(__libc_malloc(size));
-}
-void* calloc(size_t number, size_t size) {
-  return taken(__libc_calloc(number, size));
-}
-void* realloc(void* memory, size_t size) {
-  given_back(memory);
-  return taken(__libc_realloc(memory, size));
-}
-void* aligned_alloc(size_t alignment, size_t size) {
-  return taken(__libc_memalign(alignment, size));
-}
-int posix_memalign(void** memory, size_t alignment, size_t size) {
-  *memory = taken(__libc_memalign(alignment, size));
-  return *memory != nullptr ? 0 : ENOMEM;
-}
-void free(void* memory) {
-  given_back(memory);
-  __libc_free(memory);
-}
-}
+#include "eval/test_counted_heap.h"
 
 namespace glovebench {
 namespace {
@@ -106,16 +58,15 @@ struct Reading {
 };
 Reading reading(const Reader& reader, const std::string& input) {
   Reading result;
-  now_bytes = most_bytes = 0;
-  counting = true;
+  counted_heap::begin();
   try {
     reader.read(input);
   } catch (const Error& error) {
-    counting = false;
+    result.bytes = counted_heap::end();
     result.error = error.what();
+    return result;
   }
-  counting = false;
-  result.bytes = most_bytes;
+  result.bytes = counted_heap::end();
   return result;
 }
 

@@ -6,38 +6,18 @@
 
 #include "core/base/angles.h"
 #include "core/base/random.h"
+#include "reports/metrics/example_frame.h"
 
 namespace glovebench::eval {
 namespace {
 
+using reports::make_estimate;
+using reports::some_pose;
+using reports::some_posture;
 using trajectories::TrajectoryFrame;
 
 /// Of a value computed in doubles from metres and radians.
 constexpr double kRounding = 1e-6;
-
-Posture some_posture() {
-  Posture posture = Posture::Zero();
-  posture[kIndexMcpFlexion] = 0.4;
-  posture[kRingPipFlexion] = 0.7;
-  return posture;
-}
-
-Eigen::Isometry3d some_pose() {
-  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
-  T_camera_hand.linear() = Eigen::AngleAxisd(0.6, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  T_camera_hand.translation() = Eigen::Vector3d(0.05, -0.02, 0.7);
-  return T_camera_hand;
-}
-
-/// An estimate that is right.
-TrackResult make_estimate() {
-  TrackResult estimate;
-  estimate.timestamp_us = 66667;
-  estimate.status = TrackStatus::tracked;
-  estimate.posture = estimate.posture_unfiltered = some_posture();
-  estimate.T_camera_hand = some_pose();
-  return estimate;
-}
 
 struct Sequence {
   std::vector<TrackResult> estimates;

@@ -163,7 +163,7 @@ std::string Database::build_file(const std::string& path, const PostureSet& post
                                  DatabaseMemory memory) {
   const BuildInputs inputs{postures, model, views, renderers};
   DatabaseLayout layout = layout_of(inputs, sizes, memory);
-  // What killed builds left, each as large as a database.
+  // A killed build leaves a file as large as a database.
   remove_leftovers(folder_above(path),
                    [&](const std::string& name) { return name == std::filesystem::path(path).filename(); });
   WholeFile file(path);

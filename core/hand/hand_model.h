@@ -32,7 +32,7 @@ class HandModel {
   PosedHand pose(const Posture& posture) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
   size_t vertex_count() const { return bind_vertices_.size(); }
-  /// Of the vertices.
+  /// Joints and weights of each vertex.
   const std::vector<Influence>& influences() const { return influences_; }
   Side side() const { return side_; }
   /// Of the right hand; the left hand is its mirror image.

@@ -12,7 +12,7 @@ struct Screw {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length, right-handed
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
-/// Of each angle, for the hand as it is posed.
+/// The screw of each angle in this posture.
 std::array<Screw, kAngleCount> angle_screws(const HandModel& model, const PosedHand& hand);
 
 /// The rigid bodies that the angles move: the palm, three segments of each finger, the forearm.

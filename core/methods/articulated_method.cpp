@@ -41,7 +41,9 @@ float mean_depth(std::span<const LabeledPoint> points) {
 class Articulated : public Method {
  public:
   explicit Articulated(const MethodInputs& inputs)
-      : in_(inputs), fit_(inputs.model, {}, inputs.config.icp.implementation), smoother_({0, 0, 15}) {
+      : in_(inputs),
+        fit_(inputs.model, {}, inputs.config.icp.implementation),
+        smoother_({0, 0, inputs.config.smoothing.forget_after}) {
     check_inputs(in_.config, *in_.model, *in_.database, *in_.table);
   }
 

@@ -14,12 +14,11 @@ namespace {
 constexpr double kPointsOfWeights = 1000;  ///< the weights are those of so many points
 constexpr double kInside = 1e-3;           ///< barycentric coordinates above it: not on an edge
 constexpr double kApart = 1e-5;            ///< m: nearer points have no direction
-/// What the points of a frame tell, per mm^2 of the equations' rows for 1,000 points, and how far an angle may be
-/// off that no point shows. Chosen so that errors on generated movements lie within one and two deviations as often
-/// as they should.
+/// The information of the points, per mm^2 of the equations' rows for 1,000 points. It was chosen on generated
+/// movements so that errors lie within one and two deviations as often as they should.
 constexpr double kInformation = 4;
-constexpr double kUnseenDeviation_deg = 15;
-constexpr double kOutlineSlack_px = 1;  ///< a vertex on the outline may lie this far from the nearest pixel
+constexpr double kUnseenDeviation_deg = 15;  ///< of an angle that no point shows; chosen likewise
+constexpr double kOutlineSlack_px = 1;       ///< a vertex on the outline may lie this far from the nearest pixel
 
 double between(const double (&ends)[2], int step, int steps) {
   if (steps == 1) return ends[1];
@@ -30,7 +29,7 @@ double evenly_between(const double (&ends)[2], int step, int steps) {
   return ends[0] + (ends[1] - ends[0]) * step / (steps - 1);
 }
 
-/// What a step of a stage takes from its schedule.
+/// The weights of one step of a stage.
 struct StepWeights {
   double tukey_mm, start_weight, tangential;
 };
@@ -250,7 +249,6 @@ ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std:
   ArticulatedEstimate best;
   if (seen.points.size() < 3) return best;
 
-  /// A start on its way.
   struct Candidate {
     int start;
     ArticulatedPose pose;

@@ -10,7 +10,7 @@
 
 namespace glovebench {
 
-/// What one frame shows of the hand.
+/// The hand in one frame.
 struct HandObservation {
   std::span<const LabeledPoint> points;  ///< camera frame, m; without those whose depth is doubtful
   const HandMask& mask;

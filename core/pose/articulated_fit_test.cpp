@@ -9,7 +9,7 @@
 namespace glovebench {
 namespace {
 
-/// What an ideal camera sees of a posture.
+/// Points and mask of a posture in front of an ideal camera.
 struct View {
   RecycledVector<LabeledPoint> points;
   HandMask mask;

@@ -104,7 +104,7 @@ NormalEquations PullSums::equations() const {
       if (low != high) add_pair(low, high, S);
     }
   }
-  // Of pose against angles one half was filled.
+  // The loops fill the block of pose against angles on one side of the diagonal only.
   result.H.bottomLeftCorner<kAngleCount, 6>() = result.H.topRightCorner<6, kAngleCount>().transpose();
   return result;
 }

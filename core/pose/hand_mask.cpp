@@ -29,7 +29,7 @@ PixelBox label_box(const LabelImage& labels, int margin) {
           std::min(labels.width(), box.right + margin), std::min(labels.height(), box.bottom + margin)};
 }
 
-/// What a row learns from the one before it in the direction of the sweep, then from left and from right.
+/// Updates a row: from the row before it in the direction of the sweep, then from the left, then from the right.
 void HandMask::sweep(int v, int dv) {
   Offset* const here = row(v);
   const auto learn = [](Offset& mine, Offset theirs, int du, int dv_step) {

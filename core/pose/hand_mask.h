@@ -16,9 +16,9 @@ struct PixelBox {
 /// Around the labeled pixels, with a margin, within the image; empty if there are none.
 PixelBox label_box(const LabelImage& labels, int margin);
 
-/// Where the hand may be seen: pixels that are near enough, or whose depth the camera could not tell. Each other
-/// pixel of the box knows the nearest of those (Danielsson 1980, sequential Euclidean mapping: a pixel off at
-/// most).
+/// Where the hand may be seen: pixels that are near enough, and pixels without a depth. Every other pixel of the
+/// box stores its way to the nearest of those (Danielsson 1980, sequential Euclidean mapping: off by at most a
+/// pixel).
 class HandMask {
  public:
   /// `depth` and `raw_disparity` are of one camera; the hand is nearer than `farthest` (m). Keeps its memory.

@@ -29,14 +29,14 @@ CLI::Validator not_empty() {
       ""};
 }
 
-/// A number from `low` to `high`. CLI::Range lets pass what is no number.
-CLI::Validator number_within(double low, double high) {
+/// A number from `low` to `high`; `type`: in the help. CLI::Range lets pass what is no number.
+CLI::Validator number_within(double low, double high, std::string_view type) {
   return {[=](const std::string& text) -> std::string {
             double value = 0;
             if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
             return fmt::format("found {}, expected a number from {} to {}", printable(text), low, high);
           },
-          fmt::format("FLOAT in [{} - {}]", low, high)};
+          fmt::format("{} in [{} - {}]", type, low, high)};
 }
 
 /// CLI11 takes 010 for 8, and the largest number for one that is larger.
@@ -53,15 +53,6 @@ CLI::Validator whole_number() {
                                std::numeric_limits<Number>::min(), std::numeric_limits<Number>::max());
           },
           ""};
-}
-
-CLI::Validator whole_number_within(int low, int high) {
-  return {[=](const std::string& text) -> std::string {
-            int value = 0;
-            if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
-            return fmt::format("found {}, expected {} to {}", printable(text), low, high);
-          },
-          fmt::format("INT in [{} - {}]", low, high)};
 }
 
 Eigen::Isometry3d rigid_transform(const std::string& flag, const std::vector<double>& values) {
@@ -107,9 +98,7 @@ Option Option::required() const {
 }
 
 Option Option::in(double low, double high) const {
-  const bool is_whole = !option_->get_type_name().starts_with("FLOAT");
-  option_->check(is_whole ? whole_number_within(static_cast<int>(low), static_cast<int>(high))
-                          : number_within(low, high));
+  option_->check(number_within(low, high, option_->get_type_name().starts_with("FLOAT") ? "FLOAT" : "INT"));
   return *this;
 }
 

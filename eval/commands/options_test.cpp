@@ -115,7 +115,7 @@ TEST_F(Options, KeepsDefaultsOfWhatIsNotGiven) {
 }
 
 TEST_F(Options, RefusesValuesOutOfBounds) {
-  EXPECT_THAT(refusal({"--steps", "11"}), HasSubstr("--steps: found 11, expected 0 to 10"));
+  EXPECT_THAT(refusal({"--steps", "11"}), HasSubstr("--steps: found 11, expected a number from 0 to 10"));
   EXPECT_THAT(refusal({"--steps", "1.5"}), HasSubstr("--steps: found 1.5, expected a whole number"));
   EXPECT_THAT(refusal({"--speed", "nan"}), HasSubstr("--speed: found nan, expected a number from 0 to 1"));
   EXPECT_THAT(refusal({"--speed", "1.5"}), HasSubstr("--speed: found 1.5, expected"));

@@ -8,6 +8,7 @@
 #include "ci/build_paths.h"
 #include "core/base/angles.h"
 #include "core/hand/skeleton.h"
+#include "reports/metrics/example_frame.h"
 
 namespace glovebench::reports {
 namespace {
@@ -21,35 +22,11 @@ const HandModel& hand() {
   return model;
 }
 
-Posture some_posture() {
-  Posture posture = Posture::Zero();
-  posture[kIndexMcpFlexion] = 0.4;
-  posture[kRingPipFlexion] = 0.7;
-  return posture;
-}
-
-Eigen::Isometry3d some_pose() {
-  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
-  T_camera_hand.linear() = Eigen::AngleAxisd(0.6, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  T_camera_hand.translation() = Eigen::Vector3d(0.05, -0.02, 0.7);
-  return T_camera_hand;
-}
-
 FrameTruth make_truth() {
   FrameTruth truth{some_posture(), some_pose(), hand().pose(some_posture()).T_hand_joint, {}};
   truth.visible_pixels.fill(1000);
   truth.trackable = true;
   return truth;
-}
-
-/// An estimate that is right.
-TrackResult make_estimate() {
-  TrackResult estimate;
-  estimate.timestamp_us = 66667;
-  estimate.status = TrackStatus::tracked;
-  estimate.posture = estimate.posture_unfiltered = some_posture();
-  estimate.T_camera_hand = some_pose();
-  return estimate;
 }
 
 FrameRecord measure(const TrackResult& estimate, const FrameTruth& truth = make_truth()) {

@@ -1,4 +1,4 @@
-// A server of the hand; robot_server_arm_test.cpp has those with an arm.
+// A server of the hand.
 #include "core/robot/server/robot_server.h"
 
 #include <gmock/gmock.h>
@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/base/angles.h"
-#include "core/base/error.h"
 #include "core/robot/server/test_messages.h"
 #include "core/robot/test_fingertips.h"
 
@@ -123,7 +122,7 @@ TEST_F(RobotServerHand, SlowsDownAsAWholeForTheFingertips) {
   EXPECT_NEAR(last_.position[kFFJ2], radians_from_degrees(60), kHandRounding);
 }
 
-TEST(RobotServerStart, SplitsByTheCouplingThatItIsTold) {
+TEST(RobotServerCoupling, SplitsByTheCouplingThatItIsTold) {
   CommandLimits limits;
   limits.coupling = ShadowCoupling::even;
   RobotServer server(limits, {}, {std::vector<double>(kShadowJointCount, 0.0)});
@@ -137,14 +136,6 @@ TEST(RobotServerStart, SplitsByTheCouplingThatItIsTold) {
   }
   EXPECT_EQ(state.position[kMFJ1], 0.5);
   EXPECT_EQ(state.position[kMFJ2], 0.5);
-}
-
-TEST(RobotServerStart, StartsWithAFingerThatTouchesSomething) {
-  std::vector<double> start(kShadowJointCount, 0.0);
-  start[kFFJ2] = 1;
-  start[kFFJ1] = 0.5;
-  RobotServer server({}, {}, {start});
-  EXPECT_EQ(server.tick({1, kEpochUs}).position, start) << "what was measured stays until the finger moves";
 }
 
 TEST_F(RobotServerHand, NobodyFinishesWhatAnotherBegan) {
@@ -343,59 +334,6 @@ TEST_F(RobotServerHand, AClockThatIsSetIsAGap) {
   const std::vector<double> stood = last_.position;
   EXPECT_EQ(server_.tick({now_us_, kEpochUs + now_us_ + 101'000}).position, stood);
   EXPECT_EQ(server_.stream().gaps(), 1);
-}
-
-TEST(RobotServerStart, StartsAtALimitWhateverALogHasRounded) {
-  const double rounding = radians_from_degrees(5e-7);
-  for (const double outwards : {-rounding, 0.0, rounding}) {
-    std::vector<double> lowest, highest;
-    for (const ShadowJointInfo& info : shadow_joint_infos()) {
-      lowest.push_back(radians_from_degrees(info.min_deg) - outwards);
-      highest.push_back(radians_from_degrees(info.max_deg) + outwards);
-    }
-    for (const std::vector<double>& start : {lowest, highest}) {
-      const RobotState state = RobotServer({}, {}, {start}).tick({1, 1});
-      for (size_t j = 0; j < start.size(); ++j) {
-        EXPECT_NEAR(state.position[j], start[j], rounding * 1.001);
-        EXPECT_GE(state.position[j], radians_from_degrees(shadow_joint_infos()[j].min_deg));
-        EXPECT_LE(state.position[j], radians_from_degrees(shadow_joint_infos()[j].max_deg));
-      }
-    }
-  }
-  std::vector<double> start(kShadowJointCount, 0.0);
-  start[kFFJ2] = 1;
-  start[kFFJ1] = 1 + rounding;
-  EXPECT_EQ(RobotServer({}, {}, {start}).tick({1, 1}).position[kFFJ1], 1) << "not above J2";
-}
-
-TEST(RobotServerStart, NamesWhatIsOutside) {
-  std::vector<double> start(kShadowJointCount, 0.0);
-  const auto error = [&]() -> std::string {
-    try {
-      RobotServer({}, {}, {start, "hand.jsonl"});
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
-  };
-  start[kFFJ3] = radians_from_degrees(91);
-  EXPECT_EQ(error(), "hand.jsonl: rh_FFJ3: found 91 degrees, expected -15 to 90");
-  start[kFFJ3] = 0;
-  start[kFFJ1] = radians_from_degrees(45);
-  EXPECT_EQ(error(), "hand.jsonl: rh_FFJ1: found 45 degrees, expected at most the 0 of the joint before it");
-}
-
-TEST(RobotServerStart, StartsWhereTheJointsStandIfThatIsAPlace) {
-  std::vector<double> start(kShadowJointCount, 0.0);
-  start[kFFJ3] = 1;
-  RobotServer server({}, {}, {start});
-  EXPECT_EQ(server.tick({1, 1}).position, start);
-  EXPECT_THROW(server.tick({1, 1}), std::logic_error);
-  start[kFFJ3] = 4;
-  EXPECT_THROW(RobotServer({}, {}, {start}), Error);
-  start[kFFJ3] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(RobotServer({}, {}, {start}), Error);
-  EXPECT_THROW(RobotServer({}, {}, StartPlace{}), Error);
 }
 
 }  // namespace

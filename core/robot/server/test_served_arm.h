@@ -1,6 +1,6 @@
 #pragma once
 
-// What the tests of a server that moves the arm share.
+// Shared by the tests of a server that moves the arm.
 #include <algorithm>
 #include <optional>
 #include <vector>

@@ -1,0 +1,33 @@
+#pragma once
+
+// A frame and its right estimate, for tests of metrics.
+
+#include "core/tracker/track_result.h"
+
+namespace glovebench::reports {
+
+inline Posture some_posture() {
+  Posture posture = Posture::Zero();
+  posture[kIndexMcpFlexion] = 0.4;
+  posture[kRingPipFlexion] = 0.7;
+  return posture;
+}
+
+inline Eigen::Isometry3d some_pose() {
+  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
+  T_camera_hand.linear() = Eigen::AngleAxisd(0.6, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  T_camera_hand.translation() = Eigen::Vector3d(0.05, -0.02, 0.7);
+  return T_camera_hand;
+}
+
+/// An estimate that is right.
+inline TrackResult make_estimate() {
+  TrackResult estimate;
+  estimate.timestamp_us = 66667;
+  estimate.status = TrackStatus::tracked;
+  estimate.posture = estimate.posture_unfiltered = some_posture();
+  estimate.T_camera_hand = some_pose();
+  return estimate;
+}
+
+}  // namespace glovebench::reports
