@@ -1,12 +1,15 @@
 // Cameras whose truth is known, from pictures of a board and from corners with noise.
 #include "core/calibration/stereo_fit.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -28,16 +31,31 @@ struct Session {
 
   Session(const Chessboard& a_board, int poses)
       : board(a_board), T_ir_boards(poses_before(truth, a_board, poses, 1)) {
-    const BoardCamera ir_camera(truth.ir, truth.ir_lens), rgb_camera(truth.rgb, truth.rgb_lens);
+    BoardLens ir_lens{"ir", truth.ir, truth.ir_lens}, rgb_lens{"rgb", truth.rgb, truth.rgb_lens};
+    // Tests that start together begin at different poses, so that they share the work.
+    for (int k = 0; k < poses; ++k) {
+      const int i = (k + 7 * static_cast<int>(::getpid())) % poses;
+      corners_of(ir_lens, T_ir_boards[i], i);
+      corners_of(rgb_lens, truth.T_rgb_ir * T_ir_boards[i], i);
+    }
     for (int i = 0; i < poses; ++i) {
-      add(ir, ir_camera, T_ir_boards[i], i, "ir");
-      add(rgb, rgb_camera, truth.T_rgb_ir * T_ir_boards[i], i, "rgb");
+      add(ir, corners_of(ir_lens, T_ir_boards[i], i), i);
+      add(rgb, corners_of(rgb_lens, truth.T_rgb_ir * T_ir_boards[i], i), i);
     }
   }
-  void add(BoardViews& views, const BoardCamera& camera, const Eigen::Isometry3d& T, int i, const char* of) const {
-    const std::string name = std::to_string(i);
-    // From one test process to the next: a picture takes a twentieth of a second, and its corners stay the same.
-    const std::string file = shared_test_folder() + "/corners-" + of + "-" + name;
+
+ private:
+  /// A camera that takes no time until it takes a picture.
+  struct BoardLens {
+    const char* name;
+    PinholeCamera pinhole;
+    LensDistortion lens;
+    std::optional<BoardCamera> camera = {};
+  };
+
+  /// From one test process to the next: a picture takes a twentieth of a second, and its corners stay the same.
+  Corners corners_of(BoardLens& of, const Eigen::Isometry3d& T, int i) const {
+    const std::string file = fmt::format("{}/corners-{}-{}", shared_test_folder(), of.name, i);
     Corners corners;
     if (std::filesystem::exists(file)) {
       const std::string bytes = read_file(file);
@@ -45,14 +63,18 @@ struct Session {
       for (size_t c = 0; c < corners.size(); ++c)
         std::memcpy(corners[c].data(), bytes.data() + c * sizeof(Eigen::Vector2d), sizeof(Eigen::Vector2d));
     } else {
-      RandomStream noise(1, of, i, "picture");
-      corners = find_corners(camera.picture(T, board, noise), board).value_or(Corners{});
+      if (!of.camera) of.camera.emplace(of.pinhole, of.lens);
+      RandomStream noise(1, of.name, i, "picture");
+      corners = find_corners(of.camera->picture(T, board, noise), board).value_or(Corners{});
       write_file(file, {reinterpret_cast<const char*>(corners.data()), corners.size() * sizeof(Eigen::Vector2d)});
     }
-    if (!corners.empty())
-      views.views.push_back({name, std::move(corners)});
+    return corners;
+  }
+  static void add(BoardViews& views, Corners corners, int i) {
+    if (corners.empty())
+      views.left_out.push_back({std::to_string(i), "not found"});
     else
-      views.left_out.push_back({name, "not found"});
+      views.views.push_back({std::to_string(i), std::move(corners)});
   }
 };
 
