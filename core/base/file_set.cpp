@@ -1,18 +1,21 @@
 #include "core/base/file_set.h"
 
 #include <fcntl.h>
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "core/base/excerpt.h"
 #include "core/base/hash.h"
@@ -24,6 +27,9 @@
 
 namespace glovebench {
 namespace {
+
+/// How long a writer waits for another one: a report is written in a second, a recording in minutes.
+constexpr std::chrono::seconds kLockWait{10};
 
 namespace fs = std::filesystem;
 
@@ -230,7 +236,15 @@ void FileSet::refuse(const std::string& name) const {
 
 FolderLock::FolderLock(const std::string& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+  const auto end = std::chrono::steady_clock::now() + kLockWait;
+  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    if (std::chrono::steady_clock::now() > end) {
+      ::close(descriptor_);
+      throw Error(folder, "folder", fmt::format("one that another process has written into for {}", kLockWait),
+                  "a folder of its own");
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
 }
 
 FolderLock::~FolderLock() {

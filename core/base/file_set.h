@@ -85,7 +85,8 @@ class FileSet {
   std::optional<Manifest> manifest_;
 };
 
-/// Held while a folder is written. Waits for another holder. A file system that cannot lock folders does without.
+/// Held while a folder is written. Throws Error if another holder keeps it for more than ten seconds. A file system
+/// that cannot lock folders does without.
 class FolderLock {
  public:
   explicit FolderLock(const std::string& folder);
@@ -97,9 +98,9 @@ class FolderLock {
   int descriptor_;
 };
 
-/// A write of files that change together. Creates the folder, and waits while another process writes into it. A
-/// manifest that cannot be read is an error and stays as it is. A full disk, an error or a missing `commit` leaves
-/// the older files. Every function throws Error.
+/// A write of files that change together. Creates the folder, and waits for ten seconds if another process writes
+/// into it. A manifest that cannot be read is an error and stays as it is. A full disk, an error or a missing
+/// `commit` leaves the older files. Every function throws Error.
 class WholeFiles {
  public:
   explicit WholeFiles(const std::string& folder);

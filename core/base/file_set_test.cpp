@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
+#include <memory>
 #include <thread>
 
 #include "core/base/hash.h"
@@ -295,6 +297,24 @@ TEST(WholeFiles, finish_a_write_that_was_interrupted) {
   EXPECT_FALSE(fs::exists(folder / "only-old"));
   EXPECT_EQ(read_file(folder / "b"), "new b") << "the manifest names it: it was written since";
   EXPECT_EQ(folder.file_count(), 3);
+}
+
+TEST(WholeFiles, wait_for_a_short_write_of_another_process) {
+  const TestFolder folder;
+  auto held = std::make_unique<FolderLock>(folder.path());
+  const std::jthread other([&held] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    held.reset();
+  });
+  write_set(folder.path(), {"a"}, "");
+  EXPECT_TRUE(fs::exists(folder / "a"));
+}
+
+TEST(WholeFilesLong, do_not_wait_for_a_long_write_of_another_process) {
+  const TestFolder folder;
+  const FolderLock held(folder.path());
+  EXPECT_THAT([&] { WholeFiles{folder.path()}; },
+              ThrowsMessage<Error>(HasSubstr("that another process has written")));
 }
 
 TEST(FileSet, refuses_a_pipe_instead_of_waiting_for_its_writer) {
