@@ -126,7 +126,7 @@ double run(benchmark::State& state, const Find& find, const Equal& is_equal, int
   return points;
 }
 
-void run_peer(benchmark::State& state, MakeClosestPointPeer make, int max_points) {
+void run_search_peer(benchmark::State& state, MakeClosestPointPeer make, int max_points) {
   if (make == nullptr) return state.SkipWithError(kMissing);
   run(
       state, [make](const PointSequence& sequence) { return find_peer(sequence, make); }, nearly_equal, max_points);
@@ -141,12 +141,12 @@ void register_engines(const std::string& name, int max_points) {
     set_bytes_touched(state, {.near = least_bytes(run(state, find_fast, equal, max_points))});
     set_work(state, max_points);
   });
-  add("embree", [=](benchmark::State& state) { run_peer(state, kEmbree, max_points); });
-  add("cgal", [=](benchmark::State& state) { run_peer(state, kCgal, max_points); });
+  add("embree", [=](benchmark::State& state) { run_search_peer(state, kEmbree, max_points); });
+  add("cgal", [=](benchmark::State& state) { run_search_peer(state, kCgal, max_points); });
 }
 
 // The paper profile's number of points, and about as many as the hand has at 0.7 m.
-const int registered = [] {
+const int search_registered = [] {
   register_engines("closest_point", 1000);
   register_engines("closest_point_3000", 3000);
   return 0;

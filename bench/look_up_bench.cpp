@@ -115,7 +115,7 @@ PreparedPeer& prepared(MakeLookUpPeer make, int size) {
 }
 
 /// With a cascade of one stage.
-void run_peer(benchmark::State& state, const char* text, MakeLookUpPeer make, Batch batch) {
+void run_look_up_peer(benchmark::State& state, const char* text, MakeLookUpPeer make, Batch batch) {
   if (make == nullptr) return state.SkipWithError(kMissing);
   const Cascade cascade = parse_cascade(text);
   const int keep = cascade[0].keep;
@@ -142,7 +142,7 @@ void run_peer(benchmark::State& state, const char* text, MakeLookUpPeer make, Ba
   state.counters["entries"] = data().database->entry_count();
 }
 
-const int registered = [] {
+const int look_up_registered = [] {
   const auto name = [](const char* cascade, std::string_view engine) {
     return std::string("look_up/") + cascade + "/" + std::string(engine);
   };
@@ -155,7 +155,7 @@ const int registered = [] {
   }
   for (const char* cascade : {"16:3", "exact:3"}) {
     const auto add = [&](std::string_view engine, MakeLookUpPeer make, Batch batch) {
-      benchmark::RegisterBenchmark(name(cascade, engine).c_str(), run_peer, cascade, make, batch)
+      benchmark::RegisterBenchmark(name(cascade, engine).c_str(), run_look_up_peer, cascade, make, batch)
           ->Unit(benchmark::kMillisecond);
     };
     add("faiss", kFaiss, Batch::single);

@@ -53,7 +53,7 @@ void read_bandwidth(benchmark::State& state, BytesTouched touched) {
       static_cast<double>(bytes), benchmark::Counter::kIsIterationInvariantRate, benchmark::Counter::kIs1000);
 }
 
-const int registered = [] {
+const int bandwidth_registered = [] {
   // What fits a core's own cache, and what is about the rows of a look-up or the frames here.
   benchmark::RegisterBenchmark(kNearBandwidth.c_str(), read_bandwidth, BytesTouched{.near = 256 << 10});
   benchmark::RegisterBenchmark(kFarBandwidth.c_str(), read_bandwidth, BytesTouched{.far = 64 << 20});
