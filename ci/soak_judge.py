@@ -10,7 +10,7 @@ import sys
 MISSED, LATE = 4, 3
 LIMIT_MS = 10
 FRAME_RATE, RATE_TOLERANCE = 30, 0.02
-MOST_STARTING = 30  # of a topic: a start takes 0.2 s (core/robot/dds/README.md)
+MOST_STARTING = 30  # of a topic: a start takes 0.2 s (core/adapters/dds/README.md)
 
 work, seconds = sys.argv[1], int(sys.argv[2])
 frames = [json.loads(line) for line in open(f"{work}/estimates.jsonl")]
@@ -18,7 +18,7 @@ played = seconds * FRAME_RATE
 # A lost frame sends nothing.
 expected = {frame["timestamp_us"] for frame in frames if frame["status"] == "tracked"}
 latencies, missed, stale, starting, counts, late = [], 0, 0, 0, [], False
-# A command that came is not missed, though at a start, or too late, it moves nothing (core/robot/dds/README.md).
+# A command that came is not missed, though at a start, or too late, it moves nothing (core/adapters/dds/README.md).
 CAME = ("accepted", "starting", "stale")
 received = [json.loads(line) for line in open(f"{work}/robot.jsonl") if '"received"' in line]
 for topic in ("fingers", "wrist", "pose"):

@@ -8,6 +8,7 @@
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/adapters/dds/server/server_log.h"
 #include "core/base/error.h"
 #include "core/base/parse_json.h"
 #include "core/base/sanitizers.h"
@@ -16,7 +17,6 @@
 #include "core/camera/rgbd_calibration.h"
 #include "core/kinect/recording_index.h"
 #include "core/robot/command_limits.h"
-#include "core/robot/server/server_log.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/suite.h"
 #include "reports/comparison/noise_floor.h"

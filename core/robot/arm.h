@@ -26,7 +26,7 @@ const std::array<ArmJointInfo, kArmJointCount>& arm_joint_infos();
 /// T_base_flange at those joint angles: x ahead, y left, z up at the base; the flange's z leaves the arm.
 Eigen::Isometry3d arm_flange_pose(const ArmJoints& joints);
 
-/// Finds joint angles for a pose of the flange. One that is built with Orocos KDL stands in core/robot/arm.
+/// Finds joint angles for a pose of the flange. One by Orocos KDL stands in core/adapters/kdl.
 class ArmSolver {
  public:
   virtual ~ArmSolver() = default;

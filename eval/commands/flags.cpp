@@ -7,14 +7,12 @@
 #include <map>
 #include <thread>
 
+#include "core/adapters/kdl/make_arm_solver.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/parse_json.h"
 #include "core/base/whole_file.h"
 #include "core/methods/method.h"
-#ifdef GLOVEBENCH_ARM
-#include "core/robot/arm/kdl_arm_solver.h"
-#endif
 #include "core/robot/command_limits.h"
 #include "eval/share.h"
 #include "reports/json_text.h"
@@ -142,19 +140,15 @@ nlohmann::json transform_json(const Eigen::Isometry3d& T) {
   return values;
 }
 
-/// The arm that was built in, if one was. Throws Error if it is required and was not.
-std::shared_ptr<const ArmSolver> arm_solver([[maybe_unused]] bool required) {
-#ifdef GLOVEBENCH_ARM
-  return make_kdl_arm_solver();
-#else
-  if (required)
-    throw Error("--robot-arm", "pa10", "a program built without Orocos KDL",
-                "one configured with it (Debian: liborocos-kdl-dev)");
-  return nullptr;
-#endif
-}
-
 }  // namespace
+
+std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const std::string& field) {
+  std::unique_ptr<ArmSolver> solver = make_arm_solver();
+  if (!solver)
+    throw Error(where, field, "a glovebench that was built without Orocos KDL",
+                "one that was configured with it (Debian: liborocos-kdl-dev)");
+  return solver;
+}
 
 Eigen::Isometry3d MountingFlag::T_flange_wrist() const {
   return transform.value_or(default_T_flange_wrist());
@@ -164,7 +158,8 @@ RobotSetup RobotFlags::setup(Workbench& workbench) const {
   RobotSetup setup;
   setup.T_base_camera = T_base_camera.value_or(setup.T_base_camera);
   setup.T_flange_wrist = mounting.T_flange_wrist();
-  if (arm != "none") setup.arm = arm_solver(arm == "pa10");
+  if (arm == "pa10") setup.arm = require_arm_solver("--robot-arm", arm);
+  if (arm == "auto") setup.arm = make_arm_solver();
   setup.coupling = limits.limits().coupling;
   if (mapping == "fingertip") setup.skeleton = workbench.model()->skeleton();
   return setup;

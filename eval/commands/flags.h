@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "core/robot/arm_follower.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/commands/options.h"
 #include "eval/experiments.h"
@@ -73,6 +75,9 @@ struct FileFlag {
 /// until it is whole (core/base/line_file.h): one would replace the other. For all files that a command writes, and
 /// those that it reads and could write.
 void require_different_files(const std::vector<FileFlag>& files);
+
+/// The arm's solver. Throws Error naming the field if this build has none.
+std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const std::string& field);
 
 /// Where robot commands go, and how a hand becomes one.
 struct RobotFlags {

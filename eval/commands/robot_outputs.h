@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/adapters/dds/robot_bus.h"
 #include "core/robot/command_guard.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/robot/robot_command.h"
@@ -19,7 +20,7 @@ struct BusFlags {
 
   /// `--robot`, `--robot-interface` and `--security`.
   void add(Command command, const std::string& what);
-  /// Throws Error naming `--robot` unless there is such a domain, or if the program was built without Cyclone DDS.
+  /// Throws Error naming `--robot` unless it names a domain.
   int domain() const;
 };
 
@@ -41,11 +42,10 @@ class RobotOutputs {
   /// For a controller's topics, waits some seconds for a measured state. Throws Error if there is none, or for an
   /// unknown middleware, one that the build lacks, no network.
   explicit RobotOutputs(const RobotStream& stream);
-  ~RobotOutputs();
 
-  bool any() const { return file_ || stream_; }
+  bool any() const { return file_ || bus_; }
   /// Where the arm stood at the start; empty unless a controller's arm is spoken to.
-  const std::optional<ArmJoints>& arm_start() const { return arm_start_; }
+  std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
   /// Sends what the guard lets pass of a command. What goes to a robot is guarded by the clock of the wall,
   /// whatever the stamps of its frames say: its time stamp is that of the first frame plus the time since then. On
   /// a controller's topics each motion after a lost hand, the first one too, starts where the robot is measured to
@@ -59,10 +59,8 @@ class RobotOutputs {
   std::string kept() const { return file_ ? file_->kept() : ""; }
 
  private:
-  class Stream;
   std::unique_ptr<JsonLinesSink> file_;
-  std::unique_ptr<Stream> stream_;
-  std::optional<ArmJoints> arm_start_;
+  std::unique_ptr<RobotBus> bus_;
 };
 
 }  // namespace glovebench::eval

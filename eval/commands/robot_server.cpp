@@ -3,20 +3,14 @@
 #include <cstdio>
 #include <memory>
 
+#include "core/adapters/dds/dds_server.h"
+#include "core/adapters/dds/security_keys.h"
+#include "core/adapters/system_time.h"
 #include "core/base/error.h"
-#include "core/robot/server/server_log.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/interruption.h"
 #include "eval/terminal.h"
-#ifdef GLOVEBENCH_DDS
-#include "core/base/system_time.h"
-#include "core/robot/dds/dds_server.h"
-#include "core/robot/dds/security_keys.h"
-#endif
-#ifdef GLOVEBENCH_ARM
-#include "core/robot/arm/kdl_arm_solver.h"
-#endif
 
 namespace glovebench::eval {
 namespace {
@@ -33,8 +27,7 @@ struct ServerFlags {
   /// Serves until SIGINT or SIGTERM. Returns the exit code.
   int run() const {
     if (!hand && !arm) throw Error("robot-server run", "joints", "none", "--hand, --arm or both");
-#ifdef GLOVEBENCH_DDS
-    const std::unique_ptr<ArmSolver> solver = arm_solver();
+    const std::unique_ptr<ArmSolver> solver = arm ? require_arm_solver("robot-server run", "--arm") : nullptr;
     const DdsServerOptions read = options(solver.get());  // before signals only ask: a pipe may never end
     const Interruption interruption;
     const DdsServerSummary summary = serve(read);
@@ -43,23 +36,9 @@ struct ServerFlags {
       throw Error(log, "lines", fmt::format("{} that could not be written", summary.lost_log_lines),
                   "room for all");
     return 0;
-#else
-    return bus.domain();               // throws
-#endif
   }
 
  private:
-#ifdef GLOVEBENCH_DDS
-  /// Empty without `--arm`.
-  std::unique_ptr<ArmSolver> arm_solver() const {
-    if (!arm) return nullptr;
-#ifdef GLOVEBENCH_ARM
-    return make_kdl_arm_solver();
-#else
-    throw Error("robot-server run", "--arm", "a glovebench that was built without Orocos KDL",
-                "one that was configured with it (Debian: liborocos-kdl-dev)");
-#endif
-  }
   DdsServerOptions options(const ArmSolver* solver) const {
     ServedRobot robot{hand, std::nullopt};
     if (solver) robot.arm = MountedArm{solver, mounting.T_flange_wrist()};
@@ -72,7 +51,6 @@ struct ServerFlags {
             .stopping = Interruption::wished,
             .tell = [](const std::string& line) { say("glovebench: {}\n", line); }};
   }
-#endif
 };
 
 /// Keys for DDS Security.
@@ -81,16 +59,12 @@ struct Keys {
   int days = 365;
 
   void make() const {
-#ifdef GLOVEBENCH_DDS
     constexpr int64_t kDay = 86'400;
     const int64_t now_s = system_us() / 1'000'000;
     make_security_keys(folder, {now_s - kDay, now_s + days * kDay});  // clocks of hosts differ
     fmt::print("{}: keys of", folder);
     for (const SecurityRole& role : security_roles()) fmt::print(" {}", role.name);
     fmt::print(", for {} days\n", days);
-#else
-    BusFlags{"dds", {}, {}}.domain();  // throws
-#endif
   }
 };
 

@@ -3,15 +3,13 @@
 #include <charconv>
 #include <limits>
 
+#include "core/adapters/freenect/live_kinect.h"
+#include "core/adapters/system_time.h"
 #include "core/base/error.h"
-#include "core/base/system_time.h"
 #include "core/kinect/recording.h"
 #include "core/kinect/rectified_device.h"
 #include "eval/interruption.h"
 #include "eval/terminal.h"
-#ifdef GLOVEBENCH_FREENECT
-#include "core/kinect/freenect/freenect_device.h"
-#endif
 
 namespace glovebench::eval {
 namespace {
@@ -48,22 +46,16 @@ int device_index(const std::string& source) {
 
 TrackSource open_live(const SourceFlags& flags) {
   const int index = device_index(flags.source);
-#ifdef GLOVEBENCH_FREENECT
   const RgbdCalibration calibration =
       flags.calibration.empty() ? nominal_kinect_calibration() : load_calibration(flags.calibration);
-  FreenectOptions options{.index = index, .every_frame = flags.every_frame, .interrupted = Interruption::wished};
+  LiveOptions options{.index = index, .every_frame = flags.every_frame, .interrupted = Interruption::wished};
   if (!flags.calibration.empty()) options.calibration_name = flags.calibration;
   // What is played may pause as long as its recording did.
   if (flags.every_frame) options.silence_limit = std::numeric_limits<double>::infinity();
-  auto device = std::make_unique<FreenectDevice>(calibration, options);
-  const FreenectDevice* live = device.get();
+  std::unique_ptr<LiveKinect> device = open_kinect(calibration, options);
+  const LiveKinect* live = device.get();
   return {std::move(device), 0, [live] { return live->losses().total(); }, [live] { return live->arrived_us(); },
           [live] { return live->end(); }};
-#else
-  throw Error("--source", flags.source,
-              "a glovebench that was built without libfreenect (device " + std::to_string(index) + ")",
-              "one that was configured with it (Debian: libfreenect-dev)");
-#endif
 }
 
 }  // namespace

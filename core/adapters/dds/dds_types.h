@@ -1,0 +1,36 @@
+#pragma once
+
+#include <dds/dds.h>
+
+#include <cstdint>
+
+#include "core/adapters/dds/server/command_messages.h"
+
+namespace glovebench {
+
+/// How a message of ROS goes through Cyclone DDS: `descriptor`, `write` (the library's return code) and `read`.
+template <typename Message>
+struct DdsType;
+
+template <>
+struct DdsType<ros::JointTrajectory> {
+  static const dds_topic_descriptor_t& descriptor();
+  static dds_return_t write(dds_entity_t writer, const ros::JointTrajectory& message, int64_t source_ns);
+  static ros::JointTrajectory read(const void* sample);
+};
+
+template <>
+struct DdsType<ros::PoseStamped> {
+  static const dds_topic_descriptor_t& descriptor();
+  static dds_return_t write(dds_entity_t writer, const ros::PoseStamped& message, int64_t source_ns);
+  static ros::PoseStamped read(const void* sample);
+};
+
+template <>
+struct DdsType<ros::JointState> {
+  static const dds_topic_descriptor_t& descriptor();
+  static dds_return_t write(dds_entity_t writer, const ros::JointState& message, int64_t source_ns);
+  static ros::JointState read(const void* sample);
+};
+
+}  // namespace glovebench

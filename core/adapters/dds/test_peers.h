@@ -1,0 +1,46 @@
+#pragma once
+
+// The far end of the bus, in the same process, for the tests of the library. Not part of it.
+
+#include <string>
+
+#include "core/adapters/dds/dds_entity.h"
+
+namespace glovebench {
+
+/// A process meets its own domain without a network; this one is the same seen from outside.
+inline constexpr int kDomain = 7, kFar = 8;
+inline constexpr const char* kFarDomain =
+    "<Domain id=\"8\"><Discovery><ExternalDomainId>7</ExternalDomainId></Discovery></Domain>";
+
+/// Somebody out there who keeps to no size of messages.
+class UnboundedWriter {
+ public:
+  explicit UnboundedWriter(const std::string& topic)
+      : participant_(checked_dds(dds_create_participant(kFar, nullptr, nullptr), "participant", "one")) {
+    const dds_entity_t made = dds_create_topic(participant_, &DdsType<ros::JointTrajectory>::descriptor(),
+                                               topic.c_str(), nullptr, nullptr);
+    dds_qos_t* const qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
+    dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+    writer_ = checked_dds(dds_create_writer(participant_, made, qos, nullptr), topic, "a writer");
+    dds_delete_qos(qos);
+  }
+  ~UnboundedWriter() { dds_delete(participant_); }
+  UnboundedWriter(const UnboundedWriter&) = delete;
+  UnboundedWriter& operator=(const UnboundedWriter&) = delete;
+
+  void write(const ros::JointTrajectory& message) const {
+    checked_dds(DdsType<ros::JointTrajectory>::write(writer_, message, dds_time()), "message", "one that is sent");
+  }
+  int listeners() const {
+    dds_publication_matched_status_t status = {};
+    dds_get_publication_matched_status(writer_, &status);
+    return static_cast<int>(status.current_count);
+  }
+
+ private:
+  dds_entity_t participant_, writer_ = 0;
+};
+
+}  // namespace glovebench
