@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/check.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -115,29 +116,6 @@ std::string to_svg(const LineChart& chart) {
   // The first series is drawn last: it is the one to look at.
   for (size_t i = chart.series.size(); i-- > 0;) svg += path(chart.series[i], i, scale);
   return svg + "</svg>\n";
-}
-
-std::string escape_html(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
 }
 
 }  // namespace glovebench::reports

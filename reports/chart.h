@@ -32,7 +32,4 @@ std::vector<double> axis_ticks(double max, int count);
 /// The same from at most `min` to at least `max`, over zero.
 std::vector<double> signed_axis_ticks(double min, double max, int count);
 
-/// Text for HTML and SVG: the characters that mean something there are replaced.
-std::string escape_html(const std::string& text);
-
 }  // namespace glovebench::reports

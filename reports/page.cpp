@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "reports/chart.h"
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
 #include "reports/embedded.h"
 #include "reports/json_text.h"
 #include "reports/page/section.h"
 #include "reports/summary.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -42,10 +42,10 @@ Section configuration_section(const RunResult& result) {
 }
 
 Section environment_section(const Timings& timings) {
-  TextTable table{{"", ""}, {}, 2};
+  Table table = table_of({"", ""}, 2);
   table.rows = {{"host", timings.host},
                 {"processor", timings.processor},
-                {"threads", std::to_string(timings.threads)},
+                {"threads", timings.threads},
                 {"compiler", timings.compiler},
                 {"build", timings.build_type},
                 {"commit", timings.commit},

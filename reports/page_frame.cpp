@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/chart.h"
 #include "reports/embedded.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

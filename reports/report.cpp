@@ -5,9 +5,7 @@
 #include "reports/command_tables.h"
 #include "reports/histories/histories.h"
 #include "reports/json_text.h"
-#include "reports/latex.h"
 #include "reports/results_json.h"
-#include "reports/study_text.h"
 #include "reports/summary.h"
 
 namespace glovebench::reports {
@@ -36,7 +34,7 @@ std::vector<NamedFile> other_files(const RunResult& result) {
     files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment)});
   if (has_commands(result)) files.push_back({"tables/commands.csv", commands_csv(result)});
   for (const StudyResult& study : result.studies)
-    for (const Table& table : study.tables) files.push_back({table_file(table), table_csv(table)});
+    for (const Table& table : study.tables) files.push_back({"tables/" + table.name + ".csv", to_csv(table)});
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
   if (any_was_run(verdicts)) {
     files.push_back({"claims.json", claims_json(verdicts)});

@@ -1,7 +1,6 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/page/section.h"
-#include "reports/study_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -29,7 +28,7 @@ std::string chart_data(const RunResult& result, const PaperNumbers& paper) {
   add_curve("figure5", paper.figure_5);
   add_curve("figure6", paper.figure_6);
   for (const StudyResult& study : result.studies)
-    for (const Table& table : study.tables) tables[table.name] = table_csv(table);
+    for (const Table& table : study.tables) tables[table.name] = to_csv(table);
   return "<script type=\"application/json\" id=\"tables\">" + for_script(tables) + "</script>\n";
 }
 

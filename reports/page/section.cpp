@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/chart.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 
