@@ -4,7 +4,6 @@
 
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
-#include "reports/embedded.h"
 #include "reports/json_text.h"
 #include "reports/page/section.h"
 #include "reports/summary.h"
@@ -55,16 +54,6 @@ Section environment_section(const Timings& timings) {
   return {"environment", "Environment", "<p>All times of this page were measured here.</p>\n" + to_html(table)};
 }
 
-/// A script element whose text cannot end it early.
-std::string script(const std::string& text) {
-  std::string html = "<script>\n";
-  for (size_t i = 0; i < text.size(); ++i) {
-    html += text[i];
-    if (text.compare(i, 3, "</s") == 0 || text.compare(i, 3, "</S") == 0) html += '\\';
-  }
-  return html + "\n</script>\n";
-}
-
 std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
                                   const PageMaterial& material) {
   std::vector<Section> sections;
@@ -96,13 +85,8 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
       (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n") + contents_list(sections);
   for (const Section& section : sections) body += to_html(section);
   body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";
-  std::string scripts;
-  if (!material.scripts.empty()) {
-    scripts = chart_data(result, paper);
-    for (const std::string& text : material.scripts) scripts += script(text);
-    scripts += script(embedded_page_script());
-  }
-  return html_document("glovebench results", body, sheet_style(material.sheets), scripts);
+  return html_document("glovebench results", body, sheet_style(material.sheets),
+                       chart_scripts(chart_tables(result, paper), material.scripts));
 }
 
 }  // namespace glovebench::reports

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/chart.h"
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/text.h"
@@ -58,26 +57,41 @@ std::string outcome_tiles(const Comparison& comparison) {
   return html + "</div>\n";
 }
 
-bool shows_change(const std::vector<std::optional<double>>& values) {
-  return std::ranges::any_of(values, [](const auto& value) { return value && *value != 0; });
+bool shows_change(const FrameDifferences::OfMetric& differences) {
+  return std::ranges::any_of(differences.values, [](const auto& value) { return value && *value != 0; });
 }
 
-/// A chart for each metric that changed in some frame.
-std::string difference_charts(const FrameDifferences& experiment) {
-  std::string charts, unchanged;
-  for (const auto& [metric, values] : experiment.differences) {
-    const std::string key(metric->key);
-    if (!shows_change(values)) {
-      unchanged += (unchanged.empty() ? "" : ", ") + key;
-      continue;
+/// The differences frame by frame that the charts are drawn from, of the experiments in which any metric changed.
+Table difference_table(const std::vector<FrameDifferences>& experiments) {
+  Table table;
+  table.columns = {{"experiment", ""}, {"frame", ""}};
+  if (!experiments.empty())
+    for (const auto& [metric, values] : experiments.front().differences)
+      table.columns.push_back({std::string(metric->key), ""});
+  for (size_t e = 0; e < experiments.size(); ++e) {
+    const auto& differences = experiments[e].differences;
+    if (std::ranges::none_of(differences, shows_change)) continue;
+    for (size_t f = 0; f < differences.front().values.size(); ++f) {
+      Row& row =
+          table.rows.emplace_back(Row{static_cast<int64_t>(e), experiments[e].first_frame + static_cast<int>(f)});
+      for (const auto& [metric, values] : differences) row.push_back(f < values.size() ? cell(values[f]) : Cell());
     }
-    LineChart chart{key, "frame", key + ", candidate - baseline", {{key, values}}};
-    chart.is_signed = true;
-    chart.first_place = experiment.first_frame;
-    charts += to_svg(chart);
   }
-  if (!unchanged.empty()) charts += fmt::format("<p class=\"legend\">No frame differs in {}.</p>\n", unchanged);
-  return charts;
+  return table;
+}
+
+/// A chart of the metrics that changed in some frame; `number` of the experiment in difference_table.
+std::string difference_chart(const FrameDifferences& experiment, std::ptrdiff_t number) {
+  std::vector<std::string_view> changed, unchanged;
+  for (const auto& differences : experiment.differences)
+    (shows_change(differences) ? changed : unchanged).push_back(differences.metric->key);
+  std::string html;
+  if (!changed.empty())
+    html += chart_place(fmt::format("differences {}", number),
+                        fmt::format("Differences of {}, frame by frame", fmt::join(changed, ", ")));
+  if (!unchanged.empty())
+    html += fmt::format("<p class=\"legend\">No frame differs in {}.</p>\n", fmt::join(unchanged, ", "));
+  return html;
 }
 
 /// Folded, unless there is something to read in it.
@@ -91,14 +105,15 @@ std::string experiment_section(std::span<const ComparisonRow> rows, const std::v
   if (better > 0) html += fmt::format(" <span class=\"verdict better\">{} better</span>", better);
   html += "</summary>\n" + rows_html(rows, true);
   const auto differences = std::ranges::find(frames, name, &FrameDifferences::experiment);
-  if (differences != frames.end()) html += difference_charts(*differences);
+  if (differences != frames.end()) html += difference_chart(*differences, differences - frames.begin());
   return html + "</details>\n";
 }
 
 std::string experiments_html(const Comparison& comparison) {
   std::string html =
       "<h2>Experiments, frame by frame</h2>\n<p>Differences of each frame, mean over the seeds; above "
-      "zero the candidate is worse. Gaps are frames that have no value in one of the two.</p>\n";
+      "zero the candidate is worse. Gaps are frames that have no value in one of the two.</p>\n"
+      "<noscript><p>The charts are drawn by scripts; comparison.json holds their numbers.</p></noscript>\n";
   for (const auto& rows : rows_by_experiment(comparison))
     if (rows.front().experiment != kAllExperiments) html += experiment_section(rows, comparison.frames);
   return html;
@@ -146,7 +161,13 @@ std::string comparison_page(const ComparisonReport& report) {
   for (const Table& table : comparison_tables(report)) body += table_section(table);
   body += table_section(worst_frames_table(comparison.worst)) + picture_section("Pictures", report.pictures) +
           experiments_html(comparison);
-  return html_document("glovebench comparison", body);
+  const Table differences = difference_table(comparison.frames);
+  std::string scripts;
+  if (!differences.rows.empty()) {
+    const auto tables = nlohmann::ordered_json::object({{"differences", to_csv(differences)}});
+    scripts = chart_scripts(tables, report.scripts);
+  }
+  return html_document("glovebench comparison", body, "", scripts);
 }
 
 }  // namespace glovebench::reports

@@ -239,13 +239,24 @@ TEST(ComparisonPage, ShowsVerdictsChartsAndPictures) {
   EXPECT_THAT(page, HasSubstr("<span class=\"verdict better\">better</span>"));
   EXPECT_THAT(page, HasSubstr("<svg class=\"interval worse\""));
   EXPECT_THAT(page, HasSubstr("<details open><summary>Tr4 open_power, source"));
-  EXPECT_THAT(page, HasSubstr("<title>position_error_mm</title>"));
+  EXPECT_THAT(page, HasSubstr("data-chart=\"differences 0\""));
   EXPECT_THAT(page, HasSubstr("<figcaption>Frame 57 &lt;lost&gt;</figcaption>"));
   EXPECT_THAT(page, HasSubstr("<td>57</td><td>1</td><td>3.500</td><td>lost</td>"));
   EXPECT_THAT(page, HasSubstr("icp.max_iterations"));
   EXPECT_THAT(page, AllOf(Not(HasSubstr("http")), Not(HasSubstr("\"nan")), Not(HasSubstr("inf\""))));
   EXPECT_THAT(comparison_page(hostile_comparison()), Not(HasSubstr("<b>&\"")));
   EXPECT_THAT(comparison_page({}), HasSubstr("</html>"));
+}
+
+TEST(ComparisonPage, ChartsAreDrawnFromTheDifferences) {
+  ComparisonReport report = small_comparison();
+  EXPECT_THAT(comparison_page(report), Not(HasSubstr("<script"))) << "none was given";
+  report.scripts = {"vega"};
+  EXPECT_THAT(comparison_page(report),
+              AllOf(HasSubstr("<script>\nvega\n</script>"), HasSubstr("{\"differences\":\"experiment,frame,"),
+                    HasSubstr("\\n0,5,0.5,"), HasSubstr("\\n0,6,,"), HasSubstr("\\n0,7,-0.25,")));
+  report.comparison.frames[0].differences[0].values = {0, std::nullopt, 0};
+  EXPECT_THAT(comparison_page(report), AllOf(Not(HasSubstr("<script")), Not(HasSubstr("data-chart"))));
 }
 
 TEST(WriteComparison, WritesEveryFileOrRefuses) {

@@ -19,11 +19,6 @@ std::string contents_list(const std::vector<Section>& sections) {
   return html + "</ul></nav>\n";
 }
 
-std::string chart_place(const std::string& chart, const std::string& label) {
-  return fmt::format("<div class=\"chart-place\" data-chart=\"{}\" role=\"img\" aria-label=\"{}\"></div>\n", chart,
-                     escape_html(label));
-}
-
 std::string data_note(const std::string& table) {
   return fmt::format("<p class=\"source\">Data: <a href=\"tables/{0}.csv\">tables/{0}.csv</a></p>\n", table);
 }

@@ -17,8 +17,6 @@ std::string to_html(const Section& section);
 /// The list that leads to the sections.
 std::string contents_list(const std::vector<Section>& sections);
 
-/// A chart that data/page_charts.js draws in this place from the page's tables; `label` says what it shows.
-std::string chart_place(const std::string& chart, const std::string& label);
 /// Where the numbers of a chart are.
 std::string data_note(const std::string& table);
 
@@ -37,7 +35,7 @@ std::string frame_viewer_html(const FrameSheet& sheet);
 /// Puts each sheet into the page once: the tiles are windows on it.
 std::string sheet_style(const std::vector<FrameSheet>& sheets);
 
-/// The tables that the charts are drawn from, as text of CSV files by the files' names, in a script element.
-std::string chart_data(const RunResult& result, const PaperNumbers& paper);
+/// The tables that the charts are drawn from, as texts of CSV files by the files' names.
+nlohmann::ordered_json chart_tables(const RunResult& result, const PaperNumbers& paper);
 
 }  // namespace glovebench::reports
