@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "reports/example_result.h"
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 namespace glovebench::reports {
 namespace {

@@ -6,7 +6,7 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/gate.h"
 #include "reports/comparison/stage_times.h"
-#include "reports/page_frame.h"
+#include "reports/page/page_frame.h"
 
 namespace glovebench::reports {
 

@@ -1,4 +1,4 @@
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 #include <fmt/format.h>
 
@@ -12,11 +12,27 @@
 namespace glovebench::reports {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 Section metrics_section(const RunResult& result) {
   return {"metrics", "More metrics",
           "<p>Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
           "hands.</p>\n" +
               to_html(detail_summary(result))};
+}
+
+Section command_section(const RunResult& result, const Timings& timings) {
+  std::string html = "<p>" + escape_html(command_explanation()) + "</p>\n<h3>The stream</h3>\n";
+  html += to_html(command_stream_table(result)) + "<h3>Interventions</h3>\n";
+  const Table interventions = command_intervention_table(result);
+  html += interventions.rows.empty() ? "<p>None.</p>\n" : to_html(interventions);
+  html += "<h3>Against the truth's commands</h3>\n" + to_html(command_error_table(result)) + data_note("commands");
+  if (const Table latency = command_latency_table(result, timings); !latency.rows.empty())
+    html +=
+        "<h3>From frame to command</h3>\n<p>Processor time from a frame of the device to its command: tracking, "
+        "mapping, arm and guard, without transport. It differs from run to run.</p>\n" +
+        to_html(latency);
+  return {"commands", "Robot commands", html};
 }
 
 Section gallery_section(const std::vector<Picture>& pictures) {
@@ -72,7 +88,41 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
   return sections;
 }
 
+std::string section_html(const Section& section) {
+  const bool has_heading = section.html.starts_with("<h2>");
+  return fmt::format("<section id=\"{}\">\n{}{}</section>\n", section.id,
+                     has_heading ? "" : "<h2>" + escape_html(section.title) + "</h2>\n", section.html);
+}
+
+/// The list that leads to the sections.
+std::string contents_list(const std::vector<Section>& sections) {
+  std::string html = "<nav aria-label=\"Contents\"><ul>\n";
+  for (const Section& section : sections)
+    html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, escape_html(section.title));
+  return html + "</ul></nav>\n";
+}
+
+/// The tables that the charts are drawn from, as texts of CSV files by the files' names.
+Json chart_tables(const RunResult& result, const PaperNumbers& paper) {
+  const NoiseSetting noise = headline_noise(result);
+  Json tables = {{"figure4", figure4_csv(result, paper, noise)}};
+  const auto add_curve = [&](const std::string& name, const PaperCurve& curve) {
+    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
+    if (const ExperimentResult* experiment = find_experiment(result, key))
+      tables[name] = curve_csv(*experiment, curve);
+  };
+  add_curve("figure5", paper.figure_5);
+  add_curve("figure6", paper.figure_6);
+  for (const StudyResult& study : result.studies)
+    for (const Table& table : study.tables) tables[table.name] = to_csv(table);
+  return tables;
+}
+
 }  // namespace
+
+std::string data_note(const std::string& table) {
+  return fmt::format("<p class=\"source\">Data: <a href=\"tables/{0}.csv\">tables/{0}.csv</a></p>\n", table);
+}
 
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
                       const PageMaterial& material) {
@@ -83,7 +133,7 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
                   escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
       "<noscript><p>The charts are drawn by scripts; the tables hold all of their numbers.</p></noscript>\n" +
       (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n") + contents_list(sections);
-  for (const Section& section : sections) body += to_html(section);
+  for (const Section& section : sections) body += section_html(section);
   body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";
   return html_document("glovebench results", body, sheet_style(material.sheets),
                        chart_scripts(chart_tables(result, paper), material.scripts));

@@ -1,4 +1,4 @@
-#include "reports/page_frame.h"
+#include "reports/page/page_frame.h"
 
 #include <fmt/format.h>
 
