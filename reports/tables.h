@@ -46,5 +46,8 @@ std::string frames_csv(const ExperimentResult& experiment);
 /// The three errors of figures 5 and 6, frame by frame, beside those that the paper printed (another movement:
 /// frames of the same number have nothing in common but their place in the curve).
 std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& paper);
+/// What a page's charts are drawn from, as texts of CSV files: "figure4" is tables/figure4.csv. Figure 4, the
+/// curves of figures 5 and 6 that were run, and the studies' tables.
+nlohmann::ordered_json csv_tables(const RunResult& result, const PaperNumbers& paper);
 
 }  // namespace glovebench::reports

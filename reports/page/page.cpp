@@ -12,8 +12,6 @@
 namespace glovebench::reports {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Section metrics_section(const RunResult& result) {
   return {"metrics", "More metrics",
           "<p>Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
@@ -102,22 +100,6 @@ std::string contents_list(const std::vector<Section>& sections) {
   return html + "</ul></nav>\n";
 }
 
-/// The tables that the charts are drawn from, as texts of CSV files by the files' names.
-Json chart_tables(const RunResult& result, const PaperNumbers& paper) {
-  const NoiseSetting noise = headline_noise(result);
-  Json tables = {{"figure4", figure4_csv(result, paper, noise)}};
-  const auto add_curve = [&](const std::string& name, const PaperCurve& curve) {
-    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
-    if (const ExperimentResult* experiment = find_experiment(result, key))
-      tables[name] = curve_csv(*experiment, curve);
-  };
-  add_curve("figure5", paper.figure_5);
-  add_curve("figure6", paper.figure_6);
-  for (const StudyResult& study : result.studies)
-    for (const Table& table : study.tables) tables[table.name] = to_csv(table);
-  return tables;
-}
-
 }  // namespace
 
 std::string data_note(const std::string& table) {
@@ -136,7 +118,7 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
   for (const Section& section : sections) body += section_html(section);
   body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";
   return html_document("glovebench results", body, sheet_style(material.sheets),
-                       chart_scripts(chart_tables(result, paper), material.scripts));
+                       chart_scripts(csv_tables(result, paper), material.scripts));
 }
 
 }  // namespace glovebench::reports
