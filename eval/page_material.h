@@ -1,7 +1,7 @@
 #pragma once
 
 #include "eval/experiments.h"
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 namespace glovebench::eval {
 

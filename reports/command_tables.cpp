@@ -2,24 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "reports/csv.h"
 #include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-TextTable table_of(std::vector<std::string> columns) {
-  TextTable table{experiment_heading(), {}, static_cast<int>(experiment_heading().size())};
-  table.heading.insert(table.heading.end(), columns.begin(), columns.end());
-  return table;
-}
-
-void add_row(TextTable& table, const ExperimentKey& key, std::vector<std::string> cells) {
-  std::vector<std::string> row = experiment_cells(key);
+void add_row(Table& table, const ExperimentKey& key, const Row& cells) {
+  Row& row = table.rows.emplace_back(experiment_names(key));
   row.insert(row.end(), cells.begin(), cells.end());
-  table.rows.push_back(std::move(row));
 }
 
 int count_sent(const CommandResult& commands) {
@@ -68,55 +61,55 @@ std::string command_explanation() {
          "is smoother.";
 }
 
-TextTable command_stream_table(const RunResult& result) {
-  TextTable table =
-      table_of({"frames", "sent", "rate Hz (by stamps)", "longest gap ms", "following", "holding", "stopped"});
+Table command_stream_table(const RunResult& result) {
+  Table table = experiment_table(
+      {"frames", "sent", "rate Hz (by stamps)", "longest gap ms", "following", "holding", "stopped"});
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
     const CommandResult& commands = *experiment.commands;
-    std::vector<std::string> cells = {std::to_string(commands.frames), std::to_string(count_sent(commands)),
-                                      fixed(commands.rate_hz, 1), fixed(commands.longest_gap_ms, 0)};
-    for (const int sent : commands.sent) cells.push_back(std::to_string(sent));
-    add_row(table, experiment.key, std::move(cells));
+    Row cells = {commands.frames, count_sent(commands), fixed(commands.rate_hz, 1),
+                 fixed(commands.longest_gap_ms, 0)};
+    for (const int sent : commands.sent) cells.push_back(sent);
+    add_row(table, experiment.key, cells);
   }
   return table;
 }
 
-TextTable command_intervention_table(const RunResult& result) {
+Table command_intervention_table(const RunResult& result) {
   const std::vector<Intervention> kinds = interventions_of(result);
   std::vector<std::string> columns;
   for (const Intervention kind : kinds) columns.emplace_back(to_string(kind));
-  TextTable table = table_of(columns);
+  Table table = experiment_table(columns);
   if (kinds.empty()) return table;
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
-    std::vector<std::string> cells;
-    for (const Intervention kind : kinds) cells.push_back(std::to_string(experiment.commands->interventions[kind]));
-    add_row(table, experiment.key, std::move(cells));
+    Row cells;
+    for (const Intervention kind : kinds) cells.push_back(experiment.commands->interventions[kind]);
+    add_row(table, experiment.key, cells);
   }
   return table;
 }
 
-TextTable command_error_table(const RunResult& result) {
+Table command_error_table(const RunResult& result) {
   std::vector<std::string> columns;
   for (const CommandErrorInfo& info : command_error_infos()) columns.emplace_back(info.heading);
   columns.insert(columns.end(), {"jerk deg/s³", "jerk m/s³"});
-  TextTable table = table_of(columns);
+  Table table = experiment_table(columns);
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
     const CommandResult& commands = *experiment.commands;
-    std::vector<std::string> cells;
+    Row cells;
     for (const CommandErrorInfo& info : command_error_infos())
       cells.push_back(error_cell(commands.errors.*info.value));
     cells.push_back(jerk_cell(commands.jerk.joints_deg_s3, commands.truth_jerk.joints_deg_s3, 0));
     cells.push_back(jerk_cell(commands.jerk.position_m_s3, commands.truth_jerk.position_m_s3, 1));
-    add_row(table, experiment.key, std::move(cells));
+    add_row(table, experiment.key, cells);
   }
   return table;
 }
 
-TextTable command_latency_table(const RunResult& result, const Timings& timings) {
-  TextTable table = table_of({"median ms", "p99 ms", "longest ms"});
+Table command_latency_table(const RunResult& result, const Timings& timings) {
+  Table table = experiment_table({"median ms", "p99 ms", "longest ms"});
   for (const ExperimentTiming& timing : timings.experiments) {
     const ExperimentResult* experiment = find_experiment(result, timing.key);
     if (!experiment || timing.command_ms.empty()) continue;
@@ -165,7 +158,7 @@ std::string commands_csv(const RunResult& result) {
 
 std::string commands_markdown(const RunResult& result) {
   if (!has_commands(result)) return "";
-  const TextTable interventions = command_intervention_table(result);
+  const Table interventions = command_intervention_table(result);
   return fmt::format("## Robot commands\n\n{}\n\n{}\n{}\n\n{}\n", command_explanation(),
                      to_markdown(command_stream_table(result)),
                      interventions.rows.empty() ? "Nothing intervened." : to_markdown(interventions),

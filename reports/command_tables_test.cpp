@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "reports/example_result.h"
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 namespace glovebench::reports {
 namespace {
@@ -13,20 +13,36 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
+std::vector<std::string> headings_of_table(const Table& table) {
+  std::vector<std::string> headings;
+  for (const Column& column : table.columns) headings.push_back(column.heading);
+  return headings;
+}
+
+std::vector<std::string> texts_of_row(const Table& table, size_t row) {
+  std::vector<std::string> texts;
+  for (size_t c = 0; c < table.columns.size(); ++c)
+    texts.push_back(cell_text(table.rows[row][c], table.columns[c]));
+  return texts;
+}
+
 TEST(CommandTables, HaveARowForEachExperimentWithCommands) {
   const RunResult result = small_result();
-  const TextTable stream = command_stream_table(result), errors = command_error_table(result);
+  const Table stream = command_stream_table(result), errors = command_error_table(result);
   ASSERT_EQ(stream.rows.size(), 1U) << "the other three have none";
-  EXPECT_THAT(stream.rows[0], ElementsAre("Tr4", "DB_open_power", "recorded", "gradient x 1", "4", "4", "30.0",
-                                          "33", "2", "2", "0"));
-  const TextTable interventions = command_intervention_table(result);
-  EXPECT_THAT(interventions.heading, ElementsAre("trajectory", "database", "truth", "noise", "arm_speed", "hold"));
+  EXPECT_THAT(texts_of_row(stream, 0), ElementsAre("Tr4", "DB_open_power", "recorded", "gradient x 1", "4", "4",
+                                                   "30.0", "33", "2", "2", "0"));
+  const Table interventions = command_intervention_table(result);
+  EXPECT_THAT(headings_of_table(interventions),
+              ElementsAre("trajectory", "database", "truth", "noise", "arm_speed", "hold"));
   ASSERT_EQ(interventions.rows.size(), 1U);
-  EXPECT_THAT(interventions.rows[0], ElementsAre("Tr4", "DB_open_power", "recorded", "gradient x 1", "1", "2"));
+  EXPECT_THAT(texts_of_row(interventions, 0),
+              ElementsAre("Tr4", "DB_open_power", "recorded", "gradient x 1", "1", "2"));
   ASSERT_EQ(errors.rows.size(), 1U);
-  EXPECT_THAT(errors.rows[0], ElementsAre("Tr4", "DB_open_power", "recorded", "gradient x 1", "4.50 (5.85)",
-                                          "4.50 (5.85)", "4.50 (5.85)", "-", "2000000 (50000)", "150.5 (8.0)"));
-  for (const TextTable* table : {&stream, &errors}) EXPECT_EQ(table->heading.size(), table->rows[0].size());
+  EXPECT_THAT(texts_of_row(errors, 0),
+              ElementsAre("Tr4", "DB_open_power", "recorded", "gradient x 1", "4.50 (5.85)", "4.50 (5.85)",
+                          "4.50 (5.85)", "-", "2000000 (50000)", "150.5 (8.0)"));
+  for (const Table* table : {&stream, &errors}) EXPECT_EQ(table->columns.size(), table->rows[0].size());
 }
 
 TEST(CommandTables, SayThatNothingIntervened) {
@@ -52,9 +68,9 @@ TEST(CommandTables, LatencyIsOfTheExperimentsThatHaveOne) {
   timings.experiments = {{result.experiments[0].key, 1, {}, {1, 2, 3}},
                          {result.experiments[1].key, 1, {}, {}},
                          {{"Tr9", "DB_open_power", TruthKind::source, 1, {}}, 1, {}, {1}}};
-  const TextTable table = command_latency_table(result, timings);
+  const Table table = command_latency_table(result, timings);
   ASSERT_EQ(table.rows.size(), 1U);
-  EXPECT_THAT(table.rows[0],
+  EXPECT_THAT(texts_of_row(table, 0),
               ElementsAre("Tr4", "DB_open_power", "recorded", "gradient x 1", "2.00", "2.98", "3.00"));
 }
 

@@ -48,12 +48,14 @@ int main(int argc, char** argv) {
     write_report(argv[1], result, example_timings(), example_material(result, page_scripts()));
     write_report(std::string(argv[1]) + "/small", small_result(), {});
     const std::string comparison = std::string(argv[1]) + "/comparison";
-    write_comparison(comparison, full_comparison());
+    ComparisonReport report = full_comparison();
+    report.scripts = page_scripts();
+    write_comparison(comparison, report);
     write_comparison(comparison + "/small", small_comparison());
     glovebench::write_file(comparison + "/incomparable.xml", incomparable_junit("a.json: seeds: found <1>\n\x01"));
     std::fputs(figure4_table(result, paper_numbers(), {}).c_str(), stdout);
     std::fputs(claims_table(judge(claims(), all_measures(result))).c_str(), stdout);
-    std::fputs(comparison_table(full_comparison(), false).c_str(), stdout);
+    std::fputs(comparison_table(report, false).c_str(), stdout);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -5,9 +5,7 @@
 #include "reports/command_tables.h"
 #include "reports/histories/histories.h"
 #include "reports/json_text.h"
-#include "reports/latex.h"
 #include "reports/results_json.h"
-#include "reports/study_text.h"
 #include "reports/summary.h"
 
 namespace glovebench::reports {
@@ -20,23 +18,14 @@ struct NamedFile {
 
 std::vector<NamedFile> other_files(const RunResult& result) {
   const PaperNumbers& paper = paper_numbers();
-  const NoiseSetting noise = headline_noise(result);
   std::vector<NamedFile> files = {{"histories/bencher.json", bencher_json(result)},
                                   {"histories/github_action_benchmark.json", github_action_benchmark_json(result)},
-                                  {"tables/figure4.csv", figure4_csv(result, paper, noise)},
-                                  {"tables/figure4.tex", figure4_latex(result, paper, noise)}};
-  const auto add_curve = [&](const std::string& name, const PaperCurve& curve) {
-    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
-    if (const ExperimentResult* experiment = find_experiment(result, key))
-      files.push_back({name, curve_csv(*experiment, curve)});
-  };
-  add_curve("tables/figure5.csv", paper.figure_5);
-  add_curve("tables/figure6.csv", paper.figure_6);
+                                  {"tables/figure4.tex", figure4_latex(result, paper, headline_noise(result))}};
+  const auto tables = csv_tables(result, paper);
+  for (const auto& [name, csv] : tables.items()) files.push_back({"tables/" + name + ".csv", csv});
   for (const ExperimentResult& experiment : result.experiments)
     files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment)});
   if (has_commands(result)) files.push_back({"tables/commands.csv", commands_csv(result)});
-  for (const StudyResult& study : result.studies)
-    for (const Table& table : study.tables) files.push_back({table_file(table), table_csv(table)});
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
   if (any_was_run(verdicts)) {
     files.push_back({"claims.json", claims_json(verdicts)});

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reports/estimates.h"
-#include "reports/page.h"
+#include "reports/page/page.h"
 #include "reports/results.h"
 #include "reports/timings.h"
 

@@ -56,8 +56,8 @@ TEST(Report, WritesEveryFile) {
                                        "timings.json",
                                        "histories/bencher.json",
                                        "histories/github_action_benchmark.json",
-                                       "tables/figure4.csv",
                                        "tables/figure4.tex",
+                                       "tables/figure4.csv",
                                        "tables/figure5.csv"};
   const std::vector<std::string> experiments = {
       "Tr4_DB_open_power_recorded_subject1_gradient_1", "Tr4_DB_open_power_source_subject2_gradient_1",

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
-
 namespace glovebench::reports {
 
 const Table* find_table(const std::vector<StudyResult>& studies, std::string_view name) {
@@ -20,12 +18,6 @@ const Measure* find_measure(const std::vector<StudyResult>& studies, std::string
     if (it != study.measures.end()) return &*it;
   }
   return nullptr;
-}
-
-int column_index(const Table& table, std::string_view key) {
-  const auto it = std::ranges::find(table.columns, key, &Column::key);
-  check(it != table.columns.end(), "a table has the column that is asked for");
-  return static_cast<int>(it - table.columns.begin());
 }
 
 }  // namespace glovebench::reports

@@ -167,13 +167,6 @@ bool has_times(const Table& table) {
 
 }  // namespace
 
-Json cell_json(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return valid_utf8(*text);
-  if (const auto* count = std::get_if<int64_t>(&cell)) return *count;
-  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number);
-  return nullptr;
-}
-
 void check_studies(const std::vector<StudyResult>& studies) {
   std::set<std::string> tables, measures;
   for (const StudyResult& study : studies) {

@@ -19,9 +19,6 @@ nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies)
 /// one cell a column, cells that are neither text, number nor null.
 std::vector<StudyResult> read_studies(const JsonCursor& json);
 
-/// A cell as JSON and CSV hold it: numbers rounded to 1e-6.
-nlohmann::ordered_json cell_json(const Cell& cell);
-
 /// What every writer relies on; anything else is a broken invariant: names as above, each of a table or a measure
 /// once in all studies and no other report's file, one cell a column in each row, at least one column that names a
 /// row, none of those a time, at most six digits.

@@ -2,58 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "reports/chart.h"
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
-#include "reports/study_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
-
-std::string errors_cell(const ExperimentResult* experiment) {
-  if (!experiment || experiment->coverage.frames == 0) return "-";
-  return fmt::format("{} / {} / {}, {:.1f}%", fixed(experiment->aggregate_of("position_error_mm").mean, 2),
-                     fixed(experiment->aggregate_of("posture_rms_deg").mean, 2),
-                     fixed(experiment->aggregate_of("rotation_error_deg").mean, 2),
-                     100 * *experiment->coverage.share());
-}
 
 std::string mean_with_interval(const ExperimentResult& experiment, std::string_view metric) {
   const auto& interval = experiment.interval_of(metric);
   const std::string mean = fixed(experiment.aggregate_of(metric).mean, 2);
   return interval ? fmt::format("{} [{:.2f}, {:.2f}]", mean, interval->low, interval->high) : mean;
-}
-
-}  // namespace
-
-std::string to_markdown(const TextTable& table) {
-  std::string text = fmt::format("| {} |\n|", fmt::join(table.heading, " | "));
-  for (size_t c = 0; c < table.heading.size(); ++c)
-    text += static_cast<int>(c) < table.name_columns ? " --- |" : " ---: |";
-  text += "\n";
-  for (const auto& row : table.rows) text += fmt::format("| {} |\n", fmt::join(row, " | "));
-  return text;
-}
-
-std::string to_html(const TextTable& table) {
-  std::string text = "<div class=\"scroll\"><table>\n<thead><tr>";
-  const auto cells = [&](const std::vector<std::string>& row, const char* tag) {
-    for (size_t c = 0; c < row.size(); ++c)
-      text += fmt::format("<{0}{1}>{2}</{0}>", tag,
-                          static_cast<int>(c) < table.name_columns ? " class=\"name\"" : "", escape_html(row[c]));
-  };
-  cells(table.heading, "th");
-  text += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
-    text += "<tr>";
-    cells(row, "td");
-    text += "</tr>\n";
-  }
-  return text + "</tbody></table></div>\n";
-}
-
-std::vector<std::string> experiment_heading() {
-  return {"trajectory", "database", "truth", "noise"};
 }
 
 std::string truth_cell(const ExperimentKey& key) {
@@ -62,48 +21,48 @@ std::string truth_cell(const ExperimentKey& key) {
   return key.subject == 2 ? truth + ", second subject" : fmt::format("{}, subject {}", truth, key.subject);
 }
 
-std::vector<std::string> experiment_cells(const ExperimentKey& key) {
+}  // namespace
+
+Table experiment_table(const std::vector<std::string>& measured) {
+  Table table = table_of({"trajectory", "database", "truth", "noise"}, 4);
+  for (const std::string& heading : measured) table.columns.push_back({"", heading});
+  return table;
+}
+
+Row experiment_names(const ExperimentKey& key) {
   return {key.trajectory, key.database, truth_cell(key), fmt::format("{} x {}", key.noise.model, key.noise.factor)};
 }
 
-TextTable figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
-  TextTable table;
-  table.heading = {"trajectory", "database"};
-  for (const Variant& variant : figure4_variants()) table.heading.push_back(variant.title);
-  table.heading.push_back("paper");
-  for (const Figure4Row& row : figure4_rows(result, paper, noise)) {
-    table.rows.push_back({row.trajectory, row.database});
-    for (const ExperimentResult* experiment : row.variants) table.rows.back().push_back(errors_cell(experiment));
-    table.rows.back().push_back(row.paper ? fmt::format("{:.2f} / {:.2f} / {:.2f}", row.paper->position_mm,
-                                                        row.paper->posture_deg, row.paper->rotation_deg)
-                                          : "-");
+Table detail_summary(const RunResult& result) {
+  std::vector<std::string> headings = {"position mm [95%]"};
+  for (const Metric& metric : frame_metrics())
+    if (!metric.heading.empty()) headings.emplace_back(metric.heading);
+  for (const char* heading :
+       {"PCK area", "jitter mm", "jitter deg", "latency frames", "lost", "false tracked", "false lost", "frames"})
+    headings.emplace_back(heading);
+  Table table = experiment_table(headings);
+  for (const ExperimentResult& experiment : result.experiments) {
+    const Coverage& coverage = experiment.coverage;
+    Row& row = table.rows.emplace_back(experiment_names(experiment.key));
+    row.push_back(mean_with_interval(experiment, "position_error_mm"));
+    for (const Metric& metric : frame_metrics())
+      if (!metric.heading.empty()) row.push_back(fixed(experiment.aggregate_of(metric.key).mean, 2));
+    row.insert(row.end(),
+               {fixed(experiment.pck.area, 3), fixed(experiment.sequence.jitter_position_mm, 2),
+                fixed(experiment.sequence.jitter_rotation_deg, 2), fixed(experiment.sequence.latency_frames, 1),
+                coverage.lost, coverage.false_tracked, coverage.false_lost, coverage.frames});
   }
   return table;
 }
 
-TextTable detail_summary(const RunResult& result) {
-  TextTable table{experiment_heading(), {}, static_cast<int>(experiment_heading().size())};
-  table.heading.emplace_back("position mm [95%]");
-  for (const Metric& metric : frame_metrics())
-    if (!metric.heading.empty()) table.heading.emplace_back(metric.heading);
-  for (const char* column :
-       {"PCK area", "jitter mm", "jitter deg", "latency frames", "lost", "false tracked", "false lost", "frames"})
-    table.heading.emplace_back(column);
-  for (const ExperimentResult& experiment : result.experiments) {
-    const Coverage& coverage = experiment.coverage;
-    std::vector<std::string> row = experiment_cells(experiment.key);
-    row.push_back(mean_with_interval(experiment, "position_error_mm"));
-    for (const Metric& metric : frame_metrics())
-      if (!metric.heading.empty()) row.push_back(fixed(experiment.aggregate_of(metric.key).mean, 2));
-    for (std::string cell :
-         {fixed(experiment.pck.area, 3), fixed(experiment.sequence.jitter_position_mm, 2),
-          fixed(experiment.sequence.jitter_rotation_deg, 2), fixed(experiment.sequence.latency_frames, 1),
-          std::to_string(coverage.lost), std::to_string(coverage.false_tracked),
-          std::to_string(coverage.false_lost), std::to_string(coverage.frames)})
-      row.push_back(std::move(cell));
-    table.rows.push_back(std::move(row));
+std::string study_markdown(const StudyResult& study) {
+  std::string text = fmt::format("## {}\n\n", study.title);
+  for (const Table& table : study.tables) {
+    if (table.title != study.title) text += fmt::format("### {}\n\n", table.title);
+    if (!table.explanation.empty()) text += table.explanation + "\n\n";
+    text += to_markdown(table) + "\n";
   }
-  return table;
+  return text;
 }
 
 std::string summary_explanation() {

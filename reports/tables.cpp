@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "reports/csv.h"
 #include "reports/json_text.h"
 #include "reports/results_json.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -26,18 +26,23 @@ std::string short_name(const std::string& database) {
   return database.starts_with("DB_") ? database.substr(3) : database;
 }
 
+std::optional<double> covered_percent(const ExperimentResult& experiment) {
+  std::optional<double> percent = experiment.coverage.share();
+  if (percent) *percent *= 100;
+  return percent;
+}
+
 /// At most six columns wide, up to an error of a kilometre.
-std::string cell(const std::optional<double>& value) {
+std::string narrow(const std::optional<double>& value) {
   return fixed(value, !value || *value < 99.995 ? 2 : *value < 9999.95 ? 1 : 0);
 }
 
 std::string variant_cells(const ExperimentResult* experiment) {
   if (!experiment) return fmt::format("{:>6} {:>6} {:>6} {:>5}", "-", "-", "-", "-");
-  std::optional<double> percent = experiment->coverage.share();
-  if (percent) *percent *= 100;
-  return fmt::format("{:>6} {:>6} {:>6} {:>5}", cell(experiment->aggregate_of("position_error_mm").mean),
-                     cell(experiment->aggregate_of("posture_rms_deg").mean),
-                     cell(experiment->aggregate_of("rotation_error_deg").mean), fixed(percent, 1));
+  return fmt::format("{:>6} {:>6} {:>6} {:>5}", narrow(experiment->aggregate_of("position_error_mm").mean),
+                     narrow(experiment->aggregate_of("posture_rms_deg").mean),
+                     narrow(experiment->aggregate_of("rotation_error_deg").mean),
+                     fixed(covered_percent(*experiment), 1));
 }
 
 std::string paper_cells(const PaperErrors* paper) {
@@ -70,6 +75,34 @@ std::string figure4_csv_line(const ExperimentResult& experiment, const PaperErro
   return csv_line(cells);
 }
 
+/// All errors of a variant, or of the paper, in one cell.
+std::string errors_cell(const ExperimentResult* experiment) {
+  if (!experiment || experiment->coverage.frames == 0) return "-";
+  return fmt::format("{} / {} / {}, {}%", fixed(experiment->aggregate_of("position_error_mm").mean, 2),
+                     fixed(experiment->aggregate_of("posture_rms_deg").mean, 2),
+                     fixed(experiment->aggregate_of("rotation_error_deg").mean, 2),
+                     fixed(covered_percent(*experiment), 1));
+}
+
+std::string errors_cell(const PaperErrors* paper) {
+  if (!paper) return "-";
+  return fmt::format("{:.2f} / {:.2f} / {:.2f}", paper->position_mm, paper->posture_deg, paper->rotation_deg);
+}
+
+/// A row of LaTeX that spans each variant's columns with its title.
+std::string variant_heading() {
+  std::string titles = " & ", rules;
+  int column = 3;
+  const auto span = [&](const std::string& title, int columns) {
+    titles += fmt::format(" & \\multicolumn{{{}}}{{c}}{{{}}}", columns, escape_latex(title));
+    rules += fmt::format("\\cmidrule(lr){{{}-{}}}", column, column + columns - 1);
+    column += columns;
+  };
+  for (const Variant& variant : figure4_variants()) span(variant.title, 4);
+  span("paper", 3);
+  return titles + " \\\\\n" + rules + "\n";
+}
+
 std::string trimmed(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
@@ -82,10 +115,6 @@ const std::array<Variant, 3>& figure4_variants() {
                                                    {"source truth", TruthKind::source, 1},
                                                    {"source, second subject", TruthKind::source, 2}}};
   return variants;
-}
-
-std::string fixed(const std::optional<double>& value, int digits) {
-  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
 
 std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper,
@@ -123,6 +152,42 @@ std::string figure4_table(const RunResult& result, const PaperNumbers& paper, co
     previous = row.trajectory;
   }
   return text;
+}
+
+Table figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
+  Table table = table_of({"trajectory", "database"}, 2);
+  for (const Variant& variant : figure4_variants()) table.columns.push_back({"", variant.title});
+  table.columns.push_back({"", "paper"});
+  for (const Figure4Row& row : figure4_rows(result, paper, noise)) {
+    table.rows.push_back({row.trajectory, row.database});
+    for (const ExperimentResult* experiment : row.variants) table.rows.back().push_back(errors_cell(experiment));
+    table.rows.back().push_back(errors_cell(row.paper));
+  }
+  return table;
+}
+
+std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
+  const std::vector<std::string> errors = {"mm", "post. deg", "rot. deg"};
+  Table table = table_of({"trajectory", "database"}, 2);
+  const auto add_columns = [&](const std::vector<std::string>& headings) {
+    for (const std::string& heading : headings) table.columns.push_back({"", heading});
+  };
+  for (size_t v = 0; v < figure4_variants().size(); ++v) {
+    add_columns(errors);
+    add_columns({"cov. %"});
+  }
+  add_columns(errors);
+  for (const Figure4Row& row : figure4_rows(result, paper, noise)) {
+    Row& cells = table.rows.emplace_back(Row{row.trajectory, row.database});
+    for (const ExperimentResult* experiment : row.variants) {
+      for (const Headline& headline : kHeadlines)
+        cells.push_back(experiment ? fixed(experiment->aggregate_of(headline.metric).mean, 2) : "-");
+      cells.push_back(experiment ? fixed(covered_percent(*experiment), 1) : "-");
+    }
+    for (const Headline& headline : kHeadlines)
+      cells.push_back(row.paper ? fixed(row.paper->*headline.paper, 2) : "-");
+  }
+  return to_latex(table, variant_heading());
 }
 
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
@@ -173,6 +238,21 @@ std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& pape
     }
   }
   return csv;
+}
+
+Json csv_tables(const RunResult& result, const PaperNumbers& paper) {
+  const NoiseSetting noise = headline_noise(result);
+  Json tables = {{"figure4", figure4_csv(result, paper, noise)}};
+  const auto add_curve = [&](const std::string& name, const PaperCurve& curve) {
+    const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
+    if (const ExperimentResult* experiment = find_experiment(result, key))
+      tables[name] = curve_csv(*experiment, curve);
+  };
+  add_curve("figure5", paper.figure_5);
+  add_curve("figure6", paper.figure_6);
+  for (const StudyResult& study : result.studies)
+    for (const Table& table : study.tables) tables[table.name] = to_csv(table);
+  return tables;
 }
 
 }  // namespace glovebench::reports

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/paper_numbers.h"
 #include "reports/results.h"
+#include "reports/table.h"
 
 namespace glovebench::reports {
 
@@ -33,6 +33,10 @@ std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers
 /// rotation error with coverage, beside the paper's printed means. "-" where there is no value.
 std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
+/// The same rows: a column for each variant and one for the paper's means.
+Table figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
+/// The same rows as a LaTeX tabular: a column for each number.
+std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 /// The same rows, one line an experiment, with the intervals of the means and the paper's numbers.
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
@@ -42,8 +46,8 @@ std::string frames_csv(const ExperimentResult& experiment);
 /// The three errors of figures 5 and 6, frame by frame, beside those that the paper printed (another movement:
 /// frames of the same number have nothing in common but their place in the curve).
 std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& paper);
-
-/// A value with a fixed number of digits; "-" for none.
-std::string fixed(const std::optional<double>& value, int digits);
+/// What a page's charts are drawn from, as texts of CSV files: "figure4" is tables/figure4.csv. Figure 4, the
+/// curves of figures 5 and 6 that were run, and the studies' tables.
+nlohmann::ordered_json csv_tables(const RunResult& result, const PaperNumbers& paper);
 
 }  // namespace glovebench::reports

@@ -45,6 +45,15 @@ TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
   EXPECT_THAT(table, testing::Not(HasSubstr("Tr1")));
 }
 
+TEST(Figure4Latex, HasThePapersNumbers) {
+  const std::string latex = figure4_latex(small_result(), paper_numbers(), {});
+  EXPECT_THAT(latex, HasSubstr("Tr4 & DB\\_open\\_power & 4.00 & 3.00 & 2.00 & 75.0 & -- & -- & -- & -- & "
+                               "-- & -- & -- & 0.0 & 3.88 & 2.60 & 2.70 \\\\\n"));
+  EXPECT_THAT(latex, HasSubstr("\\multicolumn{4}{c}{source, second subject} & \\multicolumn{3}{c}{paper} \\\\\n"
+                               "\\cmidrule(lr){3-6}\\cmidrule(lr){7-10}\\cmidrule(lr){11-14}"
+                               "\\cmidrule(lr){15-17}\n"));
+}
+
 TEST(Figure4Csv, OneLineAnExperiment) {
   const std::vector<std::string> lines = lines_of_table(figure4_csv(small_result(), paper_numbers(), {}));
   ASSERT_EQ(lines.size(), 4u);
@@ -91,12 +100,6 @@ TEST(Summary, TablesInMarkdown) {
   EXPECT_THAT(markdown, HasSubstr("Noise: gradient x 1."));
   EXPECT_THAT(markdown, HasSubstr(small_result().protocol.id()));
   EXPECT_THAT(markdown, HasSubstr("| kinect x 0.5 | 400.00 |"));
-}
-
-TEST(Summary, TextInHtmlIsEscaped) {
-  EXPECT_THAT(to_html({{"a<b", "c"}, {{"x&y", "1"}}, 1}),
-              HasSubstr("<th class=\"name\">a&lt;b</th><th>c</th></tr></thead>\n<tbody>\n"
-                        "<tr><td class=\"name\">x&amp;y</td><td>1</td></tr>"));
 }
 
 }  // namespace

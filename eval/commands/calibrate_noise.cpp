@@ -10,8 +10,8 @@
 #include "eval/regression/baseline.h"
 #include "eval/suite.h"
 #include "reports/comparison/comparison.h"
-#include "reports/summary.h"
-#include "reports/tables.h"
+#include "reports/table.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {
@@ -74,11 +74,9 @@ struct CalibrateNoise {
   }
 
   /// A row for each metric: the mean over all experiments, and the least sensitive of them.
-  static reports::TextTable smallest_changes(const reports::NoiseFloor& floor) {
-    reports::TextTable table;
-    table.heading = {"suite " + floor.suite, "all, same seeds", "all, other seeds", "worst experiment, same seeds",
-                     "worst experiment, other seeds"};
-    table.name_columns = 1;
+  static reports::Table smallest_changes(const reports::NoiseFloor& floor) {
+    reports::Table table = reports::table_of({"suite " + floor.suite, "all, same seeds", "all, other seeds",
+                                              "worst experiment, same seeds", "worst experiment, other seeds"});
     for (const reports::Metric& metric : reports::gated_metrics()) {
       std::optional<double> all_effect, all_detectable, effect, detectable;
       for (const reports::NoiseFloorEntry& entry : floor.entries) {

@@ -3,6 +3,7 @@
 #include "eval/commands/flags.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
+#include "eval/share.h"
 #include "reports/comparison/comparison_report.h"
 
 namespace glovebench::eval {
@@ -28,6 +29,7 @@ struct Compare {
     if (!output.empty()) {
       report.pictures =
           picture_changes(report.comparison, candidate.results.result, baseline.files, candidate.files);
+      report.scripts = page_scripts();
       reports::write_comparison(output, report);
     }
     fmt::print("{}", reports::comparison_table(report, all_rows));

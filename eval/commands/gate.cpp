@@ -4,6 +4,7 @@
 #include "eval/commands/flags.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
+#include "eval/share.h"
 #include "reports/comparison/comparison_report.h"
 
 namespace glovebench::eval {
@@ -82,6 +83,7 @@ struct Gate {
   bool report(const Baseline& baseline, const std::string& folder, const StoredRun& candidate,
               reports::ComparisonReport made) const {
     if (!output.empty()) {
+      made.scripts = page_scripts();
       made.pictures =
           picture_changes(made.comparison, candidate.results.result, baseline.run.files, candidate.files);
       reports::write_comparison(output, made);

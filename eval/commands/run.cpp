@@ -6,7 +6,6 @@
 #include "eval/plan_overview.h"
 #include "eval/reproduction.h"
 #include "eval/suite.h"
-#include "reports/study_text.h"
 #include "reports/summary.h"
 #include "trajectories/formats/format.h"
 

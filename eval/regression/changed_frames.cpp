@@ -14,7 +14,7 @@
 #include "render/label_renderer.h"
 #include "render/pictures.h"
 #include "reports/estimates.h"
-#include "reports/tables.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {

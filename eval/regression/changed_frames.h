@@ -5,7 +5,7 @@
 
 #include "core/base/file_set.h"
 #include "reports/comparison/comparison.h"
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 namespace glovebench::eval {
 

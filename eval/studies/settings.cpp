@@ -166,10 +166,6 @@ std::optional<double> covered_percent(const Passes& passes) {
   }));
 }
 
-reports::Cell cell(const std::optional<double>& value) {
-  return value ? reports::Cell(*value) : reports::Cell();
-}
-
 std::vector<reports::Cell> cells(const Estimated& estimated) {
   if (!estimated.interval) return {cell(estimated.value), {}, {}};
   return {cell(estimated.value), estimated.interval->low, estimated.interval->high};

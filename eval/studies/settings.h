@@ -71,6 +71,6 @@ std::optional<double> covered_percent(const Passes& passes);
 
 /// A value, and the ends of its interval: three cells.
 std::vector<reports::Cell> cells(const Estimated& estimated);
-reports::Cell cell(const std::optional<double>& value);
+using reports::cell;
 
 }  // namespace glovebench::eval

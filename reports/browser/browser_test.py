@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Opens the page of an invented run in headless Chromium: browser_test.py REPORTS_EXAMPLE
+"""Opens the pages of an invented run and comparison in headless Chromium: browser_test.py REPORTS_EXAMPLE
 
 Looks for what only a browser can tell: that every chart is drawn from the numbers of tables/*.csv, without a message
 on the console and without a request to the network, in light and dark mode; that the pointer and the keyboard show
@@ -180,6 +180,28 @@ def check_colors(browser, scheme, colors):
                 getComputedStyle(document.querySelector('[data-chart="figure5-position"] .role-axis-title text')).fill]""")
 
 
+def check_comparison(browser, folder):
+    """The differences of a comparison are drawn, those of an experiment in one chart, from what comparison.json says."""
+    page = folder / "comparison" / "index.html"
+    open_page(browser, page, "light")
+    check_silence(browser, page, "comparison")
+    expect(browser.execute_script("return document.documentElement.scrollWidth <= innerWidth"),
+           "comparison: the page is wider than the window")
+    experiments = json.loads((page.parent / "comparison.json").read_text())["frame_differences"]
+    expect(len(experiments) == 4, f"comparison: {len(experiments)} experiments")
+    rows = browser.execute_script("return glovebench.tables.differences")
+    for number, experiment in enumerate(experiments):
+        chart = f"differences {number}"
+        drawn = [row for row in rows if row["experiment"] == number]
+        changed = 0
+        for metric, values in experiment["differences"].items():
+            expect([row[metric] for row in drawn] == values, f"comparison: {chart} draws other numbers of {metric}")
+            changed += any(values)
+        panels = browser.execute_script("""
+            return document.querySelectorAll(`[data-chart="${arguments[0]}"] svg .mark-line path`).length""", chart)
+        expect(panels == changed, f"comparison: {chart} has {panels} lines, {changed} metrics changed")
+
+
 def check_print(browser):
     pdf = base64.b64decode(browser.execute_cdp_cmd("Page.printToPDF", {})["data"])
     expect(pdf.startswith(b"%PDF") and len(pdf) > 20_000, f"the printed page has {len(pdf)} bytes")
@@ -225,6 +247,7 @@ def main():
             for light, dark, what in zip(colors["light"], colors["dark"], ["page", "charts"]):
                 expect(light != dark, f"the {what} has the same color in both modes: {light}")
             check_print(browser)
+            check_comparison(browser, folder)
             check_without_scripts(browser, page)
         finally:
             browser.quit()

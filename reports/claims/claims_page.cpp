@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "reports/chart.h"
 #include "reports/claims/claims_report.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

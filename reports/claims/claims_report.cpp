@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/csv.h"
 #include "reports/json_text.h"
 #include "reports/statistics.h"
-#include "reports/summary.h"
+#include "reports/table.h"
 
 namespace glovebench::reports {
 namespace {
@@ -36,11 +35,9 @@ std::string ids_of(const std::vector<ClaimVerdict>& verdicts, ClaimOutcome outco
   return fmt::format("{}", fmt::join(ids, ", "));
 }
 
-/// The claims that were run. What a cell holds is escaped by whoever writes the table.
-TextTable verdict_table(const std::vector<ClaimVerdict>& verdicts) {
-  TextTable table;
-  table.heading = {"outcome", "claim", "source", "paper", "measured", "holds if"};
-  table.name_columns = 4;
+/// The claims that were run.
+Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
+  Table table = table_of({"outcome", "claim", "source", "paper", "measured", "holds if"}, 4);
   for (const ClaimVerdict& verdict : verdicts) {
     if (verdict.outcome == ClaimOutcome::not_run) continue;
     const ClaimDefinition& claim = verdict.claim.definition();

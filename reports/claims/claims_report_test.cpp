@@ -56,7 +56,7 @@ TEST(ClaimsReport, CountsOutcomes) {
 TEST(ClaimsReport, WhatDoesNotHoldIsSaidEverywhere) {
   EXPECT_THAT(claims_table(kFailed), HasSubstr("It is large."));
   EXPECT_THAT(claims_markdown(kFailed),
-              HasSubstr("| not reproduced, required | Is <small>. Its size. It is large. |"));
+              HasSubstr("| not reproduced, required | Is &lt;small>. Its size. It is large. |"));
   EXPECT_THAT(claims_section(kFailed), HasSubstr("verdict worse\">not reproduced"));
   EXPECT_THAT(claims_section(kFailed), HasSubstr("Is &lt;small&gt;."));
   EXPECT_THAT(claims_section(kFailed), HasSubstr("It is large."));

@@ -1,10 +1,6 @@
-#include <algorithm>
-
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/comparison_text.h"
-#include "reports/csv.h"
 #include "reports/json_text.h"
-#include "reports/latex.h"
 
 namespace glovebench::reports {
 namespace {
@@ -124,14 +120,6 @@ std::string comparison_csv(const ComparisonReport& report) {
     csv += csv_line(cells);
   }
   return csv;
-}
-
-std::string comparison_latex(const ComparisonReport& report) {
-  TextTable table = rows_table(report.comparison.rows);
-  for (auto& row : table.rows) std::rotate(row.begin() + 2, row.end() - 1, row.end());  // words before numbers
-  std::rotate(table.heading.begin() + 2, table.heading.end() - 1, table.heading.end());
-  table.name_columns = 3;
-  return to_latex(table);
 }
 
 }  // namespace glovebench::reports

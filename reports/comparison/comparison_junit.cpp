@@ -2,31 +2,12 @@
 
 #include <algorithm>
 
-#include "reports/chart.h"
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/comparison_text.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
-
-/// Text for XML 1.0: characters that it cannot hold, not even escaped, become U+FFFD.
-std::string escape_xml(const std::string& text) {
-  constexpr const char* kReplacement = "\xef\xbf\xbd";
-  std::string escaped;
-  for (const char c : escape_html(valid_utf8(text))) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '\t' || c == '\n' || c == '\r')
-      escaped += fmt::format("&#{};", code);  // else an attribute would turn them into spaces
-    else if (code < 0x20)
-      escaped += kReplacement;
-    else
-      escaped += c;
-    if (escaped.ends_with("\xef\xbf\xbe") || escaped.ends_with("\xef\xbf\xbf"))
-      escaped.replace(escaped.size() - 3, 3, kReplacement);
-  }
-  return escaped;
-}
 
 /// What a test came to: "failure", "skipped" or "error", or nothing if it passed.
 struct TestCase {

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/chart.h"
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/comparison_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
-
-std::string style_of(const ComparisonRow& row) {
-  if (stops(row)) return "worse";
-  if (row.verdict == Verdict::better) return "better";
-  return row.verdict == Verdict::same ? "same" : "unsure";
-}
 
 /// The interval as a bar over the minimum effect as a band, zero in the middle: less is to the left, and better.
 std::string interval_plot(const ComparisonRow& row) {
@@ -29,48 +23,28 @@ std::string interval_plot(const ComparisonRow& row) {
       "<line class=\"zero\" x1=\"60\" y1=\"0\" x2=\"60\" y2=\"14\"/>"
       "<line class=\"bar\" x1=\"{:.1f}\" y1=\"7\" x2=\"{:.1f}\" y2=\"7\"/>"
       "<circle class=\"dot\" cx=\"{:.1f}\" cy=\"7\" r=\"3\"/></svg>",
-      style_of(row), x(-row.minimum_effect), x(row.minimum_effect) - x(-row.minimum_effect), x(*row.low),
+      to_string(tone_of(row)), x(-row.minimum_effect), x(row.minimum_effect) - x(-row.minimum_effect), x(*row.low),
       x(*row.high), x(*row.difference));
 }
 
-std::string verdict_cell(const std::string& style, const std::string& words) {
-  return fmt::format("<td class=\"name\"><span class=\"verdict {}\">{}</span></td>", style, escape_html(words));
+/// `of_one`: of one experiment, whose name stands above.
+std::string rows_html(std::span<const ComparisonRow> rows, bool of_one) {
+  Table table = verdict_first(rows_table(rows));
+  if (of_one) {
+    table.columns.erase(table.columns.begin());
+    for (Row& row : table.rows) row.erase(row.begin());
+    --table.name_columns;
+  }
+  std::vector<std::string> plots;
+  for (const ComparisonRow& row : rows) plots.push_back(interval_plot(row));
+  return to_html(table, plots);
 }
 
-/// The verdict stands beside the name: a narrow screen cuts off numbers, not the answer.
-std::string row_html(const ComparisonRow& row, bool with_experiment) {
-  const std::vector<std::string> cells = row_cells(row);
-  std::string html = "<tr>";
-  if (with_experiment)
-    html += fmt::format("<td class=\"name\">{}</td>", escape_html(readable_experiment(row.experiment)));
-  html += fmt::format("<td class=\"name\">{}</td>", escape_html(cells[0])) +
-          verdict_cell(style_of(row), cells.back()) + fmt::format("<td>{}</td>", interval_plot(row));
-  for (size_t c = 1; c + 1 < cells.size(); ++c) html += fmt::format("<td>{}</td>", escape_html(cells[c]));
-  return html + "</tr>\n";
-}
-
-std::string rows_html(const std::vector<ComparisonRow>& rows, bool with_experiment) {
-  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
-  if (with_experiment) html += "<th class=\"name\">experiment</th>";
-  html +=
-      "<th class=\"name\">quantity</th><th class=\"name\">verdict</th><th></th><th>baseline</th>"
-      "<th>candidate</th><th>difference</th><th>interval</th><th>minimum effect</th></tr></thead>\n<tbody>\n";
-  for (const ComparisonRow& row : rows) html += row_html(row, with_experiment);
-  return html + "</tbody></table></div>\n";
-}
-
-std::string speed_section(const std::vector<SpeedRow>& speed) {
-  if (speed.empty()) return "";
-  std::string html =
-      "<h2>Speed</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th class=\"name\">times faster than plain</th>"
-      "<th class=\"name\">verdict</th><th>baseline</th><th>candidate</th><th>at "
-      "best</th><th>limit</th></tr></thead>\n<tbody>\n";
-  for (const SpeedRow& row : speed)
-    html += fmt::format(
-        "<tr><td class=\"name\">{}</td>{}<td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
-        escape_html(row.name), verdict_cell(row.slower ? "worse" : "same", speed_verdict(row)), row.baseline,
-        row.candidate, row.best, row.limit);
-  return html + "</tbody></table></div>\n";
+std::string table_section(const Table& table) {
+  if (table.rows.empty()) return "";
+  const std::string explanation =
+      table.explanation.empty() ? "" : "<p>" + escape_html(table.explanation) + "</p>\n";
+  return fmt::format("<h2>{}</h2>\n{}{}", table.title, explanation, to_html(verdict_first(table)));
 }
 
 std::string outcome_tiles(const Comparison& comparison) {
@@ -83,26 +57,41 @@ std::string outcome_tiles(const Comparison& comparison) {
   return html + "</div>\n";
 }
 
-bool shows_change(const std::vector<std::optional<double>>& values) {
-  return std::ranges::any_of(values, [](const auto& value) { return value && *value != 0; });
+bool shows_change(const FrameDifferences::OfMetric& differences) {
+  return std::ranges::any_of(differences.values, [](const auto& value) { return value && *value != 0; });
 }
 
-/// A chart for each metric that changed in some frame.
-std::string difference_charts(const FrameDifferences& experiment) {
-  std::string charts, unchanged;
-  for (const auto& [metric, values] : experiment.differences) {
-    const std::string key(metric->key);
-    if (!shows_change(values)) {
-      unchanged += (unchanged.empty() ? "" : ", ") + key;
-      continue;
+/// The differences frame by frame that the charts are drawn from, of the experiments in which any metric changed.
+Table difference_table(const std::vector<FrameDifferences>& experiments) {
+  Table table;
+  table.columns = {{"experiment", ""}, {"frame", ""}};
+  if (!experiments.empty())
+    for (const auto& [metric, values] : experiments.front().differences)
+      table.columns.push_back({std::string(metric->key), ""});
+  for (size_t e = 0; e < experiments.size(); ++e) {
+    const auto& differences = experiments[e].differences;
+    if (std::ranges::none_of(differences, shows_change)) continue;
+    for (size_t f = 0; f < differences.front().values.size(); ++f) {
+      Row& row =
+          table.rows.emplace_back(Row{static_cast<int64_t>(e), experiments[e].first_frame + static_cast<int>(f)});
+      for (const auto& [metric, values] : differences) row.push_back(f < values.size() ? cell(values[f]) : Cell());
     }
-    LineChart chart{key, "frame", key + ", candidate - baseline", {{key, values}}};
-    chart.is_signed = true;
-    chart.first_place = experiment.first_frame;
-    charts += to_svg(chart);
   }
-  if (!unchanged.empty()) charts += fmt::format("<p class=\"legend\">No frame differs in {}.</p>\n", unchanged);
-  return charts;
+  return table;
+}
+
+/// A chart of the metrics that changed in some frame; `number` of the experiment in difference_table.
+std::string difference_chart(const FrameDifferences& experiment, std::ptrdiff_t number) {
+  std::vector<std::string_view> changed, unchanged;
+  for (const auto& differences : experiment.differences)
+    (shows_change(differences) ? changed : unchanged).push_back(differences.metric->key);
+  std::string html;
+  if (!changed.empty())
+    html += chart_place(fmt::format("differences {}", number),
+                        fmt::format("Differences of {}, frame by frame", fmt::join(changed, ", ")));
+  if (!unchanged.empty())
+    html += fmt::format("<p class=\"legend\">No frame differs in {}.</p>\n", fmt::join(unchanged, ", "));
+  return html;
 }
 
 /// Folded, unless there is something to read in it.
@@ -114,38 +103,34 @@ std::string experiment_section(std::span<const ComparisonRow> rows, const std::v
                                  escape_html(readable_experiment(name)));
   if (worse > 0) html += fmt::format(" <span class=\"verdict worse\">{} worse</span>", worse);
   if (better > 0) html += fmt::format(" <span class=\"verdict better\">{} better</span>", better);
-  html += "</summary>\n" + rows_html({rows.begin(), rows.end()}, false);
+  html += "</summary>\n" + rows_html(rows, true);
   const auto differences = std::ranges::find(frames, name, &FrameDifferences::experiment);
-  if (differences != frames.end()) html += difference_charts(*differences);
+  if (differences != frames.end()) html += difference_chart(*differences, differences - frames.begin());
   return html + "</details>\n";
 }
 
 std::string experiments_html(const Comparison& comparison) {
   std::string html =
       "<h2>Experiments, frame by frame</h2>\n<p>Differences of each frame, mean over the seeds; above "
-      "zero the candidate is worse. Gaps are frames that have no value in one of the two.</p>\n";
+      "zero the candidate is worse. Gaps are frames that have no value in one of the two.</p>\n"
+      "<noscript><p>The charts are drawn by scripts; comparison.json holds their numbers.</p></noscript>\n";
   for (const auto& rows : rows_by_experiment(comparison))
     if (rows.front().experiment != kAllExperiments) html += experiment_section(rows, comparison.frames);
   return html;
 }
 
-std::string worst_frames_html(const std::vector<ChangedFrame>& worst) {
-  if (worst.empty()) return "";
-  TextTable table{{"experiment", "frame", "seed", "baseline vertex error mm", "candidate"}, {}, 1};
+Table worst_frames_table(const std::vector<ChangedFrame>& worst) {
+  Table table = table_of({"experiment", "frame", "seed", "baseline vertex error mm", "candidate"});
+  table.title = "Frames that changed most for the worse";
   for (const ChangedFrame& frame : worst) {
     const auto error = [](const std::optional<double>& value) { return value ? number_text(value) : "lost"; };
     const std::string seed = frame.baseline_seed == frame.candidate_seed
                                  ? std::to_string(frame.baseline_seed)
                                  : fmt::format("{}, candidate {}", frame.baseline_seed, frame.candidate_seed);
-    table.rows.push_back({readable_experiment(to_string(frame.key)), std::to_string(frame.frame), seed,
+    table.rows.push_back({readable_experiment(to_string(frame.key)), frame.frame, seed,
                           error(frame.baseline_vertex_error_mm), error(frame.candidate_vertex_error_mm)});
   }
-  return "<h2>Frames that changed most for the worse</h2>\n" + to_html(table);
-}
-
-std::string names_html(const char* title, const std::vector<std::string>& names) {
-  if (names.empty()) return "";
-  return fmt::format("<p>{}: {}.</p>\n", title, escape_html(fmt::format("{}", fmt::join(names, ", "))));
+  return table;
 }
 
 std::string rows_section(const Comparison& comparison) {
@@ -157,9 +142,9 @@ std::string rows_section(const Comparison& comparison) {
       changed.push_back(row);
   }
   std::string html;
-  if (!all.empty()) html += "<h2>All experiments</h2>\n" + rows_html(all, false);
+  if (!all.empty()) html += "<h2>All experiments</h2>\n" + rows_html(all, true);
   html += "<h2>What changed</h2>\n";
-  return html + (changed.empty() ? "<p>Nothing in a single experiment.</p>\n" : rows_html(changed, true));
+  return html + (changed.empty() ? "<p>Nothing in a single experiment.</p>\n" : rows_html(changed, false));
 }
 
 }  // namespace
@@ -172,17 +157,17 @@ std::string comparison_page(const ComparisonReport& report) {
                      outcome_tiles(comparison) +
                      fmt::format("<p>{} In the plots the band is the minimum effect, the bar the interval.</p>\n",
                                  escape_html(comparison_explanation(comparison))) +
-                     rows_section(comparison) + speed_section(report.speed);
-  if (!report.times.stages.empty())
-    body += "<h2>Times</h2>\n<p>" + times_sentence(report.times) + "</p>\n" + to_html(times_table(report.times));
-  if (!comparison.configuration.empty())
-    body += "<h2>Configuration</h2>\n" + to_html(configuration_table(comparison.configuration));
-  body += names_html("Only in the baseline", comparison.only_in_baseline) +
-          names_html("Only in the candidate", comparison.only_in_candidate) +
-          names_html("Metrics that are not compared", uncompared_texts(comparison)) +
-          worst_frames_html(comparison.worst) + picture_section("Pictures", report.pictures) +
+                     rows_section(comparison);
+  for (const Table& table : comparison_tables(report)) body += table_section(table);
+  body += table_section(worst_frames_table(comparison.worst)) + picture_section("Pictures", report.pictures) +
           experiments_html(comparison);
-  return html_document("glovebench comparison", body);
+  const Table differences = difference_table(comparison.frames);
+  std::string scripts;
+  if (!differences.rows.empty()) {
+    const auto tables = nlohmann::ordered_json::object({{"differences", to_csv(differences)}});
+    scripts = chart_scripts(tables, report.scripts);
+  }
+  return html_document("glovebench comparison", body, "", scripts);
 }
 
 }  // namespace glovebench::reports

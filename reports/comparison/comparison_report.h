@@ -6,7 +6,7 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/gate.h"
 #include "reports/comparison/stage_times.h"
-#include "reports/page_frame.h"
+#include "reports/page/page_frame.h"
 
 namespace glovebench::reports {
 
@@ -16,6 +16,8 @@ struct ComparisonReport {
   std::vector<SpeedRow> speed;    ///< empty where none was measured
   StageTimeChanges times;         ///< for information; empty where a run has none
   std::vector<Picture> pictures;  ///< of the worst frames
+  /// Vega, Vega-Lite and Vega-Embed, in that order, which draw the page's charts; without them it has its tables.
+  std::vector<std::string> scripts;
 };
 
 /// For a terminal: at most 120 columns. Rows that are neither "same" nor unchanged, or all of them; then a line

@@ -98,14 +98,14 @@ TEST(ComparisonTable, Golden) {
 baseline  ci/baselines/quick: suite quick, glovebench 0.1.0, commit 105ec9a
 candidate out: suite quick, glovebench 0.1.0, commit 82ad045
 
-  quantity                     baseline candidate difference               interval   minimum  verdict
+  quantity                    baseline  candidate  difference          interval  minimum effect  verdict
 all experiments
-  position_error_mm               3.000     3.250     +0.250       [+0.125, +0.375]     0.100  worse
+  position_error_mm              3.000      3.250      +0.250  [+0.125, +0.375]           0.100  worse
 Tr4 open_power, source
-  position_error_mm               3.000     3.500     +0.500       [+0.250, +0.750]     0.100  worse
-  rotation_error_deg              4.000     3.500     -0.500       [-0.750, -0.250]     0.100  better
-  posture_rms_unfiltered_deg          -         -          -                      -     0.000  not enough data
-  uncovered_percent               1.000     3.000     +2.000       [-2.000, +6.000]     1.000  not enough data, stops
+  position_error_mm              3.000      3.500      +0.500  [+0.250, +0.750]           0.100  worse
+  rotation_error_deg             4.000      3.500      -0.500  [-0.750, -0.250]           0.100  better
+  posture_rms_unfiltered_deg         -          -           -                 -           0.000  not enough data
+  uncovered_percent              1.000      3.000      +2.000  [-2.000, +6.000]           1.000  not enough data, stops
 
 )" + 1));
   EXPECT_THAT(table, testing::EndsWith("\n2 worse, 1 better, 1 same, 2 not enough data\n"));
@@ -137,10 +137,10 @@ TEST(ComparisonMarkdown, OutcomeFirstThenWhatIsWorthReading) {
   const std::string markdown = comparison_markdown(small_comparison());
   EXPECT_EQ(lines_of(markdown)[0], "**2 worse, 1 better, 1 same, 2 not enough data; 1 of 2 speed ratios slower**");
   EXPECT_THAT(markdown, HasSubstr("| Tr4 open_power, source | rotation_error_deg | 4.000 | 3.500 | -0.500 | "
-                                  "\\[-0.750, -0.250\\] | 0.100 | **better** |\n"));
+                                  "[-0.750, -0.250] | 0.100 | **better** |\n"));
   EXPECT_THAT(markdown, HasSubstr("| segmentation.extra | - | \"a\\|b\" |\n"));
   EXPECT_THAT(markdown, HasSubstr("commit 82ad045"));
-  EXPECT_THAT(markdown, HasSubstr("| align | 4.00 | 1.50 | 1.90 | 2.00 | slower |\n"));
+  EXPECT_THAT(markdown, HasSubstr("| align | 4.00 | 1.50 | 1.90 | 2.00 | **slower** |\n"));
   const size_t details = markdown.find("<details><summary>1 rows without a change");
   ASSERT_NE(details, std::string::npos);
   EXPECT_LT(markdown.find("**not enough data, stops**"), details);
@@ -239,13 +239,24 @@ TEST(ComparisonPage, ShowsVerdictsChartsAndPictures) {
   EXPECT_THAT(page, HasSubstr("<span class=\"verdict better\">better</span>"));
   EXPECT_THAT(page, HasSubstr("<svg class=\"interval worse\""));
   EXPECT_THAT(page, HasSubstr("<details open><summary>Tr4 open_power, source"));
-  EXPECT_THAT(page, HasSubstr("<title>position_error_mm</title>"));
+  EXPECT_THAT(page, HasSubstr("data-chart=\"differences 0\""));
   EXPECT_THAT(page, HasSubstr("<figcaption>Frame 57 &lt;lost&gt;</figcaption>"));
   EXPECT_THAT(page, HasSubstr("<td>57</td><td>1</td><td>3.500</td><td>lost</td>"));
   EXPECT_THAT(page, HasSubstr("icp.max_iterations"));
   EXPECT_THAT(page, AllOf(Not(HasSubstr("http")), Not(HasSubstr("\"nan")), Not(HasSubstr("inf\""))));
   EXPECT_THAT(comparison_page(hostile_comparison()), Not(HasSubstr("<b>&\"")));
   EXPECT_THAT(comparison_page({}), HasSubstr("</html>"));
+}
+
+TEST(ComparisonPage, ChartsAreDrawnFromTheDifferences) {
+  ComparisonReport report = small_comparison();
+  EXPECT_THAT(comparison_page(report), Not(HasSubstr("<script"))) << "none was given";
+  report.scripts = {"vega"};
+  EXPECT_THAT(comparison_page(report),
+              AllOf(HasSubstr("<script>\nvega\n</script>"), HasSubstr("{\"differences\":\"experiment,frame,"),
+                    HasSubstr("\\n0,5,0.5,"), HasSubstr("\\n0,6,,"), HasSubstr("\\n0,7,-0.25,")));
+  report.comparison.frames[0].differences[0].values = {0, std::nullopt, 0};
+  EXPECT_THAT(comparison_page(report), AllOf(Not(HasSubstr("<script")), Not(HasSubstr("data-chart"))));
 }
 
 TEST(WriteComparison, WritesEveryFileOrRefuses) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/text.h"
+
 namespace glovebench::reports {
 namespace {
 
@@ -29,6 +31,52 @@ std::string formatted(double value) {
 std::string formatted_signed(double value) {
   const std::string text = formatted(value);
   return text.starts_with('-') ? text : "+" + text;
+}
+
+/// "[-0.120, +0.400]", or "-"
+std::string interval_text(const ComparisonRow& row) {
+  if (!row.low || !row.high) return "-";
+  return fmt::format("[{}, {}]", formatted_signed(*row.low), formatted_signed(*row.high));
+}
+
+Table speed_table(const std::vector<SpeedRow>& speed) {
+  Table table = table_of({"times faster than plain", "baseline", "candidate", "at best", "limit", "verdict"});
+  table.title = "Speed";
+  for (const SpeedRow& row : speed)
+    table.rows.push_back({row.name, row.baseline, row.candidate, row.best, row.limit,
+                          row.slower ? Judgment{"slower", Tone::worse} : Judgment{"as fast", Tone::same}});
+  return table;
+}
+
+Table configuration_table(const std::vector<ConfigurationChange>& changes) {
+  Table table = table_of({"configuration", "baseline", "candidate"}, 3);
+  table.title = "Configuration";
+  for (const ConfigurationChange& change : changes)
+    table.rows.push_back({change.field, change.baseline.empty() ? "-" : change.baseline,
+                          change.candidate.empty() ? "-" : change.candidate});
+  return table;
+}
+
+Table uncompared_table(const Comparison& comparison) {
+  Table table = table_of({"not compared", "why"}, 2);
+  table.title = "Not compared";
+  for (const std::string& name : comparison.only_in_baseline) table.rows.push_back({name, "only in the baseline"});
+  for (const std::string& name : comparison.only_in_candidate)
+    table.rows.push_back({name, "only in the candidate"});
+  for (const auto& [metric, why] : comparison.uncompared_metrics) table.rows.push_back({metric, why});
+  return table;
+}
+
+Table times_table(const StageTimeChanges& times) {
+  Table table = table_of({"median time of a stage", "baseline (ms)", "candidate (ms)"});
+  table.title = "Times";
+  table.explanation =
+      times.same_machine
+          ? "Wall times of the same processor and number of threads, for information: other work slows them."
+          : "Wall times of different processors or numbers of threads, for information only.";
+  for (const StageTimeChange& stage : times.stages)
+    table.rows.push_back({stage.stage, stage.baseline_ms, stage.candidate_ms});
+  return table;
 }
 
 }  // namespace
@@ -85,11 +133,6 @@ std::string signed_number_text(const std::optional<double>& value) {
   return value ? formatted_signed(*value) : "-";
 }
 
-std::string interval_text(const ComparisonRow& row) {
-  if (!row.low || !row.high) return "-";
-  return fmt::format("[{}, {}]", formatted_signed(*row.low), formatted_signed(*row.high));
-}
-
 std::string verdict_text(const ComparisonRow& row) {
   const std::string verdict(to_string(row.verdict));
   return stops(row) && row.verdict != Verdict::worse ? verdict + ", stops" : verdict;
@@ -99,10 +142,6 @@ std::string row_sentence(const ComparisonRow& row) {
   return fmt::format("{} -> {} {}, difference {} {}, minimum effect {}, {} of {} frames", number_text(row.baseline),
                      number_text(row.candidate), row.metric->unit, signed_number_text(row.difference),
                      interval_text(row), number_text(row.minimum_effect), row.pairs, row.frames);
-}
-
-std::string speed_verdict(const SpeedRow& row) {
-  return row.slower ? "slower" : "as fast";
 }
 
 std::string speed_sentence(const SpeedRow& row) {
@@ -116,65 +155,39 @@ std::string result_sentence(const ComparedResult& result) {
                      result.commit);
 }
 
-std::vector<std::string> row_heading() {
-  return {"quantity", "baseline", "candidate", "difference", "interval", "minimum effect", "verdict"};
+Tone tone_of(const ComparisonRow& row) {
+  if (stops(row)) return Tone::worse;
+  if (row.verdict == Verdict::better) return Tone::better;
+  return row.verdict == Verdict::same ? Tone::same : Tone::unsure;
 }
 
-std::vector<std::string> row_cells(const ComparisonRow& row) {
-  return {std::string(row.metric->key),
-          number_text(row.baseline),
-          number_text(row.candidate),
-          signed_number_text(row.difference),
-          interval_text(row),
-          number_text(row.minimum_effect),
-          verdict_text(row)};
-}
-
-TextTable rows_table(std::span<const ComparisonRow> rows) {
-  TextTable table;
-  table.heading = row_heading();
-  table.heading.insert(table.heading.begin(), "experiment");
-  for (const ComparisonRow& row : rows) {
-    std::vector<std::string> cells = row_cells(row);
-    cells.insert(cells.begin(), readable_experiment(row.experiment));
-    table.rows.push_back(std::move(cells));
-  }
+Table rows_table(std::span<const ComparisonRow> rows) {
+  Table table = table_of(
+      {"experiment", "quantity", "baseline", "candidate", "difference", "interval", "minimum effect", "verdict"},
+      2);
+  for (const ComparisonRow& row : rows)
+    table.rows.push_back({readable_experiment(row.experiment), std::string(row.metric->key),
+                          number_text(row.baseline), number_text(row.candidate), signed_number_text(row.difference),
+                          interval_text(row), number_text(row.minimum_effect),
+                          Judgment{verdict_text(row), tone_of(row)}});
   return table;
 }
 
-TextTable speed_table(const std::vector<SpeedRow>& speed) {
-  TextTable table{{"times faster than plain", "baseline", "candidate", "at best", "limit", "verdict"}, {}, 1};
-  for (const SpeedRow& row : speed)
-    table.rows.push_back({row.name, fixed(row.baseline, 2), fixed(row.candidate, 2), fixed(row.best, 2),
-                          fixed(row.limit, 2), speed_verdict(row)});
-  return table;
+std::vector<Table> comparison_tables(const ComparisonReport& report) {
+  std::vector<Table> tables = {speed_table(report.speed), configuration_table(report.comparison.configuration),
+                               uncompared_table(report.comparison), times_table(report.times)};
+  std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
+  return tables;
 }
 
-TextTable times_table(const StageTimeChanges& times) {
-  TextTable table{{"median time of a stage", "baseline (ms)", "candidate (ms)"}, {}, 1};
-  for (const StageTimeChange& stage : times.stages)
-    table.rows.push_back({stage.stage, fixed(stage.baseline_ms, 2), fixed(stage.candidate_ms, 2)});
-  return table;
-}
-
-std::vector<std::string> uncompared_texts(const Comparison& comparison) {
-  std::vector<std::string> texts;
-  for (const auto& [metric, why] : comparison.uncompared_metrics)
-    texts.push_back(fmt::format("{} ({})", metric, why));
-  return texts;
-}
-
-std::string times_sentence(const StageTimeChanges& times) {
-  return times.same_machine
-             ? "Wall times of the same processor and number of threads, for information: other work slows them."
-             : "Wall times of different processors or numbers of threads, for information only.";
-}
-
-TextTable configuration_table(const std::vector<ConfigurationChange>& changes) {
-  TextTable table{{"configuration", "baseline", "candidate"}, {}, 3};
-  for (const ConfigurationChange& change : changes)
-    table.rows.push_back({change.field, change.baseline.empty() ? "-" : change.baseline,
-                          change.candidate.empty() ? "-" : change.candidate});
+Table verdict_first(Table table) {
+  if (table.columns.back().heading != "verdict") return table;
+  const auto move_last = [&](auto& cells) {
+    std::rotate(cells.begin() + table.name_columns, cells.end() - 1, cells.end());
+  };
+  move_last(table.columns);
+  for (Row& row : table.rows) move_last(row);
+  ++table.name_columns;
   return table;
 }
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "reports/comparison/comparison_report.h"
-#include "reports/summary.h"
+#include "reports/table.h"
 
 namespace glovebench::reports {
 
-// Words and numbers that all forms of a comparison share.
+// Words, numbers and tables that all forms of a comparison share.
 
 /// "2 worse, 1 better, 33 same, 0 not enough data"; then what got slower, if speed was measured.
 std::string outcome_line(const ComparisonReport& report);
@@ -27,30 +27,25 @@ std::string readable_experiment(const std::string& experiment);
 /// At most nine characters wide; "-" for none. Signed numbers of zero and more have a plus.
 std::string number_text(const std::optional<double>& value);
 std::string signed_number_text(const std::optional<double>& value);
-std::string interval_text(const ComparisonRow& row);  ///< "[-0.120, +0.400]", or "-"
 /// The verdict; with ", stops" where it does not follow from it that the row stops the change.
 std::string verdict_text(const ComparisonRow& row);
 
 /// "2.980 -> 3.400 mm, difference +0.420 [+0.300, +0.540], minimum effect 0.100, 234 of 234 frames"
 std::string row_sentence(const ComparisonRow& row);
-std::string speed_verdict(const SpeedRow& row);  ///< "slower" or "as fast"
 /// "6.10 times faster than plain, was 8.20, limit 5.74"
 std::string speed_sentence(const SpeedRow& row);
 /// "NAME: suite quick, glovebench 0.1.0, commit 105ec9a"
 std::string result_sentence(const ComparedResult& result);
 
-/// Heading and cells after an experiment's name.
-std::vector<std::string> row_heading();
-std::vector<std::string> row_cells(const ComparisonRow& row);
-/// Every row with its experiment; names are readable.
-TextTable rows_table(std::span<const ComparisonRow> rows);
-TextTable speed_table(const std::vector<SpeedRow>& speed);
-/// The tracker's stages; empty where no times were kept.
-TextTable times_table(const StageTimeChanges& times);
-/// "palm_error_mm (not in the baseline)"
-std::vector<std::string> uncompared_texts(const Comparison& comparison);
-/// What wall times say, and what not.
-std::string times_sentence(const StageTimeChanges& times);
-TextTable configuration_table(const std::vector<ConfigurationChange>& changes);
+/// What the row's verdict means: worse is what stops the change.
+Tone tone_of(const ComparisonRow& row);
+
+/// Experiments by readable names, quantities, numbers; the verdict comes last.
+Table rows_table(std::span<const ComparisonRow> rows);
+/// The tables beside the rows that the report has: speed, configuration, what is not compared, and, for information
+/// and explained, the times of the tracker's stages.
+std::vector<Table> comparison_tables(const ComparisonReport& report);
+/// The verdict, if it comes last, beside the names: a narrow screen or page cuts off numbers, not the answer.
+Table verdict_first(Table table);
 
 }  // namespace glovebench::reports

@@ -1,6 +1,5 @@
-// Draws the page's charts. `glovebench` is for whoever wants to look inside: tables, views by the charts' names, and
-// which charts had no data, how
-// long drawing took.
+// Draws the page's charts. `glovebench` is for whoever wants to look inside: tables, views by the charts' names, which
+// charts had no data, and how long drawing took.
 
 // The rows of a CSV file as the page's tables hold it (RFC 4180): numbers as numbers, empty cells as null.
 function parseCsv(text) {
@@ -20,7 +19,8 @@ function parseCsv(text) {
 async function drawCharts(page) {
   for (const place of document.querySelectorAll('[data-chart]')) {
     const name = place.dataset.chart;
-    const spec = charts[name] && charts[name](page.tables);
+    const [chart, number] = name.split(' ');
+    const spec = charts[chart] && charts[chart](page.tables, Number(number));
     if (!spec) {
       page.missing.push(name);
       place.remove();

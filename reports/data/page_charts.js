@@ -1,5 +1,5 @@
 'use strict';
-// The charts of a run's page as Vega-Lite specifications: each is a function of the page's tables (rows of CSV files
+// The charts of the pages as Vega-Lite specifications: each is a function of the page's tables (rows of CSV files
 // as objects). Colors are the style sheet's variables, so that a chart follows the page between light, dark and paper.
 
 const ours = 'var(--series-0)', paper = 'var(--series-1)';
@@ -264,6 +264,31 @@ function ablations(change, title, isFirst) {
   };
 }
 
+// The page of a comparison: candidate - baseline of an experiment frame by frame, a panel for each metric that changed.
+function differences(tables, experiment) {
+  const rows = tables.differences.filter(row => row.experiment === experiment);
+  const metrics = Object.keys(rows[0]).slice(2).filter(metric => rows.some(row => row[metric]));
+  const zeroLine = {condition: {test: 'datum.value === 0', value: 'var(--muted)'}, value: 'var(--rule)'};
+  return {
+    data: {values: rows}, transform: [{fold: metrics, as: ['metric', 'difference']}],
+    facet: {row: {field: 'metric', sort: metrics, title: null, header: {labelOrient: 'top', labelAnchor: 'start'}}},
+    resolve: {scale: {y: 'independent'}}, spacing: 10,
+    spec: {
+      width: 760, height: 100, mark: {type: 'line', color: ours, strokeWidth: 1.6, strokeCap: 'round'},
+      encoding: {
+        x: {
+          field: 'frame', type: 'quantitative', axis: {tickMinStep: 1},
+          scale: {domain: [rows[0].frame, rows[rows.length - 1].frame], nice: false}
+        },
+        y: {
+          field: 'difference', type: 'quantitative', title: null,
+          axis: {minExtent: 34, maxExtent: 34, tickCount: 4, gridColor: zeroLine}
+        }
+      }
+    }
+  };
+}
+
 const errors = [['position', 'position_error_mm', 'Position error (mm)', 'paper_position_error_mm'],
                 ['posture', 'posture_rms_deg', 'Posture error (deg)', 'paper_posture_error_deg'],
                 ['rotation', 'rotation_error_deg', 'Rotation error (deg)', 'paper_rotation_error_deg']];
@@ -280,6 +305,7 @@ charts['figure7-rank'] = lines('figure7', {
   ...size, only: true, y: 'mean_rank', low: 'mean_rank_low', high: 'mean_rank_high', yTitle: 'mean rank of the true neighbor'
 });
 charts['figure8'] = figure8;
+charts['differences'] = differences;
 const factor = {x: 'factor', group: 'truth', xTitle: 'sub-sampling factor', xBase: 2, width: 260};
 charts['figure9-position'] = lines('figure9', {
   ...factor, y: 'position_error_mm', low: 'position_error_mm_low', high: 'position_error_mm_high',

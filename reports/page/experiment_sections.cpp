@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "reports/chart.h"
 #include "reports/page/section.h"
 #include "reports/summary.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -38,8 +38,8 @@ std::string largest(const std::vector<double>& values) {
 }
 
 /// What the curves come to, beside the paper's: their means and largest values.
-TextTable curve_summary(const ExperimentResult& experiment, const PaperCurve& paper) {
-  TextTable table{{"", "mean", "paper's mean", "largest", "paper's largest"}, {}, 1};
+Table curve_summary(const ExperimentResult& experiment, const PaperCurve& paper) {
+  Table table = table_of({"", "mean", "paper's mean", "largest", "paper's largest"});
   for (const CurveError& error : kCurveErrors) {
     std::vector<double> ours, theirs;
     for (const FrameRecord& frame : experiment.runs.front().frames)

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reports/tables.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

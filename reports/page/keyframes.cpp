@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "reports/chart.h"
 #include "reports/page/section.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 namespace glovebench::reports {
 
@@ -13,12 +13,7 @@ struct Section {
   std::string title;  ///< plain text
   std::string html;   ///< what follows the heading, or begins with a heading of its own
 };
-std::string to_html(const Section& section);
-/// The list that leads to the sections.
-std::string contents_list(const std::vector<Section>& sections);
 
-/// A chart that data/page_charts.js draws in this place from the page's tables; `label` says what it shows.
-std::string chart_place(const std::string& chart, const std::string& label);
 /// Where the numbers of a chart are.
 std::string data_note(const std::string& table);
 
@@ -28,16 +23,10 @@ std::vector<Section> experiment_sections(const RunResult& result, const PaperNum
 /// A section for each study of a run, with its charts and tables.
 std::vector<Section> study_sections(const RunResult& result);
 
-/// The robot commands of the experiments, with the times of the run.
-Section command_section(const RunResult& result, const Timings& timings);
-
 /// The keyframes of a curve and, for data/page_frames.js, the place of one frame with its slider.
 std::string keyframes_html(const FrameSheet& sheet);
 std::string frame_viewer_html(const FrameSheet& sheet);
 /// Puts each sheet into the page once: the tiles are windows on it.
 std::string sheet_style(const std::vector<FrameSheet>& sheets);
-
-/// The tables that the charts are drawn from, as text of CSV files by the files' names, in a script element.
-std::string chart_data(const RunResult& result, const PaperNumbers& paper);
 
 }  // namespace glovebench::reports

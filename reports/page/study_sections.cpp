@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "reports/chart.h"
 #include "reports/page/section.h"
-#include "reports/study_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -39,7 +38,7 @@ std::string table_html(const Table& table, bool is_only) {
   return (is_only ? "" : "<h3>" + escape_html(table.title) + "</h3>\n") + "<p>" + escape_html(table.explanation) +
          "</p>\n" + (charts.empty() ? "" : "<div class=\"row\">\n" + charts + "</div>\n") + data_note(table.name) +
          fmt::format("<details{}><summary>Table</summary>\n", table.rows.size() > kLong ? "" : " open=\"\"") +
-         to_html(study_table(table)) + "</details>\n";
+         to_html(table) + "</details>\n";
 }
 
 }  // namespace

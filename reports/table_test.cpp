@@ -1,4 +1,4 @@
-#include "reports/study_text.h"
+#include "reports/table.h"
 
 #include <gmock/gmock.h>
 
@@ -10,12 +10,15 @@
 #include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/report.h"
+#include "reports/summary.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 std::vector<std::string> split(const std::string& text, const std::string& separator) {
   std::vector<std::string> parts;
@@ -49,7 +52,7 @@ struct Written {
 
 Written read_written(const std::string& folder, const Table& table, const std::string& summary) {
   Written written;
-  std::istringstream lines(read_file(folder + "/" + table_file(table)));
+  std::istringstream lines(read_file(folder + "/tables/" + table.name + ".csv"));
   for (std::string line; std::getline(lines, line);) written.csv.push_back(csv_cells(line));
   const size_t explanation = summary.find(table.explanation + "\n\n| ");
   EXPECT_NE(explanation, std::string::npos) << table.name;
@@ -85,7 +88,7 @@ std::string as_shown(const std::string& csv, const Column& column, const Cell& c
   return text;
 }
 
-TEST(StudyText, EveryCellIsTheSameInEveryFile) {
+TEST(Table, EveryCellIsTheSameInEveryFile) {
   const std::string folder = test_folder();
   const RunResult result = full_result();
   write_report(folder, result, {});
@@ -118,7 +121,7 @@ TEST(StudyText, EveryCellIsTheSameInEveryFile) {
   EXPECT_EQ(cells, 8 * 11 + 16 * 19);
 }
 
-TEST(StudyText, CellsAreRoundedOnce) {
+TEST(Table, CellsAreRoundedOnce) {
   const Column column = {"x", "x", 2};
   EXPECT_EQ(cell_text(2.0 / 3, column), "0.67");
   EXPECT_EQ(cell_text(-0.001, column), "0.00") << "no minus zero";
@@ -128,10 +131,100 @@ TEST(StudyText, CellsAreRoundedOnce) {
   EXPECT_EQ(cell_text({}, column), "-");
 }
 
-TEST(StudyText, BarsInTextsEndNoCell) {
+TEST(Table, BarsInTextsEndNoCell) {
   const Table table = {"t", "T", "", {{"a", "a|b", 0}}, 1, {{"c|d"}}};
   EXPECT_EQ(study_markdown({"s", "S", {table}, {}}), "## S\n\n### T\n\n| a\\|b |\n| --- |\n| c\\|d |\n\n");
-  EXPECT_THAT(table_csv(table), HasSubstr("c|d"));
+  EXPECT_THAT(to_csv(table), HasSubstr("c|d"));
+}
+
+/// Names and numbers.
+Table small_table(const std::vector<Row>& rows) {
+  Table table = table_of({"name", "x"});
+  table.rows = rows;
+  return table;
+}
+
+TEST(Table, TextInHtmlIsEscaped) {
+  Table table = small_table({{"x&y", int64_t{1}}});
+  table.columns[0].heading = "a<b";
+  EXPECT_THAT(to_html(table), HasSubstr("<th class=\"name\">a&lt;b</th><th>x</th></tr></thead>\n<tbody>\n"
+                                        "<tr><td class=\"name\">x&amp;y</td><td>1</td></tr>"));
+}
+
+TEST(Table, PlotsStandBehindTheNames) {
+  EXPECT_THAT(to_html(small_table({{"a", 1.0}}), {"<svg/>"}),
+              HasSubstr("<th class=\"name\">name</th><th></th><th>x</th></tr></thead>\n<tbody>\n"
+                        "<tr><td class=\"name\">a</td><td><svg/></td><td>1.00</td></tr>"));
+}
+
+TEST(Table, VerdictsStandOut) {
+  Table table = small_table({{"a", Judgment{"worse", Tone::worse}}, {"b", Judgment{"same", Tone::same}}});
+  EXPECT_THAT(to_markdown(table), HasSubstr("| a | **worse** |\n| b | same |\n"));
+  EXPECT_THAT(to_html(table), HasSubstr("<td><span class=\"verdict worse\">worse</span></td>"));
+  EXPECT_EQ(to_text(table), "name  x\na     worse\nb     same\n");
+  table.columns = {{"name", ""}, {"verdict", ""}};
+  EXPECT_EQ(to_csv(table), "name,verdict\na,worse\nb,same\n");
+}
+
+TEST(Table, TextIsAligned) {
+  EXPECT_EQ(to_text(small_table({{"a", 1.5}, {"b\u00e9cd", -10.25}, {"c", Cell()}})),
+            "name       x\na       1.50\nb\u00e9cd  -10.25\nc          -\n");
+  Table grouped = table_of({"group", "name", "x"}, 2);
+  grouped.rows = {{"one", "a", 1.0}, {"one", "b", 2.0}, {"two", "a", 3.0}};
+  EXPECT_EQ(to_text(grouped, true), "  name     x\none\n  a     1.00\n  b     2.00\ntwo\n  a     3.00\n");
+}
+
+TEST(Table, TextFitsATerminal) {
+  std::istringstream lines(
+      to_text(small_table({{std::string(200, 'a') + "z", std::string(200, 'b')}, {"c", 1.0}})));
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  EXPECT_THAT(line, StartsWith("aaa"));
+  EXPECT_THAT(line, HasSubstr("...aaa"));
+  EXPECT_THAT(line, HasSubstr("z bbb"));
+  EXPECT_LE(line.size(), kTerminalColumns);
+  EXPECT_GE(line.size(), kTerminalColumns - 3);
+}
+
+TEST(Table, MinusSignsAndMissingValuesInLatex) {
+  EXPECT_EQ(to_latex(small_table({{"-a", -1.5}, {"b", Cell()}})),
+            "\\begin{tabular}{lr}\n\\toprule\nname & x \\\\\n\\midrule\n-a & $-$1.50 \\\\\nb & -- \\\\\n"
+            "\\bottomrule\n\\end{tabular}\n");
+}
+
+TEST(Csv, TextsThatWouldBreakALineAreQuoted) {
+  EXPECT_EQ(csv_line({"a", 1, nullptr, true, "b,c", "d\"e", "f\ng"}), "a,1,,true,\"b,c\",\"d\"\"e\",\"f\ng\"\n");
+}
+
+TEST(Csv, TextsAreNoFormulas) {
+  for (const std::string text : {"=1+1", "+1+1", "-1+1", "@SUM(A1)", "-", "=", "--", "-nan", "+inf", "- 5"})
+    EXPECT_EQ(csv_line({text}), "'" + text + "\n");
+  EXPECT_EQ(csv_line({"=HYPERLINK(\"a\",1)"}), "\"'=HYPERLINK(\"\"a\"\",1)\"\n");
+  EXPECT_EQ(csv_line({"\t=1"}), "'\t=1\n");
+  EXPECT_EQ(csv_line({"\r=1"}), "\"'\r=1\"\n");
+  EXPECT_EQ(csv_line({"\n=1"}), "\"'\n=1\"\n");
+  EXPECT_EQ(csv_line({-1.5, -3, "-1.5", "-2e-3", "a=b", "", " -"}), "-1.5,-3,-1.5,-2e-3,a=b,, -\n")
+      << "numbers and others";
+}
+
+TEST(Text, ForLatexIsEscaped) {
+  EXPECT_EQ(escape_latex("a_b & 5% $1 #2 {x}"), "a\\_b \\& 5\\% \\$1 \\#2 \\{x\\}");
+  EXPECT_EQ(escape_latex("\\~^<>"),
+            "\\textbackslash{}\\textasciitilde{}\\textasciicircum{}\\textless{}\\textgreater{}");
+  EXPECT_EQ(escape_latex("[*]\n"), "{[}{*}{]} ");
+}
+
+TEST(Text, ForMarkdownIsEscaped) {
+  EXPECT_EQ(escape_markdown("a|b `c` *d* <e> & \\\n"), "a\\|b \\`c\\` \\*d\\* &lt;e> &amp; \\\\ ");
+  EXPECT_EQ(escape_markdown("[-0.5, +0.5]"), "[-0.5, +0.5]");
+  EXPECT_EQ(escape_markdown("[a](b) [a][b] [a]:"), "[a\\](b) [a\\][b] [a\\]:");
+}
+
+TEST(Text, IsWrappedAtSpaces) {
+  const std::string word(70, 'a');
+  EXPECT_EQ(wrapped(word + " " + word + " b"), word + "\n" + word + " b\n");
+  EXPECT_EQ(wrapped(std::string(300, 'x')).size(), kTerminalColumns + 1);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 #include <gmock/gmock.h>
 

@@ -1,14 +1,13 @@
-#include "reports/page.h"
+#include "reports/page/page.h"
 
 #include <fmt/format.h>
 
-#include "reports/chart.h"
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
-#include "reports/embedded.h"
 #include "reports/json_text.h"
 #include "reports/page/section.h"
 #include "reports/summary.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -18,6 +17,20 @@ Section metrics_section(const RunResult& result) {
           "<p>Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
           "hands.</p>\n" +
               to_html(detail_summary(result))};
+}
+
+Section command_section(const RunResult& result, const Timings& timings) {
+  std::string html = "<p>" + escape_html(command_explanation()) + "</p>\n<h3>The stream</h3>\n";
+  html += to_html(command_stream_table(result)) + "<h3>Interventions</h3>\n";
+  const Table interventions = command_intervention_table(result);
+  html += interventions.rows.empty() ? "<p>None.</p>\n" : to_html(interventions);
+  html += "<h3>Against the truth's commands</h3>\n" + to_html(command_error_table(result)) + data_note("commands");
+  if (const Table latency = command_latency_table(result, timings); !latency.rows.empty())
+    html +=
+        "<h3>From frame to command</h3>\n<p>Processor time from a frame of the device to its command: tracking, "
+        "mapping, arm and guard, without transport. It differs from run to run.</p>\n" +
+        to_html(latency);
+  return {"commands", "Robot commands", html};
 }
 
 Section gallery_section(const std::vector<Picture>& pictures) {
@@ -42,10 +55,10 @@ Section configuration_section(const RunResult& result) {
 }
 
 Section environment_section(const Timings& timings) {
-  TextTable table{{"", ""}, {}, 2};
+  Table table = table_of({"", ""}, 2);
   table.rows = {{"host", timings.host},
                 {"processor", timings.processor},
-                {"threads", std::to_string(timings.threads)},
+                {"threads", timings.threads},
                 {"compiler", timings.compiler},
                 {"build", timings.build_type},
                 {"commit", timings.commit},
@@ -53,16 +66,6 @@ Section environment_section(const Timings& timings) {
                 {"duration", fixed(timings.wall_s, 0) + " s"},
                 {"peak memory", fixed(timings.peak_memory_mb, 0) + " MB"}};
   return {"environment", "Environment", "<p>All times of this page were measured here.</p>\n" + to_html(table)};
-}
-
-/// A script element whose text cannot end it early.
-std::string script(const std::string& text) {
-  std::string html = "<script>\n";
-  for (size_t i = 0; i < text.size(); ++i) {
-    html += text[i];
-    if (text.compare(i, 3, "</s") == 0 || text.compare(i, 3, "</S") == 0) html += '\\';
-  }
-  return html + "\n</script>\n";
 }
 
 std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
@@ -83,7 +86,25 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
   return sections;
 }
 
+std::string section_html(const Section& section) {
+  const bool has_heading = section.html.starts_with("<h2>");
+  return fmt::format("<section id=\"{}\">\n{}{}</section>\n", section.id,
+                     has_heading ? "" : "<h2>" + escape_html(section.title) + "</h2>\n", section.html);
+}
+
+/// The list that leads to the sections.
+std::string contents_list(const std::vector<Section>& sections) {
+  std::string html = "<nav aria-label=\"Contents\"><ul>\n";
+  for (const Section& section : sections)
+    html += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, escape_html(section.title));
+  return html + "</ul></nav>\n";
+}
+
 }  // namespace
+
+std::string data_note(const std::string& table) {
+  return fmt::format("<p class=\"source\">Data: <a href=\"tables/{0}.csv\">tables/{0}.csv</a></p>\n", table);
+}
 
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
                       const PageMaterial& material) {
@@ -94,15 +115,10 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
                   escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
       "<noscript><p>The charts are drawn by scripts; the tables hold all of their numbers.</p></noscript>\n" +
       (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n") + contents_list(sections);
-  for (const Section& section : sections) body += to_html(section);
+  for (const Section& section : sections) body += section_html(section);
   body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";
-  std::string scripts;
-  if (!material.scripts.empty()) {
-    scripts = chart_data(result, paper);
-    for (const std::string& text : material.scripts) scripts += script(text);
-    scripts += script(embedded_page_script());
-  }
-  return html_document("glovebench results", body, sheet_style(material.sheets), scripts);
+  return html_document("glovebench results", body, sheet_style(material.sheets),
+                       chart_scripts(csv_tables(result, paper), material.scripts));
 }
 
 }  // namespace glovebench::reports

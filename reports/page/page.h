@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reports/page/frame_sheet.h"
-#include "reports/page_frame.h"
+#include "reports/page/page_frame.h"
 #include "reports/tables.h"
 #include "reports/timings.h"
 

@@ -1,12 +1,14 @@
-#include "reports/page_frame.h"
+#include "reports/page/page_frame.h"
 
 #include <fmt/format.h>
 
-#include "reports/chart.h"
 #include "reports/embedded.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::string base64(const std::string& bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -18,6 +20,24 @@ std::string base64(const std::string& bytes) {
     for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
   }
   return text;
+}
+
+/// JSON that no text in it can end the script element of: "<" is written as an escape.
+std::string for_script(const Json& json) {
+  std::string text;
+  const std::string dumped = json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names can hold any bytes
+  for (const char c : dumped) text += c == '<' ? std::string("\\u003c") : std::string(1, c);
+  return text;
+}
+
+/// A script element whose text cannot end it early.
+std::string script(const std::string& text) {
+  std::string html = "<script>\n";
+  for (size_t i = 0; i < text.size(); ++i) {
+    html += text[i];
+    if (text.compare(i, 3, "</s") == 0 || text.compare(i, 3, "</S") == 0) html += '\\';
+  }
+  return html + "\n</script>\n";
 }
 
 }  // namespace
@@ -38,6 +58,18 @@ std::string picture_section(const std::string& title, const std::vector<Picture>
     html += "</figure>\n";
   }
   return html + "</div>\n";
+}
+
+std::string chart_place(const std::string& chart, const std::string& label) {
+  return fmt::format("<div class=\"chart-place\" data-chart=\"{}\" role=\"img\" aria-label=\"{}\"></div>\n", chart,
+                     escape_html(label));
+}
+
+std::string chart_scripts(const Json& tables, const std::vector<std::string>& scripts) {
+  if (scripts.empty()) return "";
+  std::string html = "<script type=\"application/json\" id=\"tables\">" + for_script(tables) + "</script>\n";
+  for (const std::string& text : scripts) html += script(text);
+  return html + script(embedded_page_script());
 }
 
 std::string html_document(const std::string& title, const std::string& body, const std::string& style,

@@ -1,0 +1,99 @@
+#include "reports/comparison/comparison_report.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/base/file_set.h"
+#include "reports/comparison/comparison_text.h"
+#include "reports/text.h"
+
+namespace glovebench::reports {
+namespace {
+
+constexpr const char *kJson = "comparison.json", *kMarkdown = "comparison.md", *kCsv = "comparison.csv",
+                     *kLatex = "comparison.tex", *kJunit = "junit.xml", *kPage = "index.html";
+constexpr const char* kFiles[] = {kJson, kMarkdown, kCsv, kLatex, kJunit, kPage};
+
+std::string folded(const std::string& summary, const std::string& content) {
+  return fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", summary, content);
+}
+
+}  // namespace
+
+std::string comparison_table(const ComparisonReport& report, bool all_rows) {
+  const Comparison& comparison = report.comparison;
+  std::vector<ComparisonRow> shown;
+  for (const ComparisonRow& row : comparison.rows)
+    if (all_rows || is_worth_reading(row)) shown.push_back(row);
+  std::string text = wrapped("baseline  " + result_sentence(comparison.baseline)) +
+                     wrapped("candidate " + result_sentence(comparison.candidate)) + "\n";
+  if (!shown.empty()) text += to_text(rows_table(shown), true) + "\n";
+  for (const Table& table : comparison_tables(report))
+    text += to_text(table) + (table.explanation.empty() ? "" : wrapped(table.explanation)) + "\n";
+  return text + wrapped(comparison_explanation(comparison)) + outcome_line(report) + "\n";
+}
+
+std::string comparison_markdown(const ComparisonReport& report) {
+  const Comparison& comparison = report.comparison;
+  std::vector<ComparisonRow> shown, rest;
+  for (const ComparisonRow& row : comparison.rows)
+    (is_worth_reading(row) || row.experiment == kAllExperiments ? shown : rest).push_back(row);
+  std::string text = fmt::format("**{}**\n\n- baseline {}\n- candidate {}\n", outcome_line(report),
+                                 escape_markdown(result_sentence(comparison.baseline)),
+                                 escape_markdown(result_sentence(comparison.candidate)));
+  if (!shown.empty()) text += "\n" + to_markdown(rows_table(shown));
+  for (const Table& table : comparison_tables(report))
+    text += table.explanation.empty()
+                ? "\n" + to_markdown(table)
+                : folded(table.title, fmt::format("{}\n{}\n", to_markdown(table), table.explanation));
+  if (!rest.empty())
+    text += folded(fmt::format("{} rows without a change", rest.size()), to_markdown(rows_table(rest)));
+  return text + "\n" + escape_markdown(comparison_explanation(comparison)) + "\n";
+}
+
+std::string incomparable_markdown(const std::string& message) {
+  return fmt::format("**Not compared**\n\n{}\n", escape_markdown(message));
+}
+
+std::string comparison_latex(const ComparisonReport& report) {
+  return to_latex(verdict_first(rows_table(report.comparison.rows)));
+}
+
+void require_own_folder(const std::string& folder) {
+  if (std::filesystem::exists(folder + "/results.json"))
+    throw Error("--output", "folder", folder + ", which holds a run or a baseline",
+                "another: both have an index.html");
+}
+
+std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report) {
+  require_own_folder(folder);
+  WholeFiles files(folder);
+  files.add(kJson, comparison_json(report));
+  files.add(kMarkdown, comparison_markdown(report));
+  files.add(kCsv, comparison_csv(report));
+  files.add(kLatex, comparison_latex(report));
+  files.add(kJunit, comparison_junit(report));
+  files.add(kPage, comparison_page(report));
+  files.commit();
+  return files.names();
+}
+
+void remove_comparison(const std::string& folder) {
+  if (!std::filesystem::exists(folder)) return;
+  require_own_folder(folder);
+  WholeFiles files(folder);
+  for (const char* name : kFiles) files.remove(name);
+  files.commit();
+}
+
+void write_refusal(const std::string& folder, const std::string& message) {
+  require_own_folder(folder);
+  WholeFiles files(folder);
+  for (const char* name : kFiles) files.remove(name);
+  files.add(kMarkdown, incomparable_markdown(message));
+  files.add(kJunit, incomparable_junit(message));
+  files.commit();
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,128 @@
+#include "reports/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/json_text.h"
+
+namespace glovebench::reports {
+
+std::string escape_html(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string escape_xml(const std::string& text) {
+  constexpr const char* kReplacement = "\xef\xbf\xbd";
+  std::string escaped;
+  for (const char c : escape_html(valid_utf8(text))) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\t' || c == '\n' || c == '\r')
+      escaped += fmt::format("&#{};", code);  // else an attribute would turn them into spaces
+    else if (code < 0x20)
+      escaped += kReplacement;
+    else
+      escaped += c;
+    if (escaped.ends_with("\xef\xbf\xbe") || escaped.ends_with("\xef\xbf\xbf"))
+      escaped.replace(escaped.size() - 3, 3, kReplacement);
+  }
+  return escaped;
+}
+
+std::string escape_markdown(const std::string& text) {
+  std::string escaped;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ';
+    if (c == '<')
+      escaped += "&lt;";
+    else if (c == '&')
+      escaped += "&amp;";
+    else if (c == '\n' || c == '\r')
+      escaped += ' ';
+    else if (std::string_view("\\|`*").find(c) != std::string_view::npos ||
+             (c == ']' && std::string_view("([:").find(next) != std::string_view::npos))
+      escaped.append("\\") += c;
+    else
+      escaped += c;
+  }
+  return escaped;
+}
+
+std::string escape_latex(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) {
+      escaped.append("\\") += c;
+    } else if (std::string_view("[]*").find(c) != std::string_view::npos) {
+      escaped.append("{").append(1, c) += "}";  // else an option of the \\ before it
+    } else if (c == '\\') {
+      escaped += "\\textbackslash{}";
+    } else if (c == '~') {
+      escaped += "\\textasciitilde{}";
+    } else if (c == '^') {
+      escaped += "\\textasciicircum{}";
+    } else if (c == '<') {
+      escaped += "\\textless{}";
+    } else if (c == '>') {
+      escaped += "\\textgreater{}";
+    } else {
+      escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    }
+  }
+  return escaped;
+}
+
+std::string fixed(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+size_t text_width(std::string_view text) {
+  return std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; });
+}
+
+std::string shortened(const std::string& text, size_t columns) {
+  if (text_width(text) <= columns) return text;
+  size_t left = columns / 2, right = text.size() - (columns - 3 - left);
+  while (left > 0 && (text[left] & 0xc0) == 0x80) --left;
+  while (right < text.size() && (text[right] & 0xc0) == 0x80) ++right;
+  return text.substr(0, left) + "..." + text.substr(right);
+}
+
+std::string wrapped(const std::string& text) {
+  std::string lines;
+  size_t column = 0;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = shortened(text.substr(begin, end - begin), kTerminalColumns);
+    if (column > 0) {
+      const bool fits = column + 1 + text_width(word) <= kTerminalColumns;
+      lines += fits ? ' ' : '\n';
+      column = fits ? column + 1 : 0;
+    }
+    lines += word;
+    column += text_width(word);
+    begin = end + 1;
+  }
+  return lines + "\n";
+}
+
+}  // namespace glovebench::reports
