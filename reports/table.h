@@ -22,7 +22,7 @@ struct Column {
   friend bool operator==(const Column&, const Column&) = default;
 };
 
-/// What a verdict means to its reader. The names are classes of the page's style.
+/// How good a verdict is. The names are classes of the page's style.
 enum class Tone { better, worse, same, unsure };
 constexpr auto names_of(Tone) {
   return std::to_array<std::string_view>({"better", "worse", "same", "unsure"});
@@ -41,7 +41,7 @@ using Cell = std::variant<std::monostate, std::string, int64_t, double, Judgment
 using Row = std::vector<Cell>;
 Cell cell(const std::optional<double>& value);
 
-/// What a report shows in rows and columns, in every format. Rows are in reading order, with one cell a column.
+/// Rows and columns, for every format of a report. A row has one cell a column.
 struct Table {
   std::string name;         ///< of its file: "figure8" is tables/figure8.csv
   std::string title;        ///< to read

@@ -16,7 +16,7 @@ struct PixelBox {
 /// Around the labeled pixels, with a margin, within the image; empty if there are none.
 PixelBox label_box(const LabelImage& labels, int margin);
 
-/// Where the hand may be seen: pixels that are near enough, and pixels without a depth. Every other pixel of the
+/// Pixels at which the hand may be: those that are near enough, and those without a depth. Every other pixel of the
 /// box stores its way to the nearest of those (Danielsson 1980, sequential Euclidean mapping: off by at most a
 /// pixel).
 class HandMask {

@@ -26,15 +26,9 @@ int BusFlags::domain() const {
   return domain;
 }
 
-RobotOutputs::RobotOutputs(const RobotStream& stream) {
-  if (!stream.bus.middleware.empty())
-    bus_ = join_robot_bus({.domain = stream.bus.domain(),
-                           .access = {stream.bus.interface, stream.bus.security, "sender"},
-                           .to_controller = stream.to_controller(),
-                           .arm = stream.arm,
-                           .T_flange_wrist = stream.T_flange_wrist,
-                           .longest_step_s = stream.longest_step_s});
-  if (!stream.file.empty()) file_ = std::make_unique<JsonLinesSink>(stream.file);
+RobotOutputs::RobotOutputs(const std::string& file, const std::optional<RobotBusOptions>& bus) {
+  if (bus) bus_ = join_robot_bus(*bus);
+  if (!file.empty()) file_ = std::make_unique<JsonLinesSink>(file);
 }
 
 void RobotOutputs::send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/adapters/dds/robot_bus.h"
@@ -22,26 +23,14 @@ struct BusFlags {
   void add(Command command, const std::string& what);
   /// Throws Error naming `--robot` unless it names a domain.
   int domain() const;
-};
-
-/// Where the robot commands of a run go.
-struct RobotStream {
-  std::string file;  ///< JSON Lines; empty: none
-  BusFlags bus;
-  std::string topics = "own";                                   ///< or "controller"
-  bool arm = true;                                              ///< whether a controller's arm is spoken to
-  Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();  ///< how the hand is mounted on it
-  double longest_step_s = CommandLimits().longest_step_s;       ///< of the guard of the commands
-
-  bool to_controller() const { return !bus.middleware.empty() && topics == "controller"; }
+  DdsAccess access(const std::string& role) const { return {interface, security, role}; }
 };
 
 /// Sends robot commands to a file, over a middleware, both, or nowhere.
 class RobotOutputs {
  public:
-  /// For a controller's topics, waits some seconds for a measured state. Throws Error if there is none, or for an
-  /// unknown middleware, one that the build lacks, no network.
-  explicit RobotOutputs(const RobotStream& stream);
+  /// `file`: JSON Lines; empty: none. Throws Error as `join_robot_bus` does, or if the file cannot be written.
+  RobotOutputs(const std::string& file, const std::optional<RobotBusOptions>& bus);
 
   bool any() const { return file_ || bus_; }
   /// Where the arm stood at the start; empty unless a controller's arm is spoken to.

@@ -43,7 +43,7 @@ struct ServerFlags {
     ServedRobot robot{hand, std::nullopt};
     if (solver) robot.arm = MountedArm{solver, mounting.T_flange_wrist()};
     return {.domain = bus.domain(),
-            .access = {bus.interface, bus.security, "server"},
+            .access = bus.access("server"),
             .robot = robot,
             .log = log,
             .max_log_age_s = max_log_age_s,

@@ -60,8 +60,7 @@ struct Track {
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());
-    RobotOutputs outputs({robot.output, bus, topics, robot.arm != "none", robot.mounting.T_flange_wrist(),
-                          guard.limits().longest_step_s});
+    RobotOutputs outputs(robot.output, bus_options(guard.limits()));
     TrackSource source = open_source(from, common.quiet);
     Workbench workbench = common.workbench();
     const std::string name = workbench.add_database(database);
@@ -84,6 +83,17 @@ struct Track {
                counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
+  }
+
+  /// Empty without `--robot`.
+  std::optional<RobotBusOptions> bus_options(const CommandLimits& limits) const {
+    if (bus.middleware.empty()) return std::nullopt;
+    return RobotBusOptions{.domain = bus.domain(),
+                           .access = bus.access("sender"),
+                           .to_controller = topics == "controller",
+                           .arm = robot.arm != "none",
+                           .T_flange_wrist = robot.mounting.T_flange_wrist(),
+                           .longest_step_s = limits.longest_step_s};
   }
 
   void track_all(TrackSource& source, Method& method, LineFile& output,

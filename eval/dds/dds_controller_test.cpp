@@ -68,12 +68,12 @@ class DdsController : public DdsBus {
   static double received_s(const std::string& line) {
     return static_cast<double>(std::stoll(line.substr(line.rfind(' ') + 1))) * 1e-9;
   }
-  RobotStream stream(bool arm) const {
-    RobotStream stream;
-    stream.bus.middleware = "dds:" + domain_;
-    stream.topics = "controller";
-    stream.arm = arm;
-    return stream;
+  RobotBusOptions controllers(bool arm) const {
+    RobotBusOptions options;
+    options.domain = std::stoi(domain_);
+    options.to_controller = true;
+    options.arm = arm;
+    return options;
   }
   /// A tracked frame whose joints are all at 0.
   static RobotCommand command(int i) { return good_command(1'000'000 + 33'333 * int64_t{i}); }
@@ -86,9 +86,9 @@ class DdsController : public DdsBus {
     }
     outputs.finish();
   }
-  static std::string refusal(const RobotStream& stream) {
+  static std::string refusal(const RobotBusOptions& options) {
     try {
-      RobotOutputs outputs(stream);
+      RobotOutputs outputs("", options);
     } catch (const Error& e) {
       return e.what();
     }
@@ -114,7 +114,7 @@ TEST_F(DdsController, IsLeftNoFasterThanTheLimitsFromWhereTheRobotStands) {
     const StartedProgram driver = own_topic ? drive("measured", hand_joint_names(), standing())
                                             : drive("states", hand_joint_names(), standing(), kController);
     const StartedProgram listener = listen_to_controller();
-    RobotOutputs outputs(stream(false));
+    RobotOutputs outputs("", controllers(false));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the listener knows the sender a little later
     send(outputs, 20);
     stop(driver, SIGKILL);
@@ -150,26 +150,26 @@ TEST_F(DdsController, IsLeftNoFasterThanTheLimitsFromWhereTheRobotStands) {
 
 TEST_F(DdsController, IsNotSpokenToWithoutACompleteMeasuredState) {
   EXPECT_THAT(
-      refusal(stream(false)),
+      refusal(controllers(false)),
       AllOf(HasSubstr("DDS domain 7: measured state of the hand: found nothing of them on "
                       "/glovebench/measured_joint_states, nothing of them on /joint_states, expected all 24 "
                       "joints (rh_FFJ1 ... rh_WRJ2), at most 0.1 s old")));
   std::vector<std::string> names(hand_joint_names().begin(), hand_joint_names().end() - 2);
   const StartedProgram fingers = drive("measured", names, standing());
-  EXPECT_THAT(refusal(stream(false)), HasSubstr("a state without rh_WRJ1, rh_WRJ2 on /glovebench/measured"));
+  EXPECT_THAT(refusal(controllers(false)), HasSubstr("a state without rh_WRJ1, rh_WRJ2 on /glovebench/measured"));
   stop(fingers, SIGKILL);
   drive("measured", hand_joint_names(), standing());
-  EXPECT_EQ(refusal(stream(false)), "");
-  EXPECT_THAT(refusal(stream(true)), AllOf(HasSubstr("measured state of the arm: found nothing of them on "),
-                                           HasSubstr("expected all 7 joints (S1 ... W2)")));
+  EXPECT_EQ(refusal(controllers(false)), "");
+  EXPECT_THAT(refusal(controllers(true)), AllOf(HasSubstr("measured state of the arm: found nothing of them on "),
+                                                HasSubstr("expected all 7 joints (S1 ... W2)")));
 }
 
 TEST_F(DdsController, IsSpokenToByOneAlone) {
   drive("measured", hand_joint_names(), standing());
   {
-    RobotOutputs outputs(stream(false));
+    RobotOutputs outputs("", controllers(false));
     EXPECT_THAT(
-        refusal(stream(false)),
+        refusal(controllers(false)),
         testing::MatchesRegex("DDS domain 7: rt/rh_(wr_)?trajectory_controller/command: found another process "
                               "that writes it, .*"));
     const StartedProgram listener = listen_to_controller();
@@ -177,9 +177,7 @@ TEST_F(DdsController, IsSpokenToByOneAlone) {
     CommandGuard guard;
     EXPECT_NO_THROW(outputs.send(guard, command(1), system_us())) << "who was refused does not disturb it";
     EXPECT_EQ(lines_of("hand", finish(listener).out).size(), 1U);
-    const BusFlags bus = stream(false).bus;
     DdsSinkOptions unaware;
-    unaware.access = {bus.interface, bus.security, "sender"};
     unaware.topics = topics::kController;
     const DdsSink other(std::stoi(domain_), unaware);
     int sent = 1;
@@ -192,12 +190,12 @@ TEST_F(DdsController, IsSpokenToByOneAlone) {
       }
     })) << "two that began at once see each other now";
   }
-  EXPECT_EQ(refusal(stream(false)), "") << "they are gone";
+  EXPECT_EQ(refusal(controllers(false)), "") << "they are gone";
 }
 
 TEST_F(DdsController, IsNotSpokenToAfterItsDriverFellSilent) {
   const StartedProgram driver = drive("measured", hand_joint_names(), standing());
-  RobotOutputs outputs(stream(false));
+  RobotOutputs outputs("", controllers(false));
   stop(driver, SIGKILL);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const StartedProgram listener = listen_to_controller();
@@ -212,7 +210,7 @@ TEST_F(DdsController, IsAskedAgainWhereTheRobotStandsAfterALostHand) {
     const StartedProgram listener = listen_to_controller();
     const StartedProgram before =
         drive("measured", hand_joint_names(), std::vector<double>(kShadowJointCount, 0.0));
-    RobotOutputs outputs(stream(false));
+    RobotOutputs outputs("", controllers(false));
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     CommandLimits limits;
     limits.stop_after_s = stop_after_s;
@@ -240,7 +238,7 @@ TEST_F(DdsController, IsAskedAgainWhereTheRobotStandsAfterALostHand) {
 TEST_F(DdsController, HearsABurstOfFramesNoFasterThanTheClockOfTheWall) {
   const StartedProgram driver = drive("measured", hand_joint_names(), standing());
   const StartedProgram listener = listen_to_controller();
-  RobotOutputs outputs(stream(false));
+  RobotOutputs outputs("", controllers(false));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the listener knows the sender a little later
   CommandGuard guard;
   for (int i = 0; i < 200; ++i) outputs.send(guard, command(i), system_us());  // 6.6 s by their stamps
@@ -264,7 +262,7 @@ TEST_F(DdsController, StartsTheArmWhereItStands) {
   const ArmJoints rest = kArmAtRest;
   // The arm's own controller tells of it on another topic.
   const StartedProgram arm = drive("states", arm_joint_names(), {rest.begin(), rest.end()}, kController);
-  RobotOutputs outputs(stream(true));
+  RobotOutputs outputs("", controllers(true));
   ASSERT_TRUE(outputs.arm_start());
   EXPECT_EQ(*outputs.arm_start(), rest);
   std::this_thread::sleep_for(std::chrono::milliseconds(500));

@@ -70,8 +70,15 @@ void expect_slow_fingertips(const std::string& log) {
   EXPECT_GT(fastest, 0.2) << "it has moved";
 }
 
-TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
-  if (!make_arm_solver()) GTEST_SKIP() << "built without Orocos KDL";
+class RobotServerArm : public RobotServer {
+ protected:
+  void SetUp() override {
+    if (!make_arm_solver()) GTEST_SKIP() << "built without Orocos KDL";
+    RobotServer::SetUp();
+  }
+};
+
+TEST_F(RobotServerArm, TheArmTakesTheWristWhereItShallGo) {
   const std::string log = path("arm.jsonl");
   const StartedProgram server = serve_until_ready("arm", log);
   const Eigen::Vector3d way(-0.05, 0.08, -0.03);
@@ -85,8 +92,7 @@ TEST_F(RobotServer, TheArmTakesTheWristWhereItShallGo) {
   expect_safe(log);
 }
 
-TEST_F(RobotServer, TheArmKnowsHowTheHandIsMounted) {
-  if (!make_arm_solver()) GTEST_SKIP() << "built without Orocos KDL";
+TEST_F(RobotServerArm, TheArmKnowsHowTheHandIsMounted) {
   const std::string log = path("arm.jsonl");
   const StartedProgram server =
       serve_until_ready("arm", log, {"--flange-wrist", "0", "0", "0.1", "0.6", "0", "0", "0.8"});
@@ -113,8 +119,7 @@ TEST_F(RobotServer, TheArmKnowsHowTheHandIsMounted) {
   refusal("hand", {"0", "0", "0.1", "1", "0", "0", "0"});
 }
 
-TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
-  if (!make_arm_solver()) GTEST_SKIP() << "built without Orocos KDL";
+TEST_F(RobotServerArm, TheArmStartsAtALimitAndNotBeyond) {
   const std::string log = path("arm.jsonl");
   stop(serve_until_ready("arm", log), SIGTERM);
   const std::string last = lines(log, "state").back().dump();
@@ -140,8 +145,7 @@ TEST_F(RobotServer, TheArmStartsAtALimitAndNotBeyond) {
             "glovebench: " + log + ": S1: found 177.5 degrees, expected -177 to 177\n");
 }
 
-TEST_F(RobotServer, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
-  if (!make_arm_solver()) GTEST_SKIP() << "built without Orocos KDL";
+TEST_F(RobotServerArm, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
   const std::string log = path("arm.jsonl");
   const StartedProgram server = serve_until_ready("arm", log);
   finish(talk("wait pose\n" + pose({0, 0, 0}, 10) + "again 60 10000\n" + pose({0, 0.1, 0}, 11, "world") +
@@ -155,8 +159,7 @@ TEST_F(RobotServer, TheArmRefusesWhatIsWrongAndStaysWhereItCannotGo) {
   expect_safe(log);
 }
 
-TEST_F(RobotServer, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
-  if (!make_arm_solver()) GTEST_SKIP() << "built without Orocos KDL";
+TEST_F(RobotServerArm, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
   const std::string log = path("robot.jsonl");
   const SimulatedRobot robot(std::stoi(domain_));
   StartedProgram server = serve_until_ready("hand and arm", log);
@@ -184,8 +187,7 @@ TEST_F(RobotServer, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
   expect_slow_fingertips(log);
 }
 
-TEST_F(RobotServer, OneServesAHandAndAnArm) {
-  if (!make_arm_solver()) GTEST_SKIP() << "built without Orocos KDL";
+TEST_F(RobotServerArm, OneServesAHandAndAnArm) {
   const StartedProgram server = serve_until_ready("hand and arm", path("robot.jsonl"));
   for (const std::string side : {"hand", "arm"}) {
     const ProgramRun run = finish(serve(side, path(side)));

@@ -37,7 +37,7 @@ std::string speed_sentence(const SpeedRow& row);
 /// "NAME: suite quick, glovebench 0.1.0, commit 105ec9a"
 std::string result_sentence(const ComparedResult& result);
 
-/// What the row's verdict means: worse is what stops the change.
+/// The tone of the row's verdict. Rows that stop the change are `worse`.
 Tone tone_of(const ComparisonRow& row);
 
 /// Experiments by readable names, quantities, numbers; the verdict comes last.

@@ -24,8 +24,8 @@ std::string data_uri(const std::string& image);
 /// A chart that data/page_charts.js draws in this place from the page's tables: its name there and, where there are
 /// several, a number: "differences 3". `label` says what it shows.
 std::string chart_place(const std::string& chart, const std::string& label);
-/// What draws a page's charts, for the end of the document: its tables, texts of CSV files by their names, and
-/// the scripts, which are Vega, Vega-Lite and Vega-Embed in that order. Empty without scripts.
+/// The end of a document whose charts are drawn: its tables, which are texts of CSV files by their names, and the
+/// scripts Vega, Vega-Lite and Vega-Embed in that order. Empty without scripts.
 std::string chart_scripts(const nlohmann::ordered_json& tables, const std::vector<std::string>& scripts);
 
 /// A whole document with the project's style; `body` is HTML and follows the title as a heading. `style` is added

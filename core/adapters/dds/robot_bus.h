@@ -27,7 +27,7 @@ class RobotBus {
  public:
   virtual ~RobotBus() = default;
 
-  /// Where the arm stood at the start; empty unless a controller's arm is spoken to.
+  /// Joints of the arm at the start, rad. Empty unless the options ask for a controller's arm.
   virtual std::optional<ArmJoints> arm_start() const = 0;
   /// The time of a command by the clock of the wall, microseconds: the first frame's time stamp plus what has
   /// passed since then. Tells the guard where the robot stands if the command begins a motion on a controller's

@@ -19,7 +19,7 @@ struct LiveOptions {
   std::function<bool()> interrupted;  ///< asked ten times a second while nothing arrives; true ends the stream
 };
 
-/// What became of the images that are in no frame.
+/// Counts of the images that are in no frame.
 struct LiveLosses {
   int late = 0;       ///< whole frames that were not fetched in time, since the first was asked for
   int unpaired = 0;   ///< depth images with no color image near them

@@ -1,4 +1,4 @@
-// Where a server of the hand may start.
+// Places at which a server of the hand may start, and others.
 #include <gtest/gtest.h>
 
 #include <limits>

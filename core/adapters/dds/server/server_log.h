@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// What the log of a server tells of a message; core/adapters/dds/README.md documents the lines.
+/// A received message, for its line in the log of a server. core/adapters/dds/README.md documents the lines.
 struct ReceivedLine {
   int64_t time_us = 0;  ///< of its reception, by the system's clock
   std::string_view topic;
