@@ -1,5 +1,6 @@
 // Cameras whose truth is known, from pictures of a board and from corners with noise.
 #include "core/calibration/stereo_fit.h"
+#include "core/base/enum_names.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -19,14 +19,14 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::ThrowsMessage;
 
-/// One colored square, the same in every view.
+/// One square of two colors, the same in every view.
 class SquareRenderer : public ViewRenderer {
  public:
   LabelImage render_labels(const HandModel&, const PosedHand&, const PinholeCamera& camera,
                            const Eigen::Isometry3d&) override {
     LabelImage image(camera.width, camera.height);
     for (int v = 10; v < 40; ++v) {
-      for (int u = 10; u < 40; ++u) image(u, v) = static_cast<uint8_t>(1 + u / 8);
+      for (int u = 10; u < 40; ++u) image(u, v) = static_cast<uint8_t>(1 + u / 20);
     }
     return image;
   }

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Paints colored blocks that follow from the view alone.
+/// Paints blocks of two colors that follow from the view alone. Each color costs a field of distances.
 class BlockRenderer : public ViewRenderer {
  public:
   LabelImage render_labels(const HandModel&, const PosedHand&, const PinholeCamera& camera,
@@ -21,7 +21,8 @@ class BlockRenderer : public ViewRenderer {
     const int left = static_cast<int>(20 + 15 * axis.x()), top = static_cast<int>(20 + 15 * axis.y());
     for (int v = top; v < top + 24; ++v) {
       for (int u = left; u < left + 18; ++u) {
-        image(u, v) = static_cast<uint8_t>(1 + (u / 6 + v / 6 + static_cast<int>(4 + 4 * axis.z())) % kColorCount);
+        image(u, v) =
+            static_cast<uint8_t>(1 + ((u / 6 + v / 6) % 2 * 3 + static_cast<int>(4 + 4 * axis.z())) % kColorCount);
       }
     }
     return image;

@@ -47,12 +47,16 @@ std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> f
       S(1, 2) - S(2, 1), S(0, 0) - S(1, 1) - S(2, 2), S(0, 1) + S(1, 0), S(2, 0) + S(0, 2),  //
       S(2, 0) - S(0, 2), S(0, 1) + S(1, 0), S(1, 1) - S(0, 0) - S(2, 2), S(1, 2) + S(2, 1),  //
       S(0, 1) - S(1, 0), S(2, 0) + S(0, 2), S(1, 2) + S(2, 1), S(2, 2) - S(0, 0) - S(1, 1);
-  const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(N).eigenvectors().col(3);
+  const Eigen::Vector4d q = largest_eigenvector(N);
 
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
   T.translation() = center_to - T.linear() * center_from;
   return T;
+}
+
+Eigen::Vector4d largest_eigenvector(const Eigen::Matrix4d& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(matrix).eigenvectors().col(3);
 }
 
 }  // namespace glovebench

@@ -12,4 +12,8 @@ namespace glovebench {
 std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> from,
                                               std::span<const Eigen::Vector3f> to);
 
+/// Unit eigenvector of the largest eigenvalue of the symmetric `matrix`: the rotation as a quaternion that Horn's
+/// and Markley's sums ask for. Its sign is free.
+Eigen::Vector4d largest_eigenvector(const Eigen::Matrix4d& matrix);
+
 }  // namespace glovebench

@@ -1,9 +1,8 @@
 #include "core/pose/interpolate.h"
 
-#include <Eigen/Eigenvalues>
-
 #include "core/base/angles.h"
 #include "core/base/check.h"
+#include "core/pose/horn.h"
 
 namespace glovebench {
 namespace {
@@ -27,8 +26,7 @@ Eigen::Quaterniond mean_rotation(std::span<const Eigen::Quaterniond> rotations, 
     const Eigen::Vector4d& q = rotations[i].coeffs();
     sum += weights[i] * q * q.transpose();
   }
-  const Eigen::Vector4d mean = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(sum).eigenvectors().col(3);
-  return Eigen::Quaterniond(mean).normalized();
+  return Eigen::Quaterniond(largest_eigenvector(sum)).normalized();
 }
 
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,

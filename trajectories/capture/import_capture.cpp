@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 
@@ -10,6 +9,7 @@
 #include "core/base/excerpt.h"
 #include "core/base/input_file.h"
 #include "core/base/quantile.h"
+#include "core/pose/horn.h"
 #include "trajectories/generation/low_dispersion.h"
 #include "trajectories/generation/motion_script.h"
 #include "trajectories/text_cells.h"
@@ -65,9 +65,8 @@ Eigen::Isometry3d mean_pose(const std::vector<Eigen::Isometry3d>& poses) {
     sum += q * q.transpose();
     position += T.translation() / static_cast<double>(poses.size());
   }
-  const Eigen::Vector4d mean = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(sum).eigenvectors().col(3);
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::Quaterniond(mean).normalized().toRotationMatrix();
+  T.linear() = Eigen::Quaterniond(largest_eigenvector(sum)).normalized().toRotationMatrix();
   T.translation() = position;
   return T;
 }

@@ -237,8 +237,9 @@ TEST_F(DdsServer, BelievesALogForATime) {
   EXPECT_THAT(hand(options(log))->failure(), AllOf(HasSubstr("hand.jsonl: last state: found one of 20"),
                                                    HasSubstr(" s ago, expected one of the last 600 s"),
                                                    HasSubstr("--log-age"), HasSubstr("another --log")));
-  seconds_ago(-60);
-  EXPECT_THAT(hand(options(log))->failure(), AllOf(HasSubstr("60.0 s ahead"), HasSubstr("set the clock")));
+  seconds_ago(-3600);
+  EXPECT_THAT(hand(options(log))->failure(),
+              AllOf(testing::ContainsRegex(" 3[56][0-9][0-9]\\.[0-9] s ahead"), HasSubstr("set the clock")));
 
   DdsServerOptions patient = options(log);
   patient.max_log_age_s = kMaxLogAge + 600;
