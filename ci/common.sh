@@ -17,6 +17,26 @@ quietly() {
   return "$status"
 }
 
+# The same for a log, with a line at least every 30 s: the last one that the command said.
+reporting() {
+  local log status=0 pid told=$SECONDS line
+  log="$(mktemp)"
+  "$@" >"$log" 2>&1 &
+  pid=$!
+  while kill -0 "$pid" 2>/dev/null; do
+    if ((SECONDS - told >= 25)); then
+      line="$(tail -n 1 "$log")"
+      echo "$((SECONDS / 60)):$(printf %02d $((SECONDS % 60))) ${line:0:100}"
+      told=$SECONDS
+    fi
+    sleep 1
+  done
+  wait "$pid" || status=$?
+  if [[ $status -ne 0 ]]; then cat "$log" >&2; fi
+  rm -f "$log"
+  return "$status"
+}
+
 # Where ccache is installed, another clone's objects are found again, wherever it is. Call it after ci/setup.
 use_compiler_cache() { # [FOLDER of the sources]
   if ! command -v ccache >/dev/null; then return; fi

@@ -32,6 +32,8 @@ void add_commands(glovebench::eval::Command program) {
   add_calibrate_cameras(calibrate);
   add_calibrate_colors(calibrate);
   add_calibrate_noise(calibrate);
+  add_completion(program);
+  add_manual(program);
 }
 
 }  // namespace

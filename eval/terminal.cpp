@@ -1,5 +1,7 @@
 #include "eval/terminal.h"
 
+#include <optional>
+
 namespace glovebench::eval {
 namespace {
 
@@ -11,25 +13,61 @@ bool is_shown(bool quiet) {
   return !quiet && isatty(STDERR_FILENO) != 0;
 }
 
+double seconds_left(double share, double elapsed) {
+  return share > 0 ? elapsed * (1 - share) / share : 0;
+}
+
+/// When the program last said to a log how far it is.
+struct ProgressLog {
+  std::mutex mutex;
+  std::optional<double> interval;  ///< s; empty: it says nothing
+  std::chrono::steady_clock::time_point last;
+
+  bool is_due() {
+    const std::lock_guard lock(mutex);
+    const auto now = std::chrono::steady_clock::now();
+    if (!interval || std::chrono::duration<double>(now - last).count() < *interval) return false;
+    last = now;
+    return true;
+  }
+};
+
+ProgressLog& progress_log() {
+  static ProgressLog log;
+  return log;
+}
+
 }  // namespace
 
-Progress::Progress(std::string title, bool quiet) : title_(std::move(title)), enabled_(is_shown(quiet)) {}
+void log_progress(double interval) {
+  ProgressLog& log = progress_log();
+  const std::lock_guard lock(log.mutex);
+  log.interval = interval;
+  log.last = std::chrono::steady_clock::now();
+}
+
+Progress::Progress(std::string title, bool quiet) : title_(std::move(title)), quiet_(quiet) {}
 
 Progress::~Progress() {
   if (last_percent_ >= 0) say("\r\x1b[K");
 }
 
 void Progress::show(double share) {
-  if (!enabled_) return;
+  if (quiet_) return;
   const std::lock_guard lock(mutex_);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+  if (isatty(STDERR_FILENO) != 0) return show_bar(share, elapsed.count());
+  if (progress_log().is_due())
+    say("{}: {:.0f}%, {:.0f} s left\n", title_, 100 * share, seconds_left(share, elapsed.count()));
+}
+
+void Progress::show_bar(double share, double elapsed) {
   const int percent = static_cast<int>(100 * share);
-  if (elapsed.count() < kBarDelay || percent <= last_percent_) return;
+  if (elapsed < kBarDelay || percent <= last_percent_) return;
   last_percent_ = percent;
   const int filled = kBarWidth * percent / 100;
-  const double left = share > 0 ? elapsed.count() * (1 - share) / share : 0;
   say("\r\x1b[K{} [{:#<{}}{: <{}}] {:3d}%  {:.0f} s left", title_, "", filled, "", kBarWidth - filled, percent,
-      left);
+      seconds_left(share, elapsed));
   std::fflush(stderr);
 }
 

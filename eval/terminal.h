@@ -27,7 +27,11 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// A bar for what takes over two seconds; silent unless stderr is a terminal. Thread-safe.
+/// From now on every `Progress` speaks to a log, too: where stderr is no terminal, a line for each `interval`, s.
+void log_progress(double interval);
+
+/// A bar for what takes over two seconds; silent unless stderr is a terminal or `log_progress` was called.
+/// Thread-safe.
 class Progress {
  public:
   Progress(std::string title, bool quiet);
@@ -39,8 +43,10 @@ class Progress {
   void show(double share);
 
  private:
+  void show_bar(double share, double elapsed);
+
   std::string title_;
-  bool enabled_;
+  bool quiet_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   int last_percent_ = -1;

@@ -36,5 +36,19 @@ TEST(LiveStatus, SpeaksOfTheLastFramesOnly) {
   EXPECT_EQ(status.line(0), "10.0 frames/s, 100% tracked, residual 4.0 mm, 0 dropped");
 }
 
+TEST(Progress, TellsALogOnlyOnceItIsAskedTo) {
+  const auto said = [](bool quiet) {
+    testing::internal::CaptureStderr();
+    Progress("working", quiet).show(0.5);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(false), "");
+  log_progress(0);
+  EXPECT_EQ(said(false), "working: 50%, 0 s left\n");
+  EXPECT_EQ(said(true), "");
+  log_progress(3600);
+  EXPECT_EQ(said(false), "") << "the next line is due in an hour";
+}
+
 }  // namespace
 }  // namespace glovebench::eval

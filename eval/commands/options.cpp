@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/excerpt.h"
@@ -79,6 +80,33 @@ bool is_empty(const Value& value) {
   if constexpr (requires { value.empty(); }) return value.empty();
   if constexpr (requires { value.has_value(); }) return !value.has_value();
   return false;
+}
+
+/// The words of an option with `one_of`: CLI11 keeps them in the type alone, as in TEXT:{slow,fast}.
+std::vector<std::string> words_of(const std::string& type) {
+  const size_t begin = type.find(":{"), end = type.rfind('}');
+  if (begin == std::string::npos || end == std::string::npos) return {};
+  return CLI::detail::split(type.substr(begin + 2, end - begin - 2), ',');
+}
+
+OptionText text_of(const CLI::Option& option) {
+  OptionText text;
+  for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
+  if (text.names.empty()) text.names.push_back(option.get_name());
+  text.takes_value = option.get_type_size() > 0;
+  text.value = CLI::detail::trim_copy(CLI::Formatter().make_option_opts(&option));
+  text.help = option.get_description();
+  text.words = words_of(option.get_type_name());
+  return text;
+}
+
+CommandText text_of(const CLI::App& app) {
+  CommandText text{app.get_name(), app.get_description(), {}, {}};
+  for (const CLI::Option* option : app.get_options()) text.options.push_back(text_of(*option));
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    text.subcommands.push_back(text_of(*subcommand));
+  return text;
 }
 
 /// What is wrong with the command line. CLI11 tells a missing subcommand or option before an unknown one, which
@@ -188,6 +216,10 @@ template Option Command::option(const std::string&, std::optional<Eigen::Isometr
 
 bool Command::given(const std::string& name) const {
   return app_->count(name) > 0;
+}
+
+CommandText Command::text() const {
+  return text_of(std::as_const(*app_));
 }
 
 void Command::set_action(const Action& action) const {

@@ -37,6 +37,23 @@ class Option {
   CLI::Option* option_;
 };
 
+/// An option as a command declares it.
+struct OptionText {
+  std::vector<std::string> names;  ///< `-o`, `--output`; without dashes: an argument
+  bool takes_value = true;
+  std::string value;  ///< as the help writes it: type, range, default, what it needs
+  std::string help;
+  std::vector<std::string> words;  ///< the only values; empty: any
+};
+
+/// A command as it is declared, for its man page and for the completion of a shell.
+struct CommandText {
+  std::string name;
+  std::string description;
+  std::vector<OptionText> options;
+  std::vector<CommandText> subcommands;
+};
+
 /// A command of the program, or the program itself: a handle, which may be copied. Values and actions that are
 /// given to it must live as long as the program runs.
 class Command {
@@ -57,6 +74,8 @@ class Command {
   Option option(const std::string& names, Value& value, const std::string& help) const;
   /// Whether the command line names the option.
   bool given(const std::string& name) const;
+  /// What is declared by now, subcommands too.
+  CommandText text() const;
   /// What the command does, once the whole command line is read. The exit code is what it returns, 0 if nothing.
   template <typename Does>
   void runs(Does does) const {
@@ -97,5 +116,7 @@ void add_gate(Command program);
 void add_calibrate_cameras(Command calibrate);
 void add_calibrate_colors(Command calibrate);
 void add_calibrate_noise(Command calibrate);
+void add_completion(Command program);
+void add_manual(Command program);
 
 }  // namespace glovebench::eval

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
 #include "eval/reproduction.h"
+#include "eval/terminal.h"
 #include "reports/claims/claims_report.h"
 #include "reports/paper_numbers.h"
 #include "reports/summary.h"
@@ -23,6 +24,8 @@ struct Reproduce {
   RobotFlags robot;
 
   int run() {
+    constexpr double kLogInterval = 25;  // s: a log has a line at least every 30 s
+    log_progress(kLogInterval);
     refuse_twice("--trajectory", options.trajectories);
     refuse_twice("--only", options.only);
     options.study.tracker = common.tracker_config();  // a wrong configuration is named before anything is built
@@ -42,7 +45,9 @@ struct Reproduce {
     if (!options.study.quick && !judged)
       fmt::print("No claim is judged: they are about the paper's configuration, and this is another one.\n\n");
     if (options.study.quick) fmt::print("{}\n", reports::quick_note(outcome.result));
-    if (!outcome.result.studies.empty()) fmt::print("Tables of the other figures: {}/summary.md\n", common.output);
+    if (!outcome.result.experiments.empty()) fmt::print("Figures 4 to 6: {}/tables/figure*.csv\n", common.output);
+    for (const reports::StudyResult& study : outcome.result.studies)
+      fmt::print("{}: {}/summary.md\n", study.title, common.output);
     fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
     return exit_code_of(reports::count_required(verdicts), options, judged);

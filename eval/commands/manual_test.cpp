@@ -1,0 +1,103 @@
+#include "eval/commands/manual.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+#include "eval/test_program.h"
+
+namespace glovebench::eval {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string said(const std::vector<std::string>& arguments) {
+  const ProgramRun run = run_glovebench(arguments);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.err, "");
+  return run.out;
+}
+
+std::string said_by(const std::string& shell, const std::string& script) {
+  const ProgramRun run = run_program({"/usr/bin/env", shell, "-c", script});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  return run.out;
+}
+
+bool has(const std::string& program) {
+  return run_program({"/usr/bin/env", "sh", "-c", "command -v " + program}).exit_code == 0;
+}
+
+const CommandText kProgram = {
+    "walker",
+    "Walks.",
+    {{{"-h", "--help"}, false, "", "Help", {}}},
+    {{"walk",
+      "Goes\nthere.",
+      {{{"-s", "--speed"}, true, "TEXT:{slow,fast}=slow", "the `speed`", {"slow", "fast"}},
+       {{"--log"}, true, "TEXT", ".hidden", {}},
+       {{"where"}, true, "TEXT:{home}", "to", {"home"}}},
+      {}},
+     {"rest", "Stays.", {}, {{"on", "As it is.", {}, {}}}}}};
+
+TEST(Completions, OfTheProgramAndOfACommand) {
+  EXPECT_EQ(completions(kProgram, {}), "walk\tGoes there.\nrest\tStays.\n-h\tHelp\n--help\tHelp\n");
+  EXPECT_EQ(completions(kProgram, {"walk"}), "-s\tthe `speed`\n--speed\tthe `speed`\n--log\t.hidden\nhome\tto\n");
+  EXPECT_EQ(completions(kProgram, {"rest"}), "on\tAs it is.\n");
+  EXPECT_EQ(completions(kProgram, {"rest", "on"}), "");
+}
+
+TEST(Completions, OfAValue) {
+  EXPECT_EQ(completions(kProgram, {"walk", "-s"}), "slow\t\nfast\t\n");
+  EXPECT_EQ(completions(kProgram, {"walk", "--log"}), "") << "the shell completes file names";
+  EXPECT_EQ(completions(kProgram, {"walk", "--log", "rest"}), completions(kProgram, {"walk"}))
+      << "a value that is called like a command of the program";
+}
+
+TEST(Completions, KnowEveryCommandOfTheProgram) {
+  EXPECT_THAT(said({"completion", "words", "--"}), AllOf(HasSubstr("\nrun\t"), HasSubstr("\ncalibrate\t")));
+  EXPECT_THAT(said({"completion", "words", "--", "calibrate"}), HasSubstr("colors\t"));
+  EXPECT_EQ(said({"completion", "words", "--", "track", "--robot-coupling"}), "series\t\neven\t\n");
+}
+
+TEST(Completions, Bash) {
+  const std::string program = build_paths::program("glovebench");
+  const auto complete = [&](const std::string& words, const std::string& position) {
+    return said_by("bash", "source <('" + program + "' completion bash); COMP_WORDS=('" + program + "' " + words +
+                               "); COMP_CWORD=" + position + "; _glovebench; printf '%s\\n' \"${COMPREPLY[@]}\"");
+  };
+  EXPECT_EQ(complete("calib", "1"), "calibrate\n");
+  EXPECT_EQ(complete("list tra", "2"), "trajectories\n");
+  EXPECT_EQ(complete("track --robot-c", "2"), "--robot-coupling\n");
+  EXPECT_EQ(complete("track --robot-coupling ''", "3"), "series\neven\n");
+}
+
+TEST(Completions, ScriptsOfOtherShellsAreRead) {
+  const std::string program = build_paths::program("glovebench");
+  if (!has("zsh") && !has("fish")) GTEST_SKIP() << "neither zsh nor fish is installed";
+  if (has("zsh")) said_by("zsh", "compdef() {}; source <('" + program + "' completion zsh)");
+  if (has("fish")) said_by("fish", "'" + program + "' completion fish | source");
+}
+
+TEST(ManPage, HasEveryCommandAndEscapesWhatTheLanguageTakesForItsOwn) {
+  const std::string page = man_page(kProgram, "1.2");
+  EXPECT_THAT(page, HasSubstr("glovebench 1.2"));
+  EXPECT_THAT(page, HasSubstr(".SS walker walk\nGoes there.\n"));
+  EXPECT_THAT(page, HasSubstr(".TP\n\\fB\\-s, \\-\\-speed\\fR TEXT:{slow,fast}=slow\nthe \\fBspeed\\fR\n"));
+  EXPECT_THAT(page, HasSubstr("\n\\&.hidden\n"));
+  EXPECT_THAT(page, HasSubstr(".SS walker rest on\nAs it is.\n"));
+  EXPECT_THAT(page, Not(HasSubstr(".SS walker rest\n"))) << "it does nothing by itself";
+}
+
+TEST(ManPage, IsReadWithoutWarnings) {
+  const std::string page = said({"manual"});
+  EXPECT_THAT(page, AllOf(HasSubstr(".SS glovebench calibrate colors"), HasSubstr("\\-\\-robot\\-coupling")));
+  if (!has("groff")) GTEST_SKIP() << "groff is not installed";
+  EXPECT_THAT(said_by("sh", "'" + build_paths::program("glovebench") + "' manual | groff -man -ww -z"), "");
+}
+
+}  // namespace
+}  // namespace glovebench::eval
