@@ -260,7 +260,7 @@ ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std:
     for (int i = 0; i < stage.steps; ++i) {
       run.match(pose, i > 0 && i < stage.rigid_steps);
       if (run.matched_points() < 3) return AlignmentStatus::no_shared_color;
-      candidate.score = run.score(pose);
+      if (i + 1 == stage.steps) candidate.score = run.score(pose);
       const StepWeights weights{between(stage.tukey_mm, i, stage.steps),
                                 between(stage.start_weight, i, stage.steps),
                                 evenly_between(stage.tangential, i, stage.steps)};

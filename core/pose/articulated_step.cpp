@@ -77,34 +77,41 @@ void PullSums::add(const RowSums& pulls_at_point, const BodyList& bodies) {
 }
 
 NormalEquations PullSums::equations() const {
+  using Matrix6d = Eigen::Matrix<double, 6, 6>;
   NormalEquations result;
-  // H += (what `left` makes of a row)^T S (what `right` makes of it)
-  const auto add_pair = [&](int left, int right, const Eigen::Matrix<double, 6, 6>& S) {
-    result.H.topLeftCorner<6, 6>() += S;
-    for (uint32_t b = angles_of_body(right); b != 0; b &= b - 1) {
-      const int angle = std::countr_zero(b);
-      const Vector6d moved_by = S * screws_[angle];
-      result.H.col(6 + angle).head<6>() += moved_by;
-      for (uint32_t a = angles_of_body(left); a != 0; a &= a - 1)
-        result.H(6 + std::countr_zero(a), 6 + angle) += screws_[std::countr_zero(a)].dot(moved_by);
-    }
-  };
+  std::array<Matrix6d, kBodyCount> of_bodies;  // the body's products with all bodies
+  of_bodies.fill(Matrix6d::Zero());
   for (int high = 0; high < kBodyCount; ++high) {
-    result.g.head<6>() += sums_[high];
-    for (uint32_t a = angles_of_body(high); a != 0; a &= a - 1)
-      result.g[6 + std::countr_zero(a)] += screws_[std::countr_zero(a)].dot(sums_[high]);
     for (int low = 0; low <= high; ++low) {
       const Pair& pair = pairs_[high * (high + 1) / 2 + low];
       if (!pair.is_used) continue;
-      Eigen::Matrix<double, 6, 6> S;
+      Matrix6d S;
       int next = 0;
       for (int i = 0; i < 6; ++i)
         for (int j = i; j < 6; ++j) S(i, j) = S(j, i) = pair.products[next++];
-      add_pair(high, low, S);
-      if (low != high) add_pair(low, high, S);
+      of_bodies[high] += S;
+      if (low != high) of_bodies[low] += S;
+      for (uint32_t b = angles_of_body(high); b != 0; b &= b - 1) {
+        const int right = std::countr_zero(b);
+        const Vector6d moved_by = S * screws_[right];
+        for (uint32_t a = angles_of_body(low); a != 0; a &= a - 1) {
+          const int left = std::countr_zero(a);
+          const double product = screws_[left].dot(moved_by);
+          result.H(6 + left, 6 + right) += product;
+          if (low != high) result.H(6 + right, 6 + left) += product;
+        }
+      }
     }
   }
-  // The loops fill the block of pose against angles on one side of the diagonal only.
+  for (int body = 0; body < kBodyCount; ++body) {
+    result.H.topLeftCorner<6, 6>() += of_bodies[body];
+    result.g.head<6>() += sums_[body];
+    for (uint32_t a = angles_of_body(body); a != 0; a &= a - 1) {
+      const int angle = std::countr_zero(a);
+      result.H.col(6 + angle).head<6>() += of_bodies[body] * screws_[angle];
+      result.g[6 + angle] += screws_[angle].dot(sums_[body]);
+    }
+  }
   result.H.bottomLeftCorner<kAngleCount, 6>() = result.H.topRightCorner<6, kAngleCount>().transpose();
   return result;
 }

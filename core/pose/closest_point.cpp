@@ -29,29 +29,39 @@ struct Best {
   }
 };
 
+/// Positive if the face looks at the viewpoint: twice the area that is seen from there, times the distance.
+float facing(const Surface::Face& face, const Eigen::Vector3f& viewpoint) {
+  return (face.b - face.a).cross(face.c - face.a).dot(viewpoint - face.a);
+}
+
 }  // namespace
 
 void Surface::assign(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
                      Coloring coloring) {
   for (RecycledVector<Face>& faces : faces_) faces.clear();
-  Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-  double total = 0;
   const Eigen::Vector3f* const vertices = hand.vertices.data();  // a model names none that it lacks
   uint32_t next = 0;
   for (const Triangle& triangle : model.triangles()) {
     const Face face{vertices[triangle.vertices[0]], vertices[triangle.vertices[1]], vertices[triangle.vertices[2]],
                     next++};
-    const Eigen::Vector3f normal = (face.b - face.a).cross(face.c - face.a);
-    const Eigen::Vector3f to_viewer = viewpoint_hand - face.a;
-    const float facing = normal.dot(to_viewer);
-    if (facing <= 0) continue;
+    if (facing(face, viewpoint_hand) <= 0) continue;
     faces_[coloring == Coloring::by_color ? triangle.label : kAnyColor].push_back(face);
-    const Eigen::Vector3f middle = (face.a + face.b + face.c) / 3;
-    const double area = facing / to_viewer.norm();
-    weighted += area * middle.cast<double>();
+  }
+}
+
+Eigen::Vector3f seen_center(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand) {
+  Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
+  double total = 0;
+  for (const Triangle& triangle : model.triangles()) {
+    const auto& [a, b, c] = triangle.vertices;
+    const Surface::Face face{hand.vertices[a], hand.vertices[b], hand.vertices[c], 0};
+    const float toward = facing(face, viewpoint_hand);
+    if (toward <= 0) continue;
+    const double area = toward / (viewpoint_hand - face.a).norm();
+    weighted += area * ((face.a + face.b + face.c) / 3).cast<double>();
     total += area;
   }
-  center_ = total > 0 ? Eigen::Vector3f((weighted / total).cast<float>()) : Eigen::Vector3f::Zero();
+  return total > 0 ? Eigen::Vector3f((weighted / total).cast<float>()) : Eigen::Vector3f::Zero();
 }
 
 bool Surface::empty() const {

@@ -34,13 +34,14 @@ class Surface {
 
   const RecycledVector<Face>& faces(uint8_t label) const { return faces_[label]; }
   bool empty() const;
-  /// Area-weighted center of all faces as seen from the viewpoint (projected area).
-  const Eigen::Vector3f& center() const { return center_; }
 
  private:
   std::array<RecycledVector<Face>, kColorCount + 1> faces_;
-  Eigen::Vector3f center_ = Eigen::Vector3f::Zero();
 };
+
+/// Center of the faces of a posed hand that look at a viewpoint, weighted by the areas that are seen from there;
+/// all in the hand frame, m. The origin if no face does.
+Eigen::Vector3f seen_center(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand);
 
 /// A point's closest point on the surface of its color.
 struct ClosestPoint {

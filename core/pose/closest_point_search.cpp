@@ -169,8 +169,7 @@ HWY_INLINE Vectors gather(std::span<const LabeledPoint> points, const PointGroup
 }
 
 /// To their places; and notes which faces they are.
-HWY_INLINE void scatter(const Nearest& nearest, const FacePackets& color, uint8_t* noted, PointGroup& group,
-                        ClosestPoint* results) {
+HWY_INLINE void scatter(const Nearest& nearest, uint8_t* noted, PointGroup& group, ClosestPoint* results) {
   alignas(64) float p[3][kLanes], distance[kLanes];
   alignas(64) int32_t face[kLanes];
   hn::Store(nearest.p.x, kFloats, p[0]);
@@ -182,10 +181,10 @@ HWY_INLINE void scatter(const Nearest& nearest, const FacePackets& color, uint8_
   group.nearest_count = 0;
   for (int i = 0; i < group.count; ++i) {
     results[group.points[i]] = {Eigen::Vector3f(p[0][i], p[1][i], p[2][i]), distance[i], face[i]};
-    const int32_t place = color.place[std::max(0, face[i])];
-    group.nearest[group.nearest_count] = place;
-    group.nearest_count += !noted[place];
-    noted[place] = 1;
+    const int32_t nearest_face = std::max(0, face[i]);
+    group.nearest[group.nearest_count] = nearest_face;
+    group.nearest_count += !noted[nearest_face];
+    noted[nearest_face] = 1;
   }
   for (int i = 0; i < group.nearest_count; ++i) noted[group.nearest[i]] = 0;
 }
@@ -209,7 +208,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
       for (size_t face = 0; face < color.faces.size(); face += FacePackets::kFaces) search.measure(face);
     search.measure_near(work);
     std::fill_n(scratch.is_measured.begin(), color.faces.size(), 0);
-    scatter(search.nearest(), color, scratch.is_measured.data(), group, results);
+    scatter(search.nearest(), scratch.is_measured.data(), group, results);
     ++work.groups;
     work.nearest += group.nearest_count;
     before = &group;
@@ -232,8 +231,7 @@ HWY_EXPORT(LaneCount);
 
 void ClosestPointSearch::keep_nearest_as_triangles() {
   for (PointGroup& group : groups_) {
-    for (int i = 0; i < group.nearest_count; ++i)
-      group.nearest[i] = triangles_[group.label][colors_[group.label].faces[group.nearest[i]].face];
+    for (int i = 0; i < group.nearest_count; ++i) group.nearest[i] = triangles_[group.label][group.nearest[i]];
   }
 }
 
@@ -243,7 +241,7 @@ void ClosestPointSearch::find_nearest_of_triangles(const Surface& surface) {
     triangles_[label].clear();
     for (const Surface::Face& face : surface.faces(label)) {
       if (places_.size() <= face.triangle) places_.resize(face.triangle + 1);
-      places_[face.triangle] = {colors_[label].place[triangles_[label].size()], label};
+      places_[face.triangle] = {static_cast<int32_t>(triangles_[label].size()), label};
       triangles_[label].push_back(static_cast<int32_t>(face.triangle));
     }
   }
@@ -260,18 +258,9 @@ void ClosestPointSearch::find_nearest_of_triangles(const Surface& surface) {
 
 void ClosestPointSearch::start(const Surface& surface) {
   keep_nearest_as_triangles();
-  middles_.clear();
-  for (uint8_t label = 0; label < colors_.size(); ++label)
-    for (const Surface::Face& face : surface.faces(label))
-      middles_.push_back({(face.a + face.b + face.c) / 3, label});
   size_t most = 0;
-  std::span<const uint32_t> order = order_(middles_);
-  uint32_t first = 0;
   for (uint8_t label = 0; label < colors_.size(); ++label) {
-    const std::span<const Surface::Face> faces = surface.faces(label);
-    colors_[label].assign(faces, order.first(faces.size()), first);
-    order = order.subspan(faces.size());
-    first += static_cast<uint32_t>(faces.size());
+    colors_[label].assign(surface.faces(label));
     most = std::max(most, colors_[label].faces.size());
   }
   scratch_.is_measured.assign(most, 0);

@@ -63,13 +63,12 @@ class ClosestPointSearch {
   std::array<FacePackets, kColorCount + 1> colors_;
   std::array<RecycledVector<int32_t>, kColorCount + 1> triangles_;  ///< of the faces of each color
   struct Place {
-    int32_t face = -1;  ///< in FacePackets::faces; -1 where the surface does not have the triangle
+    int32_t face = -1;  ///< in Surface::faces; -1 where the surface does not have the triangle
     uint8_t label = 0;
   };
-  RecycledVector<Place> places_;  ///< of the triangles
-  PlaceOrder order_;
-  RecycledVector<LabeledPoint> middles_;  ///< of the faces; reused by `start`
-  RecycledVector<uint8_t> labels_;        ///< of the points that are grouped
+  RecycledVector<Place> places_;    ///< of the triangles
+  PlaceOrder order_;                ///< of the points
+  RecycledVector<uint8_t> labels_;  ///< of the points that are grouped
   RecycledVector<PointGroup> groups_;
   GroupScratch scratch_;
   RecycledVector<ClosestPoint> closest_;

@@ -75,23 +75,20 @@ float rounding_blur(const Surface::Face& face) {
   return 2 * 4 * kAreas * std::sqrt(length2) / height2;
 }
 
-void FacePackets::assign(std::span<const Surface::Face> surface_faces, std::span<const uint32_t> order,
-                         uint32_t first_index) {
+void FacePackets::assign(std::span<const Surface::Face> surface_faces) {
   faces.clear();
   face_boxes.clear();
   packet_boxes.clear();
-  place.resize(surface_faces.size());
   slack = 0;
-  for (size_t first = 0; first < order.size(); first += kFaces) {
-    const std::span<const uint32_t> some = order.subspan(first, std::min<size_t>(kFaces, order.size() - first));
+  for (size_t first = 0; first < surface_faces.size(); first += kFaces) {
+    const auto some = surface_faces.subspan(first, std::min<size_t>(kFaces, surface_faces.size() - first));
     Boxes<kFaces>& boxes = face_boxes.emplace_back(boxes_of_nothing<kFaces>());
-    for (int i = 0; i < kFaces; ++i) {
-      const auto index = static_cast<int32_t>(some[std::min<size_t>(i, some.size() - 1)] - first_index);
-      const Surface::Face& face = surface_faces[index];
-      faces.push_back(make_face(face, index));
-      if (i >= static_cast<int>(some.size())) continue;
-      place[index] = static_cast<int32_t>(first) + i;
-      set_box(boxes, i, face);
+    for (size_t i = 0; i < kFaces; ++i) {
+      const size_t index = std::min(i, some.size() - 1);
+      const Surface::Face& face = some[index];
+      faces.push_back(make_face(face, static_cast<int32_t>(first + index)));
+      if (i >= some.size()) continue;
+      set_box(boxes, static_cast<int>(i), face);
       const Eigen::Vector3f middle = (face.a + face.b + face.c) / 3;
       if (middle.allFinite()) slack = std::max(slack, middle.lpNorm<Eigen::Infinity>());
     }

@@ -16,7 +16,8 @@ struct alignas(64) Boxes {
   float blur[kCount];                     ///< 1/m: see `rounding_blur`
 };
 
-/// The faces of one color in packets of neighbors: what the fast closest-point search reads.
+/// The faces of one color in packets of those that follow each other, which are neighbors in the mesh mostly: what
+/// the fast closest-point search reads.
 struct FacePackets {
   static constexpr int kFaces = 8;     ///< in a packet
   static constexpr int kPackets = 16;  ///< whose boxes lie together: the most lanes of any instruction set
@@ -25,19 +26,17 @@ struct FacePackets {
   struct alignas(64) Face {
     float a[3], b[3], c[3];
     float ab[3], ac[3];  ///< b - a, c - a
-    int32_t face;        ///< in Surface::faces
+    int32_t face;        ///< in Surface::faces: its own place, but for what is repeated
   };
 
-  RecycledVector<Face> faces;                    ///< whole packets: the last one repeats its last face
+  RecycledVector<Face> faces;                    ///< as in Surface::faces; the last one is repeated: whole packets
   RecycledVector<Boxes<kFaces>> face_boxes;      ///< a packet each; what repeats a face is very far away
   RecycledVector<Boxes<kPackets>> packet_boxes;  ///< behind the last packet they are very far away
-  RecycledVector<int32_t> place;                 ///< in `faces`, of each of Surface::faces
   float slack = 0;                               ///< m: what rounding may move a corner, seen from anywhere
 
   int packet_count() const { return static_cast<int>(face_boxes.size()); }
-  /// Made anew of these faces; `order`, less `first_index`, lists them so that neighbors come together. Keeps its
-  /// memory.
-  void assign(std::span<const Surface::Face> surface_faces, std::span<const uint32_t> order, uint32_t first_index);
+  /// Made anew of these faces; keeps its memory.
+  void assign(std::span<const Surface::Face> surface_faces);
 };
 
 /// In single precision the closest point of a thin face may come to lie outside of it: for a point at most D away

@@ -98,8 +98,7 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = R_camera_hand;
   T.translation() = center;
-  const Surface surface(model, hand, viewpoint_hand(T));
-  T.translation() = center - R_camera_hand * surface.center().cast<double>();
+  T.translation() = center - R_camera_hand * seen_center(model, hand, viewpoint_hand(T)).cast<double>();
   return T;
 }
 
