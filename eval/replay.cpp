@@ -63,7 +63,7 @@ bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config)
   return within >= config.detection.min_pixels && within > 2 * beyond;
 }
 
-reports::FrameTruth truth_of(const trajectories::TrajectoryFrame& frame, const render::Subject& subject,
+reports::FrameTruth truth_of(const HandFrame& frame, const render::Subject& subject,
                              const render::RgbdImages& images) {
   reports::FrameTruth truth;
   truth.posture = frame.posture;
@@ -137,8 +137,8 @@ class Pass {
 
 }  // namespace
 
-std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay) {
-  const std::span<const trajectories::TrajectoryFrame> all = replay.truth->frames;
+std::span<const HandFrame> frames_of(const Replay& replay) {
+  const std::span<const HandFrame> all = replay.truth->frames;
   const FrameRange& range = replay.range;
   const auto have = static_cast<int>(all.size());
   const int count = range.count.value_or(have - range.first);
@@ -155,12 +155,9 @@ bool share_images(const Replay& a, const Replay& b) {
 }
 
 render::SyntheticKinect make_kinect(Workbench& workbench, const Replay& replay) {
-  std::vector<render::HandFrame> frames;
-  for (const trajectories::TrajectoryFrame& frame : frames_of(replay)) {
-    frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
-  }
-  return render::SyntheticKinect(workbench.calibration(), workbench.subject(replay.subject), std::move(frames),
-                                 kinect_config(replay));
+  const std::span<const HandFrame> frames = frames_of(replay);
+  return render::SyntheticKinect(workbench.calibration(), workbench.subject(replay.subject),
+                                 {frames.begin(), frames.end()}, kinect_config(replay));
 }
 
 std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, std::span<const Replay> replays,
@@ -175,7 +172,7 @@ std::vector<std::vector<TrackedReplay>> replay_together(Workbench& workbench, st
 
   render::SyntheticKinect kinect = make_kinect(workbench, first);
   int number = first.range.first;
-  for (const trajectories::TrajectoryFrame& true_frame : frames_of(first)) {
+  for (const HandFrame& true_frame : frames_of(first)) {
     std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
     const render::RgbdImages& images = kinect.truth();

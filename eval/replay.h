@@ -37,7 +37,7 @@ struct Replay {
   bool clutter_in_volume = false;  ///< as render::SceneConfig's
 };
 /// The frames of the truth that are replayed. Throws Error if the trajectory does not have them.
-std::span<const trajectories::TrajectoryFrame> frames_of(const Replay& replay);
+std::span<const HandFrame> frames_of(const Replay& replay);
 
 /// What one tracker made of a replay.
 struct TrackedReplay {

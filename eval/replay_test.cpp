@@ -13,8 +13,7 @@ namespace {
 TEST(Replay, a_capsule_hand_has_joints_of_its_own) {
   // An estimate without any error of posture or pose: the tracker's fingertips are not the person's.
   Workbench workbench(test_workbench());
-  const trajectories::TrajectoryFrame frame =
-      trajectories::source_trajectory(trajectory_folder(), "Tr4").frames[40];
+  const HandFrame frame = trajectories::source_trajectory(trajectory_folder(), "Tr4").frames[40];
   reports::FrameTruth truth;
   truth.posture = frame.posture;
   truth.T_camera_hand = frame.T_camera_hand;

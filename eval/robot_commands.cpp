@@ -53,9 +53,9 @@ CommandStream make_commands(std::span<const TrackResult> results, const RobotSet
   return stream;
 }
 
-std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFrame> truth) {
+std::vector<TrackResult> true_results(std::span<const HandFrame> truth) {
   std::vector<TrackResult> results;
-  for (const trajectories::TrajectoryFrame& frame : truth) {
+  for (const HandFrame& frame : truth) {
     TrackResult& result = results.emplace_back();
     result.timestamp_us = frame.timestamp_us;
     result.status = TrackStatus::tracked;

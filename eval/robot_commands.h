@@ -18,7 +18,7 @@ struct CommandStream {
 CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
                             const CommandLimits& limits);
 /// What a tracker would say that is never wrong.
-std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFrame> truth);
+std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
 /// Measures the commands of several passes over one movement against those that its truth gives. Commands belong
 /// together by their time stamps. Errors are of commands that follow. Jerk is by four commands in a row that do,

@@ -54,8 +54,7 @@ Survival make_stages(const std::vector<Searched>& searched, const std::vector<Ca
 }
 
 FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
-                      const Sighting& seen, const trajectories::TrajectoryFrame& truth,
-                      const PinholeCamera& camera) {
+                      const Sighting& seen, const HandFrame& truth, const PinholeCamera& camera) {
   FrameSurvival survival;
   const bool looked_up = seen.status == TrackStatus::tracked;
   const Square square = looked_up ? bounding_square(seen.cloud.labels) : Square{};
@@ -85,7 +84,7 @@ std::vector<FrameSurvival> replay_look_ups(Workbench& workbench, const Replay& r
   const RgbdCalibration& calibration = workbench.calibration();
   render::SyntheticKinect kinect = make_kinect(workbench, replay);
   std::vector<FrameSurvival> frames;
-  for (const trajectories::TrajectoryFrame& truth : frames_of(replay)) {
+  for (const HandFrame& truth : frames_of(replay)) {
     const std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
     frames.push_back(

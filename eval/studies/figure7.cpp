@@ -48,7 +48,7 @@ std::vector<SizeResult> rank_all(const Database& database, const TrueNeighborSea
   std::vector<SizeResult> results;
   for (const int size : setup.sizes) results.push_back({size, {}, {}});
   for (size_t q = 0; q < queries.size(); ++q) {
-    const TrialHand& hand = queries[q].hand;
+    const HandFrame& hand = queries[q].hand;
     const int neighbor = search.nearest(hand.posture, hand.T_camera_hand, camera).entry;
     for (size_t s = 0; s < results.size(); ++s) {
       const double start_us = 1000 * thread_time_ms();

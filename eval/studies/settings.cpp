@@ -140,7 +140,7 @@ Sample sample_of(const Passes& passes, std::string_view metric) {
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Passes& passes) {
   std::vector<std::vector<reports::SequenceMetrics>> sequences;
   for (size_t s = 0; s < passes.strata.size(); ++s) {
-    const std::span<const trajectories::TrajectoryFrame> frames = passes.truths[s]->frames;
+    const std::span<const HandFrame> frames = passes.truths[s]->frames;
     auto& stratum = sequences.emplace_back();
     for (const TrackedReplay& pass : passes.strata[s])
       stratum.push_back(measure_sequence(pass.results, frames.subspan(passes.range.first, pass.results.size())));
