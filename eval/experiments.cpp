@@ -12,9 +12,9 @@
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
 #include "core/robot/json_lines_sink.h"
+#include "eval/measured_run.h"
 #include "eval/page_material.h"
 #include "eval/program_info.h"
-#include "eval/replay_all.h"
 #include "eval/robot_commands.h"
 #include "eval/sequence_metrics.h"
 #include "eval/share.h"
@@ -25,13 +25,7 @@ namespace glovebench::eval {
 namespace {
 
 using reports::ExperimentKey;
-using reports::TruthKind;
 using trajectories::Trajectory;
-using trajectories::TrajectoryKind;
-
-TruthKind truth_kind(const Trajectory& trajectory) {
-  return trajectory.kind == TrajectoryKind::recorded ? TruthKind::recorded : TruthKind::source;
-}
 
 double peak_memory_mb() {
   rusage usage{};
@@ -45,25 +39,21 @@ void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_p
   timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The passes of one experiment: one a seed.
+/// The runs of one experiment: one a seed.
 struct Gathered {
   ExperimentKey key;
-  std::vector<const Replay*> replays;
-  std::vector<const TrackedReplay*> passes;
+  std::vector<const MeasuredRun*> runs;
 };
 
-std::vector<Gathered> gather(const Plan& plan, const std::vector<TrackedReplays>& outputs) {
+std::vector<Gathered> gather(const std::vector<MeasuredRun>& runs) {
   std::vector<Gathered> experiments;
-  for (size_t r = 0; r < plan.replays.size(); ++r) {
-    for (const TrackedReplay& pass : outputs[r]) {
-      const ExperimentKey key = key_of(plan.replays[r], pass.database);
-      auto it =
-          std::find_if(experiments.begin(), experiments.end(), [&](const Gathered& g) { return g.key == key; });
-      if (it == experiments.end()) it = experiments.insert(it, {key, {}, {}});
-      for (const Replay* other : it->replays) check(other->seed != plan.replays[r].seed, "a seed counts once");
-      it->replays.push_back(&plan.replays[r]);
-      it->passes.push_back(&pass);
-    }
+  for (const MeasuredRun& each : runs) {
+    const ExperimentKey key = key_of(each.run.spec);
+    auto it = std::ranges::find(experiments, key, &Gathered::key);
+    if (it == experiments.end()) it = experiments.insert(it, {key, {}});
+    for (const MeasuredRun* other : it->runs)
+      check(other->run.spec.seed != each.run.spec.seed, "a seed counts once");
+    it->runs.push_back(&each);
   }
   return experiments;
 }
@@ -79,9 +69,8 @@ std::optional<double> mean_present(const std::vector<std::optional<double>>& val
 /// Each seed's sequence is measured by itself; the means over the seeds stand in the report.
 reports::SequenceMetrics measure_sequences(const Gathered& experiment) {
   std::vector<std::optional<double>> position, rotation, latency;
-  for (size_t i = 0; i < experiment.passes.size(); ++i) {
-    const reports::SequenceMetrics m =
-        measure_sequence(experiment.passes[i]->results, frames_of(*experiment.replays[i]));
+  for (const MeasuredRun* each : experiment.runs) {
+    const reports::SequenceMetrics m = measure_sequence(each->run.answers, frames_of(each->run.spec));
     position.push_back(m.jitter_position_mm);
     rotation.push_back(m.jitter_rotation_deg);
     latency.push_back(m.latency_frames);
@@ -93,9 +82,9 @@ reports::ExperimentResult evaluate(const Gathered& experiment) {
   std::vector<reports::SeedRun> runs;
   std::vector<double> joint_errors;
   size_t keypoints = 0;
-  for (size_t i = 0; i < experiment.passes.size(); ++i) {
-    reports::SeedRun run{experiment.replays[i]->seed, {}};
-    for (const reports::FrameErrors& errors : experiment.passes[i]->errors) {
+  for (const MeasuredRun* each : experiment.runs) {
+    reports::SeedRun run{each->run.spec.seed, {}};
+    for (const reports::FrameErrors& errors : each->errors) {
       run.frames.push_back(errors.record);
       joint_errors.insert(joint_errors.end(), errors.joint_errors_mm.begin(), errors.joint_errors_mm.end());
       keypoints += kForearmJoint;
@@ -108,8 +97,8 @@ reports::ExperimentResult evaluate(const Gathered& experiment) {
 
 reports::ExperimentTiming timing_of(const Gathered& experiment) {
   reports::ExperimentTiming timing{experiment.key, 0, {}};
-  for (const TrackedReplay* pass : experiment.passes) {
-    for (const reports::StageTiming& stage : pass->stages) {
+  for (const MeasuredRun* each : experiment.runs) {
+    for (const reports::StageTiming& stage : each->run.stages) {
       auto it = std::find_if(timing.stages.begin(), timing.stages.end(),
                              [&](const reports::StageTiming& s) { return s.stage == stage.stage; });
       if (it == timing.stages.end()) it = timing.stages.insert(it, {stage.stage, {}});
@@ -130,15 +119,14 @@ class Robot {
   /// Adds the times from frame to command to the experiment's.
   reports::CommandResult command(const Gathered& experiment, reports::ExperimentTiming& timing) {
     CommandMeasurement measurement;
-    for (size_t i = 0; i < experiment.passes.size(); ++i) {
-      const TrackedReplay& pass = *experiment.passes[i];
-      const CommandStream stream = make_commands(pass.results, output_.setup, output_.limits);
-      measurement.add(stream, of_truth(*experiment.replays[i]), static_cast<int>(pass.results.size()));
-      for (size_t f = 0; f < pass.results.size(); ++f)
-        timing.command_ms.push_back(pass.frame_ms[f] + stream.command_ms[f]);
+    for (const MeasuredRun* each : experiment.runs) {
+      const Run& run = each->run;
+      const CommandStream stream = make_commands(run.answers, output_.setup, output_.limits);
+      measurement.add(stream, of_truth(run.spec), static_cast<int>(run.answers.size()));
+      for (size_t f = 0; f < run.answers.size(); ++f)
+        timing.command_ms.push_back(run.frame_ms[f] + stream.command_ms[f]);
       if (files_)
-        files_->add(fmt::format("{}_seed{}.jsonl", to_string(experiment.key), experiment.replays[i]->seed),
-                    json_lines(stream));
+        files_->add(fmt::format("{}_seed{}.jsonl", to_string(experiment.key), run.spec.seed), json_lines(stream));
     }
     return measurement.result();
   }
@@ -155,10 +143,10 @@ class Robot {
   }
 
   /// Databases, noises and seeds share a truth.
-  const CommandStream& of_truth(const Replay& replay) {
-    const auto key = std::tuple(replay.truth, replay.range.first, replay.range.count);
+  const CommandStream& of_truth(const RunSpec& spec) {
+    const auto key = std::tuple(spec.trajectory, spec.frames.first, spec.frames.count);
     const auto [it, is_new] = of_truth_.try_emplace(key);
-    if (is_new) it->second = make_commands(true_results(frames_of(replay)), output_.setup, output_.limits);
+    if (is_new) it->second = make_commands(true_results(frames_of(spec)), output_.setup, output_.limits);
     return it->second;
   }
 
@@ -169,11 +157,11 @@ class Robot {
 
 reports::ExperimentEstimates estimates_of(const Gathered& experiment) {
   reports::ExperimentEstimates estimates{experiment.key, {}};
-  for (size_t i = 0; i < experiment.passes.size(); ++i) {
-    int frame = experiment.replays[i]->range.first;
-    for (const TrackResult& r : experiment.passes[i]->results) {
+  for (const MeasuredRun* each : experiment.runs) {
+    int frame = each->run.spec.frames.first;
+    for (const TrackResult& r : each->run.answers) {
       estimates.estimates.push_back(
-          {experiment.replays[i]->seed, frame++, r.timestamp_us, r.status, r.posture, r.T_camera_hand});
+          {each->run.spec.seed, frame++, r.timestamp_us, r.status, r.posture, r.T_camera_hand});
     }
   }
   return estimates;
@@ -182,11 +170,9 @@ reports::ExperimentEstimates estimates_of(const Gathered& experiment) {
 reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& experiments, Workbench& workbench) {
   reports::RunResult result;
   result.protocol = reports::make_protocol("by time stamp, exact");
-  for (const Replay& replay : plan.replays) {
-    for (const std::string& name : replay.databases) {
-      result.inputs.truths[truth_name(key_of(replay, name))] = trajectories::hash(*replay.truth);
-      result.inputs.databases[name] = workbench.database(name)->content_hash();
-    }
+  for (const RunSpec& spec : plan.specs) {
+    result.inputs.truths[truth_name(key_of(spec))] = trajectories::hash(*spec.trajectory);
+    result.inputs.databases[spec.database] = workbench.database(spec.database)->content_hash();
   }
   result.inputs.hand_model = workbench.model()->hash();
   const auto color_table = workbench.color_table(plan.tracker.segmentation.color_space);
@@ -204,10 +190,6 @@ reports::RunResult assemble(const Plan& plan, const std::vector<Gathered>& exper
 
 }  // namespace
 
-ExperimentKey key_of(const Replay& replay, const std::string& database) {
-  return {replay.truth->name, database, truth_kind(*replay.truth), replay.subject, replay.noise};
-}
-
 Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
   const std::string folder = trajectory_folder();
   Plan plan{tracker, {}};
@@ -218,7 +200,8 @@ Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
       const auto recorded = std::make_shared<const Trajectory>(trajectories::recorded_trajectory(folder, name));
       const auto source = std::make_shared<const Trajectory>(trajectories::source_trajectory(folder, name));
       const auto add = [&](const std::shared_ptr<const Trajectory>& truth, int subject, uint64_t seed) {
-        plan.replays.push_back({truth, subject, noise, seed, databases, options.frames, tracker});
+        for (const std::string& database : databases)
+          plan.specs.push_back({truth, options.frames, subject, noise, seed, database, tracker});
       };
       for (const uint64_t seed : options.seeds) add(recorded, 1, seed);
       for (const uint64_t seed : options.seeds) add(source, 1, seed);
@@ -228,17 +211,11 @@ Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
   return plan;
 }
 
-void prepare(Workbench& workbench, const Plan& plan) {
-  prepare(workbench, plan.replays);
-}
-
-Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot,
-                        const RunFolder* run_folder) {
+Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot, RunStore* store) {
   const auto start = std::chrono::steady_clock::now();
-  prepare(workbench, plan);
-  const std::vector<TrackedReplays> outputs =
-      replay_all(workbench, plan.replays, workbench.config().threads, run_folder);
-  const std::vector<Gathered> experiments = gather(plan, outputs);
+  const std::vector<MeasuredRun> runs =
+      measure(workbench, execute(workbench, plan.specs, {workbench.config().threads, store}));
+  const std::vector<Gathered> experiments = gather(runs);
   Outcome outcome{assemble(plan, experiments, workbench), host_timings(workbench.config().threads), {}};
   if (!robot.configuration.is_null()) outcome.result.configuration["robot"] = robot.configuration;
   Robot commanded(robot);
@@ -255,15 +232,13 @@ Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutpu
 Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot, const std::string& folder,
                         const RunStudies& run_studies) {
   const auto start = std::chrono::steady_clock::now();
-  RunFolder run_folder(folder);
-  prepare(workbench, plan);
-  run_folder.begin();
-  Outcome outcome = run_experiments(workbench, plan, robot, &run_folder);
-  if (run_studies) outcome.result.studies = run_studies(run_folder);
+  RunStore store(folder);
+  Outcome outcome = run_experiments(workbench, plan, robot, &store);
+  if (run_studies) outcome.result.studies = run_studies(store);
   note_resources(outcome.timings, start);
   reports::write_report(folder, outcome.result, outcome.timings, page_material(workbench, plan, outcome),
                         outcome.estimates);
-  run_folder.finish();
+  store.finish();
   return outcome;
 }
 

@@ -1,26 +1,23 @@
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/robot/command_guard.h"
-#include "eval/replay.h"
-#include "eval/run_folder.h"
+#include "eval/run.h"
 #include "reports/estimates.h"
 
 namespace glovebench::eval {
 
-/// What is replayed, and how.
+/// What is run, and how.
 struct Plan {
-  TrackerConfig tracker;  ///< of all replays
-  std::vector<Replay> replays;
-  std::string suite = {};  ///< the name of the suite that this is; empty if it is none
-  bool quick = false;      ///< a few frames, to see that everything runs: nothing is concluded from them
+  TrackerConfig tracker;       ///< of all runs
+  std::vector<RunSpec> specs;  ///< runs that show the same frames are neighbors
+  std::string suite = {};      ///< the name of the suite that this is; empty if it is none
+  bool quick = false;          ///< a few frames, to see that everything runs: nothing is concluded from them
 };
-
-/// What names the experiment of a replay with one of its databases.
-reports::ExperimentKey key_of(const Replay& replay, const std::string& database);
 
 struct Figure4Options {
   std::vector<std::string> trajectories;  ///< empty: all five
@@ -45,18 +42,14 @@ struct RobotOutput {
   nlohmann::json configuration = {};  ///< all of that, for the results'; null: nothing is said of it
 };
 
-/// Checks all that a plan names, and makes or loads the databases and the color table: what a mistake in the plan
-/// throws Error for, it throws here.
-void prepare(Workbench& workbench, const Plan& plan);
-
 /// Runs a plan on the workbench's threads. The result does not depend on their number. The robot commands of each
-/// experiment are measured, and with a robot folder written there as JSON Lines. With a run folder, replays that an
-/// interrupted run finished are taken from it, and each that is finished is stored in it.
+/// experiment are measured, and with a robot folder written there as JSON Lines. With a store, runs that an
+/// interrupted program finished are taken from it, and each that is finished is stored in it.
 Outcome run_experiments(Workbench& workbench, const Plan& plan, const RobotOutput& robot = {},
-                        const RunFolder* run_folder = nullptr);
+                        RunStore* store = nullptr);
 
 /// Runs studies beside the experiments.
-using RunStudies = std::function<std::vector<reports::StudyResult>(const RunFolder& run_folder)>;
+using RunStudies = std::function<std::vector<reports::StudyResult>(RunStore& store)>;
 /// The same, with its report: locks and marks the folder, runs plan and studies or what is left of them after a
 /// kill, writes the report, and takes the mark away.
 Outcome run_into_folder(Workbench& workbench, const Plan& plan, const RobotOutput& robot, const std::string& folder,

@@ -15,14 +15,9 @@ Plan make_plan() {
   const auto trajectory = std::make_shared<const trajectories::Trajectory>(
       trajectories::parse_trajectory(make_trajectory_json("six", 6).dump(), "test"));
   Plan plan{profile("paper"), {}};
-  Replay replay;
-  replay.tracker = plan.tracker;
-  replay.truth = trajectory;
-  replay.databases = {"DB_open_pinch", "DB_open_power"};
-  for (const uint64_t seed : {1, 2}) {
-    replay.seed = seed;
-    plan.replays.push_back(replay);
-  }
+  for (const uint64_t seed : {1, 2})
+    for (const char* database : {"DB_open_pinch", "DB_open_power"})
+      plan.specs.push_back({.trajectory = trajectory, .seed = seed, .database = database, .tracker = plan.tracker});
   return plan;
 }
 
@@ -85,8 +80,7 @@ TEST(ExperimentsLong, HoldWhatWasPlanned) {
 TEST(PlanFigure4, Holds15ExperimentsAgainstEachTruthAndSubject) {
   const Plan plan = plan_figure4(profile("paper"), {});
   std::map<std::pair<trajectories::TrajectoryKind, int>, size_t> experiments;
-  for (const Replay& replay : plan.replays)
-    experiments[{replay.truth->kind, replay.subject}] += replay.databases.size();
+  for (const RunSpec& spec : plan.specs) ++experiments[{spec.trajectory->kind, spec.subject}];
   using enum trajectories::TrajectoryKind;
   const std::map<std::pair<trajectories::TrajectoryKind, int>, size_t> expected = {
       {{recorded, 1}, 15}, {{source, 1}, 15}, {{source, 2}, 15}};

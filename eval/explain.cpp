@@ -15,9 +15,9 @@ struct OneFrame {
   DeviceFrame frame;
   render::RgbdImages truth;
 };
-OneFrame take_frame(Workbench& workbench, Replay replay, int frame) {
-  replay.range = {frame, 1};
-  render::SyntheticKinect kinect = make_kinect(workbench, replay);
+OneFrame take_frame(Workbench& workbench, RunSpec spec, int frame) {
+  spec.frames = {frame, 1};
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);
   const std::optional<DeviceFrame> taken = kinect.next_frame();
   return {*taken, kinect.truth()};
 }
@@ -37,14 +37,14 @@ std::string depth_title(const TrackResult& result) {
 
 }  // namespace
 
-ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) {
-  const int count = static_cast<int>(replay.truth->frames.size());
+ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
+  const int count = static_cast<int>(spec.trajectory->frames.size());
   if (frame < 0 || frame >= count) {
-    throw Error(replay.truth->name, "frame", std::to_string(frame), fmt::format("0 to {}", count - 1));
+    throw Error(spec.trajectory->name, "frame", std::to_string(frame), fmt::format("0 to {}", count - 1));
   }
-  const OneFrame taken = take_frame(workbench, replay, frame);
-  const std::shared_ptr<const Database> database = workbench.database(replay.databases.front());
-  Tracker tracker = workbench.make_tracker(replay.tracker, replay.databases.front());
+  const OneFrame taken = take_frame(workbench, spec, frame);
+  const std::shared_ptr<const Database> database = workbench.database(spec.database);
+  Tracker tracker = workbench.make_tracker(spec.tracker, spec.database);
   FrameTrace trace;
   const TrackResult result = tracker.track(taken.frame, {}, &trace);
 
@@ -52,7 +52,7 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
     return render::crop_to_labels(image, taken.truth.label, kMargin);
   };
   std::vector<render::Panel> panels = {
-      {fmt::format("{} frame {}: color camera", replay.truth->name, frame), taken.frame.color},
+      {fmt::format("{} frame {}: color camera", spec.trajectory->name, frame), taken.frame.color},
       {depth_title(result), render::picture_of_depth(trace.depth, 0.4, 1.8)},
       {"mapped image M", cropped(trace.mapped.color)},
       {"labels L in the working volume", cropped(render::picture_of_labels(trace.cloud.labels))},
@@ -66,12 +66,12 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
   }
   if (result.status == TrackStatus::tracked) {
     const HandModel& model = *workbench.model();
-    const reports::FrameErrors errors =
-        reports::measure_frame(frame, result,
-                               {replay.truth->frames[frame].posture, replay.truth->frames[frame].T_camera_hand,
-                                workbench.subject(replay.subject).joints(replay.truth->frames[frame].posture),
-                                reports::count_patches(taken.truth.patch)},
-                               model);
+    const reports::FrameErrors errors = reports::measure_frame(
+        frame, result,
+        {spec.trajectory->frames[frame].posture, spec.trajectory->frames[frame].T_camera_hand,
+         workbench.subject(spec.subject).joints(spec.trajectory->frames[frame].posture),
+         reports::count_patches(taken.truth.patch)},
+        model);
     const PinholeCamera& camera = workbench.calibration().ir;
     panels.push_back(
         {"coarse pose over M", cropped(overlay(model, result, result.T_camera_hand_coarse, trace, camera))});

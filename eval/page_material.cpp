@@ -19,16 +19,12 @@ using reports::ExperimentKey;
 
 constexpr int kJpegQuality = 80;
 
-/// The replay of an experiment's seed, with that database alone; null if the plan has none.
-std::optional<Replay> find_replay(const Plan& plan, const ExperimentKey& key, uint64_t seed) {
-  for (const Replay& replay : plan.replays) {
-    if (replay.seed != seed || key_of(replay, key.database) != key) continue;
-    if (std::ranges::find(replay.databases, key.database) == replay.databases.end()) continue;
-    Replay found = replay;
-    found.databases = {key.database};
-    return found;
-  }
-  return std::nullopt;
+/// The run of an experiment's seed. The plan must have it.
+const RunSpec& find_spec(const Plan& plan, const ExperimentKey& key, uint64_t seed) {
+  const auto found = std::ranges::find_if(
+      plan.specs, [&](const RunSpec& spec) { return spec.seed == seed && key_of(spec) == key; });
+  check(found != plan.specs.end(), "frames come from a run of the plan");
+  return *found;
 }
 
 /// Of the experiment's first seed.
@@ -49,9 +45,8 @@ std::vector<reports::FrameSheet> make_sheets(Workbench& workbench, const Plan& p
     const ExperimentKey key = {curve->trajectory, curve->database, reports::TruthKind::recorded, 1, noise};
     const std::vector<Estimate> estimates = first_seed(outcome.estimates, key);
     if (estimates.empty()) continue;
-    const std::optional<Replay> replay = find_replay(plan, key, estimates.front().seed);
-    check(replay.has_value(), "estimates come from a replay of the plan");
-    sheets.push_back(make_frame_sheet(workbench, figure, frames_of(*replay), estimates));
+    const RunSpec& spec = find_spec(plan, key, estimates.front().seed);
+    sheets.push_back(make_frame_sheet(workbench, figure, frames_of(spec), estimates));
   }
   return sheets;
 }
@@ -69,9 +64,8 @@ std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const P
                                                    const reports::RunResult& result) {
   std::vector<reports::Picture> pictures;
   for (const reports::WorstFrame& worst : reports::worst_frames(result)) {
-    const std::optional<Replay> replay = find_replay(plan, worst.key, worst.seed);
-    check(replay.has_value(), "frames come from a replay of the plan");
-    const ColorImage picture = explain_frame(workbench, *replay, worst.frame.frame);
+    const RunSpec& spec = find_spec(plan, worst.key, worst.seed);
+    const ColorImage picture = explain_frame(workbench, spec, worst.frame.frame);
     pictures.push_back({caption(worst), render::encode_jpeg(picture, kJpegQuality), complete_command(worst)});
   }
   return pictures;

@@ -16,13 +16,11 @@ struct PlannedExperiment {
 
 std::vector<PlannedExperiment> experiments_of(const Plan& plan) {
   std::vector<PlannedExperiment> experiments;
-  for (const Replay& replay : plan.replays) {
-    for (const std::string& database : replay.databases) {
-      const std::string name = to_string(key_of(replay, database));
-      auto it = std::ranges::find(experiments, name, &PlannedExperiment::name);
-      if (it == experiments.end()) it = experiments.insert(it, {name, frames_of(replay).size(), 0});
-      ++it->seeds;
-    }
+  for (const RunSpec& spec : plan.specs) {
+    const std::string name = to_string(key_of(spec));
+    auto it = std::ranges::find(experiments, name, &PlannedExperiment::name);
+    if (it == experiments.end()) it = experiments.insert(it, {name, frames_of(spec).size(), 0});
+    ++it->seeds;
   }
   return experiments;
 }
@@ -44,11 +42,13 @@ std::string describe_plan(Workbench& workbench, const Plan& plan) {
   std::set<uint64_t> seeds;
   std::set<std::string> databases;
   size_t rendered = 0, tracked = 0;
-  for (const Replay& replay : plan.replays) {
-    seeds.insert(replay.seed);
-    databases.insert(replay.databases.begin(), replay.databases.end());
-    rendered += frames_of(replay).size();
-    tracked += frames_of(replay).size() * replay.databases.size();
+  const RunSpec* before = nullptr;
+  for (const RunSpec& spec : plan.specs) {
+    seeds.insert(spec.seed);
+    databases.insert(spec.database);
+    if (!before || !share_images(*before, spec)) rendered += frames_of(spec).size();
+    tracked += frames_of(spec).size();
+    before = &spec;
   }
   std::string text = list_experiments(plan);
   text += fmt::format("seeds {}: {} frames to render, {} to track\n", fmt::join(seeds, ", "), rendered, tracked);

@@ -39,14 +39,14 @@ void refuse_unknown_parts(const std::vector<std::string>& only) {
 void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve& curve) {
   const auto truth = std::make_shared<const trajectories::Trajectory>(
       trajectories::recorded_trajectory(trajectory_folder(), curve.trajectory));
-  Replay replay;
-  replay.truth = truth;
-  replay.databases = {curve.database};
-  replay.range = frames_of(options.study);
-  replay.tracker = options.study.tracker;
+  RunSpec spec;
+  spec.trajectory = truth;
+  spec.database = curve.database;
+  spec.frames = frames_of(options.study);
+  spec.tracker = options.study.tracker;
   for (const uint64_t seed : options.study.seeds) {
-    replay.seed = seed;
-    plan.replays.push_back(replay);
+    spec.seed = seed;
+    plan.specs.push_back(spec);
   }
 }
 
@@ -75,10 +75,10 @@ std::string study_key(Workbench& workbench, const Study& study, const StudyOptio
 
 reports::StudyResult run_or_load(const StudyContext& context, const Study& study) {
   const std::string key = study_key(context.workbench, study, context.options);
-  if (const auto stored = context.run_folder->load(key))
+  if (const auto stored = context.store->load(key))
     if (auto result = study_from_bytes(*stored)) return *std::move(result);
   reports::StudyResult result = study.run(context);
-  context.run_folder->store(key, to_bytes(result));
+  context.store->save(key, to_bytes(result));
   return result;
 }
 
@@ -101,9 +101,9 @@ Plan plan_reproduction(const ReproductionOptions& options) {
   refuse_unknown_parts(options.only);
   Plan plan{options.study.tracker, {}, {}, options.study.quick};
   if (is_wanted(options, kFigure4)) {
-    plan.replays = plan_figure4(options.study.tracker, {options.trajectories, options.study.seeds, options.noises,
-                                                        frames_of(options.study)})
-                       .replays;
+    plan.specs = plan_figure4(options.study.tracker,
+                              {options.trajectories, options.study.seeds, options.noises, frames_of(options.study)})
+                     .specs;
     return plan;
   }
   if (is_wanted(options, kFigure5)) add_curve(plan, options, reports::paper_numbers().figure_5);
@@ -114,11 +114,10 @@ Plan plan_reproduction(const ReproductionOptions& options) {
 Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
                   const std::string& folder) {
   const Plan plan = plan_reproduction(options);
-  return run_into_folder(workbench, plan, robot, folder, [&](const RunFolder& run_folder) {
+  return run_into_folder(workbench, plan, robot, folder, [&](RunStore& store) {
     std::vector<reports::StudyResult> results;
     for (const Study& study : studies())
-      if (is_wanted(options, study.name))
-        results.push_back(run_or_load({workbench, options.study, &run_folder}, study));
+      if (is_wanted(options, study.name)) results.push_back(run_or_load({workbench, options.study, &store}, study));
     return results;
   });
 }

@@ -12,8 +12,8 @@
 namespace glovebench::eval {
 namespace {
 
-struct Run {
-  explicit Run(Command own_command) : command(own_command) {}
+struct RunCommand {
+  explicit RunCommand(Command own_command) : command(own_command) {}
 
   const Command command;
   CommonFlags common;
@@ -121,7 +121,7 @@ struct Run {
 void add_run(Command program) {
   const Command command = program.subcommand(
       "run", "Replay a suite, or trajectories, also your own, through the tracker and report the errors.");
-  const auto state = std::make_shared<Run>(command);
+  const auto state = std::make_shared<RunCommand>(command);
   state->common.add_output(command, "folder of the report");
   command.option("study", state->study_name,
                  "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");

@@ -75,20 +75,19 @@ FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<C
   return survival;
 }
 
-/// All frames of a replay.
-std::vector<FrameSurvival> replay_look_ups(Workbench& workbench, const Replay& replay,
-                                           const std::vector<Searched>& searched,
-                                           const std::vector<Cascade>& cascades,
-                                           const std::function<void()>& frame_done) {
-  const std::shared_ptr<const ColorTable> table = workbench.color_table(replay.tracker.segmentation.color_space);
+/// All frames of a run, in all databases.
+std::vector<FrameSurvival> run_look_ups(Workbench& workbench, const RunSpec& spec,
+                                        const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
+                                        const std::function<void()>& frame_done) {
+  const std::shared_ptr<const ColorTable> table = workbench.color_table(spec.tracker.segmentation.color_space);
   const RgbdCalibration& calibration = workbench.calibration();
-  render::SyntheticKinect kinect = make_kinect(workbench, replay);
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);
   std::vector<FrameSurvival> frames;
-  for (const HandFrame& truth : frames_of(replay)) {
+  for (const HandFrame& truth : frames_of(spec)) {
     const std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
     frames.push_back(
-        survive(searched, cascades, see(*frame, calibration, *table, replay.tracker), truth, calibration.ir));
+        survive(searched, cascades, see(*frame, calibration, *table, spec.tracker), truth, calibration.ir));
     frame_done();
   }
   return frames;
@@ -100,39 +99,33 @@ Survival measure_survival(const StudyContext& context, const Movements& movement
                           const std::vector<std::string>& databases, const std::vector<Cascade>& cascades) {
   Workbench& workbench = context.workbench;
   const std::vector<uint64_t>& seeds = context.options.seeds;
-  std::vector<Replay> replays;
-  Replay replay;
-  replay.databases = databases;
-  replay.range = movements.range;
-  replay.tracker = context.options.tracker;
-  for (const auto& truth : movements.truths) {
-    for (const uint64_t seed : seeds) {
-      replay.truth = truth;
-      replay.seed = seed;
-      replays.push_back(replay);
-    }
-  }
-  prepare(workbench, replays);
+  std::vector<RunSpec> specs;
+  for (const auto& truth : movements.truths)
+    for (const uint64_t seed : seeds)
+      specs.push_back(
+          {.trajectory = truth, .frames = movements.range, .seed = seed, .tracker = context.options.tracker});
+  // Before the threads start: making these uses all of them.
   const std::vector<Searched> searched = load(workbench, databases);
+  workbench.color_table(context.options.tracker.segmentation.color_space);
 
   size_t frames = 0;
-  for (const Replay& each : replays) frames += frames_of(each).size();
+  for (const RunSpec& each : specs) frames += frames_of(each).size();
   Progress progress("following true neighbors", workbench.config().quiet);
   std::atomic<size_t> done{0};
   const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
-  std::vector<std::vector<FrameSurvival>> of_replays(replays.size());
+  std::vector<std::vector<FrameSurvival>> of_runs(specs.size());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workbench.config().threads);
   tbb::task_arena arena(workbench.config().threads);
   arena.execute([&] {
-    tbb::parallel_for(size_t{0}, replays.size(), [&](size_t r) {
-      of_replays[r] = replay_look_ups(workbench, replays[r], searched, cascades, frame_done);
+    tbb::parallel_for(size_t{0}, specs.size(), [&](size_t r) {
+      of_runs[r] = run_look_ups(workbench, specs[r], searched, cascades, frame_done);
     });
   });
 
   const Sample shape(movements.truths.size(), std::vector<std::vector<std::optional<double>>>(seeds.size()));
   Survival survival = make_stages(searched, cascades, shape);
-  for (size_t r = 0; r < replays.size(); ++r) {
-    for (const FrameSurvival& frame : of_replays[r]) {
+  for (size_t r = 0; r < specs.size(); ++r) {
+    for (const FrameSurvival& frame : of_runs[r]) {
       size_t next = 0;
       for (auto& of_database : survival)
         for (auto& stages : of_database)

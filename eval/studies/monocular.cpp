@@ -27,14 +27,14 @@ std::vector<Setting> monocular_settings(const TrackerConfig& tracker) {
 /// A value of the offset of the estimated hand origin from the true one (camera frame, m), in tracked frames.
 Sample offset_sample(const Passes& passes, double (*value)(const Eigen::Vector3d& offset)) {
   Sample sample;
-  for (size_t s = 0; s < passes.strata.size(); ++s) {
+  for (const std::vector<MeasuredRun>& seeds : passes.strata) {
     auto& stratum = sample.emplace_back();
-    for (const TrackedReplay& pass : passes.strata[s]) {
+    for (const MeasuredRun& pass : seeds) {
       auto& frames = stratum.emplace_back();
-      for (size_t f = 0; f < pass.results.size(); ++f) {
-        const TrackResult& result = pass.results[f];
-        const Eigen::Isometry3d& truth = passes.truths[s]->frames[passes.range.first + f].T_camera_hand;
-        const Eigen::Vector3d offset = result.T_camera_hand.translation() - truth.translation();
+      const std::span<const HandFrame> truth = frames_of(pass.run.spec);
+      for (size_t f = 0; f < truth.size(); ++f) {
+        const TrackResult& result = pass.run.answers[f];
+        const Eigen::Vector3d offset = result.T_camera_hand.translation() - truth[f].T_camera_hand.translation();
         frames.push_back(result.status == TrackStatus::tracked ? std::optional(value(offset)) : std::nullopt);
       }
     }

@@ -70,7 +70,7 @@ void add_posture_choices(const StudyContext& context, const std::vector<PostureS
   for (const PostureSet& set : choices) {
     Workbench workbench(context.workbench.config());
     workbench.database(set);
-    const StudyContext own{workbench, context.options, context.run_folder};
+    const StudyContext own{workbench, context.options, context.store};
     auto passes = run_settings(own, movements(own, reports::TruthKind::source),
                                {{.name = kDefaultSetting, .tracker = context.options.tracker}}, {set.name});
     runs.add(kDefaultSetting, set.name, std::move(passes.front().front()));

@@ -19,50 +19,42 @@ constexpr FrameRange kQuickFrames = {44, 16};
 /// one of several frames.
 constexpr FrameRange kTimedFrames = {44, 24}, kQuickTimedFrames = {44, 2};
 
-Replay replay_of(const Setting& setting, const std::shared_ptr<const Trajectory>& truth, uint64_t seed,
-                 const std::vector<std::string>& databases, const Movements& movements) {
-  Replay replay;
-  replay.truth = truth;
-  replay.subject = setting.subject;
-  replay.seed = seed;
-  replay.databases = databases;
-  replay.range = movements.range;
-  replay.tracker = setting.tracker;
-  replay.lighting = setting.lighting;
-  replay.clutter_in_volume = setting.clutter_in_volume;
-  return replay;
+RunSpec spec_of(const Setting& setting, const std::shared_ptr<const Trajectory>& truth, uint64_t seed,
+                const std::string& database, const Movements& movements) {
+  RunSpec spec;
+  spec.trajectory = truth;
+  spec.frames = movements.range;
+  spec.subject = setting.subject;
+  spec.seed = seed;
+  spec.database = database;
+  spec.tracker = setting.tracker;
+  spec.lighting = setting.lighting;
+  spec.clutter_in_volume = setting.clutter_in_volume;
+  return spec;
 }
 
 std::vector<std::vector<Passes>> run_on(const StudyContext& context, const Movements& movements,
                                         const std::vector<Setting>& settings,
-                                        const std::vector<std::string>& databases, int threads,
-                                        const RunFolder* run_folder) {
+                                        const std::vector<std::string>& databases, const RunOptions& options) {
   // Settings stand innermost: what shares its images stands together and is rendered once.
-  std::vector<Replay> replays;
+  std::vector<RunSpec> specs;
   for (const auto& truth : movements.truths)
     for (const uint64_t seed : context.options.seeds)
       for (const Setting& setting : settings)
-        replays.push_back(replay_of(setting, truth, seed, databases, movements));
-  prepare(context.workbench, replays);
-  std::vector<TrackedReplays> tracked = replay_all(context.workbench, replays, threads, run_folder);
+        for (const std::string& database : databases)
+          specs.push_back(spec_of(setting, truth, seed, database, movements));
+  std::vector<MeasuredRun> runs = measure(context.workbench, execute(context.workbench, specs, options));
 
   std::vector<std::vector<Passes>> result(settings.size(), std::vector<Passes>(databases.size()));
   size_t next = 0;
   for (size_t t = 0; t < movements.truths.size(); ++t) {
     for (size_t s = 0; s < context.options.seeds.size(); ++s) {
       for (std::vector<Passes>& of_setting : result) {
-        TrackedReplays& of_replay = tracked[next++];
-        for (size_t d = 0; d < databases.size(); ++d) {
-          of_setting[d].strata.resize(movements.truths.size());
-          of_setting[d].strata[t].push_back(std::move(of_replay[d]));
+        for (Passes& passes : of_setting) {
+          passes.strata.resize(movements.truths.size());
+          passes.strata[t].push_back(std::move(runs[next++]));
         }
       }
-    }
-  }
-  for (std::vector<Passes>& of_setting : result) {
-    for (Passes& passes : of_setting) {
-      passes.truths = movements.truths;
-      passes.range = movements.range;
     }
   }
   return result;
@@ -89,7 +81,7 @@ Movements movements(const StudyContext& context, TruthKind truth, const std::vec
 std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const Movements& movements,
                                               const std::vector<Setting>& settings,
                                               const std::vector<std::string>& databases) {
-  return run_on(context, movements, settings, databases, context.workbench.config().threads, context.run_folder);
+  return run_on(context, movements, settings, databases, {context.workbench.config().threads, context.store});
 }
 
 std::vector<std::vector<Passes>> time_settings(const StudyContext& context, const Movements& movements,
@@ -104,7 +96,7 @@ std::vector<std::vector<Passes>> time_settings(const StudyContext& context, cons
     setting.tracker.icp.implementation = implementation;
     std::vector<Passes>& of_setting = result.emplace_back();
     for (const std::string& database : databases)
-      of_setting.push_back(run_on(context, stretches, {setting}, {database}, 1, nullptr)[0][0]);
+      of_setting.push_back(run_on(context, stretches, {setting}, {database}, {})[0][0]);
   }
   return result;
 }
@@ -122,11 +114,11 @@ Sample sample_of(
     const Passes& passes,
     const std::function<std::optional<double>(const TrackResult&, const reports::FrameErrors&)>& value) {
   Sample sample;
-  for (const std::vector<TrackedReplay>& seeds : passes.strata) {
+  for (const std::vector<MeasuredRun>& seeds : passes.strata) {
     auto& stratum = sample.emplace_back();
-    for (const TrackedReplay& pass : seeds) {
+    for (const MeasuredRun& pass : seeds) {
       auto& frames = stratum.emplace_back();
-      for (size_t f = 0; f < pass.results.size(); ++f) frames.push_back(value(pass.results[f], pass.errors[f]));
+      for (size_t f = 0; f < pass.errors.size(); ++f) frames.push_back(value(pass.run.answers[f], pass.errors[f]));
     }
   }
   return sample;
@@ -139,21 +131,20 @@ Sample sample_of(const Passes& passes, std::string_view metric) {
 
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Passes& passes) {
   std::vector<std::vector<reports::SequenceMetrics>> sequences;
-  for (size_t s = 0; s < passes.strata.size(); ++s) {
-    const std::span<const HandFrame> frames = passes.truths[s]->frames;
+  for (const std::vector<MeasuredRun>& seeds : passes.strata) {
     auto& stratum = sequences.emplace_back();
-    for (const TrackedReplay& pass : passes.strata[s])
-      stratum.push_back(measure_sequence(pass.results, frames.subspan(passes.range.first, pass.results.size())));
+    for (const MeasuredRun& pass : seeds)
+      stratum.push_back(measure_sequence(pass.run.answers, frames_of(pass.run.spec)));
   }
   return sequences;
 }
 
 std::vector<double> times_ms(const Passes& passes, std::string_view stage) {
   std::vector<double> times;
-  for (const std::vector<TrackedReplay>& seeds : passes.strata) {
-    for (const TrackedReplay& pass : seeds) {
-      if (stage.empty()) times.insert(times.end(), pass.frame_ms.begin(), pass.frame_ms.end());
-      for (const reports::StageTiming& timing : pass.stages)
+  for (const std::vector<MeasuredRun>& seeds : passes.strata) {
+    for (const MeasuredRun& pass : seeds) {
+      if (stage.empty()) times.insert(times.end(), pass.run.frame_ms.begin(), pass.run.frame_ms.end());
+      for (const reports::StageTiming& timing : pass.run.stages)
         if (timing.stage == stage) times.insert(times.end(), timing.frame_ms.begin(), timing.frame_ms.end());
     }
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/replay_all.h"
+#include "eval/measured_run.h"
 #include "eval/studies/sample.h"
 #include "eval/studies/study.h"
 
@@ -19,14 +19,12 @@ struct Setting {
   bool clutter_in_volume = false;
 };
 
-/// What one setting came to with one database: a stratum a trajectory, in it a replay a noise seed.
+/// What one setting came to with one database: a stratum a trajectory, in it a run a noise seed.
 struct Passes {
-  std::vector<std::vector<TrackedReplay>> strata;
-  std::vector<std::shared_ptr<const trajectories::Trajectory>> truths;  ///< of the strata
-  FrameRange range;
+  std::vector<std::vector<MeasuredRun>> strata;
 };
 
-/// What is replayed in every setting.
+/// What is run in every setting.
 struct Movements {
   std::vector<std::shared_ptr<const trajectories::Trajectory>> truths;
   FrameRange range;
@@ -38,14 +36,14 @@ Movements movements(const StudyContext& context, reports::TruthKind truth,
                     const std::vector<std::string>& names = {});
 
 /// Every setting with every database over the same device frames, gradient noise x 1: [setting][database]. For
-/// errors: the replays share the machine, so that their times say little.
+/// errors: the runs share the machine, so that their times say little.
 std::vector<std::vector<Passes>> run_settings(const StudyContext& context, const Movements& movements,
                                               const std::vector<Setting>& settings,
                                               const std::vector<std::string>& databases);
 
 /// The same for times: with that look-up and closest-point search, on one thread, one tracker at a time, so that
 /// none finds its caches emptied by another, over a stretch of each movement (the plain search takes up to a second
-/// a frame). The replays are not kept for a run that goes on after an interrupt; the times of a study that was
+/// a frame). The runs are not kept for a program that goes on after an interrupt; the times of a study that was
 /// finished are, for this machine.
 std::vector<std::vector<Passes>> time_settings(const StudyContext& context, const Movements& movements,
                                                const std::vector<Setting>& settings,

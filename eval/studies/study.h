@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/tracker/tracker_config.h"
-#include "eval/run_folder.h"
+#include "eval/run_store.h"
 #include "eval/workbench.h"
 #include "reports/study.h"
 
@@ -19,11 +19,11 @@ struct StudyOptions {
   std::vector<Cascade> cascades;  ///< of Figure 8; empty: the paper's four
 };
 
-/// What a study works with. It keeps what it has finished in the run's folder, if there is one.
+/// What a study works with. It keeps what it has finished in the store, if there is one.
 struct StudyContext {
   Workbench& workbench;
   const StudyOptions& options;
-  const RunFolder* run_folder = nullptr;
+  RunStore* store = nullptr;
 };
 
 /// A figure of the paper, or a question about it: runs what it needs and returns tables and measures.
