@@ -7,11 +7,14 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "eval/experiment.h"
+#include "eval/pictures.h"
 #include "eval/program_info.h"
 #include "eval/share.h"
 #include "eval/stored_study.h"
 #include "eval/studies/settings.h"
 #include "reports/paper_numbers.h"
+#include "reports/report.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -111,15 +114,24 @@ Plan plan_reproduction(const ReproductionOptions& options) {
   return plan;
 }
 
-Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
-                  const std::string& folder) {
+Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
+                       const std::string& folder) {
+  const auto start = std::chrono::steady_clock::now();
+  const int threads = workbench.config().threads;
   const Plan plan = plan_reproduction(options);
-  return run_into_folder(workbench, plan, robot, folder, [&](RunStore& store) {
-    std::vector<reports::StudyResult> results;
-    for (const Study& study : studies())
-      if (is_wanted(options, study.name)) results.push_back(run_or_load({workbench, options.study, &store}, study));
-    return results;
-  });
+  RunStore store(folder);
+  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
+  reports::RunResult result = results_of(plan, runs, workbench);
+  reports::Timings timings = timings_of(runs, threads);
+  add_commands(result, timings, runs, robot);
+  for (const Study& study : studies())
+    if (is_wanted(options, study.name))
+      result.studies.push_back(run_or_load({workbench, options.study, &store}, study));
+  note_resources(timings, start);
+  const auto estimates = estimates_of(runs);
+  reports::write_report(folder, result, timings, page_material(workbench, plan, result, estimates), estimates);
+  store.finish();
+  return {std::move(result), std::move(timings)};
 }
 
 }  // namespace glovebench::eval

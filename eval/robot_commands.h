@@ -1,11 +1,14 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/robot/command_guard.h"
+#include "eval/measured_run.h"
 #include "reports/commands.h"
-#include "trajectories/trajectory.h"
+#include "reports/timings.h"
 
 namespace glovebench::eval {
 
@@ -46,5 +49,17 @@ class CommandMeasurement {
   Errors errors_;
   JerkSums jerk_, truth_jerk_;
 };
+
+/// How the robot commands of a run are made, and where they are written.
+struct RobotOutput {
+  std::string folder = {};  ///< JSON Lines, a file a run; empty: nowhere
+  RobotSetup setup = {};
+  CommandLimits limits = {};
+  nlohmann::json configuration = {};  ///< all of that, for the results'; null: nothing is said of it
+};
+/// Makes and measures the commands of each experiment, and writes them as one set of files: adds what they came to
+/// to the experiment's result, and the time from frame to command to its times. Both are of these runs.
+void add_commands(reports::RunResult& result, reports::Timings& timings, std::span<const MeasuredRun> runs,
+                  const RobotOutput& robot);
 
 }  // namespace glovebench::eval

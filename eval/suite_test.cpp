@@ -5,7 +5,6 @@
 #include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
-#include "eval/plan_overview.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {

@@ -1,9 +1,8 @@
-#include "eval/explain.h"
-
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
+#include "eval/pictures.h"
 #include "eval/regression/baseline.h"
 #include "eval/truths.h"
 #include "render/pictures.h"

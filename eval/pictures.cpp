@@ -1,13 +1,81 @@
-#include "eval/explain.h"
+#include "eval/pictures.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/base/check.h"
 #include "core/base/error.h"
+#include "eval/keyframes.h"
+#include "eval/share.h"
+#include "eval/truths.h"
 #include "render/label_renderer.h"
 #include "render/pictures.h"
+#include "reports/metrics/measure_frame.h"
+#include "reports/page/gallery.h"
+#include "trajectories/catalog.h"
 
 namespace glovebench::eval {
 namespace {
+
+using reports::Estimate;
+using reports::ExperimentKey;
+
+constexpr int kJpegQuality = 80;
+
+/// The run of an experiment's seed. The plan must have it.
+const RunSpec& find_spec(const Plan& plan, const ExperimentKey& key, uint64_t seed) {
+  const auto found = std::ranges::find_if(
+      plan.specs, [&](const RunSpec& spec) { return spec.seed == seed && key_of(spec) == key; });
+  check(found != plan.specs.end(), "frames come from a run of the plan");
+  return *found;
+}
+
+/// Of the experiment's first seed.
+std::vector<Estimate> first_seed(const std::vector<reports::ExperimentEstimates>& all, const ExperimentKey& key) {
+  std::vector<Estimate> estimates;
+  const auto found = std::ranges::find(all, key, &reports::ExperimentEstimates::key);
+  if (found == all.end()) return estimates;
+  for (const Estimate& estimate : found->estimates)
+    if (estimate.seed == found->estimates.front().seed) estimates.push_back(estimate);
+  return estimates;
+}
+
+std::vector<reports::FrameSheet> make_sheets(Workbench& workbench, const Plan& plan,
+                                             const reports::RunResult& result,
+                                             const std::vector<reports::ExperimentEstimates>& all_estimates) {
+  const reports::PaperNumbers& paper = reports::paper_numbers();
+  const reports::NoiseSetting noise = reports::headline_noise(result);
+  std::vector<reports::FrameSheet> sheets;
+  for (const auto& [figure, curve] : {std::pair{"figure5", &paper.figure_5}, {"figure6", &paper.figure_6}}) {
+    const ExperimentKey key = {curve->trajectory, curve->database, reports::TruthKind::recorded, 1, noise};
+    const std::vector<Estimate> estimates = first_seed(all_estimates, key);
+    if (estimates.empty()) continue;
+    const RunSpec& spec = find_spec(plan, key, estimates.front().seed);
+    sheets.push_back(make_frame_sheet(workbench, figure, frames_of(spec), estimates));
+  }
+  return sheets;
+}
+
+/// With what the user of a trajectory or a database of their own has to add.
+std::string complete_command(const reports::WorstFrame& worst) {
+  std::string command = explain_command(worst);
+  if (!find_truth(worst.key)) command += " --trajectory FILE_OF_THE_TRUTH";
+  const std::vector<std::string>& known = trajectories::posture_set_names();
+  if (std::ranges::find(known, worst.key.database) == known.end()) command += " --database FILE_OF_THE_DATABASE";
+  return command;
+}
+
+std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const Plan& plan,
+                                                   const reports::RunResult& result) {
+  std::vector<reports::Picture> pictures;
+  for (const reports::WorstFrame& worst : reports::worst_frames(result)) {
+    const RunSpec& spec = find_spec(plan, worst.key, worst.seed);
+    const ColorImage picture = explain_frame(workbench, spec, worst.frame.frame);
+    pictures.push_back({caption(worst), render::encode_jpeg(picture, kJpegQuality), complete_command(worst)});
+  }
+  return pictures;
+}
 
 constexpr int kMargin = 20;  // px around the hand
 
@@ -82,6 +150,14 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
     panels.push_back({"lost: " + std::string(to_string(result.status)), {}});
   }
   return render::montage(panels, 4, 360, 300);
+}
+
+reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
+                                    const std::vector<reports::ExperimentEstimates>& estimates) {
+  reports::PageMaterial material{page_scripts(), make_sheets(workbench, plan, result, estimates), {}};
+  // Only the paper's method has stages that can be shown.
+  if (plan.tracker.method == kPaperMethod) material.worst_frames = picture_worst_frames(workbench, plan, result);
+  return material;
 }
 
 }  // namespace glovebench::eval

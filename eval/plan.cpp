@@ -1,9 +1,12 @@
-#include "eval/plan_overview.h"
+#include "eval/plan.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
+
+#include "eval/share.h"
+#include "trajectories/catalog.h"
 
 namespace glovebench::eval {
 namespace {
@@ -14,7 +17,7 @@ struct PlannedExperiment {
   int seeds = 0;
 };
 
-std::vector<PlannedExperiment> experiments_of(const Plan& plan) {
+std::vector<PlannedExperiment> planned_experiments(const Plan& plan) {
   std::vector<PlannedExperiment> experiments;
   for (const RunSpec& spec : plan.specs) {
     const std::string name = to_string(key_of(spec));
@@ -27,8 +30,32 @@ std::vector<PlannedExperiment> experiments_of(const Plan& plan) {
 
 }  // namespace
 
+Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options) {
+  const std::string folder = trajectory_folder();
+  Plan plan{tracker, {}};
+  const auto& names = options.trajectories.empty() ? trajectories::ground_truth_names() : options.trajectories;
+  for (const reports::NoiseSetting& noise : options.noises) {
+    for (const std::string& name : names) {
+      const std::vector<std::string> databases = trajectories::databases_of(name);
+      const auto recorded =
+          std::make_shared<const trajectories::Trajectory>(trajectories::recorded_trajectory(folder, name));
+      const auto source =
+          std::make_shared<const trajectories::Trajectory>(trajectories::source_trajectory(folder, name));
+      const auto add = [&](const std::shared_ptr<const trajectories::Trajectory>& truth, int subject,
+                           uint64_t seed) {
+        for (const std::string& database : databases)
+          plan.specs.push_back({truth, options.frames, subject, noise, seed, database, tracker});
+      };
+      for (const uint64_t seed : options.seeds) add(recorded, 1, seed);
+      for (const uint64_t seed : options.seeds) add(source, 1, seed);
+      for (const uint64_t seed : options.seeds) add(source, 2, seed);
+    }
+  }
+  return plan;
+}
+
 std::string list_experiments(const Plan& plan) {
-  const std::vector<PlannedExperiment> experiments = experiments_of(plan);
+  const std::vector<PlannedExperiment> experiments = planned_experiments(plan);
   const size_t width = std::ranges::max(experiments, {}, [](const auto& e) { return e.name.size(); }).name.size();
   std::string text;
   for (const PlannedExperiment& experiment : experiments) {

@@ -1,9 +1,10 @@
 // The same plan twice, and on one thread and two: every file that hangs on the results is equal byte for byte.
-#include "eval/experiments.h"
+#include "eval/experiment.h"
 
 #include <gmock/gmock.h>
 
-#include "eval/page_material.h"
+#include "eval/pictures.h"
+#include "eval/robot_commands.h"
 #include "eval/test_program.h"
 #include "reports/report.h"
 
@@ -28,10 +29,13 @@ struct PlanRun {
 PlanRun run_plan(const std::string& folder, int threads) {
   Workbench workbench(test_workbench(threads));
   const Plan plan = make_plan();
-  const Outcome outcome = run_experiments(workbench, plan, {folder + "/robot"});
-  reports::write_report(folder, outcome.result, outcome.timings, page_material(workbench, plan, outcome),
-                        outcome.estimates);
-  return {outcome.result, read_timeless(folder)};
+  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads}));
+  reports::RunResult result = results_of(plan, runs, workbench);
+  reports::Timings timings = timings_of(runs, threads);
+  add_commands(result, timings, runs, {folder + "/robot"});
+  const auto estimates = estimates_of(runs);
+  reports::write_report(folder, result, timings, page_material(workbench, plan, result, estimates), estimates);
+  return {result, read_timeless(folder)};
 }
 
 TEST(ExperimentsLong, ReportsDependOnNeitherThreadsNorTheDay) {
