@@ -12,7 +12,7 @@
 #include "eval/program_info.h"
 #include "eval/share.h"
 #include "eval/stored_study.h"
-#include "eval/studies/settings.h"
+#include "eval/studies/study.h"
 #include "reports/paper_numbers.h"
 #include "reports/report.h"
 #include "trajectories/catalog.h"

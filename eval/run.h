@@ -36,6 +36,7 @@ struct RunSpec {
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
   bool clutter_in_volume = false;  ///< as render::SceneConfig's
+  std::string setting = {};        ///< of a study: its name for this way to run; nothing depends on it
 };
 
 /// What the true images of one frame showed.

@@ -21,10 +21,7 @@ struct Searched {
   std::unique_ptr<const TrueNeighborSearch> true_neighbors;
 };
 
-/// [database][cascade][stage]
-using Survival = std::vector<std::vector<std::vector<StageSurvival>>>;
-
-/// One frame: percent of every stage of every cascade in every database.
+/// One frame: percent of every stage of every cascade in every database, in their order.
 using FrameSurvival = std::vector<std::optional<double>>;
 
 std::vector<Searched> load(Workbench& workbench, const std::vector<std::string>& names) {
@@ -36,21 +33,20 @@ std::vector<Searched> load(Workbench& workbench, const std::vector<std::string>&
   return searched;
 }
 
-/// The stages of all cascades, without frames yet: `shape` has their strata and seeds.
-Survival make_stages(const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
-                     const Sample& shape) {
-  Survival survival(searched.size());
+/// Each stage of each cascade in each database, without frames yet.
+std::vector<StageSurvival> all_stages(const std::vector<std::string>& names, const std::vector<Searched>& searched,
+                                      const std::vector<Cascade>& cascades) {
+  std::vector<StageSurvival> stages;
   for (size_t d = 0; d < searched.size(); ++d) {
     for (const Cascade& cascade : cascades) {
-      std::vector<StageSurvival>& stages = survival[d].emplace_back();
       int in = searched[d].database->entry_count();
-      for (const CascadeStage& stage : cascade) {
-        stages.push_back({in, std::min(in, stage.keep), shape});
+      for (size_t s = 0; s < cascade.size(); ++s) {
+        stages.push_back({names[d], cascade, s, in, std::min(in, cascade[s].keep), {}});
         in = stages.back().candidates_out;
       }
     }
   }
-  return survival;
+  return stages;
 }
 
 FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
@@ -95,18 +91,16 @@ std::vector<FrameSurvival> run_look_ups(Workbench& workbench, const RunSpec& spe
 
 }  // namespace
 
-Survival measure_survival(const StudyContext& context, const Movements& movements,
-                          const std::vector<std::string>& databases, const std::vector<Cascade>& cascades) {
+std::vector<StageSurvival> measure_survival(const StudyContext& context, const std::vector<std::string>& databases,
+                                            const std::vector<Cascade>& cascades, reports::TruthKind truth) {
   Workbench& workbench = context.workbench;
-  const std::vector<uint64_t>& seeds = context.options.seeds;
-  std::vector<RunSpec> specs;
-  for (const auto& truth : movements.truths)
-    for (const uint64_t seed : seeds)
-      specs.push_back(
-          {.trajectory = truth, .frames = movements.range, .seed = seed, .tracker = context.options.tracker});
+  const TrackerConfig& tracker = context.options.tracker;
+  // One spec a frame sequence: it is looked up in all databases.
+  const std::vector<RunSpec> specs =
+      study_specs(context, {{.name = "look-up", .tracker = tracker}}, {databases.front()}, truth);
   // Before the threads start: making these uses all of them.
   const std::vector<Searched> searched = load(workbench, databases);
-  workbench.color_table(context.options.tracker.segmentation.color_space);
+  workbench.color_table(tracker.segmentation.color_space);
 
   size_t frames = 0;
   for (const RunSpec& each : specs) frames += frames_of(each).size();
@@ -122,18 +116,16 @@ Survival measure_survival(const StudyContext& context, const Movements& movement
     });
   });
 
-  const Sample shape(movements.truths.size(), std::vector<std::vector<std::optional<double>>>(seeds.size()));
-  Survival survival = make_stages(searched, cascades, shape);
-  for (size_t r = 0; r < specs.size(); ++r) {
-    for (const FrameSurvival& frame : of_runs[r]) {
-      size_t next = 0;
-      for (auto& of_database : survival)
-        for (auto& stages : of_database)
-          for (StageSurvival& stage : stages)
-            stage.survived_percent[r / seeds.size()][r % seeds.size()].push_back(frame[next++]);
+  std::vector<StageSurvival> stages = all_stages(databases, searched, cascades);
+  for (size_t s = 0; s < stages.size(); ++s) {
+    Sample& sample = stages[s].survived_percent;
+    for (size_t r = 0; r < specs.size(); ++r) {
+      if (r == 0 || specs[r].trajectory != specs[r - 1].trajectory) sample.emplace_back();
+      std::vector<std::optional<double>>& values = sample.back().emplace_back();
+      for (const FrameSurvival& frame : of_runs[r]) values.push_back(frame[s]);
     }
   }
-  return survival;
+  return stages;
 }
 
 }  // namespace glovebench::eval
