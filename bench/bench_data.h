@@ -14,6 +14,21 @@
 
 namespace glovebench::bench {
 
+/// Poses and postures that benchmarks render.
+struct Movement {
+  std::string name;
+  std::vector<render::HandFrame> frames;  ///< some of its frames
+};
+
+/// Every 19th frame of the five source trajectories: 37 frames of open hand, grasp and between. The width of the
+/// robust alignment was chosen on these.
+std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
+
+/// The same of ten movements between random blends of two gestures, on random ways within the ranges of the five:
+/// 70 frames on which nothing is tuned. The same ones each time. The gestures are those that the five and the
+/// databases are made of, too.
+std::vector<Movement> held_out_movements(const std::string& trajectory_folder);
+
 /// GLOVEBENCH_CACHE, else the user's cache folder, else a new folder in the temporary directory: none that somebody
 /// else could have filled. Throws Error.
 std::string default_cache_folder();
@@ -23,7 +38,7 @@ std::string new_temporary_folder();
 struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";
-  std::string frames = "tuned";  ///< "tuned" or "held-out" (movements.h)
+  std::string frames = "tuned";  ///< "tuned" or "held-out"
   std::string colors = "same";   ///< the color table is made with true labels of the "same" poses, or of those of
                                  ///< the "other" frames
 };

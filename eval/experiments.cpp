@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/hash.h"
 #include "core/robot/json_lines_sink.h"

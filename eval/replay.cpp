@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "eval/thread_time.h"
 

@@ -1,6 +1,6 @@
 #include "eval/robot_commands.h"
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "eval/thread_time.h"
 #include "reports/metrics/measure_frame.h"
 

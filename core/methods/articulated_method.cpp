@@ -4,7 +4,7 @@
 #include "core/methods/method.h"
 #include "core/pose/articulated_fit.h"
 #include "core/pose/interpolate.h"
-#include "core/tracker/detection.h"
+#include "core/tracker/sighting.h"
 
 namespace glovebench {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/methods/method.h"
 #include "core/pose/box_placement.h"
 #include "core/pose/interpolate.h"
-#include "core/tracker/detection.h"
+#include "core/tracker/sighting.h"
 
 namespace glovebench {
 namespace {

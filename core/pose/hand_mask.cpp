@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/check.h"
-#include "core/base/for_each_nonzero.h"
+#include "core/base/error.h"
+#include "core/base/image.h"
 #include "core/kinect/disparity.h"
 
 namespace glovebench {

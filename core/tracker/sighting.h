@@ -1,14 +1,21 @@
 #pragma once
 
+#include "core/base/image.h"
 #include "core/camera/registration.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/kinect/device.h"
 #include "core/segmentation/color_table.h"
-#include "core/tracker/stage_observer.h"
 #include "core/tracker/track_result.h"
 #include "core/tracker/tracker_config.h"
 
 namespace glovebench {
+
+/// Does the glove touch the image border over a longer stretch than `config` allows? Then its bounding box is not
+/// the hand's. `glove_pixels` is the number of labeled pixels.
+bool is_cut_by_border(const LabelImage& labels, size_t glove_pixels, const DetectionConfig& config);
+
+/// Is there one whole hand in the cloud? `tracked` if so, else why not.
+TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config);
 
 /// What a frame shows before anything is looked up (section III-A), stage by stage.
 struct Sighting {

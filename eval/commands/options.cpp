@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/text.h"
 #include "eval/program_info.h"
 #include "eval/terminal.h"
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "reports/comparison/comparison_rows.h"
