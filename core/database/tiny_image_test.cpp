@@ -1,7 +1,8 @@
+#include "core/database/tiny_image.h"
+
 #include <gtest/gtest.h>
 
 #include "core/base/random.h"
-#include "core/database/tiny_image.h"
 
 namespace glovebench {
 namespace {
@@ -140,5 +141,4 @@ TEST(PackedLabels, of_another_size_are_refused) {
 }
 
 }  // namespace
-
 }  // namespace glovebench
