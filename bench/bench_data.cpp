@@ -109,7 +109,8 @@ std::vector<BenchFrame> track_frames(const BenchData& data, const Movement& move
     frame.hand = hand;
     frame.device = *kinect.next_frame();
     frame.images = kinect.truth();
-    frame.result = tracker.track(frame.device, {}, &frame.trace);
+    frame.result = tracker.track(frame.device);
+    frame.trace = tracker.inspect(frame.device);
     check(frame.result.status == TrackStatus::tracked, "the tracker follows the benchmark's frames");
     frame.square = bounding_square(frame.trace.cloud.labels);
     frame.tiny = make_tiny_images(frame.trace.cloud.labels, frame.square, data.config.lookup.cascade);

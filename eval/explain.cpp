@@ -45,8 +45,8 @@ ColorImage explain_frame(Workbench& workbench, const Replay& replay, int frame) 
   const OneFrame taken = take_frame(workbench, replay, frame);
   const std::shared_ptr<const Database> database = workbench.database(replay.databases.front());
   Tracker tracker = workbench.make_tracker(replay.tracker, replay.databases.front());
-  FrameTrace trace;
-  const TrackResult result = tracker.track(taken.frame, {}, &trace);
+  const TrackResult result = tracker.track(taken.frame);
+  const FrameTrace trace = tracker.inspect(taken.frame);
 
   const auto cropped = [&](const ColorImage& image) {
     return render::crop_to_labels(image, taken.truth.label, kMargin);

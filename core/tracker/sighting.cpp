@@ -57,10 +57,16 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
 }
 
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
-             const TrackerConfig& config, const StageObserver& observe, Extent extent) {
+             const TrackerConfig& config) {
+  return see_in(depth_from_disparity(frame.raw_disparity, calibration.disparity), frame.color, calibration, table,
+                config, [](std::string_view) {});
+}
+
+Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+                      const TrackerConfig& config, const StageObserver& observe) {
   observe("register");
   // A filter over neighbors looks across the border of what is left out.
-  if (extent == Extent::reach && !config.segmentation.majority_filter && !config.segmentation.surface_majority) {
+  if (!config.segmentation.majority_filter && !config.segmentation.surface_majority) {
     Sighting seen = see_in(
         depth_from_disparity(frame.raw_disparity, calibration.disparity, config.volume.z_max + kCutOffMargin),
         frame.color, calibration, table, config, observe);

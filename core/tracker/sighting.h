@@ -26,16 +26,13 @@ struct Sighting {
   TrackStatus status = TrackStatus::no_hand;  ///< `tracked` if there is one whole hand to look up
 };
 
-/// What the images of a sighting hold: everything, or only what may matter to the cloud.
-enum class Extent { everything, reach };
-
-/// Registers, segments, and makes the cloud. With `reach`, what lies more than `kCutOffMargin` beyond the working
-/// volume is left out of the images and of `labeled_outside`, wherever cloud and status are the same without it: it
-/// can neither be in the cloud nor hide from the RGB camera what is. If too few points are left, everything is done
-/// again with the whole images.
-Sighting see(
-    const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
-    const TrackerConfig& config, const StageObserver& observe = [](std::string_view) {},
-    Extent extent = Extent::everything);
+/// Registers, segments, and makes the cloud, of the whole images.
+Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+             const TrackerConfig& config);
+/// The same cloud and status, faster: what lies more than `kCutOffMargin` beyond the working volume is left out of
+/// the images and of `labeled_outside`. It can neither be in the cloud nor hide from the RGB camera what is. If too
+/// few points are left, everything is done again with the whole images.
+Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+                      const TrackerConfig& config, const StageObserver& observe);
 
 }  // namespace glovebench
