@@ -7,12 +7,28 @@
 #include <vector>
 
 #include "core/database/database_cache.h"
+#include "core/hand/hand_frame.h"
 #include "core/hand/hand_model.h"
 #include "core/segmentation/color_table.h"
 #include "core/tracker/tracker.h"
 #include "render/synthetic_kinect.h"
 
 namespace glovebench::bench {
+
+/// Poses and postures that benchmarks render.
+struct Movement {
+  std::string name;
+  std::vector<HandFrame> frames;  ///< some of its frames
+};
+
+/// Every 19th frame of the five source trajectories: 37 frames of open hand, grasp and between. The width of the
+/// robust alignment was chosen on these.
+std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
+
+/// The same of ten movements between random blends of two gestures, on random ways within the ranges of the five:
+/// 70 frames on which nothing is tuned. The same ones each time. The gestures are those that the five and the
+/// databases are made of, too.
+std::vector<Movement> held_out_movements(const std::string& trajectory_folder);
 
 /// GLOVEBENCH_CACHE, else the user's cache folder, else a new folder in the temporary directory: none that somebody
 /// else could have filled. Throws Error.
@@ -23,7 +39,7 @@ std::string new_temporary_folder();
 struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";
-  std::string frames = "tuned";  ///< "tuned" or "held-out" (movements.h)
+  std::string frames = "tuned";  ///< "tuned" or "held-out"
   std::string colors = "same";   ///< the color table is made with true labels of the "same" poses, or of those of
                                  ///< the "other" frames
 };

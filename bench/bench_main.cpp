@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 #include <hwy/targets.h>
+#include <unistd.h>
 
 #include <map>
 
 #include "bench/bench_data.h"
-#include "bench/ratio_reporter.h"
+#include "bench/speed_table.h"
 #include "core/base/error.h"
 #include "core/base/whole_file.h"
 
@@ -41,6 +42,58 @@ Options parse(int argc, char** argv) {
     *option->second = argv[i + 1];
   }
   return options;
+}
+
+/// The usual table, and after it the ratio of every engine to our fast one (speed_table.h).
+class RatioReporter : public benchmark::ConsoleReporter {
+ public:
+  /// Colors go to a terminal only.
+  RatioReporter();
+
+  void ReportRuns(const std::vector<Run>& runs) override;
+  void Finalize() override;
+
+  const Measurements& measurements() const { return measurements_; }
+  /// Benchmarks that ended with an error, such as a failed check. A missing library is none.
+  int error_count() const { return error_count_; }
+
+ private:
+  void add(const Run& run);
+
+  Measurements measurements_;
+  int error_count_ = 0;
+};
+
+double counter(const benchmark::UserCounters& counters, const char* name, double otherwise) {
+  const auto found = counters.find(name);
+  return found == counters.end() ? otherwise : found->second.value;
+}
+
+RatioReporter::RatioReporter() : ConsoleReporter(isatty(STDOUT_FILENO) != 0 ? OO_ColorTabular : OO_Tabular) {}
+
+void RatioReporter::ReportRuns(const std::vector<Run>& runs) {
+  for (const Run& run : runs) add(run);
+  ConsoleReporter::ReportRuns(runs);
+}
+
+void RatioReporter::add(const Run& run) {
+  if (run.run_type == Run::RT_Aggregate) return;
+  Measured& measured = measurements_[run.run_name.function_name];
+  if (run.error_occurred) {
+    measured.missing = run.error_message == kMissing;
+    error_count_ += !measured.missing;
+    return;
+  }
+  const double iteration = run.cpu_accumulated_time / static_cast<double>(run.iterations);
+  measured.seconds[run.repetition_index] = counter(run.counters, "frame", counter(run.counters, "view", iteration));
+  measured.near_bytes = counter(run.counters, kNearBytes, 0);
+  measured.far_bytes = counter(run.counters, kFarBytes, 0);
+}
+
+void RatioReporter::Finalize() {
+  GetOutputStream() << ratio_lines(engine_ratios(measurements_));
+  GetOutputStream() << fmt::format("peak memory {:.0f} MB\n", 1e-6 * peak_memory());
+  ConsoleReporter::Finalize();
 }
 
 /// Takes no instruction set that is better than this one.

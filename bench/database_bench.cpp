@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "bench/bench_data.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/database/database_cache.h"
 #include "core/database/distance_field.h"
 #include "render/label_renderer.h"

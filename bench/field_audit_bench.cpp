@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "bench/bench_data.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/database/look_up.h"
 #include "core/pose/interpolate.h"
 

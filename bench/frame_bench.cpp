@@ -4,7 +4,7 @@
 #include <map>
 
 #include "bench/bench_data.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 
 namespace glovebench::bench {
 namespace {

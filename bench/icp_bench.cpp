@@ -2,7 +2,7 @@
 
 #include "bench/bench_data.h"
 #include "bench/peers/peers.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/pose/icp.h"
 #include "core/pose/matcher.h"

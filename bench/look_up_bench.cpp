@@ -1,6 +1,6 @@
 // The matching cascade, plain and fast, and its peers' brute force; each query is a frame's.
 
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 #include "core/database/look_up.h"
 
 #include <chrono>

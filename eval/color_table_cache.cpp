@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "render/color_noise.h"
 #include "render/rgbd_renderer.h"

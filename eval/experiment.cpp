@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/base/hash.h"
 #include "eval/program_info.h"
 #include "eval/sequence_metrics.h"

@@ -4,7 +4,7 @@
 
 #include "ci/build_paths.h"
 #include "core/kinect/recording.h"
-#include "core/tracker/estimate_line.h"
+#include "core/tracker/track_result.h"
 #include "eval/run.h"
 #include "eval/share.h"
 #include "eval/test_program.h"

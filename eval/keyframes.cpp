@@ -1,6 +1,6 @@
 #include "eval/keyframes.h"
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "render/label_renderer.h"
 #include "render/pictures.h"
 #include "render/rgbd_renderer.h"

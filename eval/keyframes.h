@@ -5,7 +5,7 @@
 
 #include "eval/workbench.h"
 #include "reports/estimates.h"
-#include "reports/page/frame_sheet.h"
+#include "reports/page/page.h"
 #include "trajectories/trajectory.h"
 
 namespace glovebench::eval {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/kinect/disparity.h"
-#include "core/segmentation/surface_majority.h"
+#include "core/segmentation/color_table.h"
 #include "eval/share.h"
 #include "render/synthetic_kinect.h"
 #include "trajectories/catalog.h"

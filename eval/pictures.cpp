@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "eval/keyframes.h"
 #include "eval/share.h"
@@ -113,8 +112,8 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
   const OneFrame taken = take_frame(workbench, spec, frame);
   const std::shared_ptr<const Database> database = workbench.database(spec.database);
   Tracker tracker = workbench.make_tracker(spec.tracker, spec.database);
-  FrameTrace trace;
-  const TrackResult result = tracker.track(taken.frame, {}, &trace);
+  const TrackResult result = tracker.track(taken.frame);
+  const FrameTrace trace = tracker.inspect(taken.frame);
 
   const auto cropped = [&](const ColorImage& image) {
     return render::crop_to_labels(image, taken.truth.label, kMargin);

@@ -3,8 +3,8 @@
 
 #include <sstream>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "eval/record.h"
 #include "eval/share.h"
 #include "eval/test_program.h"

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "core/adapters/kdl/make_arm_solver.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/robot/command_guard.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"

@@ -5,9 +5,9 @@
 #include <map>
 #include <tuple>
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/base/file_set.h"
+#include "core/base/math.h"
 #include "core/robot/json_lines_sink.h"
 #include "eval/experiment.h"
 #include "eval/thread_time.h"

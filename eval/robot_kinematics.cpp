@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/robot/fingertip_mapping.h"
 #include "trajectories/catalog.h"
 

@@ -11,7 +11,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "eval/terminal.h"

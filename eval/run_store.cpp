@@ -13,7 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/input_file.h"
-#include "core/base/name.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 #include "eval/terminal.h"
 #include "reports/comparison/pairing.h"

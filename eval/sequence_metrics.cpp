@@ -1,7 +1,7 @@
 #include "eval/sequence_metrics.h"
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/math.h"
 #include "reports/metrics/measure_frame.h"
 
 namespace glovebench::eval {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "reports/metrics/example_frame.h"
 

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/tracker/smoother.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"

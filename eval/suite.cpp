@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/text.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench::eval {
 

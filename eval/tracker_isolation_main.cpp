@@ -3,7 +3,7 @@
 //
 //     tracker_isolation MESH DATABASE COLOR_TABLE RECORDING
 //
-// Prints one line an estimate (core/tracker/estimate_line.h).
+// Prints one line an estimate (`estimate_line`).
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/kinect/recording.h"
-#include "core/tracker/estimate_line.h"
+#include "core/tracker/track_result.h"
 #include "core/tracker/tracker.h"
 
 namespace {

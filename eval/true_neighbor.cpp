@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench::eval {
 namespace {

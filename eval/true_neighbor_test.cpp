@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/camera/rgbd_calibration.h"
 #include "core/database/test_database.h"

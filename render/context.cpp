@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <mutex>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 
 namespace glovebench::render {

@@ -14,8 +14,8 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 #include "core/camera/pinhole_camera.h"
 #include "render/lighting.h"

@@ -1,6 +1,6 @@
 #include "render/gl.h"
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench::render::gl {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/image.h"
-#include "core/database/view_renderer.h"
+#include "core/database/view_sphere.h"
 
 namespace glovebench::render {
 

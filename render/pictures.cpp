@@ -3,7 +3,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/whole_file.h"
 #include "render/glove_colors.h"

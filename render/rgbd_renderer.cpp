@@ -1,6 +1,5 @@
 #include "render/rgbd_renderer.h"
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "render/context.h"
 #include "render/gl.h"

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench::render {
 namespace {

@@ -1,6 +1,5 @@
 #include "render/synthetic_kinect.h"
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
 

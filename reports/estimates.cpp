@@ -7,11 +7,10 @@
 #include <charconv>
 #include <set>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
-#include "core/base/read_limits.h"
+#include "core/base/math.h"
 #include "core/hand/posture.h"
 #include "reports/json_text.h"
 

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
-#include "core/base/name.h"
 #include "core/base/parse_json.h"
-#include "core/base/read_limits.h"
+#include "core/base/text.h"
 #include "reports/commands.h"
 #include "reports/metrics/measure_frame.h"
 #include "reports/results_json.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/base/random.h"
 #include "reports/json_text.h"
 

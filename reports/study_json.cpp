@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "reports/json_text.h"
 #include "reports/statistics.h"
 

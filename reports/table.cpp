@@ -8,7 +8,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "reports/json_text.h"
 #include "reports/text.h"
 

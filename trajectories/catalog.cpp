@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/text.h"
 #include "trajectories/formats/format.h"
 
 namespace glovebench::trajectories {

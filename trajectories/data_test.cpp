@@ -4,8 +4,8 @@
 #include <map>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
 #include "core/base/input_file.h"
+#include "core/base/math.h"
 #include "core/camera/rgbd_calibration.h"
 #include "core/hand/hand_model.h"
 #include "trajectories/catalog.h"

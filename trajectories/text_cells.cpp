@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/text.h"
 
 namespace glovebench::trajectories {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/math.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/test_folder.h"
 #include "trajectories/formats/format.h"

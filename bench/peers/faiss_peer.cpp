@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/peers/peers.h"
-#include "core/database/candidate.h"
+#include "core/database/look_up_parts.h"
 
 namespace glovebench::bench {
 namespace {

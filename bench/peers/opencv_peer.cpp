@@ -2,7 +2,7 @@
 #include <opencv2/core.hpp>
 
 #include "bench/peers/peers.h"
-#include "core/database/candidate.h"
+#include "core/database/look_up_parts.h"
 
 namespace glovebench::bench {
 namespace {

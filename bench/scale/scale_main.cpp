@@ -14,9 +14,9 @@
 
 #include "bench/bench_data.h"
 #include "bench/scale/process_memory.h"
-#include "bench/scale/random_postures.h"
 #include "core/base/error.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
+#include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "render/label_renderer.h"
 
@@ -46,6 +46,23 @@ double processor_ms() {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// So many postures: every angle drawn evenly from within its limits, a straight wrist. The first ones do not
+/// depend on how many there are.
+PostureSet random_postures(int count) {
+  PostureSet set{fmt::format("DB_{}_random", count), {}, {}};
+  for (int p = 0; p < count; ++p) {
+    RandomStream random(1, "scale", p, "posture");
+    Posture posture = Posture::Zero();
+    for (int angle = kThumbCmcAbduction; angle < kAngleCount; ++angle) {
+      const AngleInfo& info = angle_infos()[angle];
+      posture[angle] = radians_from_degrees(random.uniform(info.min_deg, info.max_deg));
+    }
+    set.posture_names.push_back(fmt::format("random_{:05}", p + 1));
+    set.postures.push_back(posture);
+  }
+  return set;
 }
 
 ordered_json build(const std::string& path, int count, const Options& options, DatabaseMemory memory) {

@@ -15,4 +15,9 @@ class Error : public std::runtime_error {
       : std::runtime_error(where + ": " + field + ": found " + found + ", expected " + expected) {}
 };
 
+/// A broken invariant of the program itself; stays on in release builds.
+inline void check(bool condition, const char* what) {
+  if (!condition) throw std::logic_error(std::string("broken invariant: ") + what);
+}
+
 }  // namespace glovebench

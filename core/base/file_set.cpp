@@ -17,12 +17,11 @@
 #include <sstream>
 #include <thread>
 
-#include "core/base/excerpt.h"
 #include "core/base/hash.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
-#include "core/base/name.h"
 #include "core/base/parse_json.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 
 namespace glovebench {

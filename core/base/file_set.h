@@ -110,7 +110,7 @@ class WholeFiles {
 
   /// The manifest after `commit`.
   const Manifest& manifest() const { return manifest_; }
-  /// `name` may have folders of its own, but stays in the folder (core/base/name.h). In its place may be a regular
+  /// `name` may have folders of its own, but stays in the folder (core/base/text.h). In its place may be a regular
   /// file, whose mode the new one takes, or nothing; a link is an error. A new manifest is as private as the most
   /// private of the files.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 
 namespace glovebench {

@@ -37,7 +37,14 @@ class InputFile {
   struct timespec modified_ = {};
 };
 
-/// Files are refused from this size on where nobody says what they may hold.
+// Larger files are refused before they take memory (core/README.md), bytes.
+/// Trajectories and posture sets.
+inline constexpr uint64_t kLargestMovement = uint64_t{64} << 20;
+/// Results and estimates: the report of some million frames.
+inline constexpr uint64_t kLargestResults = 256'000'000;
+/// Files that do not grow with the frames: times, ratios, noise floors.
+inline constexpr uint64_t kLargestSmallFile = 16'000'000;
+/// All others, where nobody says what they may hold.
 inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// The whole content of a regular file or a pipe. Throws Error if it is missing, cannot be read or is larger than

@@ -52,7 +52,7 @@ class JsonCursor {
   bool is_integer() const { return value_->is_number_integer(); }
   std::string text() const;
   void expect_text(std::string_view expected) const;
-  /// Fit for a file or a table cell (core/base/name.h).
+  /// Fit for a file or a table cell (core/base/text.h).
   std::string name() const;
   template <Named Enum>
   Enum one_of() const {

@@ -1,6 +1,6 @@
 #include "core/base/file_set.h"
 #include "core/base/fuzz_target.h"
-#include "core/base/name.h"
+#include "core/base/text.h"
 
 namespace glovebench {
 

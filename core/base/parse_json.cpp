@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/text.h"
 
 namespace glovebench {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/text.h"
 
 namespace glovebench {
 namespace {

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 #include "core/calibration/opencv_terms.h"
 
 namespace glovebench::calibration {

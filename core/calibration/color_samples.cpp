@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 #include "core/calibration/chroma.h"
 #include "core/kinect/disparity.h"
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
 #include "core/base/parse_json.h"
-#include "core/segmentation/color_table_file.h"
+#include "core/base/text.h"
+#include "core/segmentation/color_table.h"
 
 namespace glovebench::calibration {
 namespace {

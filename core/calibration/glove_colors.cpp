@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 #include "core/calibration/chroma.h"
 
 namespace glovebench::calibration {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <opencv2/calib3d.hpp>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/calibration/camera_fit.h"
 #include "core/calibration/opencv_terms.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/base/recycled_vector.h"
 
 namespace glovebench {

@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
+#include "core/base/math.h"
 #include "core/base/parse_json.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 
 namespace glovebench {

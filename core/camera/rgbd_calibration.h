@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/camera/lens_distortion.h"
 #include "core/camera/pinhole_camera.h"
 
 namespace glovebench {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <numeric>
 
-#include "core/base/check.h"
-#include "core/base/for_each_nonzero.h"
+#include "core/base/error.h"
+#include "core/base/image.h"
 
 namespace glovebench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/whole_file.h"
-#include "core/database/packed_labels.h"
+#include "core/database/tiny_image.h"
 
 namespace glovebench {
 uint8_t field_cap(double cap_share, int size) {

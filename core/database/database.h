@@ -13,7 +13,6 @@
 #include "core/database/field_rows.h"
 #include "core/database/posture_set.h"
 #include "core/database/tiny_image.h"
-#include "core/database/view_renderer.h"
 #include "core/database/view_sphere.h"
 #include "core/hand/hand_model.h"
 
@@ -31,7 +30,8 @@ struct ViewConfig {
 uint8_t field_cap(double cap_share, int size);
 
 /// The image database of section III: 756 views of each posture, as tiny images of several sizes with one
-/// distance field a color, which a low-memory database makes when it is asked for (entry_fields.h). Entry = posture
+/// distance field a color, which a low-memory database makes when it is asked for (look_up_parts.h). Entry =
+/// posture
 /// * 756 + view. Immutable, shared between threads; copies share the memory.
 class Database {
  public:

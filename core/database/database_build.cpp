@@ -10,12 +10,11 @@
 #include <mutex>
 #include <numbers>
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/base/math.h"
 #include "core/base/whole_file.h"
-#include "core/database/packed_labels.h"
+#include "core/database/tiny_image.h"
 
 namespace glovebench {
 namespace {

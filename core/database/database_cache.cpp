@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/base/name.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 
 namespace glovebench {

@@ -9,14 +9,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/hash.h"
-#include "core/base/name.h"
+#include "core/base/math.h"
 #include "core/base/parse_json.h"
-#include "core/database/packed_labels.h"
+#include "core/base/text.h"
 #include "core/database/section_check.h"
 #include "core/database/tiny_image.h"
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/mapped_memory.h"
-#include "core/database/database_memory.h"
 #include "core/database/field_rows.h"
 #include "core/database/posture_set.h"
 #include "core/database/view_sphere.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench {
 namespace {

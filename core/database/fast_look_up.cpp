@@ -1,10 +1,9 @@
-#include "core/database/fast_look_up.h"
+#include "core/database/look_up_parts.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
-#include "core/database/candidate.h"
 #include "core/database/look_up_kernels.h"
 #include "core/database/made_distances.h"
 

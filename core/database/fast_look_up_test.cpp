@@ -1,4 +1,4 @@
-#include "core/database/fast_look_up.h"
+#include "core/database/look_up_parts.h"
 
 #include <gmock/gmock.h>
 

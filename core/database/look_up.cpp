@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "core/database/candidate.h"
-#include "core/database/entry_fields.h"
-#include "core/database/fast_look_up.h"
+#include "core/database/look_up_parts.h"
 
 namespace glovebench {
 namespace {
@@ -47,6 +45,22 @@ RecycledVector<Match> look_up_plain(const Database& database, const TinyImages& 
 }
 
 }  // namespace
+
+EntryFields::EntryFields(const Database& database, const LabelImage& query)
+    : database_(database), size_(query.width()) {
+  for (uint8_t color = 1; color <= kColorCount; ++color)
+    if (std::ranges::find(query, color) != query.end()) colors_.push_back(color);
+  if (database.memory() == DatabaseMemory::low) made_.resize(kColorCount * query.size());
+}
+
+const uint8_t* EntryFields::of(int entry) {
+  if (made_.empty()) return database_.fields(size_, entry);
+  const LabelImage labels = database_.labels(size_, entry);
+  const uint8_t cap = database_.field_cap(size_);
+  for (const uint8_t color : colors_)
+    chamfer_field(labels, color, cap, std::span(made_).subspan((color - 1) * labels.size(), labels.size()));
+  return made_.data();
+}
 
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade) {
   TinyImages query;

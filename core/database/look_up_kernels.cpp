@@ -182,7 +182,7 @@ uint32_t AddChunks(const uint8_t* fields, const uint8_t* labels, std::span<const
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/base/hash.h"
 #include "core/database/database.h"
-#include "core/database/packed_labels.h"
+#include "core/database/tiny_image.h"
 
 namespace glovebench {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/base/image.h"
 #include "core/camera/pinhole_camera.h"
@@ -33,5 +34,13 @@ LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square,
 
 /// The same image, faster: a row of cells counts the votes of its pixel columns, and each cell adds up its columns.
 LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int size);
+
+/// Labels at 4 bits a pixel: two pixels a byte, the earlier one in its low half.
+constexpr size_t packed_bytes(size_t pixels) {
+  return (pixels + 1) / 2;
+}
+/// `packed` has `packed_bytes` of the image's pixels; every label is below 16.
+void pack_labels(const LabelImage& labels, std::span<uint8_t> packed);
+LabelImage unpack_labels(std::span<const uint8_t> packed, int width, int height);
 
 }  // namespace glovebench

@@ -1,7 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <functional>
+#include <memory>
 #include <vector>
+
+#include "core/base/image.h"
+#include "core/camera/pinhole_camera.h"
+#include "core/hand/hand_model.h"
 
 namespace glovebench {
 
@@ -15,5 +22,17 @@ std::vector<Eigen::Vector3d> camera_directions();
 /// R_view_hand of the 756 views: cameras (x right, y down, z forward) that look at the hand origin.
 /// View = position * 18 + rotation.
 const std::vector<Eigen::Matrix3d>& view_rotations();
+
+/// Draws the hand's labels as a camera sees them. `render` implements it with OSMesa; an object belongs to
+/// one thread.
+class ViewRenderer {
+ public:
+  virtual ~ViewRenderer() = default;
+  /// Labels of the nearest surfaces, 0 where there is none. Camera axes: x right, y down, z forward.
+  virtual LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
+                                   const Eigen::Isometry3d& T_camera_hand) = 0;
+};
+
+using ViewRendererFactory = std::function<std::unique_ptr<ViewRenderer>()>;
 
 }  // namespace glovebench

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/hand/skeleton.h"
 
 namespace glovebench {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/image.h"
+#include "core/base/math.h"
 #include "core/test_folder.h"
 
 namespace glovebench {

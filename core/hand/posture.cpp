@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 

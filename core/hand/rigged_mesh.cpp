@@ -6,7 +6,6 @@
 #include <assimp/Importer.hpp>
 #include <map>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/input_file.h"
@@ -84,6 +83,82 @@ RiggedMesh convert(const aiScene& scene) {
   return result;
 }
 
+constexpr double kBlend = 0.012;     // m on either side of the wrist joint
+constexpr double kRingStep = 0.012;  // m
+
+bool is_cap(const RiggedMesh& mesh, const std::array<uint32_t, 3>& t, double z_wrist) {
+  const Eigen::Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+  const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+  return normal.z() > 0.7 && std::min({a.z(), b.z(), c.z()}) > z_wrist;
+}
+
+/// The opening's vertices in the order in which the removed triangles' side lists them.
+std::vector<uint32_t> boundary_loop(const std::vector<std::array<uint32_t, 3>>& triangles) {
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  for (const auto& t : triangles) {
+    for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
+  }
+  std::map<uint32_t, uint32_t> next;  // against the direction of the triangle that has the edge
+  for (const auto& [edge, count] : edges) {
+    if (!edges.contains({edge.second, edge.first})) next[edge.second] = edge.first;
+  }
+  check(!next.empty(), "removing the cap opens the mesh");
+  std::vector<uint32_t> loop;
+  uint32_t v = next.begin()->first;
+  do {
+    loop.push_back(v);
+    v = next.at(v);
+  } while (v != loop.front());
+  check(loop.size() == next.size(), "the opening is one loop");
+  return loop;
+}
+
+/// Adds a ring of vertices at depth `z` (at least that of the ring before it) and joins it to that ring.
+std::vector<uint32_t> extrude(RiggedMesh& mesh, const std::vector<uint32_t>& ring, double z) {
+  std::vector<uint32_t> added;
+  for (const uint32_t v : ring) {
+    Eigen::Vector3d p = mesh.vertices[v];
+    p.z() = z;
+    added.push_back(static_cast<uint32_t>(mesh.vertices.size()));
+    mesh.vertices.push_back(p);
+    mesh.influences.push_back(mesh.influences[v]);
+  }
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const size_t k = (i + 1) % ring.size();
+    mesh.triangles.push_back({ring[i], ring[k], added[k]});
+    mesh.triangles.push_back({ring[i], added[k], added[i]});
+  }
+  return added;
+}
+
+void close_ring(RiggedMesh& mesh, const std::vector<uint32_t>& ring) {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const uint32_t v : ring) center += mesh.vertices[v] / static_cast<double>(ring.size());
+  const auto middle = static_cast<uint32_t>(mesh.vertices.size());
+  mesh.vertices.push_back(center);
+  mesh.influences.push_back(mesh.influences[ring.front()]);
+  for (size_t i = 0; i < ring.size(); ++i) {
+    mesh.triangles.push_back({ring[i], ring[(i + 1) % ring.size()], middle});
+  }
+}
+
+Influence blended(const Influence& influence, double forearm_share) {
+  if (forearm_share <= 0) return influence;
+  // The forearm takes the slot of the weakest influence.
+  int weakest = 0;
+  for (int i = 1; i < 4; ++i) {
+    if (influence.weight[i] < influence.weight[weakest]) weakest = i;
+  }
+  Influence result = influence;
+  result.weight[weakest] = 0;
+  const float rest = result.weight[0] + result.weight[1] + result.weight[2] + result.weight[3];
+  check(rest > 0, "a vertex has an influence");
+  for (float& w : result.weight) w *= static_cast<float>(1 - forearm_share) / rest;
+  result.joint[weakest] = kForearmJoint;
+  result.weight[weakest] = static_cast<float>(forearm_share);
+  return result;
+}
+
 }  // namespace
 
 float Influence::weight_of(int j) const {
@@ -114,6 +189,31 @@ RiggedMesh load_rigged_mesh(const std::string& path) {
     if (node == nullptr) throw Error(path, "joint " + joint_name(j), "nothing", "a node of that name");
     mesh.T_mesh_joint.push_back(node_pose(node));
   }
+  return mesh;
+}
+
+RiggedMesh with_forearm(const RiggedMesh& hand, double length) {
+  const double z_wrist = hand.T_mesh_joint[kWristJoint].translation().z();
+  RiggedMesh mesh = hand;
+  mesh.triangles.clear();
+  for (const auto& t : hand.triangles) {
+    if (!is_cap(hand, t, z_wrist)) mesh.triangles.push_back(t);
+  }
+  const std::vector<uint32_t> opening = boundary_loop(mesh.triangles);
+
+  double z_opening = z_wrist;
+  for (const uint32_t v : opening) z_opening = std::max(z_opening, mesh.vertices[v].z());
+  std::vector<uint32_t> ring = opening;
+  for (double z = z_opening + 0.002; z < z_wrist + length; z += kRingStep) ring = extrude(mesh, ring, z);
+  close_ring(mesh, extrude(mesh, ring, z_wrist + length));
+
+  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double share = (mesh.vertices[v].z() - (z_wrist - kBlend)) / (2 * kBlend);
+    mesh.influences[v] = blended(mesh.influences[v], std::clamp(share, 0.0, 1.0));
+  }
+  Eigen::Isometry3d T_hand_forearm = Eigen::Isometry3d::Identity();
+  T_hand_forearm.translation() = hand.T_mesh_joint[kWristJoint].translation();
+  mesh.T_mesh_joint.push_back(T_hand_forearm);
   return mesh;
 }
 

@@ -28,4 +28,8 @@ struct RiggedMesh {
 /// file's. Throws Error if the file is missing, altered (checksum), or cannot be parsed.
 RiggedMesh load_rigged_mesh(const std::string& path);
 
+/// Cuts the flat cap off the wrist end of a mesh in the hand frame, extrudes `length` metres of forearm from the
+/// opening, closes it, adds the forearm joint at the wrist and blends its weight in over +-12 mm around it.
+RiggedMesh with_forearm(const RiggedMesh& hand, double length);
+
 }  // namespace glovebench

@@ -1,6 +1,5 @@
 #include "core/base/fuzz_target.h"
 #include "core/kinect/frame_pairer.h"
-#include "core/kinect/tick_clock.h"
 
 namespace glovebench {
 

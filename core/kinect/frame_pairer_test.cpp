@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/base/random.h"
-#include "core/kinect/tick_clock.h"
 
 namespace glovebench {
 namespace {

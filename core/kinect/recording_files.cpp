@@ -5,11 +5,10 @@
 #include <charconv>
 #include <limits>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/text.h"
 #include "core/kinect/disparity.h"
-#include "core/kinect/tick_clock.h"
+#include "core/kinect/frame_pairer.h"
 
 namespace glovebench {
 namespace {

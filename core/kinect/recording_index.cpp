@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/kinect/disparity.h"
-#include "core/kinect/tick_clock.h"
+#include "core/kinect/frame_pairer.h"
 
 namespace glovebench {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "core/methods/method.h"
 #include "core/pose/articulated_fit.h"
-#include "core/pose/interpolate.h"
-#include "core/tracker/detection.h"
+#include "core/tracker/hand_look_up.h"
+#include "core/tracker/sighting.h"
 
 namespace glovebench {
 namespace {
@@ -91,23 +91,17 @@ RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, c
 
 TrackResult Articulated::estimate(const DeviceFrame& frame, const StageObserver& observe) {
   TrackResult result;
-  const Sighting seen = see(frame, in_.calibration, *in_.table, in_.config, observe, Extent::reach);
+  const Sighting seen = see_in_reach(frame, in_.calibration, *in_.table, in_.config, observe);
   result.cloud_points = static_cast<int>(seen.cloud.points.size());
   result.status = seen.status;
   if (result.status != TrackStatus::tracked) return result;
 
-  observe("tiny_images");
-  const Cascade& cascade = in_.config.lookup.cascade;
-  const Square square = bounding_square(seen.cloud.labels);
-  const TinyImages query = make_tiny_images(seen.cloud.labels, square, cascade);
-
-  observe("look_up");
-  result.matches = look_up(*in_.database, query, cascade, in_.config.lookup.implementation);
-  if (result.matches.empty()) return result.status = TrackStatus::no_hand, result;
-  if (is_poor_match(result.matches, in_.config.lookup)) return result.status = TrackStatus::poor_match, result;
-  const Eigen::Vector3d ray = square_ray(square, in_.calibration.ir);
-  const CoarseEstimate mean =
-      interpolate(*in_.database, result.matches, ray, in_.config.lookup.interpolation_epsilon);
+  HandLookUp found = look_up_hand(seen.cloud.labels, in_.calibration.ir, *in_.database, in_.config.lookup, observe);
+  result.matches = std::move(found.matches);
+  result.status = found.status;
+  if (result.status != TrackStatus::tracked) return result;
+  const Eigen::Vector3d ray = square_ray(found.square, in_.calibration.ir);
+  const CoarseEstimate& mean = found.coarse;
   result.ambiguous = mean.ambiguous;
   result.T_camera_hand_coarse =
       coarse_pose(*in_.model, in_.model->pose(mean.posture), mean.R_camera_hand, seen.cloud.points);

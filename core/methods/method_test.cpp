@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
-#include "core/tracker/estimate_line.h"
 #include "core/tracker/test_scene.h"
+#include "core/tracker/track_result.h"
 
 namespace glovebench {
 namespace {

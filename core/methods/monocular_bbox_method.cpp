@@ -5,8 +5,8 @@
 
 #include "core/methods/method.h"
 #include "core/pose/box_placement.h"
-#include "core/pose/interpolate.h"
-#include "core/tracker/detection.h"
+#include "core/tracker/hand_look_up.h"
+#include "core/tracker/sighting.h"
 
 namespace glovebench {
 namespace {
@@ -63,8 +63,6 @@ class MonocularBbox : public Method {
 
 TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver& observe) const {
   TrackResult result;
-  const Cascade& cascade = in_.config.lookup.cascade;
-
   observe("segment");
   LabelImage labels = segment(color, *in_.table);
   if (in_.config.segmentation.majority_filter) labels = majority_filter(labels);
@@ -76,29 +74,23 @@ TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver
     return result.status = TrackStatus::cut_by_border, result;
   }
 
-  observe("tiny_images");
-  const Square square = bounding_square(blob.labels);
-  const TinyImages query = make_tiny_images(blob.labels, square, cascade);
-
-  observe("look_up");
-  result.matches = look_up(*in_.database, query, cascade, in_.config.lookup.implementation);
-  if (result.matches.empty()) return result.status = TrackStatus::no_hand, result;
-  if (is_poor_match(result.matches, in_.config.lookup)) return result.status = TrackStatus::poor_match, result;
-  const CoarseEstimate coarse = interpolate(*in_.database, result.matches, square_ray(square, in_.calibration.rgb),
-                                            in_.config.lookup.interpolation_epsilon);
+  HandLookUp found = look_up_hand(blob.labels, in_.calibration.rgb, *in_.database, in_.config.lookup, observe);
+  result.matches = std::move(found.matches);
+  result.status = found.status;
+  if (result.status != TrackStatus::tracked) return result;
+  const CoarseEstimate& coarse = found.coarse;
   result.ambiguous = coarse.ambiguous;
   result.posture_unfiltered = coarse.posture;
 
   observe("place");
   // `R_camera_hand` is in the frame of the camera of the query: here the RGB camera.
   const auto placed = place_in_square(in_.model->pose(coarse.posture).vertices, coarse.R_camera_hand,
-                                      image_square(square), in_.calibration.rgb);
+                                      image_square(found.square), in_.calibration.rgb);
   if (!placed) return result.status = TrackStatus::poor_alignment, result;
   const Eigen::Isometry3d& T_rgb_hand = placed->T_camera_hand;
   result.T_camera_hand_coarse = in_.calibration.T_rgb_ir.inverse() * T_rgb_hand;
   result.T_camera_hand_unfiltered = result.T_camera_hand_coarse;
   result.converged = placed->converged;
-  result.status = TrackStatus::tracked;
   return result;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/pose/test_alignment.h"
 
 namespace glovebench {

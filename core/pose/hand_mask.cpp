@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
-#include "core/base/for_each_nonzero.h"
+#include "core/base/error.h"
+#include "core/base/image.h"
 #include "core/kinect/disparity.h"
 
 namespace glovebench {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench {
 namespace {

@@ -1,7 +1,7 @@
 #include "core/pose/interpolate.h"
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/pose/horn.h"
 
 namespace glovebench {

@@ -2,7 +2,7 @@
 
 // The clouds and starts that the tests of the alignments share.
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/cloud/labeled_cloud.h"
 #include "render/label_renderer.h"

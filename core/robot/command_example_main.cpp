@@ -1,7 +1,7 @@
 // Prints a few lines of robot commands: each state, with and without an arm. For the test of their schema.
 #include <cstdio>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/robot/command_guard.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/robot/test_commands.h"

@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/robot/guarded_motion.h"
-#include "core/robot/guarded_place.h"
 #include "core/robot/shadow_kinematics.h"
 
 namespace glovebench {
@@ -44,34 +43,6 @@ std::vector<std::string_view> problems_of_start(Interventions needed) {
 }
 
 }  // namespace
-
-std::vector<std::string> CommandLimits::problems() const {
-  std::vector<std::string> problems;
-  const auto require = [&](bool fine, const char* what) {
-    if (!fine) problems.emplace_back(what);
-  };
-  const auto require_up_to = [&](double most, double value, const char* key) {
-    if (!(value > 0 && value <= most))
-      problems.push_back(fmt::format("{}: found {}, expected above 0 and at most {}", key, value, most));
-  };
-  constexpr double kFastest = 10, kFastestTurn = 100;  // m/s and rad/s: no such robot is as fast
-  require_up_to(kFastestTurn, hand_joint_speed, "hand_joint_speed_rad_s");
-  require_up_to(kFastest, hand_speed, "hand_speed_m_s");
-  require_up_to(kFastestTurn, hand_turn_speed, "hand_turn_speed_rad_s");
-  require_up_to(kFastest, fingertip_speed, "fingertip_speed_m_s");
-  require_up_to(1, arm_speed_share, "arm_speed_share");
-  require(workspace_min.allFinite() && workspace_max.allFinite() &&
-              (workspace_min.array() <= workspace_max.array()).all(),
-          "the workspace is empty");
-  require(!((workspace_max - workspace_min).minCoeff() < 2 * kShadowHandReach),
-          "a side of the workspace is shorter than 0.3 m, twice the reach of fingertips about the hand's origin");
-  constexpr double kLongestStep = 2, kLongestWait = 60;
-  require_up_to(kLongestStep, longest_step_s, "longest_step_s");
-  require_up_to(kLongestWait, silence_s, "silence_s");
-  if (!(stop_after_s >= silence_s && stop_after_s <= kLongestWait))
-    problems.push_back(fmt::format("stop_after_s: found {}, expected silence_s to {}", stop_after_s, kLongestWait));
-  return problems;
-}
 
 CommandGuard::CommandGuard(const CommandLimits& limits, GuardedPart part, std::optional<MountedArm> arm)
     : limits_(limits), part_(part), arm_(std::move(arm)) {

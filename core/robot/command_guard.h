@@ -1,32 +1,8 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "core/robot/robot_command.h"
+#include "core/robot/command_limits.h"
 
 namespace glovebench {
-
-/// What a stream of commands may do. Where the joints lie is in `shadow_joint_infos` and `arm_joint_infos`.
-struct CommandLimits {
-  double hand_joint_speed = 2;   ///< of each joint of the hand, rad/s: a choice, within what Shadow's hands can do
-  double hand_speed = 0.25;      ///< of the hand's origin, m/s: the number of ISO 10218-1's reduced speed
-  double hand_turn_speed = 1.5;  ///< of its turning, rad/s
-  double fingertip_speed = 0.5;  ///< of each fingertip, m/s: a choice, twice the hand's
-  double arm_speed_share = 1;    ///< of the speeds in `arm_joint_infos`, 0..1
-  /// Where the hand's origin and its fingertips may be in the arm's base frame, m. Each side is at least 0.3 m,
-  /// twice `kShadowHandReach`.
-  Eigen::Vector3d workspace_min{-1.5, -1.5, 0};
-  Eigen::Vector3d workspace_max{1.5, 1.5, 2};
-  double longest_step_s =
-      0.1;                  ///< however long ago the last command was sent, nothing moves farther than in this time
-  double silence_s = 0.15;  ///< without a command for longer than this: as if the hand was lost
-  double stop_after_s = 0.5;  ///< lost or silent for longer than this: stopped. At least silence_s
-  ShadowCoupling coupling = ShadowCoupling::series;  ///< of J1 and J2; not in the file of limits
-
-  /// All that is wrong, one entry each; empty if nothing is.
-  std::vector<std::string> problems() const;
-};
 
 /// What a guard knows of the robot, and so which fingertips it can look after.
 enum class GuardedPart {
@@ -37,10 +13,9 @@ enum class GuardedPart {
 };
 
 /// Stands in front of every sink and changes what is not safe. What it returns holds, whatever it is given:
-/// - all values are finite, joints of hand and arm within their limits, J1 and J2 of a finger as its motor moves
-/// them
-///   (ShadowCoupling), each motor's target that of its joints, rotations are rotations, the hand's origin and its
-///   fingertips are in the workspace, with an arm to 0.1 mm;
+/// - all values are finite, joints of hand and arm within their limits, J1 and J2 of a finger as its motor
+///   moves them (ShadowCoupling), each motor's target that of its joints, rotations are rotations, the hand's
+///   origin and its fingertips are in the workspace, with an arm to 0.1 mm;
 /// - time stamps rise; frame stamps do not go back, unless the stream had stopped;
 /// - from one command to the next, joints, hand, fingertips and arm move no farther than their speeds allow in the
 ///   time between the two stamps, or in `longest_step_s` if that is shorter: so also after a stop. What would be

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/robot/test_commands.h"

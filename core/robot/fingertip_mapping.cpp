@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

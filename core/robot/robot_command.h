@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/robot/arm_follower.h"
+#include "core/robot/arm.h"
 #include "core/robot/command_state.h"
 #include "core/robot/fingertip_mapping.h"
 #include "core/tracker/track_result.h"

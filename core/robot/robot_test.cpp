@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/math.h"
 #include "core/robot/json_lines_sink.h"
 #include "core/test_folder.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/hand/hand_model.h"
 #include "core/robot/fingertip_mapping.h"

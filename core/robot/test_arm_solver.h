@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/robot/arm.h"
 
 namespace glovebench {

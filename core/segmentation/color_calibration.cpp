@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 
 namespace glovebench {

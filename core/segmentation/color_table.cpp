@@ -1,16 +1,17 @@
 #include "core/segmentation/color_table.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
-#include "core/base/for_each_nonzero.h"
 #include "core/base/hash.h"
+#include "core/base/image.h"
 #include "core/base/input_file.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
-#include "core/segmentation/color_table_file.h"
 
 namespace glovebench {
 namespace {
@@ -97,6 +98,32 @@ LabelImage labels_of(const ImageType& image, const ColorTable& table) {
                                           : labels_of<ColorSpace::rgb>(image, table.labels().data());
 }
 
+constexpr int kFewestVotes = 2;  // of a pixel without a label: one alone may be a speck
+
+using Votes = std::array<int, kColorCount + 1>;
+
+/// Of the neighborhood of (u, v), on its surface; index 0 counts all.
+Votes votes_at(const LabelImage& labels, const DepthImage& depth, int u, int v, double depth_step) {
+  Votes votes{};
+  for (int j = v - 1; j <= v + 1; ++j) {
+    for (int i = u - 1; i <= u + 1; ++i) {
+      if (!labels.contains(i, j) || labels(i, j) == 0) continue;
+      if (std::abs(static_cast<double>(depth(i, j)) - depth(u, v)) >= depth_step) continue;
+      ++votes[labels(i, j)];
+      ++votes[0];
+    }
+  }
+  return votes;
+}
+
+uint8_t winner(const Votes& votes, uint8_t own) {
+  if (own == 0 && votes[0] < kFewestVotes) return 0;
+  uint8_t best = own;
+  for (uint8_t label = 1; label <= kColorCount; ++label)
+    if (votes[label] > (best == 0 ? 0 : votes[best])) best = label;
+  return best;
+}
+
 }  // namespace
 
 ColorTable::ColorTable(std::vector<uint8_t> labels, ColorSpace space) : labels_(std::move(labels)), space_(space) {
@@ -160,6 +187,15 @@ LabelImage majority_filter(const LabelImage& labels) {
       filtered(u, v) = majority(row + u, padded.stride());
     }
   }
+  return filtered;
+}
+
+LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step) {
+  check(labels.width() == depth.width() && labels.height() == depth.height(), "labels and depth are of one camera");
+  LabelImage filtered = labels;
+  for (int v = 0; v < labels.height(); ++v)
+    for (int u = 0; u < labels.width(); ++u)
+      if (depth(u, v) > 0) filtered(u, v) = winner(votes_at(labels, depth, u, v, depth_step), labels(u, v));
   return filtered;
 }
 

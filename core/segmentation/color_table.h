@@ -71,4 +71,15 @@ LabelImage segment(const ColorImage& color, const ColorTable& table);
 /// Replaces each label by the majority of its 3x3 neighborhood (a configuration, not in the paper).
 LabelImage majority_filter(const LabelImage& labels);
 
+/// The table of what a file of ColorTable::save holds; `where` names it in messages. Throws Error naming the field
+/// that is wrong.
+ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
+
+/// Labels where patches meet and where the hand ends: there a pixel mixes two colors, and a color table says
+/// nothing of it, or a third color (not in the paper). Each pixel with a depth takes the label that most of its 3x3
+/// neighborhood has, itself included, of those within `depth_step` (m) of its depth; pixels without a label do not
+/// vote, its own label wins a tie, else the smallest. A pixel that has none takes one only if two vote. Both images
+/// have one size.
+LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step = 0.02);
+
 }  // namespace glovebench

@@ -1,6 +1,6 @@
 #include "core/base/fuzz_target.h"
 #include "core/base/hash.h"
-#include "core/segmentation/color_table_file.h"
+#include "core/segmentation/color_table.h"
 
 namespace glovebench {
 

@@ -10,14 +10,16 @@ namespace {
 
 using render::test_pose;
 
-Sighting seen(const DeviceFrame& frame, Extent extent, const TrackerConfig& config = {}) {
-  return see(
-      frame, synthetic_calibration(), test_color_table(), config, [](std::string_view) {}, extent);
+Sighting seen(const DeviceFrame& frame, const TrackerConfig& config = {}) {
+  return see(frame, synthetic_calibration(), test_color_table(), config);
+}
+Sighting seen_in_reach(const DeviceFrame& frame, const TrackerConfig& config = {}) {
+  return see_in_reach(frame, synthetic_calibration(), test_color_table(), config, [](std::string_view) {});
 }
 
 /// What lies beyond reach changes neither the cloud nor the status.
 void expect_alike(const DeviceFrame& frame, const TrackerConfig& config = {}) {
-  const Sighting all = seen(frame, Extent::everything, config), near = seen(frame, Extent::reach, config);
+  const Sighting all = seen(frame, config), near = seen_in_reach(frame, config);
   EXPECT_EQ(near.status, all.status);
   EXPECT_EQ(near.cloud.labels, all.cloud.labels);
   EXPECT_EQ(near.cloud.labeled_cut_off, all.cloud.labeled_cut_off);
@@ -41,13 +43,13 @@ TEST(Sighting, within_reach_shows_the_same_hand) {
 
 TEST(Sighting, within_reach_leaves_the_far_scene_out) {
   const DeviceFrame frame = shoot(test_pose({0.02, 0.03, 0.7})).frame;
-  const Sighting all = seen(frame, Extent::everything), near = seen(frame, Extent::reach);
+  const Sighting all = seen(frame), near = seen_in_reach(frame);
   const auto measured = [](const Sighting& s) {
     return std::ranges::count_if(s.depth, [](float z) { return z > 0; });
   };
   EXPECT_LT(measured(near), measured(all) / 3);
-  EXPECT_EQ(seen(shoot(test_pose({0.6, 0, 0.6})).frame, Extent::reach).depth,
-            seen(shoot(test_pose({0.6, 0, 0.6})).frame, Extent::everything).depth)
+  EXPECT_EQ(seen_in_reach(shoot(test_pose({0.6, 0, 0.6})).frame).depth,
+            seen(shoot(test_pose({0.6, 0, 0.6})).frame).depth)
       << "without a hand everything counts";
 }
 
@@ -78,9 +80,9 @@ TEST(Sighting, within_reach_heeds_the_filters) {
 TEST(Sighting, with_the_surface_majority_keeps_every_label_and_closes_gaps) {
   const DeviceFrame frame = shoot(test_pose({0.02, 0.03, 0.7})).frame;
   TrackerConfig config;
-  const Sighting plain = seen(frame, Extent::everything, config);
+  const Sighting plain = seen(frame, config);
   config.segmentation.surface_majority = true;
-  const Sighting filtered = seen(frame, Extent::everything, config);
+  const Sighting filtered = seen(frame, config);
   EXPECT_GE(filtered.cloud.points.size(), plain.cloud.points.size());
   EXPECT_NE(filtered.labels, plain.labels);
 }

@@ -2,7 +2,7 @@
 
 // A synthetic Kinect before the gloved hand, and a tracker for it.
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/database/test_database.h"
 #include "core/segmentation/color_calibration.h"

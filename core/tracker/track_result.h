@@ -2,7 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "core/base/enum_names.h"
 #include "core/database/look_up.h"
@@ -58,5 +61,15 @@ struct TrackResult {
   double icp_residual = 0;                  ///< mean point-to-triangle distance at the end, m
   std::optional<AngleCertainty> certainty;  ///< of methods that know it
 };
+
+/// Told the name of each stage when it begins ("register", "segment", ...; "" at the end of the frame), so
+/// that a caller who has a clock can time them. A stage that is done again in a frame is told again.
+using StageObserver = std::function<void(std::string_view stage)>;
+
+/// One estimate as one line of JSON (no line end): frame, timestamp_us, status, angles_deg (22, filtered),
+/// position_mm, quaternion_wxyz, matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; of a
+/// method that knows them also angle_deviations_deg (22) and hidden (names of angles). A lost frame has no posture
+/// and no pose. Numbers to 1e-6 of their unit, so equal estimates are equal bytes.
+std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

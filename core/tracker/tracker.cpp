@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/pose/interpolate.h"
+#include "core/tracker/hand_look_up.h"
 
 namespace glovebench {
 
@@ -41,10 +41,6 @@ void check_inputs(const TrackerConfig& config, const HandModel& model, const Dat
   }
 }
 
-bool is_poor_match(std::span<const Match> matches, const LookupConfig& config) {
-  return matches.front().error > config.max_matching_error * config.cascade.back().size;
-}
-
 Tracker::Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
                  std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table)
     : config_(std::move(config)),
@@ -56,38 +52,39 @@ Tracker::Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_
   check_inputs(config_, *model_, *database_, *table_);
 }
 
-TrackResult Tracker::track(const DeviceFrame& frame, const StageObserver& observe, FrameTrace* trace) {
+TrackResult Tracker::track(const DeviceFrame& frame, const StageObserver& observe) {
   const StageObserver silent = [](std::string_view) {};
-  TrackResult result = estimate(frame, observe ? observe : silent, trace);
+  TrackResult result = estimate(frame, observe ? observe : silent);
   if (observe) observe("smooth");
   result = smoother_.smooth(std::move(result));
   if (observe) observe("");
   return result;
 }
 
-TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& observe, FrameTrace* trace) const {
+FrameTrace Tracker::inspect(const DeviceFrame& frame) const {
+  FrameTrace trace{see(frame, calibration_, *table_, config_), {}};
+  if (trace.status == TrackStatus::tracked) {
+    const LabelImage& labels = trace.cloud.labels;
+    trace.tiny = make_tiny_image(labels, bounding_square(labels), config_.lookup.cascade.back().size);
+  }
+  return trace;
+}
+
+TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& observe) const {
   TrackResult result;
   result.timestamp_us = frame.depth_timestamp_us;
 
-  const Sighting seen =
-      see(frame, calibration_, *table_, config_, observe, trace == nullptr ? Extent::reach : Extent::everything);
+  const Sighting seen = see_in_reach(frame, calibration_, *table_, config_, observe);
   const LabeledCloud& cloud = seen.cloud;
   result.cloud_points = static_cast<int>(cloud.points.size());
   result.status = seen.status;
-  if (trace != nullptr) *trace = {seen, {}};
   if (result.status != TrackStatus::tracked) return result;
 
-  observe("tiny_images");
-  const Square square = bounding_square(cloud.labels);
-  const TinyImages query = make_tiny_images(cloud.labels, square, config_.lookup.cascade);
-  if (trace != nullptr) trace->tiny = query.images.back();
-
-  observe("look_up");
-  result.matches = look_up(*database_, query, config_.lookup.cascade, config_.lookup.implementation);
-  if (result.matches.empty()) return result.status = TrackStatus::no_hand, result;
-  if (is_poor_match(result.matches, config_.lookup)) return result.status = TrackStatus::poor_match, result;
-  const CoarseEstimate coarse = interpolate(*database_, result.matches, square_ray(square, calibration_.ir),
-                                            config_.lookup.interpolation_epsilon);
+  HandLookUp found = look_up_hand(cloud.labels, calibration_.ir, *database_, config_.lookup, observe);
+  result.matches = std::move(found.matches);
+  result.status = found.status;
+  if (result.status != TrackStatus::tracked) return result;
+  const CoarseEstimate& coarse = found.coarse;
   result.ambiguous = coarse.ambiguous;
   result.posture_unfiltered = coarse.posture;
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "core/database/database.h"
 #include "core/hand/hand_model.h"
@@ -10,18 +9,15 @@
 
 namespace glovebench {
 
-/// What each stage of one frame made.
+/// What the stages make of one frame, for pictures.
 struct FrameTrace : Sighting {
-  LabelImage tiny;  ///< of the last cascade stage
+  LabelImage tiny;  ///< of the last cascade stage; empty where there is no hand to look up
 };
 
 /// Throws Error if the configuration is impossible, or if model, database, color table and configuration do not
 /// belong together: another side, tiny images that the cascade asks for missing, another color space.
 void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
                   const ColorTable& table);
-/// Is the best match farther away than `max_matching_error`? `matches` is not empty.
-bool is_poor_match(std::span<const Match> matches, const LookupConfig& config);
-
 /// `tracked` unless the alignment had no answer.
 TrackStatus status_of(AlignmentStatus status);
 
@@ -33,13 +29,15 @@ class Tracker {
   Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
           std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table);
 
-  /// The answer for one frame. `trace`, if given, receives what each stage made (for pictures).
-  TrackResult track(const DeviceFrame& frame, const StageObserver& observe = {}, FrameTrace* trace = nullptr);
+  /// The answer for one frame. `observe`, if given, is told the name of each stage when it begins.
+  TrackResult track(const DeviceFrame& frame, const StageObserver& observe = {});
+  /// What the stages make of the whole images, also of what lies beyond the working volume. Changes nothing.
+  FrameTrace inspect(const DeviceFrame& frame) const;
 
   const TrackerConfig& config() const { return config_; }
 
  private:
-  TrackResult estimate(const DeviceFrame& frame, const StageObserver& observe, FrameTrace* trace) const;
+  TrackResult estimate(const DeviceFrame& frame, const StageObserver& observe) const;
 
   TrackerConfig config_;
   RgbdCalibration calibration_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/name.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
 #include "eval/experiment.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/robot/arm_follower.h"
+#include "core/robot/arm.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/commands/options.h"
 #include "eval/robot_commands.h"

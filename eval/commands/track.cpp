@@ -11,7 +11,7 @@
 #include "core/base/whole_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_guard.h"
-#include "core/tracker/estimate_line.h"
+#include "core/tracker/track_result.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"

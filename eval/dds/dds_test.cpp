@@ -8,7 +8,7 @@
 #include "ci/build_paths.h"
 #include "core/adapters/dds/dds_sink.h"
 #include "core/adapters/dds/server/command_messages.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/robot/test_commands.h"
 #include "eval/command_test.h"
 #include "eval/dds/test_programs.h"

@@ -21,9 +21,9 @@
 #include "core/adapters/dds/dds_entity.h"
 #include "core/adapters/dds/server/command_messages.h"
 #include "core/adapters/system_time.h"
-#include "core/base/angles.h"
 #include "core/base/input_file.h"
-#include "core/robot/arm_follower.h"
+#include "core/base/math.h"
+#include "core/robot/arm.h"
 #include "core/robot/command_guard.h"
 #include "eval/dds/test_programs.h"
 

@@ -10,7 +10,6 @@
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "core/base/read_limits.h"
 #include "core/base/whole_file.h"
 #include "eval/program_info.h"
 #include "eval/run_store.h"

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "core/base/file_set.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
-#include "core/base/read_limits.h"
 #include "core/camera/registration.h"
 #include "core/kinect/disparity.h"
 #include "eval/run.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "eval/studies/light_curves.h"
 #include "eval/studies/posture_choices.h"
 #include "trajectories/catalog.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/tracker/sighting.h"
 #include "eval/terminal.h"
 #include "eval/true_neighbor.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/database/look_up.h"
 #include "eval/share.h"
 #include "eval/studies/sample.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"

@@ -1,6 +1,6 @@
 #include "eval/studies/sample.h"
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench::eval {
 namespace {

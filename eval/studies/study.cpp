@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "eval/sequence_metrics.h"
 #include "eval/share.h"

@@ -8,8 +8,8 @@
 
 #include <atomic>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/tracker/sighting.h"
 #include "eval/terminal.h"
 #include "render/synthetic_kinect.h"

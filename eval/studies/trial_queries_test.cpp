@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/database/test_database.h"
 #include "eval/test_program.h"
 

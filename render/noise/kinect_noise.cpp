@@ -1,4 +1,4 @@
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "render/noise/depth_gradient.h"
 #include "render/noise/noise_model.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "render/subjects/capsule_glove.h"
 #include "render/subjects/capsule_skeleton.h"

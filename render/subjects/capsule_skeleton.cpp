@@ -1,6 +1,6 @@
 #include "render/subjects/capsule_skeleton.h"
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 
 namespace glovebench::render {

@@ -4,7 +4,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 
 namespace glovebench::render {
 namespace {

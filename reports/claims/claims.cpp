@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "reports/embedded.h"
 
 namespace glovebench::reports {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reports/comparison/comparison.h"
-#include "reports/comparison/gate.h"
+#include "reports/comparison/gate_rule.h"
 #include "reports/comparison/stage_times.h"
 #include "reports/page/page_frame.h"
 
@@ -29,7 +29,7 @@ std::string comparison_json(const ComparisonReport& report);  ///< reports/schem
 std::string comparison_csv(const ComparisonReport& report);
 std::string comparison_latex(const ComparisonReport& report);  ///< a tabular (booktabs), to \input
 /// JUnit XML: a test suite for each experiment, a case for each metric, one for each speed ratio. A case fails if
-/// it stops the change (gate.h), and is skipped where there is not enough data.
+/// it stops the change (gate_rule.h), and is skipped where there is not enough data.
 std::string comparison_junit(const ComparisonReport& report);
 /// The same for results that could not be compared: one case with an error.
 std::string incomparable_junit(const std::string& message);

@@ -1,10 +1,10 @@
 #include "reports/comparison/comparison_rows.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
+#include "reports/comparison/gate_rule.h"
 
 namespace glovebench::reports {
 namespace {
@@ -101,36 +101,6 @@ void check_config(const CompareConfig& config) {
 }
 
 }  // namespace
-
-bool reaches(double difference, double minimum_effect) {
-  return difference >= minimum_effect - kNegligible;
-}
-
-Verdict verdict_of(const ComparisonRow& row) {
-  if (!row.difference || !row.low || !row.high) return Verdict::not_enough_data;
-  if (*row.low > kNegligible && reaches(*row.difference, row.minimum_effect)) return Verdict::worse;
-  if (*row.high < -kNegligible && reaches(-*row.difference, row.minimum_effect)) return Verdict::better;
-  const double farthest = std::max(-*row.low, *row.high);
-  return farthest < row.minimum_effect - kNegligible ? Verdict::same : Verdict::not_enough_data;
-}
-
-double least_effect(const Metric& metric, int frames) {
-  constexpr double kFewestFrames = 2, kPercent = 100;
-  if (!metric.is_share() || frames == 0) return metric.gate->tolerance;
-  return std::max(metric.gate->tolerance, kPercent * kFewestFrames / frames);
-}
-
-double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
-                      const NoiseFloor* floor) {
-  const NoiseFloorEntry* entry = floor ? floor->find(experiment, metric.key) : nullptr;
-  double effect = metric.gate->minimum_effect;
-  if (entry) {
-    // A mean over fewer seeds than the floor was measured for is noisier.
-    const double fewer = static_cast<double>(floor->seeds_per_result) / std::max(1, seeds);
-    effect = entry->minimum_effect * std::sqrt(std::max(1.0, fewer));
-  }
-  return std::max(effect, least_effect(metric, frames));
-}
 
 int row_count(size_t metrics, size_t experiments) {
   return static_cast<int>(metrics * (experiments + 1));

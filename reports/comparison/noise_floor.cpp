@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "reports/comparison/comparison_rows.h"
-#include "reports/comparison/gate.h"
+#include "reports/comparison/gate_rule.h"
 
 namespace glovebench::reports {
 namespace {
@@ -119,13 +118,6 @@ std::pair<RunResult, RunResult> draw_results(const RunResult& result, int seeds,
   return drawn;
 }
 
-/// What must be added to every frame of the candidate for the row to stop the change (gate.h).
-double needed_change(const ComparisonRow& row) {
-  double enough = sure_effect(row);
-  if (row.high) enough = std::min(enough, std::max(row.minimum_effect, *row.high - *row.difference));
-  return enough - *row.difference;
-}
-
 /// The entries that a comparison has a difference for, with the change that it detects.
 std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const NoiseFloor& floor) {
   const CompareConfig config = {.family_error = floor.family_error, .resamples = kResamples};
@@ -138,7 +130,7 @@ std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const Nois
     for (size_t e = 0; e < baseline.experiments.size(); ++e)
       pairing.experiments.emplace_back(&baseline.experiments[e], &candidate.experiments[e]);
     for (const ComparisonRow& row : comparison_rows(pairing, &floor, config, draws))
-      if (row.difference) needed[{row.experiment, std::string(row.metric->key)}].push_back(needed_change(row));
+      if (row.difference) needed[{row.experiment, std::string(row.metric->key)}].push_back(missing_to_stop(row));
   }
   std::vector<NoiseFloorEntry> entries;
   for (NoiseFloorEntry entry : floor.entries) {

@@ -4,7 +4,6 @@
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "core/base/read_limits.h"
 #include "reports/comparison/noise_floor.h"
 #include "reports/json_text.h"
 

@@ -7,7 +7,7 @@
 #include "core/test_folder.h"
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/example_runs.h"
-#include "reports/comparison/gate.h"
+#include "reports/comparison/gate_rule.h"
 
 namespace glovebench::reports {
 namespace {

@@ -4,7 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "core/base/random.h"
 
 namespace glovebench::reports {

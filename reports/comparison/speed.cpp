@@ -9,7 +9,6 @@
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "core/base/read_limits.h"
 #include "reports/comparison/pairing.h"
 #include "reports/json_text.h"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/math.h"
 
 namespace glovebench::reports {
 namespace {

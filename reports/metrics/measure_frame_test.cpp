@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/hand/skeleton.h"
 #include "reports/metrics/example_frame.h"
 

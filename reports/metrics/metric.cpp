@@ -4,7 +4,7 @@
 #include <iterator>
 #include <tuple>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "reports/results.h"
 
 namespace glovebench::reports {

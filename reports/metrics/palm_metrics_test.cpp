@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "reports/metrics/measure_frame.h"
 
 namespace glovebench::reports {

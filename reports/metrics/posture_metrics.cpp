@@ -1,4 +1,4 @@
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "reports/metrics/measure_frame.h"
 
 namespace glovebench::reports {

@@ -1,6 +1,6 @@
 #include "trajectories/capture/bridge_gaps.h"
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "trajectories/generation/natural_variation.h"
 
 namespace glovebench::trajectories {

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "trajectories/capture/bridge_gaps.h"
 #include "trajectories/capture/calibrate_hand.h"
 #include "trajectories/capture/marker_labels.h"

@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "trajectories/capture/marker_sequence.h"
 #include "trajectories/generation/natural_variation.h"
 

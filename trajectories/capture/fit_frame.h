@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "trajectories/capture/capture_hand.h"
 
 namespace glovebench::trajectories {

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 #include "trajectories/capture/calibrate_hand.h"
 #include "trajectories/capture/marker_labels.h"
 #include "trajectories/capture/start_states.h"

@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 #include "trajectories/capture/test_capture.h"
 #include "trajectories/formats/format.h"
 

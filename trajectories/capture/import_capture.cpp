@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
+#include "core/base/text.h"
 #include "core/pose/horn.h"
 #include "trajectories/generation/low_dispersion.h"
 #include "trajectories/generation/motion_script.h"

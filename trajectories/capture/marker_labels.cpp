@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/base/check.h"
+#include "core/base/error.h"
 #include "trajectories/capture/marker_sequence.h"
 
 namespace glovebench::trajectories {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/text.h"
 
 namespace glovebench::trajectories {
 namespace {

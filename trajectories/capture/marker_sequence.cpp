@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
-#include "core/base/name.h"
+#include "core/base/text.h"
 #include "trajectories/text_cells.h"
 #include "trajectories/trajectory.h"
 

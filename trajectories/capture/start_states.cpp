@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/base/quantile.h"
+#include "core/base/math.h"
 #include "core/pose/horn.h"
 #include "trajectories/capture/fit_frame.h"
 #include "trajectories/capture/marker_sequence.h"

@@ -5,9 +5,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/math.h"
+#include "core/base/text.h"
 #include "trajectories/capture/marker_places.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"

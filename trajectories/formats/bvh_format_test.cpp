@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "trajectories/capture/fit_hand.h"
 #include "trajectories/formats/format.h"
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
+#include "core/base/text.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"
 

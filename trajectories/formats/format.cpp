@@ -6,9 +6,8 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/input_file.h"
-#include "core/base/read_limits.h"
+#include "core/base/text.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <set>
 
-#include "core/base/angles.h"
-#include "core/base/check.h"
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/json_cursor.h"
+#include "core/base/math.h"
 #include "core/base/parse_json.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"

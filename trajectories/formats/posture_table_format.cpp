@@ -2,10 +2,9 @@
 
 #include <set>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
-#include "core/base/name.h"
+#include "core/base/math.h"
+#include "core/base/text.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 #include "trajectories/text_cells.h"

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/hash.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 #include "trajectories/posture_file.h"
 #include "trajectories/text_cells.h"

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/base/excerpt.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/text.h"
 #include "trajectories/capture/marker_places.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/trajectory.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "ci/build_paths.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 #include "trajectories/catalog.h"
 #include "trajectories/generation/database_postures.h"

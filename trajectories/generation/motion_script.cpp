@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/base/angles.h"
 #include "core/base/json_cursor.h"
+#include "core/base/math.h"
 #include "core/base/parse_json.h"
 #include "trajectories/generation/natural_variation.h"
 #include "trajectories/posture_file.h"

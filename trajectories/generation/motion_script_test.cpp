@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "trajectories/generation/natural_variation.h"
 
 namespace glovebench::trajectories {

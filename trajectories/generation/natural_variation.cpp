@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench::trajectories {
 namespace {

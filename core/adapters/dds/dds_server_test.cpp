@@ -14,11 +14,11 @@
 #include "core/adapters/dds/test_bus.h"
 #include "core/adapters/dds/test_peers.h"
 #include "core/adapters/system_time.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/math.h"
 #include "core/base/whole_file.h"
-#include "core/robot/arm_follower.h"
+#include "core/robot/arm.h"
 #include "core/robot/test_commands.h"
 #include "core/test_folder.h"
 

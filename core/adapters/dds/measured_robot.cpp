@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/adapters/system_time.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/robot/guarded_motion.h"
 #include "core/robot/shadow_kinematics.h"
 

@@ -25,7 +25,6 @@
 #include "core/kinect/frame_pairer.h"
 #include "core/kinect/latest_queue.h"
 #include "core/kinect/recording_index.h"
-#include "core/kinect/tick_clock.h"
 
 namespace glovebench {
 namespace {

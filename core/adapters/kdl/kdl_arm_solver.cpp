@@ -7,7 +7,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

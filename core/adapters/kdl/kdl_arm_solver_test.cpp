@@ -5,9 +5,9 @@
 #include <chrono>
 #include <limits>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
-#include "core/robot/arm_follower.h"
+#include "core/robot/arm.h"
 #include "core/robot/robot_command.h"
 
 namespace glovebench {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/robot/arm_follower.h"
+#include "core/robot/arm.h"
 
 namespace glovebench {
 

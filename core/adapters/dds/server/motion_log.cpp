@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

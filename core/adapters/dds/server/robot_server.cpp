@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/robot/guarded_motion.h"
-#include "core/robot/guarded_place.h"
 
 namespace glovebench {
 namespace {

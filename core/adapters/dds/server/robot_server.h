@@ -8,7 +8,7 @@
 #include "core/adapters/dds/server/command_messages.h"
 #include "core/adapters/dds/server/command_stream.h"
 #include "core/adapters/dds/server/stated_interval.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/robot/command_guard.h"
 
 namespace glovebench {

@@ -8,8 +8,8 @@
 
 #include "core/adapters/dds/server/test_messages.h"
 #include "core/adapters/dds/server/test_served_arm.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 
 namespace glovebench {

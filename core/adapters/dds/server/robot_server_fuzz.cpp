@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/adapters/dds/server/robot_server.h"
-#include "core/base/angles.h"
 #include "core/base/fuzz_target.h"
+#include "core/base/math.h"
 #include "core/robot/test_arm_solver.h"
 #include "core/robot/test_fingertips.h"
 

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/adapters/dds/server/robot_server.h"
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

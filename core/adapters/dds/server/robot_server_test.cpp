@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/adapters/dds/server/test_messages.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/robot/test_fingertips.h"
 
 namespace glovebench {

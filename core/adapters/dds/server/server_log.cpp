@@ -8,8 +8,8 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "core/base/angles.h"
 #include "core/base/error.h"
+#include "core/base/math.h"
 #include "core/base/parse_json.h"
 
 namespace glovebench {

@@ -3,7 +3,7 @@
 // Messages for the tests of the server. Not part of the library.
 
 #include "core/adapters/dds/server/command_messages.h"
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 

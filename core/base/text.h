@@ -1,9 +1,23 @@
 #pragma once
 
+// Text that comes from files: as an error of one line shows it, and as a name that may become part of a path.
+
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
 namespace glovebench {
+
+// Excerpts are short and in plain ASCII, whatever the file holds.
+
+/// The beginning of a text, with a question mark for each byte that cannot be shown.
+std::string printable(std::string_view text);
+
+/// The beginning of a text in quotes, escaped as in JSON: what a name was can be told from it.
+std::string quoted_excerpt(std::string_view text);
+
+/// A value; of an array or an object what it is, for what lies in it may be deep.
+std::string excerpt(const nlohmann::json& value);
 
 /// The rule for every name that comes from a file and may become part of a path: 1 to 64 letters, digits, '_', '-',
 /// '.' or spaces, beginning with a letter or digit. Such a name leads out of no folder and is not hidden in it.

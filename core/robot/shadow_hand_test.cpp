@@ -1,11 +1,11 @@
-#include "core/robot/shadow_coupling.h"
+#include "core/robot/shadow_hand.h"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 #include <numbers>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 #include "core/base/random.h"
 
 namespace glovebench {

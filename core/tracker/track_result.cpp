@@ -1,9 +1,9 @@
-#include "core/tracker/estimate_line.h"
+#include "core/tracker/track_result.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/base/angles.h"
+#include "core/base/math.h"
 
 namespace glovebench {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/base/name.h"
+#include "core/base/text.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 namespace glovebench {
 
@@ -15,6 +18,15 @@ constexpr double degrees_from_radians(double radians) {
 inline double angle_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   if (from == to) return 0;
   return Eigen::Quaterniond(from).normalized().angularDistance(Eigen::Quaterniond(to).normalized());
+}
+
+/// The value that a share of the others lies below (0.5: the median); nothing of none.
+inline std::optional<double> quantile_of(std::vector<double> values, double share) {
+  if (values.empty()) return {};
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  const auto at = values.begin() + std::min(place, static_cast<std::ptrdiff_t>(values.size()) - 1);
+  std::ranges::nth_element(values, at);
+  return *at;
 }
 
 }  // namespace glovebench

@@ -1,11 +1,25 @@
-#include "reports/comparison/gate.h"
+#include "reports/comparison/gate_rule.h"
 
 #include <fmt/format.h>
 
-#include "reports/comparison/comparison_rows.h"
+#include <algorithm>
+#include <cmath>
 
 namespace glovebench::reports {
 namespace {
+
+/// Files round to 1e-6 of a unit: nothing smaller decides.
+constexpr double kNegligible = 1e-6;
+/// Minimum effects that stop a change whatever the interval says, unless it is a share.
+constexpr double kSurely = 2;
+
+bool reaches(double difference, double minimum_effect) {
+  return difference >= minimum_effect - kNegligible;
+}
+
+double sure_effect(const ComparisonRow& row) {
+  return (row.metric->is_share() ? 1 : kSurely) * row.minimum_effect;
+}
 
 std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f}", *value) : "-";
@@ -36,13 +50,41 @@ std::string failure_line(const SpeedRow& row) {
 
 }  // namespace
 
-double sure_effect(const ComparisonRow& row) {
-  return (row.metric->is_share() ? 1 : kSurely) * row.minimum_effect;
+double least_effect(const Metric& metric, int frames) {
+  constexpr double kFewestFrames = 2, kPercent = 100;
+  if (!metric.is_share() || frames == 0) return metric.gate->tolerance;
+  return std::max(metric.gate->tolerance, kPercent * kFewestFrames / frames);
+}
+
+double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
+                      const NoiseFloor* floor) {
+  const NoiseFloorEntry* entry = floor ? floor->find(experiment, metric.key) : nullptr;
+  double effect = metric.gate->minimum_effect;
+  if (entry) {
+    // A mean over fewer seeds than the floor was measured for is noisier.
+    const double fewer = static_cast<double>(floor->seeds_per_result) / std::max(1, seeds);
+    effect = entry->minimum_effect * std::sqrt(std::max(1.0, fewer));
+  }
+  return std::max(effect, least_effect(metric, frames));
+}
+
+Verdict verdict_of(const ComparisonRow& row) {
+  if (!row.difference || !row.low || !row.high) return Verdict::not_enough_data;
+  if (*row.low > kNegligible && reaches(*row.difference, row.minimum_effect)) return Verdict::worse;
+  if (*row.high < -kNegligible && reaches(-*row.difference, row.minimum_effect)) return Verdict::better;
+  const double farthest = std::max(-*row.low, *row.high);
+  return farthest < row.minimum_effect - kNegligible ? Verdict::same : Verdict::not_enough_data;
 }
 
 bool stops(const ComparisonRow& row) {
   if (row.verdict == Verdict::worse) return true;
   return row.difference && reaches(*row.difference, sure_effect(row));
+}
+
+double missing_to_stop(const ComparisonRow& row) {
+  double enough = sure_effect(row);
+  if (row.high) enough = std::min(enough, std::max(row.minimum_effect, *row.high - *row.difference));
+  return enough - *row.difference;
 }
 
 GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& speed) {

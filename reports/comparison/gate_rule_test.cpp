@@ -1,4 +1,4 @@
-#include "reports/comparison/gate.h"
+#include "reports/comparison/gate_rule.h"
 
 #include <gmock/gmock.h>
 

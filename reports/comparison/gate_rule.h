@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reports/comparison/comparison.h"
+#include "reports/comparison/speed.h"
+
+// The rule that stops a change: a change fails if a row of its comparison is significantly worse by at least the
+// row's minimum effect, if a row rose by its sure effect whatever its interval says, or if a stage became slower.
+//
+// A difference reaches its minimum effect when it is as large as other noise seeds make it once in a hundred
+// comparisons (noise floor), or as a default says, and never smaller than what another machine does or than two
+// frames of a share. The sure effect is two minimum effects, and of a share of frames one. What went wrong in one
+// stretch of a movement is nothing that an interval over its few blocks can tell from chance; on the same frames it
+// is a fact, and the minimum effect already holds what other seeds do.
+
+namespace glovebench::reports {
+
+/// Below this a difference can come from another machine, or is fewer than two frames of a share. `frames` of all
+/// seeds.
+double least_effect(const Metric& metric, int frames);
+/// The noise floor's, or the default; never below least_effect. `seeds` of each result: fewer than the floor is for
+/// raise it, as the spread of their mean is larger. `floor` may be null.
+double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
+                      const NoiseFloor* floor);
+
+/// Of the row's difference, interval and minimum effect.
+Verdict verdict_of(const ComparisonRow& row);
+/// Does this row stop a change? If it is worse, or rose by its sure effect.
+bool stops(const ComparisonRow& row);
+/// How much must be added to every frame of the candidate for the row to stop the change. The row has a difference.
+double missing_to_stop(const ComparisonRow& row);
+
+/// What lets a change pass or stops it.
+struct GateDecision {
+  std::vector<std::string> failures;  ///< a line each: experiment, metric, numbers
+  std::vector<std::string> warnings;  ///< what could be a regression, but the data do not say so
+  bool passed() const { return failures.empty(); }
+};
+GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& speed);
+
+}  // namespace glovebench::reports
