@@ -31,7 +31,7 @@ TEST(TrackerIsolationLong, EqualsTheRun) {
   const RunSpec spec = make_spec();
   std::string expected;
   int tracked = 0;
-  const std::vector<Run> runs = execute(workbench, {&spec, 1}, {});
+  const std::vector<eval::Run> runs = execute(workbench, {&spec, 1}, {});
   for (const TrackResult& result : runs.front().answers) {
     expected += estimate_line(tracked, result) + "\n";
     tracked += result.status == TrackStatus::tracked;

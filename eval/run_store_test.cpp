@@ -60,10 +60,10 @@ void expect_same_bits(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }
 
 TEST(RunBytes, ComeBackToTheLastBit) {
-  const Run stored = example_run();
+  const eval::Run stored = example_run();
   RunSpec spec;
   spec.database = "DB_a";
-  const std::optional<Run> read = run_from_bytes(to_bytes(stored), spec);
+  const std::optional<eval::Run> read = run_from_bytes(to_bytes(stored), spec);
   ASSERT_TRUE(read.has_value());
   EXPECT_EQ(read->spec.database, "DB_a");
   EXPECT_EQ(read->stages[0].frame_ms, stored.stages[0].frame_ms);

@@ -57,10 +57,10 @@ TEST(RunLong, of_a_group_equals_the_run_alone) {
   specs[1].database = "DB_open_pinch";
   specs[2].seed = 2;
   specs[3].tracker.icp.subsampling_factor = 8;
-  const std::vector<Run> together = execute(workbench, specs, {});
+  const std::vector<eval::Run> together = execute(workbench, specs, {});
   ASSERT_EQ(together.size(), specs.size());
   for (size_t s = 0; s < specs.size(); ++s) {
-    const Run alone = execute(workbench, {&specs[s], 1}, {}).front();
+    const eval::Run alone = execute(workbench, {&specs[s], 1}, {}).front();
     ASSERT_EQ(together[s].answers.size(), 3U);
     for (size_t f = 0; f < 3; ++f) {
       const TrackResult& answer = together[s].answers[f];
