@@ -25,7 +25,7 @@ struct PosedHand {
 /// The rigged, gloved hand: kinematics, linear blend skinning, and a closed mesh cut along the patch borders.
 class HandModel {
  public:
-  /// Loads the mesh (generic-hand/right.glb of npm @webxr-input-profiles/assets 1.0.20). Throws Error if the
+  /// Loads the mesh (generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20). Throws Error if the
   /// file is missing or is not that file (checksum).
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 

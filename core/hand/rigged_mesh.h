@@ -24,7 +24,7 @@ struct RiggedMesh {
   std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< bind pose, by joint index (skeleton.h)
 };
 
-/// Loads generic-hand/right.glb of npm @webxr-input-profiles/assets 1.0.20, welded by position. The frame is the
+/// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20, welded by position. The frame is the
 /// file's. Throws Error if the file is missing, altered (checksum), or cannot be parsed.
 RiggedMesh load_rigged_mesh(const std::string& path);
 
