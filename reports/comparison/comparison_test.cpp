@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "reports/comparison/comparison_rows.h"
 #include "reports/comparison/example_runs.h"
 #include "reports/comparison/gate_rule.h"
 
