@@ -36,7 +36,7 @@ ColorTable calibrate(const BenchData& data, const std::vector<Movement>& movemen
   ColorCalibration colors;
   int64_t number = 0;
   for (const Movement& movement : movements) {
-    for (const render::HandFrame& frame : movement.frames) {
+    for (const HandFrame& frame : movement.frames) {
       const PosedHand hand = data.model->pose(frame.posture);
       const ColorImage color = renderer.render(hand, frame.T_camera_hand, {}).color;
       colors.add_view(render::add_color_noise(color, render::kColorSigma_gray, {1, "color calibration", number++}),
@@ -60,7 +60,7 @@ std::vector<BenchFrame> track_frames(const BenchData& data, const Movement& move
   render::SyntheticKinect kinect(data.calibration, data.model, movement.frames, config);
   Tracker tracker(data.config, data.calibration, data.model, data.database, data.table);
   std::vector<BenchFrame> frames;
-  for (const render::HandFrame& hand : movement.frames) {
+  for (const HandFrame& hand : movement.frames) {
     BenchFrame frame;
     frame.hand = hand;
     frame.device = *kinect.next_frame();

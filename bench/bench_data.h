@@ -30,7 +30,7 @@ struct Settings {
 
 /// One frame of a movement and what each stage of the tracker made of it.
 struct BenchFrame {
-  render::HandFrame hand;     ///< the truth
+  HandFrame hand;             ///< the truth
   render::RgbdImages images;  ///< without noise
   DeviceFrame device;
   FrameTrace trace;

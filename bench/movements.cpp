@@ -19,10 +19,7 @@ constexpr int kKeyStep = 12, kFrameCount = 11 * kKeyStep + 1;
 
 Movement movement_of(const trajectories::Trajectory& trajectory) {
   Movement movement{trajectory.name, {}};
-  for (size_t f = 0; f < trajectory.frames.size(); f += kFrameStep) {
-    const trajectories::TrajectoryFrame& frame = trajectory.frames[f];
-    movement.frames.push_back({frame.timestamp_us, frame.posture, frame.T_camera_hand});
-  }
+  for (size_t f = 0; f < trajectory.frames.size(); f += kFrameStep) movement.frames.push_back(trajectory.frames[f]);
   return movement;
 }
 

@@ -9,7 +9,7 @@ namespace glovebench::bench {
 
 struct Movement {
   std::string name;
-  std::vector<render::HandFrame> frames;  ///< some of its frames
+  std::vector<HandFrame> frames;  ///< some of its frames
 };
 
 /// Every 19th frame of the five source trajectories: 37 frames of open hand, grasp and between. The width of the

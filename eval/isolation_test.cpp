@@ -5,7 +5,7 @@
 #include "ci/build_paths.h"
 #include "core/kinect/recording.h"
 #include "core/tracker/estimate_line.h"
-#include "eval/replay.h"
+#include "eval/run.h"
 #include "eval/share.h"
 #include "eval/test_program.h"
 #include "trajectories/catalog.h"
@@ -15,24 +15,24 @@ namespace {
 
 constexpr int kRecordedFrames = 20;
 
-/// The first frames of Tr4, as the command replays them.
-Replay make_replay() {
+/// The first frames of Tr4, as the command runs them.
+RunSpec make_spec() {
   trajectories::Trajectory truth = trajectories::source_trajectory(trajectory_folder(), "Tr4");
   truth.frames.resize(kRecordedFrames);
-  Replay replay;
-  replay.truth = std::make_shared<const trajectories::Trajectory>(std::move(truth));
-  replay.databases = {"DB_open_power"};
-  return replay;
+  RunSpec spec;
+  spec.trajectory = std::make_shared<const trajectories::Trajectory>(std::move(truth));
+  spec.database = "DB_open_power";
+  return spec;
 }
 
-TEST(TrackerIsolationLong, EqualsTheReplay) {
+TEST(TrackerIsolationLong, EqualsTheRun) {
   const std::string folder = test_folder();
   Workbench workbench(test_workbench());
-  const Replay pass = make_replay();
+  const RunSpec spec = make_spec();
   std::string expected;
   int tracked = 0;
-  const std::vector<TrackedReplay> replayed = replay(workbench, pass);
-  for (const TrackResult& result : replayed.front().results) {
+  const std::vector<eval::Run> runs = execute(workbench, {&spec, 1}, {});
+  for (const TrackResult& result : runs.front().answers) {
     expected += estimate_line(tracked, result) + "\n";
     tracked += result.status == TrackStatus::tracked;
   }
@@ -41,7 +41,7 @@ TEST(TrackerIsolationLong, EqualsTheReplay) {
   workbench.database("DB_open_power")->save(folder + "/open_power.glovedb");
   workbench.color_table()->save(folder + "/colors.table");
   RecordingWriter recording(folder + "/recording", workbench.calibration());
-  render::SyntheticKinect kinect = make_kinect(workbench, pass);
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);
   while (const std::optional<DeviceFrame> frame = kinect.next_frame()) recording.write(*frame);
   recording.finish();
 

@@ -10,7 +10,6 @@ namespace {
 
 using reports::Estimate;
 using reports::FrameSheet;
-using trajectories::TrajectoryFrame;
 
 constexpr int kColumns = 16;
 // Multiples of 16: a JPEG shares its colors in blocks of 16 x 16 px, which no two tiles then have in common.
@@ -19,9 +18,9 @@ constexpr int kKeyframeQuality = 80;
 
 /// Where the hand is in the image, and its margin.
 Eigen::AlignedBox2d box_of_hand(const PinholeCamera& camera, const HandModel& hand,
-                                std::span<const TrajectoryFrame> frames) {
+                                std::span<const HandFrame> frames) {
   Eigen::AlignedBox2d box;
-  for (const TrajectoryFrame& frame : frames) {
+  for (const HandFrame& frame : frames) {
     for (const Eigen::Vector3f& p_hand : hand.pose(frame.posture).vertices)
       box.extend(camera.project(frame.T_camera_hand * p_hand.cast<double>()));
   }
@@ -44,10 +43,10 @@ class TilePainter {
   TilePainter(std::shared_ptr<const HandModel> hand, const PinholeCamera& camera)
       : hand_(std::move(hand)), camera_(camera), color_({camera, camera}, hand_, {}) {}
 
-  ColorImage truth(const TrajectoryFrame& frame) {
+  ColorImage truth(const HandFrame& frame) {
     return color_.render(hand_->pose(frame.posture), frame.T_camera_hand, {}).color;
   }
-  ColorImage difference(const TrajectoryFrame& frame, const Estimate& estimate) {
+  ColorImage difference(const HandFrame& frame, const Estimate& estimate) {
     const DepthImage truth = depth(frame.posture, frame.T_camera_hand);
     const DepthImage estimated = estimate.status == TrackStatus::tracked
                                      ? depth(estimate.posture, estimate.T_camera_hand)
@@ -68,7 +67,7 @@ class TilePainter {
 
 }  // namespace
 
-PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const TrajectoryFrame> frames,
+PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,
                             int tile_width, int tile_height) {
   check(!frames.empty(), "a window is around the hand of some frame");
   const Eigen::AlignedBox2d box = box_of_hand(ir, hand, frames);
@@ -82,8 +81,8 @@ PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std:
           (ir.cy - box.center().y()) * scale + (tile_height - 1) / 2.0};
 }
 
-FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
-                            std::span<const TrajectoryFrame> frames, std::span<const Estimate> estimates) {
+FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure, std::span<const HandFrame> frames,
+                            std::span<const Estimate> estimates) {
   check(frames.size() == estimates.size(), "a sheet has an estimate for each frame");
   // The recorded truth of the figures is of the first subject, whose hand is the tracker's.
   const std::shared_ptr<const HandModel> hand = workbench.model();

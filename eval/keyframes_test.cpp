@@ -10,26 +10,25 @@ namespace glovebench::eval {
 namespace {
 
 using reports::Estimate;
-using trajectories::TrajectoryFrame;
 
-std::vector<TrajectoryFrame> make_frames() {
+std::vector<HandFrame> make_frames() {
   return trajectories::parse_trajectory(make_trajectory_json("three", 3).dump(), "test").frames;
 }
 
-Estimate estimate_of(const TrajectoryFrame& frame, int number) {
+Estimate estimate_of(const HandFrame& frame, int number) {
   return {1, number, frame.timestamp_us, TrackStatus::tracked, frame.posture, frame.T_camera_hand};
 }
 
 TEST(Keyframes, WindowHoldsTheHandOfEveryFrameAndSeesWhatTheCameraSees) {
   Workbench workbench(test_workbench(1));
-  const std::vector<TrajectoryFrame> frames = make_frames();
+  const std::vector<HandFrame> frames = make_frames();
   const PinholeCamera ir = workbench.calibration().ir;
   const PinholeCamera tile = camera_around(ir, *workbench.model(), frames, 160, 128);
   EXPECT_EQ(tile.width, 160);
   EXPECT_EQ(tile.height, 128);
   EXPECT_DOUBLE_EQ(tile.fx / tile.fy, ir.fx / ir.fy) << "pixels keep their shape";
   Eigen::AlignedBox2d seen;
-  for (const TrajectoryFrame& frame : frames)
+  for (const HandFrame& frame : frames)
     for (const Eigen::Vector3f& p_hand : workbench.model()->pose(frame.posture).vertices)
       seen.extend(tile.project(frame.T_camera_hand * p_hand.cast<double>()));
   EXPECT_GT(seen.min().minCoeff(), -0.5);
@@ -49,7 +48,7 @@ cv::Vec3b pixel_at(const cv::Mat& sheet, const reports::FrameSheet& description,
 
 TEST(Keyframes, DifferenceIsWhiteForTheTruthOrangeBehindItAndGrayWhereLost) {
   Workbench workbench(test_workbench(1));
-  const std::vector<TrajectoryFrame> frames = make_frames();
+  const std::vector<HandFrame> frames = make_frames();
   std::vector<Estimate> estimates;
   for (int i = 0; i < 3; ++i) estimates.push_back(estimate_of(frames[i], i + 5));
   estimates[1].T_camera_hand.translation().z() += 0.03;

@@ -12,8 +12,8 @@
 namespace glovebench::eval {
 namespace {
 
-std::vector<trajectories::TrajectoryFrame> sample_frames() {
-  std::vector<trajectories::TrajectoryFrame> frames;
+std::vector<HandFrame> sample_frames() {
+  std::vector<HandFrame> frames;
   for (const char* name : {"Tr1", "Tr4"}) {
     const auto trajectory = trajectories::source_trajectory(trajectory_folder(), name);
     for (const int f : {10, 70}) frames.push_back(trajectory.frames[f]);
@@ -133,12 +133,12 @@ std::vector<std::vector<LabelErrors>> measure_label_errors(
   render::SceneConfig scene;
   scene.shader = render::shader_of(subject);
   render::RgbdRenderer renderer(calibration, hand, scene);
-  const std::vector<trajectories::TrajectoryFrame> frames = sample_frames();
+  const std::vector<HandFrame> frames = sample_frames();
   std::vector<std::vector<LabelErrors>> errors;
   int64_t view = 0;
   for (const render::Lighting& lighting : lightings) {
     std::vector<LabelErrors>& of_lighting = errors.emplace_back(tables.size());
-    for (const trajectories::TrajectoryFrame& frame : frames) {
+    for (const HandFrame& frame : frames) {
       const render::RgbdImages images = renderer.render(hand.pose(frame.posture), frame.T_camera_hand, lighting);
       const DeviceFrame device_frame =
           render::make_device_frame(images, calibration, 0, {}, {1, "label errors", view++});

@@ -6,23 +6,19 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "eval/replay.h"
-#include "eval/terminal.h"
+#include "eval/run.h"
 
 namespace glovebench::eval {
 
 trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::Trajectory& source,
                                       const std::string& database, const TrackerConfig& config, uint64_t seed) {
-  Replay pass;
-  pass.truth = std::make_shared<const trajectories::Trajectory>(source);
-  pass.noise = {"kinect", 1};  // the paper recorded with a real Kinect
-  pass.seed = seed;
-  pass.databases = {database};
-  pass.tracker = config;
-  Progress progress("recording " + source.name, workbench.config().quiet);
-  size_t done = 0;
-  const TrackedReplay tracked =
-      replay(workbench, pass, [&] { progress.show(static_cast<double>(++done) / source.frames.size()); }).front();
+  RunSpec spec;
+  spec.trajectory = std::make_shared<const trajectories::Trajectory>(source);
+  spec.noise = {"kinect", 1};  // the paper recorded with a real Kinect
+  spec.seed = seed;
+  spec.database = database;
+  spec.tracker = config;
+  const Run run = execute(workbench, {&spec, 1}, {}).front();
 
   trajectories::Trajectory recorded = source;
   recorded.kind = trajectories::TrajectoryKind::recorded;
@@ -32,7 +28,7 @@ trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::
                                                  database,       workbench.database(database)->input_hash(),
                                                  config.profile, hash_text(to_json(config).dump())};
   for (size_t f = 0; f < recorded.frames.size(); ++f) {
-    const TrackResult& result = tracked.results[f];
+    const TrackResult& result = run.answers[f];
     if (result.status != TrackStatus::tracked) {
       throw Error(source.name, fmt::format("frame {}", f), std::string(to_string(result.status)),
                   "a tracked frame: a truth has no gaps");

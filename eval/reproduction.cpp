@@ -7,11 +7,14 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "eval/experiment.h"
+#include "eval/pictures.h"
 #include "eval/program_info.h"
 #include "eval/share.h"
 #include "eval/stored_study.h"
-#include "eval/studies/settings.h"
+#include "eval/studies/study.h"
 #include "reports/paper_numbers.h"
+#include "reports/report.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -39,14 +42,14 @@ void refuse_unknown_parts(const std::vector<std::string>& only) {
 void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve& curve) {
   const auto truth = std::make_shared<const trajectories::Trajectory>(
       trajectories::recorded_trajectory(trajectory_folder(), curve.trajectory));
-  Replay replay;
-  replay.truth = truth;
-  replay.databases = {curve.database};
-  replay.range = frames_of(options.study);
-  replay.tracker = options.study.tracker;
+  RunSpec spec;
+  spec.trajectory = truth;
+  spec.database = curve.database;
+  spec.frames = frames_of(options.study);
+  spec.tracker = options.study.tracker;
   for (const uint64_t seed : options.study.seeds) {
-    replay.seed = seed;
-    plan.replays.push_back(replay);
+    spec.seed = seed;
+    plan.specs.push_back(spec);
   }
 }
 
@@ -75,10 +78,10 @@ std::string study_key(Workbench& workbench, const Study& study, const StudyOptio
 
 reports::StudyResult run_or_load(const StudyContext& context, const Study& study) {
   const std::string key = study_key(context.workbench, study, context.options);
-  if (const auto stored = context.run_folder->load(key))
+  if (const auto stored = context.store->load(key))
     if (auto result = study_from_bytes(*stored)) return *std::move(result);
   reports::StudyResult result = study.run(context);
-  context.run_folder->store(key, to_bytes(result));
+  context.store->save(key, to_bytes(result));
   return result;
 }
 
@@ -101,9 +104,9 @@ Plan plan_reproduction(const ReproductionOptions& options) {
   refuse_unknown_parts(options.only);
   Plan plan{options.study.tracker, {}, {}, options.study.quick};
   if (is_wanted(options, kFigure4)) {
-    plan.replays = plan_figure4(options.study.tracker, {options.trajectories, options.study.seeds, options.noises,
-                                                        frames_of(options.study)})
-                       .replays;
+    plan.specs = plan_figure4(options.study.tracker,
+                              {options.trajectories, options.study.seeds, options.noises, frames_of(options.study)})
+                     .specs;
     return plan;
   }
   if (is_wanted(options, kFigure5)) add_curve(plan, options, reports::paper_numbers().figure_5);
@@ -111,16 +114,24 @@ Plan plan_reproduction(const ReproductionOptions& options) {
   return plan;
 }
 
-Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
-                  const std::string& folder) {
+Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
+                       const std::string& folder) {
+  const auto start = std::chrono::steady_clock::now();
+  const int threads = workbench.config().threads;
   const Plan plan = plan_reproduction(options);
-  return run_into_folder(workbench, plan, robot, folder, [&](const RunFolder& run_folder) {
-    std::vector<reports::StudyResult> results;
-    for (const Study& study : studies())
-      if (is_wanted(options, study.name))
-        results.push_back(run_or_load({workbench, options.study, &run_folder}, study));
-    return results;
-  });
+  RunStore store(folder);
+  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
+  reports::RunResult result = results_of(plan, runs, workbench);
+  reports::Timings timings = timings_of(runs, threads);
+  add_commands(result, timings, runs, robot);
+  for (const Study& study : studies())
+    if (is_wanted(options, study.name))
+      result.studies.push_back(run_or_load({workbench, options.study, &store}, study));
+  note_resources(timings, start);
+  const auto estimates = estimates_of(runs);
+  reports::write_report(folder, result, timings, page_material(workbench, plan, result, estimates), estimates);
+  store.finish();
+  return {std::move(result), std::move(timings)};
 }
 
 }  // namespace glovebench::eval

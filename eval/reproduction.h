@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "eval/experiments.h"
+#include "eval/plan.h"
+#include "eval/robot_commands.h"
 #include "eval/studies/study.h"
 #include "reports/claims/verdicts.h"
 
@@ -27,9 +28,13 @@ int exit_code_of(const reports::RequiredClaims& required, const ReproductionOpti
 /// The experiments of Figures 4 to 6 that are asked for.
 Plan plan_reproduction(const ReproductionOptions& options);
 
-/// Runs the paper's experiments and studies into a folder, as run_into_folder does: what an interrupted run
-/// finished is taken from it. Throws Error for an unknown part.
-Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
-                  const std::string& folder);
+struct Reproduction {
+  reports::RunResult result;
+  reports::Timings timings;
+};
+/// Runs the paper's experiments and studies and writes their report into a folder. What an interrupted run finished
+/// is taken from the folder. Throws Error for an unknown part.
+Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
+                       const std::string& folder);
 
 }  // namespace glovebench::eval

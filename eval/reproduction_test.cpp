@@ -40,13 +40,11 @@ TEST(Reproduction, RefusesUnknownParts) {
 
 TEST(Reproduction, FiguresFiveAndSixAreOneExperimentEach) {
   const Plan plan = plan_reproduction(only({"fig6", "fig5"}));
-  ASSERT_EQ(plan.replays.size(), 2U);
-  EXPECT_EQ(to_string(key_of(plan.replays[0], plan.replays[0].databases.at(0))),
-            "Tr4_DB_open_power_recorded_subject1_gradient_1");
-  EXPECT_EQ(to_string(key_of(plan.replays[1], plan.replays[1].databases.at(0))),
-            "Tr1_DB_20_postures_recorded_subject1_gradient_1");
-  EXPECT_EQ(plan_reproduction(only({"fig5", "fig4"})).replays.size(), 15U) << "Figure 4 contains Figure 5";
-  EXPECT_TRUE(plan_reproduction(only({"fig7"})).replays.empty());
+  ASSERT_EQ(plan.specs.size(), 2U);
+  EXPECT_EQ(to_string(key_of(plan.specs[0])), "Tr4_DB_open_power_recorded_subject1_gradient_1");
+  EXPECT_EQ(to_string(key_of(plan.specs[1])), "Tr1_DB_20_postures_recorded_subject1_gradient_1");
+  EXPECT_EQ(plan_reproduction(only({"fig5", "fig4"})).specs.size(), 45U) << "Figure 4 contains Figure 5";
+  EXPECT_TRUE(plan_reproduction(only({"fig7"})).specs.empty());
 }
 
 TEST(Reproduction, QuickOnesAreAStretch) {
@@ -54,7 +52,7 @@ TEST(Reproduction, QuickOnesAreAStretch) {
   options.study.quick = true;
   const Plan plan = plan_reproduction(options);
   EXPECT_TRUE(plan.quick);
-  for (const Replay& replay : plan.replays) EXPECT_LT(frames_of(replay).size(), 30U);
+  for (const RunSpec& spec : plan.specs) EXPECT_LT(frames_of(spec).size(), 30U);
 }
 
 TEST(Reproduction, ExitCodes) {

@@ -34,9 +34,9 @@ void expect_within_speed(const RobotCommand& from, const RobotCommand& to) {
 }
 
 /// There and back again, so that no frame is far from the one before it.
-std::vector<trajectories::TrajectoryFrame> to_and_fro(const std::string& name, int times) {
+std::vector<HandFrame> to_and_fro(const std::string& name, int times) {
   const auto frames = trajectories::source_trajectory(trajectory_folder(), name).frames;
-  std::vector<trajectories::TrajectoryFrame> path;
+  std::vector<HandFrame> path;
   for (int i = 0; i < times; ++i) {
     if (i % 2 == 0) path.insert(path.end(), frames.begin(), frames.end());
     if (i % 2 == 1) path.insert(path.end(), frames.rbegin(), frames.rend());
@@ -46,7 +46,7 @@ std::vector<trajectories::TrajectoryFrame> to_and_fro(const std::string& name, i
 }
 
 /// The truth as if it was tracked, through commander and guard.
-ArmMotion arm_motion(const std::vector<trajectories::TrajectoryFrame>& path) {
+ArmMotion arm_motion(const std::vector<HandFrame>& path) {
   RobotSetup setup;
   setup.arm = make_arm_solver();
   RobotCommander commander(setup);

@@ -1,6 +1,15 @@
 #include "eval/robot_commands.h"
 
+#include <fmt/format.h>
+
+#include <map>
+#include <tuple>
+
 #include "core/base/angles.h"
+#include "core/base/check.h"
+#include "core/base/file_set.h"
+#include "core/robot/json_lines_sink.h"
+#include "eval/experiment.h"
 #include "eval/thread_time.h"
 #include "reports/metrics/measure_frame.h"
 
@@ -36,6 +45,30 @@ const RobotCommand* command_at(int64_t timestamp_us, std::span<const RobotComman
   return from < commands.size() && commands[from].timestamp_us == timestamp_us ? &commands[from] : nullptr;
 }
 
+std::string json_lines(const CommandStream& stream) {
+  std::string lines;
+  for (const RobotCommand& command : stream.commands) lines += to_json_line(command) + "\n";
+  return lines;
+}
+
+/// The commands that truths give. Databases, noises and seeds share one.
+class TrueCommands {
+ public:
+  explicit TrueCommands(const RobotOutput& robot) : robot_(robot) {}
+
+  const CommandStream& of(const RunSpec& spec) {
+    const auto key = std::tuple(spec.trajectory, spec.frames.first, spec.frames.count);
+    const auto [it, is_new] = streams_.try_emplace(key);
+    if (is_new) it->second = make_commands(true_results(frames_of(spec)), robot_.setup, robot_.limits);
+    return it->second;
+  }
+
+ private:
+  const RobotOutput& robot_;
+  std::map<std::tuple<std::shared_ptr<const trajectories::Trajectory>, int, std::optional<int>>, CommandStream>
+      streams_;
+};
+
 }  // namespace
 
 CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
@@ -53,9 +86,9 @@ CommandStream make_commands(std::span<const TrackResult> results, const RobotSet
   return stream;
 }
 
-std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFrame> truth) {
+std::vector<TrackResult> true_results(std::span<const HandFrame> truth) {
   std::vector<TrackResult> results;
-  for (const trajectories::TrajectoryFrame& frame : truth) {
+  for (const HandFrame& frame : truth) {
     TrackResult& result = results.emplace_back();
     result.timestamp_us = frame.timestamp_us;
     result.status = TrackStatus::tracked;
@@ -125,6 +158,32 @@ reports::CommandResult CommandMeasurement::result() const {
   result.jerk = jerk_.rms();
   result.truth_jerk = truth_jerk_.rms();
   return result;
+}
+
+void add_commands(reports::RunResult& result, reports::Timings& timings, std::span<const MeasuredRun> runs,
+                  const RobotOutput& robot) {
+  const std::vector<Experiment> experiments = experiments_of(runs);
+  check(result.experiments.size() == experiments.size() && timings.experiments.size() == experiments.size(),
+        "results and times are of these runs");
+  if (!robot.configuration.is_null()) result.configuration["robot"] = robot.configuration;
+  TrueCommands true_commands(robot);
+  std::optional<WholeFiles> files;
+  if (!robot.folder.empty()) files.emplace(robot.folder);
+  for (size_t e = 0; e < experiments.size(); ++e) {
+    CommandMeasurement measurement;
+    for (const MeasuredRun* each : experiments[e].runs) {
+      const Run& run = each->run;
+      const CommandStream stream = make_commands(run.answers, robot.setup, robot.limits);
+      measurement.add(stream, true_commands.of(run.spec), static_cast<int>(run.answers.size()));
+      for (size_t f = 0; f < run.answers.size(); ++f)
+        timings.experiments[e].command_ms.push_back(run.frame_ms[f] + stream.command_ms[f]);
+      if (files)
+        files->add(fmt::format("{}_seed{}.jsonl", to_string(experiments[e].key), run.spec.seed),
+                   json_lines(stream));
+    }
+    result.experiments[e].commands = measurement.result();
+  }
+  if (files) files->commit();
 }
 
 }  // namespace glovebench::eval

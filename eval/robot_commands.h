@@ -1,11 +1,14 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/robot/command_guard.h"
+#include "eval/measured_run.h"
 #include "reports/commands.h"
-#include "trajectories/trajectory.h"
+#include "reports/timings.h"
 
 namespace glovebench::eval {
 
@@ -18,7 +21,7 @@ struct CommandStream {
 CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
                             const CommandLimits& limits);
 /// What a tracker would say that is never wrong.
-std::vector<TrackResult> true_results(std::span<const trajectories::TrajectoryFrame> truth);
+std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
 /// Measures the commands of several passes over one movement against those that its truth gives. Commands belong
 /// together by their time stamps. Errors are of commands that follow. Jerk is by four commands in a row that do,
@@ -46,5 +49,17 @@ class CommandMeasurement {
   Errors errors_;
   JerkSums jerk_, truth_jerk_;
 };
+
+/// How the robot commands of a run are made, and where they are written.
+struct RobotOutput {
+  std::string folder = {};  ///< JSON Lines, a file a run; empty: nowhere
+  RobotSetup setup = {};
+  CommandLimits limits = {};
+  nlohmann::json configuration = {};  ///< all of that, for the results'; null: nothing is said of it
+};
+/// Makes and measures the commands of each experiment, and writes them as one set of files: adds what they came to
+/// to the experiment's result, and the time from frame to command to its times. Both are of these runs.
+void add_commands(reports::RunResult& result, reports::Timings& timings, std::span<const MeasuredRun> runs,
+                  const RobotOutput& robot);
 
 }  // namespace glovebench::eval

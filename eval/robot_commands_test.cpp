@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kStep = 1.0 / 30;  // s
 
-trajectories::TrajectoryFrame frame_at(int i, double index_flexion, double x) {
-  trajectories::TrajectoryFrame frame;
+HandFrame frame_at(int i, double index_flexion, double x) {
+  HandFrame frame;
   frame.timestamp_us = i * 1'000'000LL / 30;
   frame.posture[kIndexMcpFlexion] = index_flexion;
   frame.T_camera_hand.translation() = Eigen::Vector3d(x, 0, 0.8);
@@ -18,14 +18,13 @@ trajectories::TrajectoryFrame frame_at(int i, double index_flexion, double x) {
 }
 
 /// A hand that moves slowly.
-std::vector<trajectories::TrajectoryFrame> slow_movement(int count) {
-  std::vector<trajectories::TrajectoryFrame> frames;
+std::vector<HandFrame> slow_movement(int count) {
+  std::vector<HandFrame> frames;
   for (int i = 0; i < count; ++i) frames.push_back(frame_at(i, 0.01 * i, 0.001 * i));
   return frames;
 }
 
-reports::CommandResult measure_commands(std::span<const TrackResult> results,
-                                        std::span<const trajectories::TrajectoryFrame> truth) {
+reports::CommandResult measure_commands(std::span<const TrackResult> results, std::span<const HandFrame> truth) {
   CommandMeasurement measurement;
   measurement.add(make_commands(results, {}, {}), make_commands(true_results(truth), {}, {}),
                   static_cast<int>(truth.size()));
@@ -101,7 +100,7 @@ TEST(RobotCommands, DroppedOnesMissAndTheOthersKeepTheirTruth) {
 }
 
 TEST(RobotCommands, JerkOfACubicIsItsThirdDerivative) {
-  std::vector<trajectories::TrajectoryFrame> truth;
+  std::vector<HandFrame> truth;
   for (const int i : {0, 1, 2, 3, 5, 6, 8, 9, 10}) {  // steps that differ
     const double t = i * kStep;
     truth.push_back(frame_at(i, 0.5 * t * t * t, 0.25 * t * t * t));

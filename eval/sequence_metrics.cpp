@@ -15,15 +15,14 @@ constexpr int kMinRestSteps = 10;
 constexpr int kMaxLatency = 10;  // frames
 constexpr double kMovingPosture = radians_from_degrees(10);
 
-bool at_rest(const trajectories::TrajectoryFrame& a, const trajectories::TrajectoryFrame& b) {
+bool at_rest(const HandFrame& a, const HandFrame& b) {
   const double turn = radians_from_degrees(rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()));
   return (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm() < kRestPosition &&
          turn < kRestAngle && posture_distance(a.posture, b.posture) < kRestAngle;
 }
 
 /// Sum over the tracked frames of the distance of the estimated posture from the truth `delay` frames earlier.
-double delayed_distance(std::span<const TrackResult> estimates,
-                        std::span<const trajectories::TrajectoryFrame> truth, int delay) {
+double delayed_distance(std::span<const TrackResult> estimates, std::span<const HandFrame> truth, int delay) {
   double sum = 0;
   for (size_t i = kMaxLatency; i < truth.size(); ++i) {
     if (estimates[i].status != TrackStatus::tracked) continue;  // its posture is an older frame's
@@ -37,8 +36,7 @@ int tracked_count(std::span<const TrackResult> estimates) {
                                         [](const TrackResult& r) { return r.status == TrackStatus::tracked; }));
 }
 
-std::optional<double> latency_frames(std::span<const TrackResult> estimates,
-                                     std::span<const trajectories::TrajectoryFrame> truth) {
+std::optional<double> latency_frames(std::span<const TrackResult> estimates, std::span<const HandFrame> truth) {
   if (truth.size() < 3 * kMaxLatency || tracked_count(estimates.subspan(kMaxLatency)) < kMaxLatency) return {};
   double moved = 0;
   for (const auto& frame : truth) moved = std::max(moved, posture_distance(frame.posture, truth[0].posture));
@@ -55,7 +53,7 @@ std::optional<double> latency_frames(std::span<const TrackResult> estimates,
 }  // namespace
 
 reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates,
-                                          std::span<const trajectories::TrajectoryFrame> truth) {
+                                          std::span<const HandFrame> truth) {
   check(estimates.size() == truth.size(), "an estimate for each frame of the truth");
   reports::SequenceMetrics metrics;
   double position = 0, rotation = 0;

@@ -12,7 +12,6 @@ namespace glovebench::eval {
 /// (under 1 mm, 0.5 degrees and 0.5 degrees of posture a frame). Latency: the delay of the posture (0..10 frames,
 /// parabola through the best three) that agrees best with the truth; only if the truth's posture moves, over at
 /// least 30 frames. Both skip lost frames.
-reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates,
-                                          std::span<const trajectories::TrajectoryFrame> truth);
+reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates, std::span<const HandFrame> truth);
 
 }  // namespace glovebench::eval

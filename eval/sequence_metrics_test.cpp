@@ -14,14 +14,13 @@ namespace {
 using reports::make_estimate;
 using reports::some_pose;
 using reports::some_posture;
-using trajectories::TrajectoryFrame;
 
 /// Of a value computed in doubles from metres and radians.
 constexpr double kRounding = 1e-6;
 
 struct Sequence {
   std::vector<TrackResult> estimates;
-  std::vector<TrajectoryFrame> truth;
+  std::vector<HandFrame> truth;
   reports::SequenceMetrics measure() const { return measure_sequence(estimates, truth); }
 };
 

@@ -14,7 +14,7 @@ double filter_only_error_deg(const std::string& name) {
   const trajectories::Trajectory truth = trajectories::recorded_trajectory(trajectory_folder(), name);
   Smoother smoother({});
   double sum = 0;
-  for (const trajectories::TrajectoryFrame& frame : truth.frames) {
+  for (const HandFrame& frame : truth.frames) {
     TrackResult result;
     result.status = TrackStatus::tracked;
     result.posture_unfiltered = frame.posture;

@@ -157,34 +157,36 @@ bool matches(const std::string& filter, const std::string& name) {
   return filter.empty() || fnmatch(filter.c_str(), name.c_str(), 0) == 0;
 }
 
-bool same_frames(const Replay& a, const Replay& b) {
-  return a.truth == b.truth && a.subject == b.subject && a.noise == b.noise && a.range.first == b.range.first &&
-         a.range.count == b.range.count;
-}
+/// Runs of the first seed in which the cameras see the same, one a database.
+using SameFrames = std::vector<RunSpec>;
 
-/// Replays of the first seed with the experiments that the filter leaves.
-std::vector<Replay> replays_of(Workbench& workbench, const Suite& suite, const std::string& filter) {
+/// The experiments that the filter leaves.
+std::vector<SameFrames> experiments_of(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite,
+                                       const std::string& filter) {
   Truths truths(workbench.config().side);
   DatabaseNames names(workbench);
-  std::vector<Replay> replays;
+  std::vector<SameFrames> groups;
   std::vector<std::string> experiments;
   for (const SuiteEntry& entry : suite.entries) {
-    const Replay wanted{truths.get(entry), entry.subject, entry.noise, suite.seeds.front(), {}, entry.frames};
+    RunSpec wanted{truths.get(entry), entry.frames, entry.subject, entry.noise, suite.seeds.front()};
+    wanted.tracker = tracker;
     frames_of(wanted);  // the trajectory has them
     for (const std::string& database : entry.databases) {
-      const std::string name = names.get(database);
-      const std::string experiment = to_string(key_of(wanted, name));
+      wanted.database = names.get(database);
+      const std::string experiment = to_string(key_of(wanted));
       if (std::ranges::count(experiments, experiment) > 0) {
         throw Error(database, "experiment", experiment, "one not yet in the run");
       }
       experiments.push_back(experiment);
       if (!matches(filter, experiment)) continue;
-      auto replay = std::ranges::find_if(replays, [&](const Replay& r) { return same_frames(r, wanted); });
-      if (replay == replays.end()) replay = replays.insert(replay, wanted);
-      replay->databases.push_back(name);
+      auto group = std::ranges::find_if(groups, [&](const SameFrames& specs) {
+        return share_images(specs.front(), wanted) && specs.front().noise == wanted.noise;
+      });
+      if (group == groups.end()) group = groups.insert(group, SameFrames{});
+      group->push_back(wanted);
     }
   }
-  if (replays.empty()) {
+  if (groups.empty()) {
     constexpr size_t shown = 3;
     const bool all = experiments.size() <= shown;
     experiments.resize(std::min(shown, experiments.size()));
@@ -192,7 +194,7 @@ std::vector<Replay> replays_of(Workbench& workbench, const Suite& suite, const s
         "--filter", "pattern", quoted_excerpt(filter),
         fmt::format("one that matches {}{}", fmt::join(experiments, ", "), all ? "" : ", ... (see --list)"));
   }
-  return replays;
+  return groups;
 }
 
 }  // namespace
@@ -239,11 +241,12 @@ Side side_of(const Suite& suite) {
 
 Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter) {
   Plan plan{tracker, {}, suite.name};
-  for (const Replay& first : replays_of(workbench, suite, filter)) {
+  for (const SameFrames& first_seed : experiments_of(workbench, tracker, suite, filter)) {
     for (const uint64_t seed : suite.seeds) {
-      plan.replays.push_back(first);
-      plan.replays.back().seed = seed;
-      plan.replays.back().tracker = tracker;
+      for (const RunSpec& spec : first_seed) {
+        plan.specs.push_back(spec);
+        plan.specs.back().seed = seed;
+      }
     }
   }
   return plan;

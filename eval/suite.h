@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "eval/experiments.h"
+#include "eval/plan.h"
 
 namespace glovebench::eval {
 
@@ -38,10 +38,10 @@ std::vector<std::string> suite_names();
 /// be read.
 Side side_of(const Suite& suite);
 
-/// The suite's experiments, as a plan for run_experiments, without those whose name the filter does not match
-/// (shell wildcards; empty: all). Entries that differ in nothing but databases share their replays, so that a frame
-/// is rendered once. Files of databases become known to the workbench; nothing is built. Throws Error if an
-/// experiment is there twice, a trajectory is of the other hand, or nothing is left.
+/// The suite's experiments, without those whose name the filter does not match
+/// (shell wildcards; empty: all). Runs of the same frames are neighbors, so that a frame is rendered once. Files of
+/// databases become known to the workbench; nothing is built. Throws Error if an experiment is there twice, a
+/// trajectory is of the other hand, or nothing is left.
 Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter);
 
 }  // namespace glovebench::eval

@@ -5,7 +5,6 @@
 #include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
-#include "eval/plan_overview.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {
@@ -152,18 +151,25 @@ TEST(Suite, DamagedFilesAreRefusedOrValid) {
 TEST_F(SuitePlan, RendersAFrameOnceForAllItsDatabases) {
   const Plan planned = plan(make_suite());
   EXPECT_EQ(planned.suite, "mine");
-  ASSERT_EQ(planned.replays.size(), 4U) << "two replays, two seeds";
-  EXPECT_THAT(planned.replays[0].databases, ElementsAre("DB_open_power", "DB_20_postures", "own"));
-  EXPECT_EQ(planned.replays[0].seed, 3U);
-  EXPECT_EQ(planned.replays[1].seed, 5U);
-  EXPECT_EQ(frames_of(planned.replays[2]).size(), 2U);
-  EXPECT_EQ(planned.replays[2].subject, 2);
+  std::vector<std::string> databases;
+  std::vector<uint64_t> seeds;
+  for (const RunSpec& spec : planned.specs) {
+    databases.push_back(spec.database);
+    seeds.push_back(spec.seed);
+  }
+  EXPECT_THAT(databases, ElementsAre("DB_open_power", "DB_20_postures", "own", "DB_open_power", "DB_20_postures",
+                                     "own", "DB_open_power", "DB_open_power"));
+  EXPECT_THAT(seeds, ElementsAre(3, 3, 3, 5, 5, 5, 3, 5));
+  for (size_t s = 1; s < 6; ++s) EXPECT_TRUE(share_images(planned.specs[0], planned.specs[s])) << s;
+  EXPECT_FALSE(share_images(planned.specs[5], planned.specs[6]));
+  EXPECT_EQ(frames_of(planned.specs[6]).size(), 2U);
+  EXPECT_EQ(planned.specs[6].subject, 2);
 }
 
 TEST_F(SuitePlan, FilterLeavesWhatMatches) {
   const Plan planned = plan(make_suite(), "*_DB_open_power_*");
-  ASSERT_EQ(planned.replays.size(), 4U);
-  for (const Replay& replay : planned.replays) EXPECT_THAT(replay.databases, ElementsAre("DB_open_power"));
+  ASSERT_EQ(planned.specs.size(), 4U);
+  for (const RunSpec& spec : planned.specs) EXPECT_EQ(spec.database, "DB_open_power");
   EXPECT_EQ(list_experiments(planned),
             "Tr4_DB_open_power_source_subject1_gradient_1   117 frames x 2 seeds\n"
             "own_DB_open_power_source_subject2_kinect_0.5     2 frames x 2 seeds\n");
@@ -196,9 +202,7 @@ TEST_F(SuitePlan, FullHoldsFigure4AndQuick) {
   Workbench workbench(test_workbench());
   const auto names = [](const Plan& plan) {
     std::set<std::string> experiments;
-    for (const Replay& replay : plan.replays) {
-      for (const std::string& database : replay.databases) experiments.insert(to_string(key_of(replay, database)));
-    }
+    for (const RunSpec& spec : plan.specs) experiments.insert(to_string(key_of(spec)));
     return experiments;
   };
   const auto planned = [&](const std::string& suite) {

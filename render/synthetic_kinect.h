@@ -3,18 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "core/hand/hand_frame.h"
 #include "core/kinect/device.h"
 #include "render/noise/noise_model.h"
 #include "render/rgbd_renderer.h"
 
 namespace glovebench::render {
-
-/// The hand at one moment: what a movement says and the tracker has to find out.
-struct HandFrame {
-  int64_t timestamp_us = 0;
-  Posture posture = Posture::Zero();                                ///< rad
-  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< camera = IR camera, m
-};
 
 struct SyntheticKinectConfig {
   SceneConfig scene;

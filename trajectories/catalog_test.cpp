@@ -23,7 +23,7 @@ std::string make_folder(const std::string& name) {
 }
 
 Trajectory named(const std::string& name) {
-  return {.name = name, .description = "", .provenance = {}, .frames = {TrajectoryFrame{}}};
+  return {.name = name, .description = "", .provenance = {}, .frames = {HandFrame{}}};
 }
 
 TEST(Catalog, lists_the_databases_that_contain_the_grasp) {

@@ -102,7 +102,7 @@ TEST_P(GroundTruth, stays_inside_both_images) {
   constexpr double margin_px = 20;
   const RgbdCalibration calibration = synthetic_calibration();
   for (size_t i = 0; i < trajectory.frames.size(); ++i) {
-    const TrajectoryFrame& frame = trajectory.frames[i];
+    const HandFrame& frame = trajectory.frames[i];
     for (const Eigen::Vector3f& p_hand : right_hand().pose(frame.posture).vertices) {
       const Eigen::Vector3d p_camera = frame.T_camera_hand * p_hand.cast<double>();
       for (const Eigen::Vector2d& uv_px :
@@ -116,7 +116,7 @@ TEST_P(GroundTruth, stays_inside_both_images) {
 }
 
 /// The share of the hand's vertices that both cameras see.
-double visible_share(const TrajectoryFrame& frame) {
+double visible_share(const HandFrame& frame) {
   const RgbdCalibration calibration = synthetic_calibration();
   const RecycledVector<Eigen::Vector3f> vertices = right_hand().pose(frame.posture).vertices;
   const auto is_inside = [](const Eigen::Vector2d& uv_px) {
@@ -134,7 +134,7 @@ TEST(Exit, leaves_the_image_returns_and_comes_too_near) {
   const Trajectory exit = source_trajectory(kFolder, "Exit");
   std::string story;  // a letter a frame, one for a run of equal frames
   int out = 0, near = 0;
-  for (const TrajectoryFrame& frame : exit.frames) {
+  for (const HandFrame& frame : exit.frames) {
     const double share = visible_share(frame);
     const bool is_near = frame.T_camera_hand.translation().z() < 0.40;  // where the working volume begins
     const char letter = share == 0 ? 'o' : is_near ? 'n' : share < 1 ? 'c' : 'i';

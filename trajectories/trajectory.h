@@ -1,22 +1,14 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/hand/posture.h"
+#include "core/hand/hand_frame.h"
 
 namespace glovebench::trajectories {
-
-/// The hand at one moment.
-struct TrajectoryFrame {
-  int64_t timestamp_us = 0;
-  Posture posture = Posture::Zero();                                ///< rad
-  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m, camera = IR camera
-};
 
 /// `source`: the movement itself, which no tracker has seen. `recorded`: the output of the tracker when it
 /// followed a source (the paper's protocol, section IV).
@@ -44,7 +36,7 @@ struct Trajectory {
   Side side = Side::right;
   TrajectoryKind kind = TrajectoryKind::source;
   std::optional<Provenance> provenance;  ///< there if and only if `kind` is `recorded`
-  std::vector<TrajectoryFrame> frames;   ///< at least one, in time order
+  std::vector<HandFrame> frames;         ///< at least one, in time order
 };
 
 inline constexpr int64_t kMaxTimestampUs = 1'000'000'000'000'000;  ///< 31 years

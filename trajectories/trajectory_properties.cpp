@@ -14,15 +14,15 @@ namespace {
 constexpr int kFirstFingerAngle = kThumbCmcAbduction;
 constexpr int kFingerAngleCount = kAngleCount - kFirstFingerAngle;
 
-double rotation_between(const TrajectoryFrame& a, const TrajectoryFrame& b) {
+double rotation_between(const HandFrame& a, const HandFrame& b) {
   return Eigen::AngleAxisd(a.T_camera_hand.linear().transpose() * b.T_camera_hand.linear()).angle();
 }
 
-double distance_between(const TrajectoryFrame& a, const TrajectoryFrame& b) {
+double distance_between(const HandFrame& a, const HandFrame& b) {
   return (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm();
 }
 
-void measure_pose(const std::vector<TrajectoryFrame>& frames, TrajectoryProperties& properties) {
+void measure_pose(const std::vector<HandFrame>& frames, TrajectoryProperties& properties) {
   for (size_t i = 0; i < frames.size(); ++i) {
     for (size_t j = i + 1; j < frames.size(); ++j) {
       properties.travel = std::max(properties.travel, distance_between(frames[i], frames[j]));
@@ -36,9 +36,9 @@ void measure_pose(const std::vector<TrajectoryFrame>& frames, TrajectoryProperti
   }
 }
 
-double range_of(const std::vector<TrajectoryFrame>& frames, Angle angle) {
+double range_of(const std::vector<HandFrame>& frames, Angle angle) {
   const auto [low, high] =
-      std::ranges::minmax(frames, {}, [angle](const TrajectoryFrame& frame) { return frame.posture[angle]; });
+      std::ranges::minmax(frames, {}, [angle](const HandFrame& frame) { return frame.posture[angle]; });
   return high.posture[angle] - low.posture[angle];
 }
 
@@ -63,9 +63,9 @@ std::vector<GraspTransition> find_transitions(const std::vector<double>& closure
   return transitions;
 }
 
-int longest_hold(const std::vector<TrajectoryFrame>& frames, const Posture& posture) {
+int longest_hold(const std::vector<HandFrame>& frames, const Posture& posture) {
   int longest = 0, length = 0;
-  for (const TrajectoryFrame& frame : frames) {
+  for (const HandFrame& frame : frames) {
     const bool settled = finger_distance(frame.posture, posture) < radians_from_degrees(kSettledDeg);
     length = settled ? length + 1 : 0;
     longest = std::max(longest, length);
@@ -80,7 +80,7 @@ double finger_distance(const Posture& a, const Posture& b) {
 }
 
 TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, const Posture& grasp) {
-  const std::vector<TrajectoryFrame>& frames = trajectory.frames;
+  const std::vector<HandFrame>& frames = trajectory.frames;
   check(!frames.empty(), "a trajectory has frames");
   TrajectoryProperties properties;
   properties.frames = static_cast<int>(frames.size());
@@ -90,7 +90,7 @@ TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, 
   properties.wrist_abduction_range = range_of(frames, kWristAbduction);
 
   std::vector<double> closures;
-  for (const TrajectoryFrame& frame : frames) {
+  for (const HandFrame& frame : frames) {
     closures.push_back(closure(frame.posture, open, grasp));
     const double nearest = std::min(finger_distance(frame.posture, open), finger_distance(frame.posture, grasp));
     if (nearest < radians_from_degrees(kSettledDeg)) ++properties.settled_frames;

@@ -17,7 +17,7 @@ Posture grasp() {
 Trajectory closing(const std::vector<double>& shares) {
   Trajectory trajectory{.name = "t", .description = "", .provenance = {}, .frames = {}};
   for (size_t i = 0; i < shares.size(); ++i) {
-    TrajectoryFrame& frame = trajectory.frames.emplace_back();
+    HandFrame& frame = trajectory.frames.emplace_back();
     frame.timestamp_us = static_cast<int64_t>(i) * 100'000;
     frame.posture = shares[i] * grasp();
   }

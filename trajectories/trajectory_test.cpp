@@ -23,7 +23,7 @@ Trajectory example(int frame_count = 3) {
   Trajectory trajectory{.name = "wave", .description = "a \"quoted\" wave", .provenance = {}, .frames = {}};
   RandomStream random(7, "trajectory_test", 0, "frames");
   for (int i = 0; i < frame_count; ++i) {
-    TrajectoryFrame& frame = trajectory.frames.emplace_back();
+    HandFrame& frame = trajectory.frames.emplace_back();
     frame.timestamp_us = i * 66'667;
     for (int a = 0; a < kAngleCount; ++a) frame.posture[a] = radians_from_degrees(random.uniform(-10, 25));
     frame.T_camera_hand.translation() << random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.7;
@@ -59,8 +59,8 @@ TEST(Trajectory, keeps_its_values_to_the_rounding_of_the_file) {
   EXPECT_EQ(after.description, before.description);
   ASSERT_EQ(after.frames.size(), before.frames.size());
   for (size_t i = 0; i < before.frames.size(); ++i) {
-    const TrajectoryFrame& a = before.frames[i];
-    const TrajectoryFrame& b = after.frames[i];
+    const HandFrame& a = before.frames[i];
+    const HandFrame& b = after.frames[i];
     EXPECT_EQ(b.timestamp_us, a.timestamp_us);
     // Half a step of the file: 0.001 deg, 0.001 mm; the quaternion's 1e-7 steps turn by at most 2e-7 rad.
     EXPECT_LE((b.posture - a.posture).cwiseAbs().maxCoeff(), radians_from_degrees(0.000501));

@@ -6,6 +6,7 @@
 #include "core/base/name.h"
 #include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
+#include "eval/experiment.h"
 #include "eval/program_info.h"
 #include "eval/regression/baseline.h"
 #include "eval/suite.h"
@@ -54,7 +55,9 @@ struct CalibrateNoise {
     flags.left = side_of(suite) == Side::left;
     Workbench workbench = flags.workbench();
     const Plan plan = plan_suite(workbench, common.tracker_config(), many_seeds, "");
-    return measure(run_experiments(workbench, plan).result, suite);
+    const std::vector<MeasuredRun> runs =
+        eval::measure(workbench, execute(workbench, plan.specs, {workbench.config().threads}));
+    return measure(results_of(plan, runs, workbench), suite);
   }
 
   reports::NoiseFloor measure_run(const reports::NamedResult& run) const {

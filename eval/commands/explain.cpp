@@ -1,9 +1,8 @@
-#include "eval/explain.h"
-
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
+#include "eval/pictures.h"
 #include "eval/regression/baseline.h"
 #include "eval/truths.h"
 #include "render/pictures.h"
@@ -36,18 +35,17 @@ struct Explain {
     common.calibration_json = results.configuration.value("calibration", nlohmann::json());
     Workbench workbench = common.workbench();
     if (!database_file.empty()) workbench.add_database(database_file);
-    const Replay replay{truth,
-                        experiment.key.subject,
-                        experiment.key.noise,
-                        seed_of(experiment, results_path),
-                        {experiment.key.database},
-                        {},
-                        common.tracker_config()};
+    const RunSpec spec{.trajectory = truth,
+                       .subject = experiment.key.subject,
+                       .noise = experiment.key.noise,
+                       .seed = seed_of(experiment, results_path),
+                       .database = experiment.key.database,
+                       .tracker = common.tracker_config()};
     check_database(results, experiment.key, *workbench.database(experiment.key.database), results_path);
     const std::string path = common.output.empty()
                                  ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(experiment.key), frame)
                                  : common.output;
-    render::write_png(path, explain_frame(workbench, replay, frame));
+    render::write_png(path, explain_frame(workbench, spec, frame));
     fmt::print("{}\n", path);
   }
 

@@ -8,7 +8,7 @@
 #include "core/robot/arm_follower.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/commands/options.h"
-#include "eval/experiments.h"
+#include "eval/robot_commands.h"
 #include "eval/workbench.h"
 
 namespace glovebench::eval {

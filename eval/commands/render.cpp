@@ -7,7 +7,7 @@
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording.h"
 #include "eval/commands/flags.h"
-#include "eval/replay.h"
+#include "eval/run.h"
 #include "eval/share.h"
 #include "eval/terminal.h"
 #include "render/exr.h"
@@ -34,12 +34,12 @@ struct Render {
     const auto movement = std::make_shared<const Trajectory>(load());
     common.left = movement->side == Side::left;
     Workbench workbench = common.workbench();
-    Replay replay;
-    replay.truth = movement;
-    replay.subject = subject;
-    replay.noise = {noise, 1};
-    replay.seed = common.seed;
-    render::SyntheticKinect kinect = make_kinect(workbench, replay);
+    RunSpec spec;
+    spec.trajectory = movement;
+    spec.subject = subject;
+    spec.noise = {noise, 1};
+    spec.seed = common.seed;
+    render::SyntheticKinect kinect = make_kinect(workbench, spec);
     std::optional<RecordingWriter> recording;
     std::optional<WholeFiles> pictures;
     if (format == "fakenect") recording.emplace(common.output, workbench.calibration());

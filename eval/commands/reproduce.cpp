@@ -36,7 +36,7 @@ struct Reproduce {
     common.check_output_folder();
 
     Workbench workbench = common.workbench();
-    const Outcome outcome = reproduce(workbench, options, robot.output_of(workbench), common.output);
+    const Reproduction outcome = reproduce(workbench, options, robot.output_of(workbench), common.output);
     print_figure4(outcome.result);
     const std::vector<reports::ClaimVerdict> verdicts =
         reports::judge(reports::claims(), reports::all_measures(outcome.result));

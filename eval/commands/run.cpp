@@ -2,18 +2,19 @@
 
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
-#include "eval/experiments.h"
-#include "eval/plan_overview.h"
+#include "eval/experiment.h"
+#include "eval/pictures.h"
 #include "eval/reproduction.h"
 #include "eval/suite.h"
+#include "reports/report.h"
 #include "reports/summary.h"
 #include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
 
-struct Run {
-  explicit Run(Command own_command) : command(own_command) {}
+struct RunCommand {
+  explicit RunCommand(Command own_command) : command(own_command) {}
 
   const Command command;
   CommonFlags common;
@@ -42,10 +43,25 @@ struct Run {
     if (dry_run) return print_dry_run(workbench, plan);
     require_output();
     common.check_output_folder();
-    const Outcome outcome = run_into_folder(workbench, plan, robot.output_of(workbench), common.output);
-    fmt::print("{}", reports::to_markdown(reports::detail_summary(outcome.result)));
-    fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
-               common.output);
+    run_plan(workbench, plan);
+  }
+
+  void run_plan(Workbench& workbench, const Plan& plan) {
+    const auto start = std::chrono::steady_clock::now();
+    const RobotOutput robot_output = robot.output_of(workbench);
+    const int threads = workbench.config().threads;
+    RunStore store(common.output);
+    const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
+    reports::RunResult result = results_of(plan, runs, workbench);
+    reports::Timings timings = timings_of(runs, threads);
+    add_commands(result, timings, runs, robot_output);
+    note_resources(timings, start);
+    const auto estimates = estimates_of(runs);
+    reports::write_report(common.output, result, timings, page_material(workbench, plan, result, estimates),
+                          estimates);
+    store.finish();
+    fmt::print("{}", reports::to_markdown(reports::detail_summary(result)));
+    print_end(timings);
   }
 
   /// A part of the reproduction by itself; a cascade on the command line takes the place of Figure 8's four.
@@ -61,11 +77,13 @@ struct Run {
     Workbench workbench = common.workbench();
     if (common.output.empty()) return print_study(chosen.run({workbench, options}));
     common.check_output_folder();
-    const Outcome outcome =
+    const Reproduction outcome =
         reproduce(workbench, {options, {}, {{}}, {study_name}}, robot.output_of(workbench), common.output);
     print_study(outcome.result.studies.front());
-    fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
-               common.output);
+    print_end(outcome.timings);
+  }
+  void print_end(const reports::Timings& timings) const {
+    fmt::print("{:.1f} s, {} threads. Report: {}/index.html\n", timings.wall_s, timings.threads, common.output);
   }
   void print_study(const reports::StudyResult& result) const {
     if (quick) fmt::print("A quick run: nothing can be concluded from its numbers.\n\n");
@@ -121,7 +139,7 @@ struct Run {
 void add_run(Command program) {
   const Command command = program.subcommand(
       "run", "Replay a suite, or trajectories, also your own, through the tracker and report the errors.");
-  const auto state = std::make_shared<Run>(command);
+  const auto state = std::make_shared<RunCommand>(command);
   state->common.add_output(command, "folder of the report");
   command.option("study", state->study_name,
                  "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");

@@ -13,7 +13,7 @@
 #include "core/base/read_limits.h"
 #include "core/base/whole_file.h"
 #include "eval/program_info.h"
-#include "eval/run_folder.h"
+#include "eval/run_store.h"
 #include "eval/suite.h"
 #include "reports/json_text.h"
 #include "reports/results_json.h"

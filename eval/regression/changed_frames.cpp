@@ -9,7 +9,7 @@
 #include "core/base/read_limits.h"
 #include "core/camera/registration.h"
 #include "core/kinect/disparity.h"
-#include "eval/replay.h"
+#include "eval/run.h"
 #include "eval/truths.h"
 #include "render/label_renderer.h"
 #include "render/pictures.h"
@@ -55,8 +55,8 @@ class Scene {
  public:
   Scene(Workbench& workbench, const ChangedFrame& change, std::shared_ptr<const trajectories::Trajectory> truth)
       : workbench_(workbench), camera_(workbench.calibration().ir) {
-    const Replay replay{truth, change.key.subject, change.key.noise, change.candidate_seed, {}, {change.frame, 1}};
-    render::SyntheticKinect kinect = make_kinect(workbench, replay);
+    const RunSpec spec{truth, {change.frame, 1}, change.key.subject, change.key.noise, change.candidate_seed};
+    render::SyntheticKinect kinect = make_kinect(workbench, spec);
     const DeviceFrame device = kinect.next_frame().value();
     picture_ =
         register_color(depth_from_disparity(device.raw_disparity), device.color, workbench.calibration(), {}).color;

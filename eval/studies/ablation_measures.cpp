@@ -1,6 +1,7 @@
-#include "eval/studies/ablation_measures.h"
-
 #include <algorithm>
+#include <numeric>
+
+#include "eval/studies/ablations.h"
 
 namespace glovebench::eval {
 namespace {
@@ -13,9 +14,9 @@ const std::vector<std::string> kColorDatabases = {"DB_open_pinch_power", "DB_20_
 constexpr const char* kColorBlind = "color-blind";
 
 /// The latency of each movement, over the seeds that have one.
-std::vector<std::optional<double>> latencies(const Passes& passes) {
+std::vector<std::optional<double>> latencies(const Selection& runs) {
   std::vector<std::optional<double>> result;
-  for (const auto& stratum : sequences_of(passes)) {
+  for (const auto& stratum : sequences_of(runs)) {
     std::vector<double> values;
     for (const reports::SequenceMetrics& sequence : stratum)
       if (sequence.latency_frames) values.push_back(*sequence.latency_frames);
@@ -40,9 +41,9 @@ Measure movement_measure(const std::string& name, const std::string& unit, int m
 }
 
 /// 1 in frames in which the look-up is wrong, else 0.
-Sample wrong_look_ups(const Passes& passes) {
-  return sample_of(passes, [](const TrackResult&, const reports::FrameErrors& errors) -> std::optional<double> {
-    const std::optional<double>& posture = errors.record["posture_rms_unfiltered_deg"];
+Sample wrong_look_ups(const Selection& runs) {
+  return sample_of(runs, [](const MeasuredRun& run, size_t frame) -> std::optional<double> {
+    const std::optional<double>& posture = run.errors[frame].record["posture_rms_unfiltered_deg"];
     return posture && *posture > kWrongLookUp_deg ? 1.0 : 0.0;
   });
 }
@@ -53,9 +54,9 @@ struct Excess {
   Sample counted;
   Sample difference;
 };
-Excess excess_of(const AblationRuns& runs, const std::string& database, std::string_view metric) {
-  const Passes& sensitive = runs.at(kDefaultSetting, database);
-  const Sample a = sample_of(runs.at(kColorBlind, database), metric), b = sample_of(sensitive, metric);
+Excess excess_of(const Runs& runs, const std::string& database, std::string_view metric) {
+  const Selection sensitive = select(runs, kDefaultSetting, database);
+  const Sample a = sample_of(select(runs, kColorBlind, database), metric), b = sample_of(sensitive, metric);
   Excess excess{wrong_look_ups(sensitive), a};
   for (size_t s = 0; s < a.size(); ++s) {
     for (size_t seed = 0; seed < a[s].size(); ++seed) {
@@ -69,8 +70,7 @@ Excess excess_of(const AblationRuns& runs, const std::string& database, std::str
   return excess;
 }
 
-Measure color_measure(const AblationRuns& runs, const std::string& name, const std::string& unit,
-                      std::string_view metric) {
+Measure color_measure(const Runs& runs, const std::string& name, const std::string& unit, std::string_view metric) {
   std::vector<Sample> samples;
   for (const std::string& database : kColorDatabases) {
     Excess excess = excess_of(runs, database, metric);
@@ -90,8 +90,9 @@ Measure color_measure(const AblationRuns& runs, const std::string& name, const s
 }
 
 /// 1 in frames whose matches are of several postures.
-Sample distinct_matches(const Passes& passes) {
-  return sample_of(passes, [](const TrackResult& result, const reports::FrameErrors&) -> std::optional<double> {
+Sample distinct_matches(const Selection& runs) {
+  return sample_of(runs, [](const MeasuredRun& each, size_t frame) -> std::optional<double> {
+    const TrackResult& result = each.run.answers[frame];
     if (result.status != TrackStatus::tracked) return std::nullopt;
     const auto posture = [](const Match& match) { return match.entry / kViewCount; };
     const auto differs = [&](const Match& match) { return posture(match) != posture(result.matches.front()); };
@@ -101,9 +102,9 @@ Sample distinct_matches(const Passes& passes) {
 
 }  // namespace
 
-std::vector<Measure> lag_measures(const AblationRuns& runs) {
-  const auto with = latencies(runs.at(kDefaultSetting, kLatencyDatabase));
-  const auto without = latencies(runs.at("no filter", kLatencyDatabase));
+std::vector<Measure> lag_measures(const Runs& runs) {
+  const auto with = latencies(select(runs, kDefaultSetting, kLatencyDatabase));
+  const auto without = latencies(select(runs, "no filter", kLatencyDatabase));
   const auto share = [&](std::span<const int> drawn) -> std::optional<double> {
     const auto all = mean_of(with, drawn), rest = mean_of(without, drawn);
     if (!all || !rest || *all <= 0) return std::nullopt;
@@ -117,12 +118,12 @@ std::vector<Measure> lag_measures(const AblationRuns& runs) {
           movement_measure("lag.filter_share", "", count, share)};
 }
 
-std::vector<Measure> color_measures(const AblationRuns& runs) {
+std::vector<Measure> color_measures(const Runs& runs) {
   return {color_measure(runs, "color.blind_excess_position_mm", "mm", "position_error_mm"),
           color_measure(runs, "color.blind_excess_rotation_deg", "deg", "rotation_error_deg")};
 }
 
-reports::Table color_table(const AblationRuns& runs) {
+reports::Table color_table(const Runs& runs) {
   reports::Table table = {
       "color_blind",
       "Alignment with and without colors where the look-up is wrong",
@@ -137,24 +138,25 @@ reports::Table color_table(const AblationRuns& runs) {
       1,
       {}};
   for (const std::string& database : kColorDatabases) {
-    const Passes &sensitive = runs.at(kDefaultSetting, database), &blind = runs.at(kColorBlind, database);
+    const Selection sensitive = select(runs, kDefaultSetting, database),
+                    blind = select(runs, kColorBlind, database);
     const Sample wrong = wrong_look_ups(sensitive);
     int64_t frames = 0;
     for (const auto& stratum : wrong)
       for (const auto& seed : stratum) frames += std::ranges::count(seed, std::optional(1.0));
     std::vector<Cell> row = {database, frames};
     for (const char* metric : {"position_error_mm", "rotation_error_deg"})
-      for (const Passes* passes : {&sensitive, &blind})
-        row.push_back(cell(mean(where(sample_of(*passes, metric), wrong))));
+      for (const Selection* selected : {&sensitive, &blind})
+        row.push_back(cell(mean(where(sample_of(*selected, metric), wrong))));
     table.rows.push_back(row);
   }
   return table;
 }
 
-Measure interpolation_measure(const AblationRuns& runs) {
-  const Passes& three = runs.at(kDefaultSetting, "DB_open_power");
+Measure interpolation_measure(const Runs& runs) {
+  const Selection three = select(runs, kDefaultSetting, "DB_open_power");
   const char* metric = "posture_rms_unfiltered_deg";
-  const Sample one = sample_of(runs.at("1 neighbor", "DB_open_power"), metric);
+  const Sample one = sample_of(select(runs, "1 neighbor", "DB_open_power"), metric);
   const Estimated excess = estimate_difference(where(sample_of(three, metric), distinct_matches(three)), one);
   return {"interpolation.distinct_excess_deg", "deg", excess.value, excess.interval};
 }

@@ -3,8 +3,7 @@
 #include <set>
 
 #include "eval/share.h"
-#include "eval/studies/ablation_measures.h"
-#include "eval/studies/light.h"
+#include "eval/studies/ablations.h"
 #include "eval/studies/posture_choices.h"
 #include "eval/studies/test_options.h"
 #include "eval/test_program.h"
@@ -67,7 +66,7 @@ const std::vector<Ablation> kFew = {
 Table measure_few(int threads) {
   Workbench workbench(test_workbench(threads));
   const StudyOptions options = quick_options();
-  return ablation_table(AblationRuns({workbench, options}, kFew), kFew);
+  return ablation_table(run_rows({workbench, options}, kFew), kFew);
 }
 
 TEST(AblationsLong, changes_are_against_the_first_row) {
@@ -97,10 +96,10 @@ TEST(AblationsLong, do_not_depend_on_threads) {
 TEST(AblationsLong, measures_have_their_names_and_few_frames_no_latency) {
   Workbench workbench(test_workbench());
   const StudyOptions options = quick_options();
-  const AblationRuns runs(
-      {workbench, options},
-      {kFew.front(),
-       {"neighbors", {{"3", kDefaultSetting, "DB_open_power"}, {"1", "1 neighbor", "DB_open_power"}}}});
+  const Runs runs =
+      run_rows({workbench, options},
+               {kFew.front(),
+                {"neighbors", {{"3", kDefaultSetting, "DB_open_power"}, {"1", "1 neighbor", "DB_open_power"}}}});
   const auto lag = lag_measures(runs);
   ASSERT_EQ(lag.size(), 3U);
   EXPECT_EQ(lag[2].name, "lag.filter_share");

@@ -21,10 +21,7 @@ struct Searched {
   std::unique_ptr<const TrueNeighborSearch> true_neighbors;
 };
 
-/// [database][cascade][stage]
-using Survival = std::vector<std::vector<std::vector<StageSurvival>>>;
-
-/// One frame: percent of every stage of every cascade in every database.
+/// One frame: percent of every stage of every cascade in every database, in their order.
 using FrameSurvival = std::vector<std::optional<double>>;
 
 std::vector<Searched> load(Workbench& workbench, const std::vector<std::string>& names) {
@@ -36,26 +33,24 @@ std::vector<Searched> load(Workbench& workbench, const std::vector<std::string>&
   return searched;
 }
 
-/// The stages of all cascades, without frames yet: `shape` has their strata and seeds.
-Survival make_stages(const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
-                     const Sample& shape) {
-  Survival survival(searched.size());
+/// Each stage of each cascade in each database, without frames yet.
+std::vector<StageSurvival> all_stages(const std::vector<std::string>& names, const std::vector<Searched>& searched,
+                                      const std::vector<Cascade>& cascades) {
+  std::vector<StageSurvival> stages;
   for (size_t d = 0; d < searched.size(); ++d) {
     for (const Cascade& cascade : cascades) {
-      std::vector<StageSurvival>& stages = survival[d].emplace_back();
       int in = searched[d].database->entry_count();
-      for (const CascadeStage& stage : cascade) {
-        stages.push_back({in, std::min(in, stage.keep), shape});
+      for (size_t s = 0; s < cascade.size(); ++s) {
+        stages.push_back({names[d], cascade, s, in, std::min(in, cascade[s].keep), {}});
         in = stages.back().candidates_out;
       }
     }
   }
-  return survival;
+  return stages;
 }
 
 FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
-                      const Sighting& seen, const trajectories::TrajectoryFrame& truth,
-                      const PinholeCamera& camera) {
+                      const Sighting& seen, const HandFrame& truth, const PinholeCamera& camera) {
   FrameSurvival survival;
   const bool looked_up = seen.status == TrackStatus::tracked;
   const Square square = looked_up ? bounding_square(seen.cloud.labels) : Square{};
@@ -76,20 +71,19 @@ FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<C
   return survival;
 }
 
-/// All frames of a replay.
-std::vector<FrameSurvival> replay_look_ups(Workbench& workbench, const Replay& replay,
-                                           const std::vector<Searched>& searched,
-                                           const std::vector<Cascade>& cascades,
-                                           const std::function<void()>& frame_done) {
-  const std::shared_ptr<const ColorTable> table = workbench.color_table(replay.tracker.segmentation.color_space);
+/// All frames of a run, in all databases.
+std::vector<FrameSurvival> run_look_ups(Workbench& workbench, const RunSpec& spec,
+                                        const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
+                                        const std::function<void()>& frame_done) {
+  const std::shared_ptr<const ColorTable> table = workbench.color_table(spec.tracker.segmentation.color_space);
   const RgbdCalibration& calibration = workbench.calibration();
-  render::SyntheticKinect kinect = make_kinect(workbench, replay);
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);
   std::vector<FrameSurvival> frames;
-  for (const trajectories::TrajectoryFrame& truth : frames_of(replay)) {
+  for (const HandFrame& truth : frames_of(spec)) {
     const std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
     frames.push_back(
-        survive(searched, cascades, see(*frame, calibration, *table, replay.tracker), truth, calibration.ir));
+        survive(searched, cascades, see(*frame, calibration, *table, spec.tracker), truth, calibration.ir));
     frame_done();
   }
   return frames;
@@ -97,51 +91,41 @@ std::vector<FrameSurvival> replay_look_ups(Workbench& workbench, const Replay& r
 
 }  // namespace
 
-Survival measure_survival(const StudyContext& context, const Movements& movements,
-                          const std::vector<std::string>& databases, const std::vector<Cascade>& cascades) {
+std::vector<StageSurvival> measure_survival(const StudyContext& context, const std::vector<std::string>& databases,
+                                            const std::vector<Cascade>& cascades, reports::TruthKind truth) {
   Workbench& workbench = context.workbench;
-  const std::vector<uint64_t>& seeds = context.options.seeds;
-  std::vector<Replay> replays;
-  Replay replay;
-  replay.databases = databases;
-  replay.range = movements.range;
-  replay.tracker = context.options.tracker;
-  for (const auto& truth : movements.truths) {
-    for (const uint64_t seed : seeds) {
-      replay.truth = truth;
-      replay.seed = seed;
-      replays.push_back(replay);
-    }
-  }
-  prepare(workbench, replays);
+  const TrackerConfig& tracker = context.options.tracker;
+  // One spec a frame sequence: it is looked up in all databases.
+  const std::vector<RunSpec> specs =
+      study_specs(context, {{.name = "look-up", .tracker = tracker}}, {databases.front()}, truth);
+  // Before the threads start: making these uses all of them.
   const std::vector<Searched> searched = load(workbench, databases);
+  workbench.color_table(tracker.segmentation.color_space);
 
   size_t frames = 0;
-  for (const Replay& each : replays) frames += frames_of(each).size();
+  for (const RunSpec& each : specs) frames += frames_of(each).size();
   Progress progress("following true neighbors", workbench.config().quiet);
   std::atomic<size_t> done{0};
   const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
-  std::vector<std::vector<FrameSurvival>> of_replays(replays.size());
+  std::vector<std::vector<FrameSurvival>> of_runs(specs.size());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workbench.config().threads);
   tbb::task_arena arena(workbench.config().threads);
   arena.execute([&] {
-    tbb::parallel_for(size_t{0}, replays.size(), [&](size_t r) {
-      of_replays[r] = replay_look_ups(workbench, replays[r], searched, cascades, frame_done);
+    tbb::parallel_for(size_t{0}, specs.size(), [&](size_t r) {
+      of_runs[r] = run_look_ups(workbench, specs[r], searched, cascades, frame_done);
     });
   });
 
-  const Sample shape(movements.truths.size(), std::vector<std::vector<std::optional<double>>>(seeds.size()));
-  Survival survival = make_stages(searched, cascades, shape);
-  for (size_t r = 0; r < replays.size(); ++r) {
-    for (const FrameSurvival& frame : of_replays[r]) {
-      size_t next = 0;
-      for (auto& of_database : survival)
-        for (auto& stages : of_database)
-          for (StageSurvival& stage : stages)
-            stage.survived_percent[r / seeds.size()][r % seeds.size()].push_back(frame[next++]);
+  std::vector<StageSurvival> stages = all_stages(databases, searched, cascades);
+  for (size_t s = 0; s < stages.size(); ++s) {
+    Sample& sample = stages[s].survived_percent;
+    for (size_t r = 0; r < specs.size(); ++r) {
+      if (r == 0 || specs[r].trajectory != specs[r - 1].trajectory) sample.emplace_back();
+      std::vector<std::optional<double>>& values = sample.back().emplace_back();
+      for (const FrameSurvival& frame : of_runs[r]) values.push_back(frame[s]);
     }
   }
-  return survival;
+  return stages;
 }
 
 }  // namespace glovebench::eval

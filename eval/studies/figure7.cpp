@@ -5,6 +5,7 @@
 #include "core/base/check.h"
 #include "core/database/look_up.h"
 #include "eval/share.h"
+#include "eval/studies/sample.h"
 #include "eval/studies/trial_queries.h"
 #include "eval/terminal.h"
 #include "eval/thread_time.h"
@@ -18,7 +19,6 @@ namespace {
 
 using reports::Cell;
 using reports::ConfidenceInterval;
-using reports::Draw;
 using reports::Measure;
 using reports::Table;
 
@@ -48,7 +48,7 @@ std::vector<SizeResult> rank_all(const Database& database, const TrueNeighborSea
   std::vector<SizeResult> results;
   for (const int size : setup.sizes) results.push_back({size, {}, {}});
   for (size_t q = 0; q < queries.size(); ++q) {
-    const TrialHand& hand = queries[q].hand;
+    const HandFrame& hand = queries[q].hand;
     const int neighbor = search.nearest(hand.posture, hand.T_camera_hand, camera).entry;
     for (size_t s = 0; s < results.size(); ++s) {
       const double start_us = 1000 * thread_time_ms();
@@ -62,24 +62,16 @@ std::vector<SizeResult> rank_all(const Database& database, const TrueNeighborSea
   return results;
 }
 
-double mean_of(const std::vector<double>& values, const std::vector<int>& drawn) {
+double mean_of(const std::vector<double>& values, std::span<const int> drawn) {
   double sum = 0;
   for (const int q : drawn) sum += values[q];
   return sum / static_cast<double>(drawn.size());
 }
 
 /// Interval of a statistic of queries that are drawn again.
-std::optional<ConfidenceInterval> query_interval(size_t queries,
-                                                 const std::function<double(const std::vector<int>&)>& statistic) {
-  const reports::StratumShape all{1, static_cast<int>(queries)};
-  reports::BootstrapConfig config;
-  config.block_frames = 1;  // queries are drawn one by one
-  std::optional<ConfidenceInterval> interval = reports::stratified_interval(
-      {&all, 1},
-      [&](std::span<const Draw> draws) -> std::optional<double> { return statistic(draws.front().frames); },
-      config);
-  if (interval) interval->over = "trial queries";
-  return interval;
+std::optional<ConfidenceInterval> query_interval(
+    size_t queries, const std::function<std::optional<double>(std::span<const int>)>& statistic) {
+  return interval_over(static_cast<int>(queries), "trial queries", statistic);
 }
 
 /// From how many sizes to the next larger one a value moves in this direction.
@@ -96,8 +88,8 @@ double percent_up_to(const std::vector<double>& ranks, double limit) {
 }
 
 std::vector<Cell> row_of(const SizeResult& result) {
-  const auto interval = query_interval(result.rank.size(),
-                                       [&](const std::vector<int>& drawn) { return mean_of(result.rank, drawn); });
+  const auto interval =
+      query_interval(result.rank.size(), [&](std::span<const int> drawn) { return mean_of(result.rank, drawn); });
   return {"plain",
           int64_t{result.size},
           static_cast<int64_t>(result.rank.size()),
@@ -153,11 +145,11 @@ std::vector<Measure> make_measures(const std::vector<SizeResult>& results, int r
   std::vector<int> all(queries);
   for (size_t q = 0; q < queries; ++q) all[q] = static_cast<int>(q);
 
-  const auto lower_rank = [&](const std::vector<int>& drawn) -> double {
+  const auto lower_rank = [&](std::span<const int> drawn) -> double {
     return count_steps(
         results, [&](const SizeResult& r) { return mean_of(r.rank, drawn); }, std::less<>());
   };
-  const auto rank_ratio = [&](const std::vector<int>& drawn) {
+  const auto rank_ratio = [&](std::span<const int> drawn) {
     return mean_of(results.front().rank, drawn) / mean_of(results.back().rank, drawn);
   };
   const double higher_time = count_steps(

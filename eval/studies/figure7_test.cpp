@@ -105,7 +105,7 @@ TEST(Figure7Long, a_clean_query_at_a_view_of_the_database_has_rank_1) {
   for (const int position : {1, 7, 11, 23, 30, 41}) {
     for (const int posture : {0, 1}) {
       const int entry = posture * kViewCount + position * kInPlaneRotations + 5;
-      TrialHand hand{database.posture(entry), Eigen::Isometry3d::Identity()};
+      HandFrame hand{0, database.posture(entry), Eigen::Isometry3d::Identity()};
       hand.T_camera_hand.linear() = view_rotations()[Database::view(entry)];
       hand.T_camera_hand.translation().z() = ViewConfig{}.distance;
       const std::optional<LabelImage> labels = camera.see(hand, {1, "figure 7 test", entry});

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "eval/studies/cascade_survival.h"
-#include "eval/studies/settings.h"
 #include "reports/paper_numbers.h"
 
 namespace glovebench::eval {
@@ -16,8 +15,8 @@ using reports::percentile;
 using reports::Table;
 using reports::TruthKind;
 
-const std::vector<std::string> kDatabases = {"DB_20_postures", "DB_open_pinch_power"};
-enum Database { kLarge, kSmall };
+constexpr const char *kLarge = "DB_20_postures", *kSmall = "DB_open_pinch_power";
+const std::vector<std::string> kDatabases = {kLarge, kSmall};
 
 /// Those that the paper compares.
 std::vector<Cascade> paper_cascades() {
@@ -91,26 +90,29 @@ Table empty_stages_table() {
 }
 
 constexpr std::array kImplementations = {Implementation::plain, Implementation::fast};
-using PassesOfCascades = std::vector<std::vector<Passes>>;  ///< [cascade][database]
-/// One of each implementation: its times. They do not depend on the truth.
-using Timed = std::array<PassesOfCascades, kImplementations.size()>;
+/// The timed runs of each implementation. Times do not depend on the truth.
+using Timed = std::array<Runs, kImplementations.size()>;
 
-/// What one truth gives.
-struct Measured {
-  PassesOfCascades passes;                                        ///< errors, of any implementation
-  std::vector<std::vector<std::vector<StageSurvival>>> survival;  ///< [database][cascade][stage]
-};
+/// The stages of one cascade in one database.
+std::vector<StageSurvival> stages_of(const std::vector<StageSurvival>& all, const std::string& database,
+                                     const Cascade& cascade) {
+  std::vector<StageSurvival> stages;
+  std::ranges::copy_if(all, std::back_inserter(stages), [&](const StageSurvival& stage) {
+    return stage.database == database && stage.cascade == cascade;
+  });
+  return stages;
+}
 
 std::vector<Cell> errors_row(const std::string& database, const Cascade& cascade, Implementation implementation,
-                             TruthKind truth, const Passes& passes, const std::vector<StageSurvival>& survival,
-                             const Passes& timed) {
-  const Sample posture = sample_of(passes, "posture_rms_deg");
+                             TruthKind truth, const Selection& runs, const std::vector<StageSurvival>& survival,
+                             const Selection& timed) {
+  const Sample posture = sample_of(runs, "posture_rms_deg");
   std::vector<Cell> row = {database, to_string(cascade), std::string(to_string(implementation)),
-                           std::string(to_string(truth)), static_cast<int64_t>(times_ms(passes).size())};
+                           std::string(to_string(truth)), static_cast<int64_t>(times_ms(runs).size())};
   std::ranges::copy(cells(estimate_mean(posture)), std::back_inserter(row));
-  row.push_back(cell(mean(sample_of(passes, "position_error_mm"))));
-  row.push_back(cell(mean(sample_of(passes, "rotation_error_deg"))));
-  row.push_back(cell(covered_percent(passes)));
+  row.push_back(cell(mean(sample_of(runs, "position_error_mm"))));
+  row.push_back(cell(mean(sample_of(runs, "rotation_error_deg"))));
+  row.push_back(cell(covered_percent(runs)));
   row.push_back(cell(mean(survival.back().survived_percent)));
   row.push_back(static_cast<int64_t>(times_ms(timed).size()));
   for (const std::vector<double>& times : {times_ms(timed, "look_up"), times_ms(timed)})
@@ -121,41 +123,38 @@ std::vector<Cell> errors_row(const std::string& database, const Cascade& cascade
   return row;
 }
 
-void add_rows(reports::StudyResult& result, TruthKind truth, const std::vector<Cascade>& cascades,
-              const Measured& measured, const Timed& timed) {
-  for (size_t d = 0; d < kDatabases.size(); ++d) {
-    for (size_t c = 0; c < cascades.size(); ++c) {
-      const std::vector<StageSurvival>& survival = measured.survival[d][c];
+void add_rows(reports::StudyResult& result, TruthKind truth, const std::vector<Cascade>& cascades, const Runs& runs,
+              const std::vector<StageSurvival>& survival, const Timed& timed) {
+  for (const std::string& database : kDatabases) {
+    for (const Cascade& cascade : cascades) {
+      const std::string setting = to_string(cascade);
+      const Selection selected = select(runs, setting, database);
+      const std::vector<StageSurvival> stages = stages_of(survival, database, cascade);
       for (size_t i = 0; i < kImplementations.size(); ++i)
-        result.tables[0].rows.push_back(errors_row(kDatabases[d], cascades[c], kImplementations[i], truth,
-                                                   measured.passes[c][d], survival, timed[i][c][d]));
-      for (size_t s = 0; s < survival.size(); ++s)
-        result.tables[1].rows.push_back({kDatabases[d], to_string(cascades[c]), std::string(to_string(truth)),
-                                         static_cast<int64_t>(s + 1), int64_t{cascades[c][s].size},
-                                         int64_t{survival[s].candidates_in}, int64_t{survival[s].candidates_out},
-                                         cell(mean(survival[s].survived_percent))});
+        result.tables[0].rows.push_back(errors_row(database, cascade, kImplementations[i], truth, selected, stages,
+                                                   select(timed[i], setting, database)));
+      for (const StageSurvival& stage : stages)
+        result.tables[1].rows.push_back({database, setting, std::string(to_string(truth)),
+                                         static_cast<int64_t>(stage.stage + 1), int64_t{cascade[stage.stage].size},
+                                         int64_t{stage.candidates_in}, int64_t{stage.candidates_out},
+                                         cell(mean(stage.survived_percent))});
     }
   }
 }
 
-/// The paper's four cascades by what they are in its argument; empty if one was not run.
-struct Roles {
-  size_t three_stages, two_stages, largest_alone, smallest_alone;
-};
-std::optional<Roles> roles_of(const std::vector<Cascade>& cascades) {
-  std::vector<size_t> places;
-  for (const char* text : {"16:1000,32:300,64:3", "16:500,64:3", "64:3", "8:15"}) {
-    const auto it = std::ranges::find(cascades, parse_cascade(text));
-    if (it == cascades.end()) return std::nullopt;
-    places.push_back(static_cast<size_t>(it - cascades.begin()));
-  }
-  return Roles{places[0], places[1], places[2], places[3]};
+/// The paper's four cascades by what they are in its argument.
+constexpr const char *kThreeStages = "16:1000,32:300,64:3", *kTwoStages = "16:500,64:3", *kLargestAlone = "64:3",
+                     *kSmallestAlone = "8:15";
+bool has_all_of_the_paper(const std::vector<Cascade>& cascades) {
+  return std::ranges::all_of(
+      std::array{kThreeStages, kTwoStages, kLargestAlone, kSmallestAlone},
+      [&](const char* text) { return std::ranges::count(cascades, parse_cascade(text)) > 0; });
 }
 
-std::vector<Measure> error_measures(const PassesOfCascades& passes, const Roles& roles) {
+std::vector<Measure> cascade_error_measures(const Runs& runs) {
   std::vector<Sample> posture;
-  for (const size_t c : {roles.smallest_alone, roles.largest_alone, roles.two_stages, roles.three_stages})
-    posture.push_back(sample_of(passes[c][kLarge], "posture_rms_deg"));
+  for (const char* cascade : {kSmallestAlone, kLargestAlone, kTwoStages, kThreeStages})
+    posture.push_back(sample_of(select(runs, cascade, kLarge), "posture_rms_deg"));
   const Estimated excess = estimate(posture, [](std::span<const double> means) {
     return std::optional(means[0] - *std::ranges::max_element(means.subspan(1)));
   });
@@ -167,22 +166,24 @@ std::vector<Measure> error_measures(const PassesOfCascades& passes, const Roles&
 }
 
 /// Median time of the slowest stage beside the alignment.
-std::optional<double> slowest_other(const Passes& passes) {
+std::optional<double> slowest_other(const Selection& runs) {
   std::optional<double> slowest;
   for (const char* stage : {"register", "segment", "cloud", "tiny_images", "look_up", "smooth"})
-    if (const auto time = percentile(times_ms(passes, stage), 0.5)) slowest = std::max(*time, slowest.value_or(0));
+    if (const auto time = percentile(times_ms(runs, stage), 0.5)) slowest = std::max(*time, slowest.value_or(0));
   return slowest;
 }
 
-std::vector<Measure> time_measures(const Timed& timed, const Roles& roles) {
+std::vector<Measure> time_measures(const Timed& timed) {
   const auto& [plain, fast] = timed;
-  const auto look_up = [&](size_t cascade) { return percentile(times_ms(plain[cascade][kLarge], "look_up"), 0.5); };
-  const auto tiny = look_up(roles.smallest_alone), large = look_up(roles.largest_alone),
-             two = look_up(roles.two_stages), three = look_up(roles.three_stages),
-             other = slowest_other(plain[roles.two_stages][kSmall]),
-             align = percentile(times_ms(plain[roles.two_stages][kSmall], "align"), 0.5),
-             frame = percentile(times_ms(fast[roles.two_stages][kLarge]), 0.95),
-             plain_frame = percentile(times_ms(plain[roles.two_stages][kLarge]), 0.95);
+  const auto look_up = [&](const char* cascade) {
+    return percentile(times_ms(select(plain, cascade, kLarge), "look_up"), 0.5);
+  };
+  const Selection small = select(plain, kTwoStages, kSmall);
+  const auto tiny = look_up(kSmallestAlone), large = look_up(kLargestAlone), two = look_up(kTwoStages),
+             three = look_up(kThreeStages), other = slowest_other(small),
+             align = percentile(times_ms(small, "align"), 0.5),
+             frame = percentile(times_ms(select(fast, kTwoStages, kLarge)), 0.95),
+             plain_frame = percentile(times_ms(select(plain, kTwoStages, kLarge)), 0.95);
   if (!tiny || !large || !two || !three || !other || !align || !frame || !plain_frame) return {};
   return {{"figure8.time_share", "", *two / *large, {}, true},
           {"figure8.tiny_time_share", "", *tiny / std::min({*large, *two, *three}), {}, true},
@@ -211,17 +212,14 @@ reports::StudyResult run_figure8(const StudyContext& context) {
 
   Timed timed;
   for (size_t i = 0; i < kImplementations.size(); ++i)
-    timed[i] =
-        time_settings(context, movements(context, TruthKind::source), settings, kDatabases, kImplementations[i]);
-  const std::optional<Roles> roles = roles_of(cascades);
+    timed[i] = time_settings(context, settings, kDatabases, kImplementations[i]);
+  const bool judged = has_all_of_the_paper(cascades);
   for (const TruthKind truth : {TruthKind::recorded, TruthKind::source}) {
-    const Movements replayed = movements(context, truth);
-    const Measured measured = {run_settings(context, replayed, settings, kDatabases),
-                               measure_survival(context, replayed, kDatabases, cascades)};
-    add_rows(result, truth, cascades, measured, timed);
-    if (roles && truth == TruthKind::source) result.measures = error_measures(measured.passes, *roles);
+    const Runs runs = run_settings(context, settings, kDatabases, truth);
+    add_rows(result, truth, cascades, runs, measure_survival(context, kDatabases, cascades, truth), timed);
+    if (judged && truth == TruthKind::source) result.measures = cascade_error_measures(runs);
   }
-  if (roles) std::ranges::move(time_measures(timed, *roles), std::back_inserter(result.measures));
+  if (judged) std::ranges::move(time_measures(timed), std::back_inserter(result.measures));
   return result;
 }
 

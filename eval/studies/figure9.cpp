@@ -1,6 +1,6 @@
 #include <array>
 
-#include "eval/studies/settings.h"
+#include "eval/studies/study.h"
 
 namespace glovebench::eval {
 namespace {
@@ -58,19 +58,20 @@ Table empty_times_table() {
           {}};
 }
 
-/// One setting a factor, with the one database.
-using PassesOfFactors = std::vector<std::vector<Passes>>;
+Selection of_factor(const Runs& runs, int factor) {
+  return select(runs, std::to_string(factor), kSamplingDatabase);
+}
 
-void add_errors(Table& table, TruthKind truth, const PassesOfFactors& passes) {
-  for (size_t f = 0; f < kFactors.size(); ++f) {
-    const Passes& of_factor = passes[f][0];
-    const auto points = mean(sample_of(of_factor, [](const TrackResult& r, const reports::FrameErrors&) {
-      return std::optional<double>(r.icp_points);
+void add_errors(Table& table, TruthKind truth, const Runs& runs) {
+  for (const int factor : kFactors) {
+    const Selection selected = of_factor(runs, factor);
+    const auto points = mean(sample_of(selected, [](const MeasuredRun& each, size_t frame) {
+      return std::optional<double>(each.run.answers[frame].icp_points);
     }));
-    std::vector<reports::Cell> row = {std::string(to_string(truth)), int64_t{kFactors[f]}, cell(points)};
+    std::vector<reports::Cell> row = {std::string(to_string(truth)), int64_t{factor}, cell(points)};
     for (const char* metric : {"position_error_mm", "rotation_error_deg"})
-      std::ranges::copy(cells(estimate_mean(sample_of(of_factor, metric))), std::back_inserter(row));
-    row.push_back(cell(covered_percent(of_factor)));
+      std::ranges::copy(cells(estimate_mean(sample_of(selected, metric))), std::back_inserter(row));
+    row.push_back(cell(covered_percent(selected)));
     table.rows.push_back(row);
   }
 }
@@ -79,19 +80,20 @@ std::optional<double> median(const std::vector<double>& values) {
   return reports::percentile(values, 0.5);
 }
 
-void add_times(Table& table, Implementation implementation, const PassesOfFactors& passes) {
-  for (size_t f = 0; f < kFactors.size(); ++f) {
-    const std::vector<double> frames = times_ms(passes[f][0]);
-    std::vector<reports::Cell> row = {std::string(to_string(implementation)), int64_t{kFactors[f]}};
+void add_times(Table& table, Implementation implementation, const Runs& runs) {
+  for (const int factor : kFactors) {
+    const Selection selected = of_factor(runs, factor);
+    const std::vector<double> frames = times_ms(selected);
+    std::vector<reports::Cell> row = {std::string(to_string(implementation)), int64_t{factor}};
     for (const auto& value : {median(frames), reports::percentile(frames, 0.95),
-                              median(times_ms(passes[f][0], "align")), median(times_ms(passes[f][0], "look_up"))})
+                              median(times_ms(selected, "align")), median(times_ms(selected, "look_up"))})
       row.push_back(cell(value));
     table.rows.push_back(row);
   }
 }
 
 /// Of the largest factor: the alignment beside all other stages, the look-up within the frame.
-std::vector<Measure> time_measures(const Passes& sparsest) {
+std::vector<Measure> time_measures(const Selection& sparsest) {
   const auto frame = median(times_ms(sparsest)), align = median(times_ms(sparsest, "align")),
              look_up = median(times_ms(sparsest, "look_up"));
   if (!frame || !align || !look_up) return {};
@@ -99,10 +101,9 @@ std::vector<Measure> time_measures(const Passes& sparsest) {
           {"figure9.look_up_share_at_64", "", *look_up / *frame, {}, true}};
 }
 
-std::vector<Measure> error_measures(const PassesOfFactors& passes) {
+std::vector<Measure> sampling_error_measures(const Runs& runs) {
   std::vector<Sample> errors;
-  for (const std::vector<Passes>& of_factor : passes)
-    errors.push_back(sample_of(of_factor[0], "position_error_mm"));
+  for (const int factor : kFactors) errors.push_back(sample_of(of_factor(runs, factor), "position_error_mm"));
   const auto per_doubling = [](std::span<const double> means) {
     return std::optional(std::pow(means[1] / means[0], 1.0 / (kFactors.size() - 1)) - 1);
   };
@@ -120,17 +121,16 @@ reports::StudyResult run_figure9(const StudyContext& context) {
       "fig9", "Figure 9: sub-sampling", {empty_sampling_errors_table(), empty_times_table()}, {}};
   // No claim rests on the recorded truth.
   const TruthKind truth = TruthKind::source;
-  const Movements replayed = movements(context, truth, kTrajectories);
   const std::vector<Setting> settings = sampling_settings(context.options.tracker);
 
-  const PassesOfFactors passes = run_settings(context, replayed, settings, {kSamplingDatabase});
-  add_errors(result.tables[0], truth, passes);
-  result.measures = error_measures(passes);
+  const Runs runs = run_settings(context, settings, {kSamplingDatabase}, truth, kTrajectories);
+  add_errors(result.tables[0], truth, runs);
+  result.measures = sampling_error_measures(runs);
   for (const Implementation implementation : {Implementation::plain, Implementation::fast}) {
-    const PassesOfFactors timed = time_settings(context, replayed, settings, {kSamplingDatabase}, implementation);
+    const Runs timed = time_settings(context, settings, {kSamplingDatabase}, implementation, kTrajectories);
     add_times(result.tables[1], implementation, timed);
     if (implementation == Implementation::plain)
-      std::ranges::move(time_measures(timed.back()[0]), std::back_inserter(result.measures));
+      std::ranges::move(time_measures(of_factor(timed, kFactors.back())), std::back_inserter(result.measures));
   }
   return result;
 }

@@ -1,7 +1,9 @@
-#include "eval/studies/light.h"
+#include <fmt/format.h>
 
 #include "eval/color_table_cache.h"
+#include "eval/label_errors.h"
 #include "eval/share.h"
+#include "eval/studies/study.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -11,6 +13,13 @@ using render::Lighting;
 using reports::Cell;
 using reports::Measure;
 using reports::Table;
+
+/// A color table of the study, and what its errors came to under each lighting.
+struct LightResult {
+  std::string calibration;  ///< to read
+  ColorSpace space = ColorSpace::yuv;
+  std::vector<LabelErrors> errors;  ///< one a lighting
+};
 
 constexpr std::array<ColorSpace, 2> kSpaces = {ColorSpace::yuv, ColorSpace::rgb};
 /// Where measure_light puts the tables of the calibration under one lighting.
@@ -110,30 +119,32 @@ Table tracking_table(const StudyContext& context) {
   std::vector<Setting> settings;
   for (const Lighting& lighting : tracked_lightings(context.options.quick)) {
     for (const ColorSpace space : kSpaces) {
-      Setting& setting =
-          settings.emplace_back(Setting{.name = "light", .tracker = context.options.tracker, .lighting = lighting});
+      Setting& setting = settings.emplace_back(
+          Setting{.name = fmt::format("{} {} {} K", to_string(space), lighting.strength, lighting.temperature_k),
+                  .tracker = context.options.tracker,
+                  .lighting = lighting});
       setting.tracker.segmentation.color_space = space;
     }
   }
-  const auto passes = run_settings(context, movements(context, reports::TruthKind::source, {"Tr4"}), settings,
-                                   {"DB_open_pinch_power"});
+  const char* database = "DB_open_pinch_power";
+  const Runs runs = run_settings(context, settings, {database}, reports::TruthKind::source, {"Tr4"});
   Table table = empty_tracking_table();
   for (const ColorSpace space : kSpaces) {
-    for (size_t i = 0; i < settings.size(); ++i) {
-      if (settings[i].tracker.segmentation.color_space != space) continue;
-      std::vector<Cell> row = {std::string(to_string(space)), settings[i].lighting.strength,
-                               settings[i].lighting.temperature_k};
+    for (const Setting& setting : settings) {
+      if (setting.tracker.segmentation.color_space != space) continue;
+      const Selection selected = select(runs, setting.name, database);
+      std::vector<Cell> row = {std::string(to_string(space)), setting.lighting.strength,
+                               setting.lighting.temperature_k};
       for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"})
-        row.push_back(cell(mean(sample_of(passes[i][0], metric))));
-      row.push_back(cell(covered_percent(passes[i][0])));
+        row.push_back(cell(mean(sample_of(selected, metric))));
+      row.push_back(cell(covered_percent(selected)));
       table.rows.push_back(row);
     }
   }
   return table;
 }
 
-}  // namespace
-
+/// By calibration (the tracker's own, then that under one lighting) and space.
 std::vector<LightResult> measure_light(Workbench& workbench, std::span<const Lighting> lightings) {
   const auto postures = trajectories::posture_set(trajectory_folder(), "DB_open_pinch_power").postures;
   std::vector<LightResult> results;
@@ -151,6 +162,8 @@ std::vector<LightResult> measure_light(Workbench& workbench, std::span<const Lig
     for (size_t t = 0; t < tables.size(); ++t) results[t].errors.push_back(of_lighting[t]);
   return results;
 }
+
+}  // namespace
 
 reports::StudyResult run_light(const StudyContext& context) {
   std::vector<Lighting> lightings = held_out_lightings();

@@ -21,8 +21,8 @@ using reports::Cell;
 using reports::Table;
 
 /// Frames spread over the movements of these names.
-std::vector<trajectories::TrajectoryFrame> spread_frames(const std::vector<std::string>& names, int of_each) {
-  std::vector<trajectories::TrajectoryFrame> frames;
+std::vector<HandFrame> spread_frames(const std::vector<std::string>& names, int of_each) {
+  std::vector<HandFrame> frames;
   for (const std::string& name : names) {
     const auto trajectory = trajectories::source_trajectory(trajectory_folder(), name);
     const size_t count = trajectory.frames.size();
@@ -38,14 +38,13 @@ struct TrueFrame {
 };
 
 std::vector<TrueFrame> render_under(Workbench& workbench, int subject, const LightPoint& point,
-                                    const std::vector<trajectories::TrajectoryFrame>& poses,
-                                    const std::string& sequence) {
+                                    const std::vector<HandFrame>& poses, const std::string& sequence) {
   const render::Subject hand = workbench.subject(subject);
   render::SceneConfig scene;
   scene.shader = render::shader_of(subject);
   render::RgbdRenderer renderer(workbench.calibration(), hand, scene);
   std::vector<TrueFrame> frames;
-  for (const trajectories::TrajectoryFrame& pose : poses) {
+  for (const HandFrame& pose : poses) {
     TrueFrame& made = frames.emplace_back();
     made.images = renderer.render(hand.pose(pose.posture), pose.T_camera_hand, point.lighting);
     made.images.color = render::with_white_balance(made.images.color, point.white_balance);

@@ -1,8 +1,8 @@
-#include "eval/studies/monocular.h"
+#include <fmt/format.h>
 
 #include <cmath>
 
-#include "eval/studies/settings.h"
+#include "eval/studies/study.h"
 
 namespace glovebench::eval {
 namespace {
@@ -17,7 +17,8 @@ std::vector<Setting> monocular_settings(const TrackerConfig& tracker) {
   std::vector<Setting> settings;
   for (const int subject : {1, 2}) {
     for (const std::string_view method : {kMonocular, kPaperMethod}) {
-      settings.push_back({.name = std::string(method), .tracker = tracker, .subject = subject});
+      settings.push_back(
+          {.name = fmt::format("{} of subject {}", method, subject), .tracker = tracker, .subject = subject});
       settings.back().tracker.method = method;
     }
   }
@@ -25,30 +26,22 @@ std::vector<Setting> monocular_settings(const TrackerConfig& tracker) {
 }
 
 /// A value of the offset of the estimated hand origin from the true one (camera frame, m), in tracked frames.
-Sample offset_sample(const Passes& passes, double (*value)(const Eigen::Vector3d& offset)) {
-  Sample sample;
-  for (size_t s = 0; s < passes.strata.size(); ++s) {
-    auto& stratum = sample.emplace_back();
-    for (const TrackedReplay& pass : passes.strata[s]) {
-      auto& frames = stratum.emplace_back();
-      for (size_t f = 0; f < pass.results.size(); ++f) {
-        const TrackResult& result = pass.results[f];
-        const Eigen::Isometry3d& truth = passes.truths[s]->frames[passes.range.first + f].T_camera_hand;
-        const Eigen::Vector3d offset = result.T_camera_hand.translation() - truth.translation();
-        frames.push_back(result.status == TrackStatus::tracked ? std::optional(value(offset)) : std::nullopt);
-      }
-    }
-  }
-  return sample;
+Sample offset_sample(const Selection& runs, double (*value)(const Eigen::Vector3d& offset)) {
+  return sample_of(runs, [&](const MeasuredRun& each, size_t frame) {
+    const TrackResult& answer = each.run.answers[frame];
+    const Eigen::Isometry3d& truth = frames_of(each.run.spec)[frame].T_camera_hand;
+    const Eigen::Vector3d offset = answer.T_camera_hand.translation() - truth.translation();
+    return answer.status == TrackStatus::tracked ? std::optional(value(offset)) : std::nullopt;
+  });
 }
 
-Estimated depth_error_cm(const Passes& passes) {
-  return estimate_mean(offset_sample(passes, [](const Eigen::Vector3d& o) { return 100 * std::abs(o.z()); }));
+Estimated depth_error_cm(const Selection& runs) {
+  return estimate_mean(offset_sample(runs, [](const Eigen::Vector3d& o) { return 100 * std::abs(o.z()); }));
 }
 
-std::optional<double> tracked_percent(const Passes& passes) {
-  return mean(sample_of(passes, [](const TrackResult& result, const reports::FrameErrors&) {
-    return std::optional(result.status == TrackStatus::tracked ? 100.0 : 0.0);
+std::optional<double> tracked_percent(const Selection& runs) {
+  return mean(sample_of(runs, [](const MeasuredRun& each, size_t frame) {
+    return std::optional(each.run.answers[frame].status == TrackStatus::tracked ? 100.0 : 0.0);
   }));
 }
 
@@ -80,15 +73,15 @@ Table empty_monocular_table() {
       {}};
 }
 
-std::vector<Cell> row_of(const Setting& setting, const std::string& database, const Passes& passes) {
-  std::vector<Cell> row = {setting.name, database, std::string(to_string(TruthKind::source)),
+std::vector<Cell> row_of(const Setting& setting, const std::string& database, const Selection& runs) {
+  std::vector<Cell> row = {setting.tracker.method, database, std::string(to_string(TruthKind::source)),
                            int64_t{setting.subject}};
-  std::ranges::copy(cells(depth_error_cm(passes)), std::back_inserter(row));
+  std::ranges::copy(cells(depth_error_cm(runs)), std::back_inserter(row));
   const auto lateral_mm = [](const Eigen::Vector3d& offset) { return 1000 * offset.head<2>().norm(); };
-  row.push_back(cell(mean(offset_sample(passes, lateral_mm))));
+  row.push_back(cell(mean(offset_sample(runs, lateral_mm))));
   for (const char* metric : {"position_error_mm", "rotation_error_deg", "posture_rms_deg"})
-    row.push_back(cell(mean(sample_of(passes, metric))));
-  row.push_back(cell(tracked_percent(passes)));
+    row.push_back(cell(mean(sample_of(runs, metric))));
+  row.push_back(cell(tracked_percent(runs)));
   return row;
 }
 
@@ -96,13 +89,13 @@ std::vector<Cell> row_of(const Setting& setting, const std::string& database, co
 
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases) {
   const std::vector<Setting> settings = monocular_settings(context.options.tracker);
-  const auto passes = run_settings(context, movements(context, TruthKind::source), settings, databases);
+  const Runs runs = run_settings(context, settings, databases, TruthKind::source);
   Table table = empty_monocular_table();
-  for (size_t s = 0; s < settings.size(); ++s)
-    for (size_t d = 0; d < databases.size(); ++d)
-      table.rows.push_back(row_of(settings[s], databases[d], passes[s][d]));
+  for (const Setting& setting : settings)
+    for (const std::string& database : databases)
+      table.rows.push_back(row_of(setting, database, select(runs, setting.name, database)));
   // The first setting is the monocular method with the hand that it knows.
-  const Estimated depth = depth_error_cm(passes[0][0]);
+  const Estimated depth = depth_error_cm(select(runs, settings.front().name, databases.front()));
   return {"monocular", "Without depth", {table}, {{"monocular.depth_error_cm", "cm", depth.value, depth.interval}}};
 }
 

@@ -1,5 +1,3 @@
-#include "eval/studies/monocular.h"
-
 #include <gtest/gtest.h>
 
 #include "eval/studies/test_options.h"

@@ -21,17 +21,12 @@ std::vector<Posture> pool() {
   return trajectories::movement_posture_pool(trajectories::load_gestures(trajectory_folder()));
 }
 
-std::vector<Cell> row_of(const AblationRuns& runs, const PostureSet& set) {
-  const Passes& passes = runs.at(kDefaultSetting, set.name);
-  const Passes& reference = runs.at(kDefaultSetting, kChosen);
+std::vector<Cell> row_of(const Runs& runs, const PostureSet& set) {
+  const Selection reference = select(runs, kDefaultSetting, kChosen);
   std::vector<Cell> row = {set.name, covering_radius_deg(set)};
-  for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"}) {
-    const Sample errors = sample_of(passes, metric);
-    row.push_back(cell(mean(errors)));
-    std::ranges::copy(
-        cells(set.name == kChosen ? Estimated{} : estimate_difference(errors, sample_of(reference, metric))),
-        std::back_inserter(row));
-  }
+  std::ranges::copy(
+      error_cells(select(runs, kDefaultSetting, set.name), set.name == kChosen ? nullptr : &reference),
+      std::back_inserter(row));
   return row;
 }
 
@@ -66,18 +61,20 @@ Ablation posture_choice_ablation(const std::vector<PostureSet>& choices) {
   return ablation;
 }
 
-void add_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices, AblationRuns& runs) {
+Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices) {
+  Runs runs;
   for (const PostureSet& set : choices) {
     Workbench workbench(context.workbench.config());
     workbench.database(set);
-    const StudyContext own{workbench, context.options, context.run_folder};
-    auto passes = run_settings(own, movements(own, reports::TruthKind::source),
-                               {{.name = kDefaultSetting, .tracker = context.options.tracker}}, {set.name});
-    runs.add(kDefaultSetting, set.name, std::move(passes.front().front()));
+    const StudyContext own{workbench, context.options, context.store};
+    const Setting setting{.name = kDefaultSetting, .tracker = context.options.tracker};
+    std::ranges::move(run_settings(own, {setting}, {set.name}, reports::TruthKind::source),
+                      std::back_inserter(runs));
   }
+  return runs;
 }
 
-reports::Table posture_choice_table(const AblationRuns& runs, const std::vector<PostureSet>& choices) {
+reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices) {
   reports::Table table = {
       "postures",
       "Choice of the movement postures",

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "eval/studies/ablation_runs.h"
+#include "eval/studies/ablations.h"
 
 namespace glovebench::eval {
 
@@ -14,10 +14,10 @@ double covering_radius_deg(const PostureSet& set);
 
 /// DB_20_postures against these.
 Ablation posture_choice_ablation(const std::vector<PostureSet>& choices);
-/// Runs the default setting with each of them. DB_20_postures has to be among the runs already. A database of 20
-/// postures takes 0.9 GB of memory; those of the choices are dropped as soon as they were used.
-void add_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices, AblationRuns& runs);
-/// The table "postures": a row each, DB_20_postures first.
-reports::Table posture_choice_table(const AblationRuns& runs, const std::vector<PostureSet>& choices);
+/// Runs the default setting with each of them. A database of 20 postures takes 0.9 GB of memory; those of the
+/// choices are dropped as soon as they were used.
+Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices);
+/// The table "postures": a row each, DB_20_postures first, which must be among the runs, too.
+reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices);
 
 }  // namespace glovebench::eval

@@ -2,9 +2,52 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "core/base/check.h"
 #include "core/base/error.h"
+#include "eval/sequence_metrics.h"
+#include "eval/share.h"
+#include "trajectories/catalog.h"
 
 namespace glovebench::eval {
+namespace {
+
+using trajectories::Trajectory;
+
+/// What a quick reproduction looks at, and a stretch that all movements have.
+constexpr const char* kQuickTrajectory = "Tr4";
+constexpr FrameRange kQuickFrames = {44, 16};
+/// What is timed of each movement (times_explanation); so many that a 95th percentile over five of them is
+/// one of several frames.
+constexpr FrameRange kTimedFrames = {44, 24}, kQuickTimedFrames = {44, 2};
+
+RunSpec spec_of(const Setting& setting, const std::string& database) {
+  RunSpec spec;
+  spec.subject = setting.subject;
+  spec.database = database;
+  spec.tracker = setting.tracker;
+  spec.lighting = setting.lighting;
+  spec.clutter_in_volume = setting.clutter_in_volume;
+  spec.setting = setting.name;
+  return spec;
+}
+
+/// Of each trajectory, in turn: an item for each of its runs.
+template <typename Item>
+std::vector<std::vector<Item>> by_trajectory(const Selection& runs,
+                                             const std::function<Item(const MeasuredRun&)>& item) {
+  std::vector<std::vector<Item>> items;
+  const MeasuredRun* before = nullptr;
+  for (const MeasuredRun* each : runs) {
+    if (!before || before->run.spec.trajectory != each->run.spec.trajectory) items.emplace_back();
+    items.back().push_back(item(*each));
+    before = each;
+  }
+  return items;
+}
+
+}  // namespace
 
 const std::vector<Study>& studies() {
   static const std::vector<Study> all = {
@@ -24,6 +67,141 @@ const Study& study(std::string_view name) {
     known.push_back(study.name);
   }
   throw Error("study", "name", std::string(name), fmt::format("one of {}", fmt::join(known, ", ")));
+}
+
+FrameRange frames_of(const StudyOptions& options) {
+  return options.quick ? kQuickFrames : FrameRange{};
+}
+
+std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<Setting>& settings,
+                                 const std::vector<std::string>& databases, reports::TruthKind truth,
+                                 const std::vector<std::string>& trajectories) {
+  std::vector<std::string> names = trajectories.empty() ? trajectories::ground_truth_names() : trajectories;
+  if (context.options.quick) names = {kQuickTrajectory};
+  const auto load =
+      truth == reports::TruthKind::recorded ? trajectories::recorded_trajectory : trajectories::source_trajectory;
+  std::vector<RunSpec> specs;
+  for (const std::string& name : names) {
+    const auto trajectory = std::make_shared<const Trajectory>(load(trajectory_folder(), name));
+    for (const uint64_t seed : context.options.seeds) {
+      for (const Setting& setting : settings) {
+        for (const std::string& database : databases) {
+          RunSpec& spec = specs.emplace_back(spec_of(setting, database));
+          spec.trajectory = trajectory;
+          spec.frames = frames_of(context.options);
+          spec.seed = seed;
+        }
+      }
+    }
+  }
+  return specs;
+}
+
+Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
+                  const std::vector<std::string>& databases, reports::TruthKind truth,
+                  const std::vector<std::string>& trajectories) {
+  const std::vector<RunSpec> specs = study_specs(context, settings, databases, truth, trajectories);
+  const RunOptions options = {context.workbench.config().threads, context.store};
+  return measure(context.workbench, execute(context.workbench, specs, options));
+}
+
+Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
+                   const std::vector<std::string>& databases, Implementation implementation,
+                   const std::vector<std::string>& trajectories) {
+  Runs runs;
+  for (const Setting& setting : settings) {
+    for (const std::string& database : databases) {
+      std::vector<RunSpec> specs =
+          study_specs(context, {setting}, {database}, reports::TruthKind::source, trajectories);
+      for (RunSpec& spec : specs) {
+        spec.frames = context.options.quick ? kQuickTimedFrames : kTimedFrames;
+        spec.tracker.lookup.implementation = implementation;
+        spec.tracker.icp.implementation = implementation;
+      }
+      std::ranges::move(measure(context.workbench, execute(context.workbench, specs, {})),
+                        std::back_inserter(runs));
+    }
+  }
+  return runs;
+}
+
+std::string times_explanation() {
+  return fmt::format(
+      "Times are processor time of one thread of this machine over {} frames of each movement (a quick run: {}), "
+      "the paper's of four cores of 2009. Plain are the look-up that goes entry after entry and the closest-point "
+      "search that goes face after face, as the paper describes them; fast are those that give the same matches "
+      "and points sooner.",
+      *kTimedFrames.count, *kQuickTimedFrames.count);
+}
+
+Selection select(const Runs& runs, std::string_view setting, std::string_view database) {
+  Selection selection;
+  for (const MeasuredRun& each : runs)
+    if (each.run.spec.setting == setting && each.run.spec.database == database) selection.push_back(&each);
+  check(!selection.empty(), "a setting was run before it is asked for");
+  return selection;
+}
+
+Sample sample_of(const Selection& runs,
+                 const std::function<std::optional<double>(const MeasuredRun& run, size_t frame)>& value) {
+  return by_trajectory<std::vector<std::optional<double>>>(runs, [&](const MeasuredRun& run) {
+    std::vector<std::optional<double>> values;
+    for (size_t f = 0; f < run.errors.size(); ++f) values.push_back(value(run, f));
+    return values;
+  });
+}
+
+Sample sample_of(const Selection& runs, std::string_view metric) {
+  return sample_of(runs, [&](const MeasuredRun& run, size_t frame) { return run.errors[frame].record[metric]; });
+}
+
+std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs) {
+  return by_trajectory<reports::SequenceMetrics>(
+      runs, [](const MeasuredRun& each) { return measure_sequence(each.run.answers, frames_of(each.run.spec)); });
+}
+
+std::vector<double> times_ms(const Selection& runs, std::string_view stage) {
+  std::vector<double> times;
+  for (const MeasuredRun* each : runs) {
+    const Run& run = each->run;
+    if (stage.empty()) times.insert(times.end(), run.frame_ms.begin(), run.frame_ms.end());
+    for (const reports::StageTiming& timing : run.stages)
+      if (timing.stage == stage) times.insert(times.end(), timing.frame_ms.begin(), timing.frame_ms.end());
+  }
+  return times;
+}
+
+std::optional<double> covered_percent(const Selection& runs) {
+  return mean(sample_of(runs, [](const MeasuredRun& run, size_t frame) {
+    return std::optional(run.errors[frame].record.covered ? 100.0 : 0.0);
+  }));
+}
+
+std::vector<reports::Cell> cells(const Estimated& estimated) {
+  if (!estimated.interval) return {cell(estimated.value), {}, {}};
+  return {cell(estimated.value), estimated.interval->low, estimated.interval->high};
+}
+
+const std::vector<reports::Column>& error_columns() {
+  static const std::vector<reports::Column> columns = {
+      {"position_error_mm", "position mm"},   {"position_change_mm", "change"},
+      {"position_change_mm_low", "low"},      {"position_change_mm_high", "high"},
+      {"posture_error_deg", "posture deg"},   {"posture_change_deg", "change"},
+      {"posture_change_deg_low", "low"},      {"posture_change_deg_high", "high"},
+      {"rotation_error_deg", "rotation deg"}, {"rotation_change_deg", "change"},
+      {"rotation_change_deg_low", "low"},     {"rotation_change_deg_high", "high"}};
+  return columns;
+}
+
+std::vector<reports::Cell> error_cells(const Selection& runs, const Selection* reference) {
+  std::vector<reports::Cell> result;
+  for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"}) {
+    const Sample errors = sample_of(runs, metric);
+    result.push_back(cell(mean(errors)));
+    std::ranges::copy(cells(reference ? estimate_difference(errors, sample_of(*reference, metric)) : Estimated{}),
+                      std::back_inserter(result));
+  }
+  return result;
 }
 
 }  // namespace glovebench::eval

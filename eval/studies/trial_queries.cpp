@@ -37,12 +37,12 @@ TrialQuery make_trial_query(TrialCamera& camera, const PostureSet& postures, std
 
 }  // namespace
 
-TrialHand draw_trial_hand(const PostureSet& postures, RandomStream& random) {
+HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random) {
   const size_t count = postures.postures.size();
   const size_t first = random.index(count);
   const size_t second = count == 1 ? first : (first + 1 + random.index(count - 1)) % count;
   const double share = random.uniform();
-  TrialHand hand;
+  HandFrame hand;
   hand.posture = (1 - share) * postures.postures[first] + share * postures.postures[second];
   for (double& angle : hand.posture) angle += radians_from_degrees(kTrialAngleNoise_deg) * random.normal();
   hand.posture = clamp_to_limits(hand.posture);
@@ -63,7 +63,7 @@ TrialCamera::TrialCamera(Workbench& workbench, const TrackerConfig& config, cons
       table_(workbench.color_table(config.segmentation.color_space)),
       renderer_(workbench.calibration(), model_, render::SceneConfig{}) {}
 
-std::optional<LabelImage> TrialCamera::see(const TrialHand& hand, const render::FrameKey& key) {
+std::optional<LabelImage> TrialCamera::see(const HandFrame& hand, const render::FrameKey& key) {
   const RgbdCalibration& calibration = renderer_.calibration();
   const render::RgbdImages images =
       renderer_.render(model_->pose(hand.posture), hand.T_camera_hand, render::Lighting{});

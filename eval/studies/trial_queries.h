@@ -1,24 +1,18 @@
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/hand/hand_frame.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/workbench.h"
 #include "render/noise/noise_model.h"
 #include "render/rgbd_renderer.h"
 
 namespace glovebench::eval {
-
-/// A hand that is looked up.
-struct TrialHand {
-  Posture posture = Posture::Zero();                                ///< rad
-  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m
-};
 
 /// How trial hands are drawn.
 inline constexpr double kTrialAngleNoise_deg = 3.0;  ///< standard deviation of each angle's
@@ -29,7 +23,7 @@ inline constexpr std::array<double, 3> kTrialReach = {0.12, 0.07, 0.10};
 
 /// A hand between the postures and views of a database: a blend of two different postures (of the one, if there are
 /// no more) with noise on every angle, a rotation from the uniform distribution, an origin from the box.
-TrialHand draw_trial_hand(const PostureSet& postures, RandomStream& random);
+HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random);
 
 /// The synthetic Kinect and the tracker's stages before the look-up, with the scene of the first subject. Serves
 /// one thread at a time; what it sees does not depend on the thread.
@@ -38,7 +32,7 @@ class TrialCamera {
   TrialCamera(Workbench& workbench, const TrackerConfig& config, const render::NoiseConfig& noise);
 
   /// The labels of the cloud, as the tracker would look them up; empty if it would not. `key` names the noise.
-  std::optional<LabelImage> see(const TrialHand& hand, const render::FrameKey& key);
+  std::optional<LabelImage> see(const HandFrame& hand, const render::FrameKey& key);
 
  private:
   TrackerConfig config_;
@@ -49,7 +43,7 @@ class TrialCamera {
 };
 
 struct TrialQuery {
-  TrialHand hand;
+  HandFrame hand;
   std::vector<LabelImage> images;  ///< tiny images, one a size
   int redraws = 0;                 ///< hands that were drawn before it and that the tracker would not look up
 };

@@ -19,7 +19,7 @@ TEST(TrialHand, lies_between_two_postures_in_the_box) {
   constexpr int kHands = 2000;
   for (int i = 0; i < kHands; ++i) {
     RandomStream random(1, "trial hand test", i, "hand");
-    const TrialHand hand = draw_trial_hand(test_postures(), random);
+    const HandFrame hand = draw_trial_hand(test_postures(), random);
     EXPECT_TRUE(clamp_to_limits(hand.posture) == hand.posture);
     EXPECT_TRUE(hand.T_camera_hand.linear().isUnitary(1e-12));
     const Eigen::Vector3d offset = hand.T_camera_hand.translation() - Eigen::Vector3d(0, 0, kTrialDistance);
@@ -44,7 +44,7 @@ TEST(TrialHand, lies_between_two_postures_in_the_box) {
 TEST(TrialHand, of_one_posture_stays_near_it) {
   const PostureSet one{"DB_one", {"power"}, {power_posture()}};
   RandomStream random(1, "trial hand test", 0, "hand");
-  const TrialHand hand = draw_trial_hand(one, random);
+  const HandFrame hand = draw_trial_hand(one, random);
   EXPECT_LT(degrees_from_radians(posture_distance(hand.posture, power_posture())), 2 * kTrialAngleNoise_deg);
 }
 
@@ -71,7 +71,7 @@ TEST(TrialQueriesLong, depend_on_the_seed_and_not_on_threads) {
 TEST(TrialQueriesLong, a_hand_that_the_tracker_would_not_look_up_is_not_seen) {
   Workbench workbench(test_workbench());
   TrialCamera camera(workbench, profile("paper"), {});
-  TrialHand hand;
+  HandFrame hand;
   hand.T_camera_hand.translation().z() = kTrialDistance;
   EXPECT_TRUE(camera.see(hand, {1, "trial camera test", 0}).has_value());
   hand.T_camera_hand.translation().x() = 0.38;  // half of the hand is beyond the border

@@ -55,7 +55,7 @@ TEST(ImportCapture, puts_the_hand_below_the_camera_if_nobody_says_where_that_is)
   const Trajectory found = trajectory_of(fit, {}, "mine", 5);
   ASSERT_EQ(found.frames.size(), 3U) << "every fifth of 12";
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const TrajectoryFrame& frame : found.frames) mean += frame.T_camera_hand.translation() / 3;
+  for (const HandFrame& frame : found.frames) mean += frame.T_camera_hand.translation() / 3;
   EXPECT_LT((mean - Eigen::Vector3d(0, 0, kViewingDistance)).norm(), 1e-9);
   const Eigen::Matrix3d R = found.frames[1].T_camera_hand.linear();
   EXPECT_LT(R(2, 1), -0.9) << "the back of the hand (+y) towards the camera (-z)";

@@ -73,7 +73,7 @@ inline MarkerSequence captured(const Trajectory& movement, const HandModel& hand
   MarkerSequence sequence;
   sequence.names = names;
   for (size_t f = 0; f < movement.frames.size(); ++f) {
-    const TrajectoryFrame& frame = movement.frames[f];
+    const HandFrame& frame = movement.frames[f];
     const PosedHand posed = hand.pose(frame.posture);
     MarkerFrame& seen = sequence.frames.emplace_back(MarkerFrame{frame.timestamp_us, {}});
     for (const PlacedMarker& marker : markers) {

@@ -49,8 +49,8 @@ Eigen::Vector4d canonical_wxyz(const Eigen::Matrix3d& rotation) {
   return rounded;
 }
 
-TrajectoryFrame frame_from(const JsonCursor& field) {
-  TrajectoryFrame frame;
+HandFrame frame_from(const JsonCursor& field) {
+  HandFrame frame;
   frame.timestamp_us = field["timestamp_us"].integer(0, kMaxTimestampUs);
   frame.posture = angles_from(field["angles_deg"]);
   frame.T_camera_hand.translation() = field["position_mm"].vector3(kMaxPositionMm) / 1000;
@@ -58,15 +58,15 @@ TrajectoryFrame frame_from(const JsonCursor& field) {
   return frame;
 }
 
-std::vector<TrajectoryFrame> frames_from(const JsonCursor& field) {
-  std::vector<TrajectoryFrame> frames;
+std::vector<HandFrame> frames_from(const JsonCursor& field) {
+  std::vector<HandFrame> frames;
   const JsonItems items = field.some_items();
   // Room is made for all only when each is known to be a frame.
   for (const JsonCursor& item : items)
     item.expect_keys({"timestamp_us", "angles_deg", "position_mm", "quaternion_wxyz"});
   frames.reserve(items.size());
   for (const JsonCursor& item : items) {
-    const TrajectoryFrame frame = frame_from(item);
+    const HandFrame frame = frame_from(item);
     if (!frames.empty() && frame.timestamp_us <= frames.back().timestamp_us)
       item["timestamp_us"].fail(fmt::format("more than {}", frames.back().timestamp_us));
     frames.push_back(frame);
@@ -95,7 +95,7 @@ std::string provenance_json(const Provenance& provenance) {
                      in_quotes(provenance.profile), in_quotes(provenance.profile_hash));
 }
 
-std::string frame_json(const TrajectoryFrame& frame) {
+std::string frame_json(const HandFrame& frame) {
   const Eigen::Vector3d position_mm = frame.T_camera_hand.translation() * 1000;
   const Eigen::Vector4d wxyz = canonical_wxyz(frame.T_camera_hand.linear());
   return fmt::format(

@@ -183,7 +183,7 @@ Trajectory perform(const MotionScript& script) {
   for (int f = 0; f < script.frame_count; ++f) {
     const double time_s = f / kFrameRateHz;
     const HandPose pose = pose_at(script, f);
-    TrajectoryFrame& frame = trajectory.frames.emplace_back();
+    HandFrame& frame = trajectory.frames.emplace_back();
     frame.timestamp_us = std::llround(time_s * 1e6);
     frame.posture = clamp_to_limits(posture_at(script, f) + restlessness.posture_offset(time_s));
     frame.T_camera_hand.translation() = pose.position + restlessness.position_offset(time_s);

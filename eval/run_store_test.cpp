@@ -1,4 +1,4 @@
-#include "eval/run_folder.h"
+#include "eval/run_store.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
-#include "eval/stored_replay.h"
+#include "eval/run.h"
 #include "eval/test_program.h"
 #include "reports/comparison/pairing.h"
 
@@ -19,123 +19,118 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Two passes of two frames, one lost, with numbers that no short decimal is.
-std::vector<TrackedReplay> example_replay() {
-  RandomStream random(1, "run_folder_test", 0, "example");
+/// Two frames, one lost, with numbers that no short decimal is.
+Run example_run() {
+  RandomStream random(1, "run_store_test", 0, "example");
   const auto pose = [&] {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     for (double& value : T.matrix().topRows<3>().reshaped()) value = random.normal();
     return T;
   };
-  std::vector<TrackedReplay> passes;
-  for (const char* database : {"DB_a", "DB_b"}) {
-    TrackedReplay pass{database, {}, {}, {{"align", {0.1, 1.0 / 3}}, {"look_up", {}}}, {2.0 / 3, 7}};
-    for (int frame = 0; frame < 2; ++frame) {
-      TrackResult result;
-      result.timestamp_us = int64_t{1} << (40 + frame);
-      result.status = frame == 0 ? TrackStatus::tracked : TrackStatus::poor_match;
-      for (double& angle : result.posture) angle = random.normal() * 1e-300;
-      for (double& angle : result.posture_unfiltered) angle = random.normal();
-      result.T_camera_hand = pose();
-      result.T_camera_hand_unfiltered = pose();
-      result.T_camera_hand_coarse = pose();
-      result.matches = {{7, 0.1F}, {frame, 2.5F}};
-      result.ambiguous = frame == 1;
-      result.converged = frame == 0;
-      result.cloud_points = 1234;
-      result.icp_points = 999;
-      result.icp_iterations = 13;
-      result.icp_residual = -0.0;
-      if (frame == 1) result.certainty = {result.posture, 0x2aaaaa};
-      reports::FrameErrors errors;
-      errors.record.frame = frame;
-      errors.record.timestamp_us = result.timestamp_us;
-      errors.record.status = result.status;
-      errors.record.covered = frame == 0;
-      errors.record.false_lost = errors.record.ambiguous = frame == 1;
-      errors.record.icp_iterations = 5;
-      errors.record["position_error_mm"] = random.normal();
-      if (frame == 0) errors.joint_errors_mm = {random.uniform(), std::nextafter(1.0, 2.0)};
-      pass.results.push_back(result);
-      pass.errors.push_back(errors);
-    }
-    passes.push_back(pass);
+  Run run;
+  run.stages = {{"align", {0.1, 1.0 / 3}}, {"look_up", {}}};
+  run.frame_ms = {2.0 / 3, 7};
+  for (int frame = 0; frame < 2; ++frame) {
+    TrackResult answer;
+    answer.timestamp_us = int64_t{1} << (40 + frame);
+    answer.status = frame == 0 ? TrackStatus::tracked : TrackStatus::poor_match;
+    for (double& angle : answer.posture) angle = random.normal() * 1e-300;
+    for (double& angle : answer.posture_unfiltered) angle = random.normal();
+    answer.T_camera_hand = pose();
+    answer.T_camera_hand_unfiltered = pose();
+    answer.T_camera_hand_coarse = pose();
+    answer.matches = {{7, 0.1F}, {frame, 2.5F}};
+    answer.ambiguous = frame == 1;
+    answer.converged = frame == 0;
+    answer.cloud_points = 1234;
+    answer.icp_points = 999;
+    answer.icp_iterations = 13;
+    answer.icp_residual = -0.0;
+    if (frame == 1) answer.certainty = {answer.posture, 0x2aaaaa};
+    run.answers.push_back(answer);
+    Sight& sight = run.seen.emplace_back();
+    for (int p = 0; p < kPatchCount; ++p) sight.visible_pixels[p] = 1000 * frame + p;
+    sight.trackable = frame == 1;
   }
-  return passes;
+  return run;
 }
 
 void expect_same_bits(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   EXPECT_TRUE(a.matrix() == b.matrix());
 }
 
-TEST(StoredReplay, ComesBackToTheLastBit) {
-  const std::vector<TrackedReplay> stored = example_replay();
-  const auto read = replay_from_bytes(to_bytes(stored));
+TEST(RunBytes, ComeBackToTheLastBit) {
+  const eval::Run stored = example_run();
+  RunSpec spec;
+  spec.database = "DB_a";
+  const std::optional<eval::Run> read = run_from_bytes(to_bytes(stored), spec);
   ASSERT_TRUE(read.has_value());
-  ASSERT_EQ(read->size(), 2U);
-  for (size_t p = 0; p < 2; ++p) {
-    EXPECT_EQ(read->at(p).database, stored[p].database);
-    EXPECT_EQ(read->at(p).stages[0].frame_ms, stored[p].stages[0].frame_ms);
-    EXPECT_EQ(read->at(p).stages[1].stage, "look_up");
-    EXPECT_EQ(read->at(p).frame_ms, stored[p].frame_ms);
-    for (size_t f = 0; f < 2; ++f) {
-      const TrackResult &r = read->at(p).results[f], &s = stored[p].results[f];
-      EXPECT_EQ(std::tie(r.timestamp_us, r.status, r.ambiguous, r.converged, r.cloud_points, r.icp_points),
-                std::tie(s.timestamp_us, s.status, s.ambiguous, s.converged, s.cloud_points, s.icp_points));
-      EXPECT_EQ(r.icp_iterations, s.icp_iterations);
-      EXPECT_TRUE(std::signbit(r.icp_residual)) << "minus zero";
-      ASSERT_EQ(r.certainty.has_value(), f == 1);
-      if (r.certainty) {
-        EXPECT_EQ(r.certainty->deviation, s.certainty->deviation);
-        EXPECT_EQ(r.certainty->hidden, 0x2aaaaaU);
-      }
-      EXPECT_TRUE(r.posture == s.posture && r.posture_unfiltered == s.posture_unfiltered);
-      expect_same_bits(r.T_camera_hand, s.T_camera_hand);
-      expect_same_bits(r.T_camera_hand_unfiltered, s.T_camera_hand_unfiltered);
-      expect_same_bits(r.T_camera_hand_coarse, s.T_camera_hand_coarse);
-      ASSERT_EQ(r.matches.size(), 2U);
-      EXPECT_EQ(r.matches[1].entry, s.matches[1].entry);
-      EXPECT_EQ(r.matches[0].error, 0.1F);
-      EXPECT_TRUE(read->at(p).errors[f].record == stored[p].errors[f].record);
-      EXPECT_EQ(read->at(p).errors[f].joint_errors_mm, stored[p].errors[f].joint_errors_mm);
+  EXPECT_EQ(read->spec.database, "DB_a");
+  EXPECT_EQ(read->stages[0].frame_ms, stored.stages[0].frame_ms);
+  EXPECT_EQ(read->stages[1].stage, "look_up");
+  EXPECT_EQ(read->frame_ms, stored.frame_ms);
+  ASSERT_EQ(read->answers.size(), 2U);
+  for (size_t f = 0; f < 2; ++f) {
+    const TrackResult &r = read->answers[f], &s = stored.answers[f];
+    EXPECT_EQ(std::tie(r.timestamp_us, r.status, r.ambiguous, r.converged, r.cloud_points, r.icp_points),
+              std::tie(s.timestamp_us, s.status, s.ambiguous, s.converged, s.cloud_points, s.icp_points));
+    EXPECT_EQ(r.icp_iterations, s.icp_iterations);
+    EXPECT_TRUE(std::signbit(r.icp_residual)) << "minus zero";
+    ASSERT_EQ(r.certainty.has_value(), f == 1);
+    if (r.certainty) {
+      EXPECT_EQ(r.certainty->deviation, s.certainty->deviation);
+      EXPECT_EQ(r.certainty->hidden, 0x2aaaaaU);
     }
+    EXPECT_TRUE(r.posture == s.posture && r.posture_unfiltered == s.posture_unfiltered);
+    expect_same_bits(r.T_camera_hand, s.T_camera_hand);
+    expect_same_bits(r.T_camera_hand_unfiltered, s.T_camera_hand_unfiltered);
+    expect_same_bits(r.T_camera_hand_coarse, s.T_camera_hand_coarse);
+    ASSERT_EQ(r.matches.size(), 2U);
+    EXPECT_EQ(r.matches[1].entry, s.matches[1].entry);
+    EXPECT_EQ(r.matches[0].error, 0.1F);
+    EXPECT_EQ(read->seen[f].visible_pixels, stored.seen[f].visible_pixels);
+    EXPECT_EQ(read->seen[f].trackable, stored.seen[f].trackable);
   }
 }
 
-TEST(StoredReplay, HalfOfOneIsNone) {
-  const std::string bytes = to_bytes(example_replay());
+TEST(RunBytes, HalfOfThemAreNone) {
+  const std::string bytes = to_bytes(example_run());
   for (size_t at = 0; at < bytes.size(); at += 7)
-    EXPECT_FALSE(replay_from_bytes(bytes.substr(0, at)).has_value()) << at;
+    EXPECT_FALSE(run_from_bytes(bytes.substr(0, at), {}).has_value()) << at;
 }
 
-TEST(StoredReplay, OfDeepNestingIsNone) {
+TEST(RunBytes, OfDeepNestingAreNone) {
   const std::string nested(10'000'000, '\x81');  // each an array of one
-  EXPECT_FALSE(replay_from_bytes(nested).has_value());
-  EXPECT_FALSE(replay_from_bytes("\x41x").has_value()) << "bytes without a meaning";
+  EXPECT_FALSE(run_from_bytes(nested, {}).has_value());
+  EXPECT_FALSE(run_from_bytes("\x41x", {}).has_value()) << "bytes without a meaning";
 }
 
-TEST(StoredReplay, WithAStatusThatNobodyKnowsIsNone) {
-  const std::string bytes = to_bytes(example_replay());
+TEST(RunBytes, WithAnUnknownStatusOrAFrameTooFewAreNone) {
+  const std::string bytes = to_bytes(example_run());
   for (const std::string status : {"tracked", "poor_match"}) {
     std::string other = bytes;
     const size_t at = other.find(status);
     ASSERT_NE(at, std::string::npos);
     other.replace(at, 1, "x");
-    EXPECT_FALSE(replay_from_bytes(other).has_value()) << status;
+    EXPECT_FALSE(run_from_bytes(other, {}).has_value()) << status;
   }
-  nlohmann::json passes = nlohmann::json::from_cbor(bytes);
-  for (const nlohmann::json& status :
-       {nlohmann::json(99), nlohmann::json(-1), nlohmann::json(0), nlohmann::json()}) {
-    passes[0]["errors"][0][2] = status;
+  const auto is_read = [&](const std::function<void(nlohmann::json&)>& change) {
+    nlohmann::json run = nlohmann::json::from_cbor(bytes);
+    change(run);
     std::string other;
-    nlohmann::json::to_cbor(passes, other);
-    EXPECT_FALSE(replay_from_bytes(other).has_value()) << status;
-  }
+    nlohmann::json::to_cbor(run, other);
+    return run_from_bytes(other, {}).has_value();
+  };
+  EXPECT_TRUE(is_read([](nlohmann::json&) {}));
+  for (const nlohmann::json& status : {nlohmann::json(99), nlohmann::json(-1), nlohmann::json(0), nlohmann::json()})
+    EXPECT_FALSE(is_read([&](nlohmann::json& run) { run["answers"][0][1] = status; })) << status;
+  for (const char* list : {"answers", "seen", "frame_ms"})
+    EXPECT_FALSE(is_read([&](nlohmann::json& run) { run[list].erase(size_t{1}); })) << list;
 }
 
-class RunFolderTest : public testing::Test {
+class RunStoreTest : public testing::Test {
  protected:
-  RunFolderTest() : folder_(test_folder() + "/out") {}
+  RunStoreTest() : folder_(test_folder() + "/out") {}
 
   bool is_marked() const {
     try {
@@ -150,16 +145,16 @@ class RunFolderTest : public testing::Test {
   std::string folder_;
 };
 
-TEST_F(RunFolderTest, IsMarkedFromBeginToFinish) {
+TEST_F(RunStoreTest, IsMarkedFromBeginToFinish) {
   EXPECT_FALSE(is_marked());
   {
-    RunFolder run(folder_);
+    RunStore run(folder_);
     run.begin();
-    run.store("key", "content");
+    run.save("key", "content");
     EXPECT_TRUE(is_marked());
   }
   EXPECT_TRUE(is_marked()) << "it ended without finish";
-  RunFolder again(folder_);
+  RunStore again(folder_);
   EXPECT_TRUE(again.load("key").has_value());
   EXPECT_FALSE(again.load("other").has_value());
   again.finish();
@@ -167,7 +162,7 @@ TEST_F(RunFolderTest, IsMarkedFromBeginToFinish) {
   EXPECT_TRUE(fs::is_empty(folder_)) << "what was kept is gone";
 }
 
-TEST_F(RunFolderTest, ThatCannotBeLookedIntoIsNoFinishedOne) {
+TEST_F(RunStoreTest, ThatCannotBeLookedIntoIsNoFinishedOne) {
   fs::create_directories(folder_);
   fs::create_symlink(".unfinished", folder_ + "/.unfinished");  // a link to itself
   EXPECT_THAT(
@@ -175,37 +170,37 @@ TEST_F(RunFolderTest, ThatCannotBeLookedIntoIsNoFinishedOne) {
       testing::ThrowsMessage<Error>(AllOf(HasSubstr(folder_ + "/.unfinished"), HasSubstr("symbolic links"))));
 }
 
-TEST_F(RunFolderTest, KeysDoNotLeaveTheFolder) {
-  const RunFolder run(folder_);
-  EXPECT_THROW(run.store("../../evil", "content"), Error);
+TEST_F(RunStoreTest, KeysDoNotLeaveTheFolder) {
+  const RunStore run(folder_);
+  EXPECT_THROW(run.save("../../evil", "content"), Error);
   EXPECT_THROW(run.load("../../evil"), Error);
 }
 
-TEST_F(RunFolderTest, RefusalBeforeTheWorkLeavesTheMarkAsItWas) {
-  { const RunFolder refused(folder_); }
+TEST_F(RunStoreTest, RefusalBeforeTheWorkLeavesTheMarkAsItWas) {
+  { const RunStore refused(folder_); }
   EXPECT_FALSE(is_marked());
   {
-    RunFolder interrupted(folder_);
+    RunStore interrupted(folder_);
     interrupted.begin();
   }
-  { const RunFolder refused(folder_); }
+  { const RunStore refused(folder_); }
   EXPECT_TRUE(is_marked()) << "the interrupted run is not undone by a refused one";
 }
 
-TEST_F(RunFolderTest, HoldsOneRunAtATime) {
+TEST_F(RunStoreTest, HoldsOneRunAtATime) {
   {
-    const RunFolder first(folder_);
-    EXPECT_THAT([&] { const RunFolder second(folder_); },
+    const RunStore first(folder_);
+    EXPECT_THAT([&] { const RunStore second(folder_); },
                 testing::ThrowsMessage<Error>(AllOf(HasSubstr(folder_), HasSubstr("another run"))));
     EXPECT_TRUE(is_marked()) << "the second did not take it away";
   }
-  const RunFolder free_again(folder_);
+  const RunStore free_again(folder_);
 }
 
-TEST_F(RunFolderTest, WhatIsDamagedHalfOrUnderAnotherNameIsMadeAnew) {
-  const RunFolder run(folder_);
-  const std::string content = to_bytes(example_replay());
-  run.store("key", content);
+TEST_F(RunStoreTest, WhatIsDamagedHalfOrUnderAnotherNameIsMadeAnew) {
+  const RunStore run(folder_);
+  const std::string content = to_bytes(example_run());
+  run.save("key", content);
   EXPECT_EQ(run.load("key"), content);
   const std::string path = folder_ + "/.unfinished/key.stored";
   const std::string bytes = read_file(path);
@@ -220,14 +215,14 @@ TEST_F(RunFolderTest, WhatIsDamagedHalfOrUnderAnotherNameIsMadeAnew) {
   }
   fs::create_directories(path + "/in the way");
   EXPECT_FALSE(run.load("key").has_value());
-  run.store("key", content);
+  run.save("key", content);
   EXPECT_EQ(run.load("key"), content);
   write_file(folder_ + "/.unfinished/other.stored", bytes);
   EXPECT_FALSE(run.load("other").has_value());
 }
 
-TEST_F(RunFolderTest, SaysOnceWhatIsMadeAnew) {
-  const RunFolder run(folder_);
+TEST_F(RunStoreTest, SaysOnceWhatIsMadeAnew) {
+  const RunStore run(folder_);
   for (const char* key : {"a", "b"}) write_file(folder_ + "/.unfinished/" + key + ".stored", "glovebench-stored");
   testing::internal::CaptureStderr();
   EXPECT_FALSE(run.load("a").has_value());
@@ -236,15 +231,15 @@ TEST_F(RunFolderTest, SaysOnceWhatIsMadeAnew) {
               AllOf(HasSubstr("a.stored is cut short or of another version"), testing::Not(HasSubstr("b.stored"))));
 }
 
-TEST_F(RunFolderTest, RemovesAMarkThatWasPutAside) {
+TEST_F(RunStoreTest, RemovesAMarkThatWasPutAside) {
   write_file(folder_ + "/.finished-1/lock", "");  // a kill between the two steps of finish
   EXPECT_FALSE(is_marked());
-  { const RunFolder run(folder_); }
+  { const RunStore run(folder_); }
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 /// `run` of six frames against two databases, four seeds, with robot commands.
-class KilledRunLong : public RunFolderTest {
+class KilledRunLong : public RunStoreTest {
  protected:
   std::vector<std::string> run_into(const std::string& name) const {
     const std::string folder = fs::path(folder_).parent_path().string();

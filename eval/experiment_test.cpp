@@ -1,9 +1,10 @@
 // The same plan twice, and on one thread and two: every file that hangs on the results is equal byte for byte.
-#include "eval/experiments.h"
+#include "eval/experiment.h"
 
 #include <gmock/gmock.h>
 
-#include "eval/page_material.h"
+#include "eval/pictures.h"
+#include "eval/robot_commands.h"
 #include "eval/test_program.h"
 #include "reports/report.h"
 
@@ -15,14 +16,9 @@ Plan make_plan() {
   const auto trajectory = std::make_shared<const trajectories::Trajectory>(
       trajectories::parse_trajectory(make_trajectory_json("six", 6).dump(), "test"));
   Plan plan{profile("paper"), {}};
-  Replay replay;
-  replay.tracker = plan.tracker;
-  replay.truth = trajectory;
-  replay.databases = {"DB_open_pinch", "DB_open_power"};
-  for (const uint64_t seed : {1, 2}) {
-    replay.seed = seed;
-    plan.replays.push_back(replay);
-  }
+  for (const uint64_t seed : {1, 2})
+    for (const char* database : {"DB_open_pinch", "DB_open_power"})
+      plan.specs.push_back({.trajectory = trajectory, .seed = seed, .database = database, .tracker = plan.tracker});
   return plan;
 }
 
@@ -33,10 +29,13 @@ struct PlanRun {
 PlanRun run_plan(const std::string& folder, int threads) {
   Workbench workbench(test_workbench(threads));
   const Plan plan = make_plan();
-  const Outcome outcome = run_experiments(workbench, plan, {folder + "/robot"});
-  reports::write_report(folder, outcome.result, outcome.timings, page_material(workbench, plan, outcome),
-                        outcome.estimates);
-  return {outcome.result, read_timeless(folder)};
+  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads}));
+  reports::RunResult result = results_of(plan, runs, workbench);
+  reports::Timings timings = timings_of(runs, threads);
+  add_commands(result, timings, runs, {folder + "/robot"});
+  const auto estimates = estimates_of(runs);
+  reports::write_report(folder, result, timings, page_material(workbench, plan, result, estimates), estimates);
+  return {result, read_timeless(folder)};
 }
 
 TEST(ExperimentsLong, ReportsDependOnNeitherThreadsNorTheDay) {
@@ -85,8 +84,7 @@ TEST(ExperimentsLong, HoldWhatWasPlanned) {
 TEST(PlanFigure4, Holds15ExperimentsAgainstEachTruthAndSubject) {
   const Plan plan = plan_figure4(profile("paper"), {});
   std::map<std::pair<trajectories::TrajectoryKind, int>, size_t> experiments;
-  for (const Replay& replay : plan.replays)
-    experiments[{replay.truth->kind, replay.subject}] += replay.databases.size();
+  for (const RunSpec& spec : plan.specs) ++experiments[{spec.trajectory->kind, spec.subject}];
   using enum trajectories::TrajectoryKind;
   const std::map<std::pair<trajectories::TrajectoryKind, int>, size_t> expected = {
       {{recorded, 1}, 15}, {{source, 1}, 15}, {{source, 2}, 15}};

@@ -1,7 +1,8 @@
-#include "eval/stored_replay.h"
+#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/parse_json.h"
+#include "eval/run.h"
 
 namespace glovebench::eval {
 namespace {
@@ -77,73 +78,43 @@ TrackResult result_of(const json& row) {
   return r;
 }
 
-json row_of(const reports::FrameErrors& errors) {
-  const reports::FrameRecord& r = errors.record;
-  json values = json::array();
-  for (const std::optional<double>& value : r.values) values.push_back(value ? json(*value) : json());
-  return {r.frame,     r.timestamp_us, to_string(r.status), r.covered,         r.false_tracked,       r.false_lost,
-          r.ambiguous, r.converged,    r.icp_iterations,    std::move(values), errors.joint_errors_mm};
+json row_of(const Sight& sight) {
+  return {sight.visible_pixels, sight.trackable};
 }
 
-reports::FrameErrors errors_of(const json& row) {
-  reports::FrameErrors errors;
-  reports::FrameRecord& r = errors.record;
-  r.frame = row.at(0);
-  r.timestamp_us = row.at(1);
-  r.status = status_of(row.at(2));
-  r.covered = row.at(3);
-  r.false_tracked = row.at(4);
-  r.false_lost = row.at(5);
-  r.ambiguous = row.at(6);
-  r.converged = row.at(7);
-  r.icp_iterations = row.at(8);
-  const json& values = row.at(9);
-  if (values.size() != r.values.size()) throw json::other_error::create(501, "other metrics", &row);
-  for (size_t m = 0; m < values.size(); ++m)
-    if (!values[m].is_null()) r.values[m] = values[m].get<double>();
-  errors.joint_errors_mm = row.at(10).get<std::vector<double>>();
-  return errors;
-}
-
-json object_of(const TrackedReplay& replay) {
-  json results = json::array(), errors = json::array(), stages = json::array();
-  for (const TrackResult& result : replay.results) results.push_back(row_of(result));
-  for (const reports::FrameErrors& frame : replay.errors) errors.push_back(row_of(frame));
-  for (const reports::StageTiming& stage : replay.stages) stages.push_back({stage.stage, stage.frame_ms});
-  return {{"database", replay.database},
-          {"results", std::move(results)},
-          {"errors", std::move(errors)},
-          {"stages", std::move(stages)},
-          {"frame_ms", replay.frame_ms}};
-}
-
-TrackedReplay replay_of(const json& object) {
-  TrackedReplay replay;
-  replay.database = object.at("database");
-  for (const json& row : object.at("results")) replay.results.push_back(result_of(row));
-  for (const json& row : object.at("errors")) replay.errors.push_back(errors_of(row));
-  for (const json& stage : object.at("stages")) {
-    replay.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::vector<double>>()});
-  }
-  replay.frame_ms = object.at("frame_ms").get<std::vector<double>>();
-  return replay;
+Sight sight_of(const json& row) {
+  return {row.at(0).get<std::array<int, kPatchCount>>(), row.at(1)};
 }
 
 }  // namespace
 
-std::string to_bytes(const std::vector<TrackedReplay>& replay) {
-  json passes = json::array();
-  for (const TrackedReplay& pass : replay) passes.push_back(object_of(pass));
+std::string to_bytes(const Run& run) {
+  json answers = json::array(), seen = json::array(), stages = json::array();
+  for (const TrackResult& answer : run.answers) answers.push_back(row_of(answer));
+  for (const Sight& sight : run.seen) seen.push_back(row_of(sight));
+  for (const reports::StageTiming& stage : run.stages) stages.push_back({stage.stage, stage.frame_ms});
   std::string bytes;
-  json::to_cbor(passes, bytes);
+  json::to_cbor({{"answers", std::move(answers)},
+                 {"seen", std::move(seen)},
+                 {"stages", std::move(stages)},
+                 {"frame_ms", run.frame_ms}},
+                bytes);
   return bytes;
 }
 
-std::optional<std::vector<TrackedReplay>> replay_from_bytes(const std::string& bytes) {
+std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec) {
   try {
-    std::vector<TrackedReplay> replay;
-    for (const json& pass : parse_cbor(bytes, "stored replay")) replay.push_back(replay_of(pass));
-    return replay;
+    const json object = parse_cbor(bytes, "stored run");
+    Run run;
+    run.spec = spec;
+    for (const json& row : object.at("answers")) run.answers.push_back(result_of(row));
+    for (const json& row : object.at("seen")) run.seen.push_back(sight_of(row));
+    for (const json& stage : object.at("stages"))
+      run.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::vector<double>>()});
+    run.frame_ms = object.at("frame_ms").get<std::vector<double>>();
+    const size_t frames = run.answers.size();
+    if (run.seen.size() != frames || run.frame_ms.size() != frames) return std::nullopt;
+    return run;
   } catch (const json::exception&) {
     return std::nullopt;
   } catch (const Error&) {

@@ -3,9 +3,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
-
-#include "eval/replay.h"
 
 namespace glovebench::eval {
 
@@ -15,14 +12,14 @@ namespace glovebench::eval {
 ///
 /// FOLDER/.unfinished/ is the mark. It holds `lock` (held with flock while the run lives) and one file for each
 /// finished part: a line with the hash of the program that made it, its key and a checksum, then its content.
-class RunFolder {
+class RunStore {
  public:
   /// Locks and marks. Throws Error if another run holds the folder or it cannot be written.
-  explicit RunFolder(const std::string& folder);
+  explicit RunStore(const std::string& folder);
   /// Without `begin`, a mark that was not there before goes again.
-  ~RunFolder();
-  RunFolder(const RunFolder&) = delete;
-  RunFolder& operator=(const RunFolder&) = delete;
+  ~RunStore();
+  RunStore(const RunStore&) = delete;
+  RunStore& operator=(const RunStore&) = delete;
 
   /// What was asked for can be done, and the work begins: from here on the mark stays until `finish`.
   void begin();
@@ -31,7 +28,7 @@ class RunFolder {
   /// whole: then it is removed, and standard error says so once. Thread-safe.
   std::optional<std::string> load(const std::string& key) const;
   /// Thread-safe. Throws Error if there is no room.
-  void store(const std::string& key, const std::string& content) const;
+  void save(const std::string& key, const std::string& content) const;
 
   /// The report is written: the mark goes, in one step, and what was kept with it.
   void finish();
@@ -46,10 +43,6 @@ class RunFolder {
   int lock_ = -1;
   mutable std::once_flag told_;  ///< that something stored is of no use
 };
-
-/// Names a replay by all that its outcome hangs on beside the program: configuration, truth, frames, light, noise,
-/// seed, subject, the hashes of databases, hand models and color table.
-std::string replay_key(Workbench& workbench, const Replay& replay);
 
 /// Throws reports::Incomparable if the folder of results is one of an unfinished run, Error if that cannot be told.
 void require_finished(const std::string& folder);

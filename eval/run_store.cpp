@@ -1,4 +1,4 @@
-#include "eval/run_folder.h"
+#include "eval/run_store.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
@@ -24,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t kLargestReplay = uint64_t{256} << 20;  // bytes: a million frames
+constexpr uint64_t kLargestContent = uint64_t{256} << 20;  // bytes: a million frames
 constexpr const char* kMark = "/.unfinished";
 constexpr const char* kDone = ".finished-";  // a mark that no longer is one, on its way out
 
@@ -61,14 +60,14 @@ std::string path_of(const std::string& mark, const std::string& key) {
 
 }  // namespace
 
-RunFolder::RunFolder(const std::string& folder) : folder_(folder), mark_(folder + kMark) {
+RunStore::RunStore(const std::string& folder) : folder_(folder), mark_(folder + kMark) {
   lock();
   remove_done_marks(folder_);
 }
 
 /// A run that just finishes takes the lock's file away with the mark: then the lock is one of nothing, and another
 /// has to be taken.
-void RunFolder::lock() {
+void RunStore::lock() {
   const std::string path = mark_ + "/lock";
   while (lock_ < 0) {
     std::error_code error;
@@ -90,24 +89,24 @@ void RunFolder::lock() {
   }
 }
 
-RunFolder::~RunFolder() {
+RunStore::~RunStore() {
   if (lock_ < 0) return;
   if (!keep_mark_) put_mark_away();
   ::close(lock_);
 }
 
-void RunFolder::begin() {
+void RunStore::begin() {
   keep_mark_ = true;
   sync_folder(folder_);
 }
 
-std::optional<std::string> RunFolder::load(const std::string& key) const {
+std::optional<std::string> RunStore::load(const std::string& key) const {
   const std::string path = path_of(mark_, key);
   std::error_code ignored;
   if (!fs::exists(fs::symlink_status(path, ignored))) return std::nullopt;
   std::string bytes;
   try {
-    if (fs::is_regular_file(path)) bytes = read_regular_file(path, kLargestReplay);
+    if (fs::is_regular_file(path)) bytes = read_regular_file(path, kLargestContent);
   } catch (const Error&) {  // what cannot be read is made anew, like what is damaged
   }
   const size_t content = bytes.find('\n') + 1;
@@ -120,11 +119,11 @@ std::optional<std::string> RunFolder::load(const std::string& key) const {
   return std::nullopt;
 }
 
-void RunFolder::store(const std::string& key, const std::string& content) const {
+void RunStore::save(const std::string& key, const std::string& content) const {
   write_file(path_of(mark_, key), heading(key, content) + content);
 }
 
-bool RunFolder::put_mark_away() {
+bool RunStore::put_mark_away() {
   // In one step: nobody can come in between and lock what is about to go.
   const std::string done = fmt::format("{}/{}{}", folder_, kDone, getpid());
   if (::rename(mark_.c_str(), done.c_str()) != 0) return false;
@@ -134,35 +133,10 @@ bool RunFolder::put_mark_away() {
   return true;
 }
 
-void RunFolder::finish() {
+void RunStore::finish() {
   if (!put_mark_away()) throw Error(mark_, "folder", std::strerror(errno), "a mark that can be removed");
   ::close(lock_);
   lock_ = -1;
-}
-
-std::string replay_key(Workbench& workbench, const Replay& replay) {
-  nlohmann::json databases = nlohmann::json::array();
-  for (const std::string& name : replay.databases)
-    databases.push_back({name, workbench.database(name)->content_hash()});
-  const auto frames = frames_of(replay);
-  const auto color_table = workbench.color_table(replay.tracker.segmentation.color_space);
-  const nlohmann::json content = {
-      {"configuration", to_json(replay.tracker)},
-      {"truth", {replay.truth->name, trajectories::hash(*replay.truth)}},
-      {"frames", {replay.range.first, frames.size()}},
-      {"noise", {replay.noise.model, replay.noise.factor}},
-      {"seed", replay.seed},
-      {"lighting",
-       {replay.lighting.strength, replay.lighting.temperature_k, replay.lighting.ambient_share,
-        std::vector<double>(replay.lighting.direction_to_light.begin(), replay.lighting.direction_to_light.end())}},
-      {"clutter_in_volume", replay.clutter_in_volume},
-      {"subject", {replay.subject, workbench.subject(replay.subject).hash()}},
-      {"hand_model", workbench.model()->hash()},
-      {"databases", databases},
-      {"calibration", to_json(workbench.calibration())},
-      {"color_table", hash_bytes(std::as_bytes(std::span(color_table->labels())))},
-  };
-  return hash_text(content.dump());
 }
 
 void require_finished(const std::string& folder) {

@@ -1,0 +1,135 @@
+#include "eval/experiment.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/base/hash.h"
+#include "eval/program_info.h"
+#include "eval/sequence_metrics.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::ExperimentKey;
+
+std::optional<double> mean_present(const std::vector<std::optional<double>>& values) {
+  std::vector<double> present;
+  for (const auto& value : values) {
+    if (value) present.push_back(*value);
+  }
+  return reports::mean(present);
+}
+
+/// Each seed's sequence is measured by itself; the means over the seeds stand in the report.
+reports::SequenceMetrics measure_sequences(const Experiment& experiment) {
+  std::vector<std::optional<double>> position, rotation, latency;
+  for (const MeasuredRun* each : experiment.runs) {
+    const reports::SequenceMetrics m = measure_sequence(each->run.answers, frames_of(each->run.spec));
+    position.push_back(m.jitter_position_mm);
+    rotation.push_back(m.jitter_rotation_deg);
+    latency.push_back(m.latency_frames);
+  }
+  return {mean_present(position), mean_present(rotation), mean_present(latency)};
+}
+
+reports::ExperimentResult evaluate(const Experiment& experiment) {
+  std::vector<reports::SeedRun> runs;
+  std::vector<double> joint_errors;
+  size_t keypoints = 0;
+  for (const MeasuredRun* each : experiment.runs) {
+    reports::SeedRun run{each->run.spec.seed, {}};
+    for (const reports::FrameErrors& errors : each->errors) {
+      run.frames.push_back(errors.record);
+      joint_errors.insert(joint_errors.end(), errors.joint_errors_mm.begin(), errors.joint_errors_mm.end());
+      keypoints += kForearmJoint;
+    }
+    runs.push_back(std::move(run));
+  }
+  return reports::summarize(experiment.key, std::move(runs), reports::pck_curve(joint_errors, keypoints),
+                            measure_sequences(experiment));
+}
+
+reports::ExperimentTiming timing_of(const Experiment& experiment) {
+  reports::ExperimentTiming timing{experiment.key, 0, {}};
+  for (const MeasuredRun* each : experiment.runs) {
+    for (const reports::StageTiming& stage : each->run.stages) {
+      auto it = std::find_if(timing.stages.begin(), timing.stages.end(),
+                             [&](const reports::StageTiming& s) { return s.stage == stage.stage; });
+      if (it == timing.stages.end()) it = timing.stages.insert(it, {stage.stage, {}});
+      it->frame_ms.insert(it->frame_ms.end(), stage.frame_ms.begin(), stage.frame_ms.end());
+      for (const double ms : stage.frame_ms) timing.wall_s += ms / 1000;
+    }
+  }
+  return timing;
+}
+
+reports::ExperimentEstimates estimates_of(const Experiment& experiment) {
+  reports::ExperimentEstimates estimates{experiment.key, {}};
+  for (const MeasuredRun* each : experiment.runs) {
+    int frame = each->run.spec.frames.first;
+    for (const TrackResult& r : each->run.answers) {
+      estimates.estimates.push_back(
+          {each->run.spec.seed, frame++, r.timestamp_us, r.status, r.posture, r.T_camera_hand});
+    }
+  }
+  return estimates;
+}
+
+}  // namespace
+
+std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs) {
+  std::vector<Experiment> experiments;
+  for (const MeasuredRun& each : runs) {
+    const ExperimentKey key = key_of(each.run.spec);
+    auto it = std::ranges::find(experiments, key, &Experiment::key);
+    if (it == experiments.end()) it = experiments.insert(it, {key, {}});
+    for (const MeasuredRun* other : it->runs)
+      check(other->run.spec.seed != each.run.spec.seed, "a seed counts once");
+    it->runs.push_back(&each);
+  }
+  return experiments;
+}
+
+reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> runs, Workbench& workbench) {
+  reports::RunResult result;
+  result.protocol = reports::make_protocol("by time stamp, exact");
+  for (const RunSpec& spec : plan.specs) {
+    result.inputs.truths[truth_name(key_of(spec))] = trajectories::hash(*spec.trajectory);
+    result.inputs.databases[spec.database] = workbench.database(spec.database)->content_hash();
+  }
+  result.inputs.hand_model = workbench.model()->hash();
+  const auto color_table = workbench.color_table(plan.tracker.segmentation.color_space);
+  result.inputs.color_table = hash_bytes(std::as_bytes(std::span(color_table->labels())));
+  result.suite = plan.suite;
+  result.program_version = program_info().version;
+  result.commit = program_info().commit;
+  result.configuration = {{"tracker", to_json(plan.tracker)}};
+  if (plan.quick) result.configuration["quick"] = true;
+  if (const auto cameras = to_json(workbench.calibration()); cameras != to_json(synthetic_calibration()))
+    result.configuration["calibration"] = cameras;
+  for (const Experiment& experiment : experiments_of(runs)) result.experiments.push_back(evaluate(experiment));
+  return result;
+}
+
+reports::Timings timings_of(std::span<const MeasuredRun> runs, int threads) {
+  reports::Timings timings = host_timings(threads);
+  for (const Experiment& experiment : experiments_of(runs)) timings.experiments.push_back(timing_of(experiment));
+  return timings;
+}
+
+std::vector<reports::ExperimentEstimates> estimates_of(std::span<const MeasuredRun> runs) {
+  std::vector<reports::ExperimentEstimates> estimates;
+  for (const Experiment& experiment : experiments_of(runs)) estimates.push_back(estimates_of(experiment));
+  return estimates;
+}
+
+void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_point start) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  timings.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,37 @@
+#include "eval/measured_run.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace glovebench::eval {
+
+std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& tracker_hand,
+                                          const render::Subject& subject) {
+  std::vector<reports::FrameErrors> errors;
+  const std::span<const HandFrame> frames = frames_of(run.spec);
+  for (size_t f = 0; f < frames.size(); ++f) {
+    const reports::FrameTruth truth = {frames[f].posture, frames[f].T_camera_hand,
+                                       subject.joints(frames[f].posture), run.seen[f].visible_pixels,
+                                       run.seen[f].trackable};
+    const int number = run.spec.frames.first + static_cast<int>(f);
+    errors.push_back(reports::measure_frame(number, run.answers[f], truth, tracker_hand));
+  }
+  return errors;
+}
+
+std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs) {
+  std::vector<MeasuredRun> measured(runs.size());
+  const int threads = workbench.config().threads;
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena(threads).execute([&] {
+    tbb::parallel_for(size_t{0}, runs.size(), [&](size_t r) {
+      const render::Subject subject = workbench.subject(runs[r].spec.subject);
+      std::vector<reports::FrameErrors> errors = measure(runs[r], *workbench.model(), subject);
+      measured[r] = {std::move(runs[r]), std::move(errors)};
+    });
+  });
+  return measured;
+}
+
+}  // namespace glovebench::eval

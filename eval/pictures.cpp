@@ -1,0 +1,163 @@
+#include "eval/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "eval/keyframes.h"
+#include "eval/share.h"
+#include "eval/truths.h"
+#include "render/label_renderer.h"
+#include "render/pictures.h"
+#include "reports/metrics/measure_frame.h"
+#include "reports/page/gallery.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::Estimate;
+using reports::ExperimentKey;
+
+constexpr int kJpegQuality = 80;
+
+/// The run of an experiment's seed. The plan must have it.
+const RunSpec& find_spec(const Plan& plan, const ExperimentKey& key, uint64_t seed) {
+  const auto found = std::ranges::find_if(
+      plan.specs, [&](const RunSpec& spec) { return spec.seed == seed && key_of(spec) == key; });
+  check(found != plan.specs.end(), "frames come from a run of the plan");
+  return *found;
+}
+
+/// Of the experiment's first seed.
+std::vector<Estimate> first_seed(const std::vector<reports::ExperimentEstimates>& all, const ExperimentKey& key) {
+  std::vector<Estimate> estimates;
+  const auto found = std::ranges::find(all, key, &reports::ExperimentEstimates::key);
+  if (found == all.end()) return estimates;
+  for (const Estimate& estimate : found->estimates)
+    if (estimate.seed == found->estimates.front().seed) estimates.push_back(estimate);
+  return estimates;
+}
+
+std::vector<reports::FrameSheet> make_sheets(Workbench& workbench, const Plan& plan,
+                                             const reports::RunResult& result,
+                                             const std::vector<reports::ExperimentEstimates>& all_estimates) {
+  const reports::PaperNumbers& paper = reports::paper_numbers();
+  const reports::NoiseSetting noise = reports::headline_noise(result);
+  std::vector<reports::FrameSheet> sheets;
+  for (const auto& [figure, curve] : {std::pair{"figure5", &paper.figure_5}, {"figure6", &paper.figure_6}}) {
+    const ExperimentKey key = {curve->trajectory, curve->database, reports::TruthKind::recorded, 1, noise};
+    const std::vector<Estimate> estimates = first_seed(all_estimates, key);
+    if (estimates.empty()) continue;
+    const RunSpec& spec = find_spec(plan, key, estimates.front().seed);
+    sheets.push_back(make_frame_sheet(workbench, figure, frames_of(spec), estimates));
+  }
+  return sheets;
+}
+
+/// With what the user of a trajectory or a database of their own has to add.
+std::string complete_command(const reports::WorstFrame& worst) {
+  std::string command = explain_command(worst);
+  if (!find_truth(worst.key)) command += " --trajectory FILE_OF_THE_TRUTH";
+  const std::vector<std::string>& known = trajectories::posture_set_names();
+  if (std::ranges::find(known, worst.key.database) == known.end()) command += " --database FILE_OF_THE_DATABASE";
+  return command;
+}
+
+std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const Plan& plan,
+                                                   const reports::RunResult& result) {
+  std::vector<reports::Picture> pictures;
+  for (const reports::WorstFrame& worst : reports::worst_frames(result)) {
+    const RunSpec& spec = find_spec(plan, worst.key, worst.seed);
+    const ColorImage picture = explain_frame(workbench, spec, worst.frame.frame);
+    pictures.push_back({caption(worst), render::encode_jpeg(picture, kJpegQuality), complete_command(worst)});
+  }
+  return pictures;
+}
+
+constexpr int kMargin = 20;  // px around the hand
+
+struct OneFrame {
+  DeviceFrame frame;
+  render::RgbdImages truth;
+};
+OneFrame take_frame(Workbench& workbench, RunSpec spec, int frame) {
+  spec.frames = {frame, 1};
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);
+  const std::optional<DeviceFrame> taken = kinect.next_frame();
+  return {*taken, kinect.truth()};
+}
+
+/// Outline of the estimated hand over M.
+ColorImage overlay(const HandModel& model, const TrackResult& result, const Eigen::Isometry3d& T_camera_hand,
+                   const FrameTrace& trace, const PinholeCamera& camera) {
+  render::LabelRenderer renderer;
+  return render::overlay_outline(
+      trace.mapped.color,
+      renderer.render_labels(model, model.pose(result.posture_unfiltered), camera, T_camera_hand));
+}
+
+std::string depth_title(const TrackResult& result) {
+  return fmt::format("depth, {} cloud points", result.cloud_points);
+}
+
+}  // namespace
+
+ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
+  const int count = static_cast<int>(spec.trajectory->frames.size());
+  if (frame < 0 || frame >= count) {
+    throw Error(spec.trajectory->name, "frame", std::to_string(frame), fmt::format("0 to {}", count - 1));
+  }
+  const OneFrame taken = take_frame(workbench, spec, frame);
+  const std::shared_ptr<const Database> database = workbench.database(spec.database);
+  Tracker tracker = workbench.make_tracker(spec.tracker, spec.database);
+  FrameTrace trace;
+  const TrackResult result = tracker.track(taken.frame, {}, &trace);
+
+  const auto cropped = [&](const ColorImage& image) {
+    return render::crop_to_labels(image, taken.truth.label, kMargin);
+  };
+  std::vector<render::Panel> panels = {
+      {fmt::format("{} frame {}: color camera", spec.trajectory->name, frame), taken.frame.color},
+      {depth_title(result), render::picture_of_depth(trace.depth, 0.4, 1.8)},
+      {"mapped image M", cropped(trace.mapped.color)},
+      {"labels L in the working volume", cropped(render::picture_of_labels(trace.cloud.labels))},
+      {"true labels", cropped(render::picture_of_labels(taken.truth.label))},
+      {fmt::format("tiny image {0} x {0}", trace.tiny.width()), render::picture_of_labels(trace.tiny)}};
+  for (const Match& match : result.matches) {
+    const int posture = match.entry / kViewCount;
+    panels.push_back({fmt::format("{}, view {}: E {:.2f} px", database->posture_set().posture_names[posture],
+                                  Database::view(match.entry), match.error),
+                      render::picture_of_labels(database->labels(trace.tiny.width(), match.entry))});
+  }
+  if (result.status == TrackStatus::tracked) {
+    const HandModel& model = *workbench.model();
+    const reports::FrameErrors errors = reports::measure_frame(
+        frame, result,
+        {spec.trajectory->frames[frame].posture, spec.trajectory->frames[frame].T_camera_hand,
+         workbench.subject(spec.subject).joints(spec.trajectory->frames[frame].posture),
+         reports::count_patches(taken.truth.patch)},
+        model);
+    const PinholeCamera& camera = workbench.calibration().ir;
+    panels.push_back(
+        {"coarse pose over M", cropped(overlay(model, result, result.T_camera_hand_coarse, trace, camera))});
+    panels.push_back({fmt::format("after ICP-T: {} iterations, {:.1f} mm, {:.1f} deg off", result.icp_iterations,
+                                  *errors.record["position_error_mm"], *errors.record["rotation_error_deg"]),
+                      cropped(overlay(model, result, result.T_camera_hand, trace, camera))});
+  } else {
+    panels.push_back({"lost: " + std::string(to_string(result.status)), {}});
+  }
+  return render::montage(panels, 4, 360, 300);
+}
+
+reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
+                                    const std::vector<reports::ExperimentEstimates>& estimates) {
+  reports::PageMaterial material{page_scripts(), make_sheets(workbench, plan, result, estimates), {}};
+  // Only the paper's method has stages that can be shown.
+  if (plan.tracker.method == kPaperMethod) material.worst_frames = picture_worst_frames(workbench, plan, result);
+  return material;
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,290 @@
+#include "eval/run.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/hash.h"
+#include "eval/terminal.h"
+#include "eval/thread_time.h"
+#include "reports/metrics/measure_frame.h"
+
+namespace glovebench::eval {
+namespace {
+
+/// Collects the processor times of a tracker's frames and of their stages as the tracker names them; a stage that
+/// is named twice in a frame has the sum.
+class StageTimer {
+ public:
+  void begin(std::string_view stage) {
+    const double now = thread_time_ms();
+    if (current_ < 0) frame_start_ = now;
+    if (current_ >= 0) in_this_frame_[current_] += now - start_;
+    if (stage.empty()) end_frame(now);
+    current_ = stage.empty() ? -1 : index_of(stage);
+    if (current_ >= 0) in_this_frame_.try_emplace(current_, 0.0);
+    start_ = now;
+  }
+  std::vector<reports::StageTiming> take_stages() { return std::move(stages_); }
+  std::vector<double> take_frames() { return std::move(frame_ms_); }
+
+ private:
+  void end_frame(double now) {
+    for (const auto& [stage, time] : in_this_frame_) stages_[stage].frame_ms.push_back(time);
+    in_this_frame_.clear();
+    frame_ms_.push_back(now - frame_start_);
+  }
+  int index_of(std::string_view stage) {
+    for (size_t i = 0; i < stages_.size(); ++i) {
+      if (stages_[i].stage == stage) return static_cast<int>(i);
+    }
+    stages_.push_back({std::string(stage), {}});
+    return static_cast<int>(stages_.size()) - 1;
+  }
+
+  std::vector<reports::StageTiming> stages_;
+  std::vector<double> frame_ms_;
+  std::map<int, double> in_this_frame_;  ///< of each stage, ms
+  int current_ = -1;
+  double start_ = 0, frame_start_ = 0;
+};
+
+/// Could a tracker be asked for this frame? Most of the visible glove lies within the working volume, is enough to
+/// be a hand, and does not reach the image border.
+bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config) {
+  int within = 0, beyond = 0;
+  for (int v = 0; v < images.label.height(); ++v) {
+    for (int u = 0; u < images.label.width(); ++u) {
+      if (images.label(u, v) == 0) continue;
+      if (u == 0 || v == 0 || u + 1 == images.label.width() || v + 1 == images.label.height()) return false;
+      const float z = images.depth(u, v);
+      (z >= config.volume.z_min && z <= config.volume.z_max ? within : beyond) += 1;
+    }
+  }
+  return within >= config.detection.min_pixels && within > 2 * beyond;
+}
+
+render::SyntheticKinectConfig kinect_config(const RunSpec& spec) {
+  render::SyntheticKinectConfig config;
+  config.scene.shader = render::shader_of(spec.subject);
+  config.scene.clutter_in_volume = spec.clutter_in_volume;
+  config.noise.depth = spec.noise.model;
+  config.noise.gain_factor = spec.noise.factor;
+  config.seed = spec.seed;
+  config.sequence = spec.trajectory->name;
+  config.lighting = spec.lighting;
+  config.first_frame = spec.frames.first;
+  return config;
+}
+
+/// Of specs that share their images: do they share their device frames, too?
+bool share_noise(const RunSpec& a, const RunSpec& b) {
+  return a.noise == b.noise && a.seed == b.seed;
+}
+
+/// A run while its frames are tracked one by one.
+class Tracking {
+ public:
+  Tracking(Workbench& workbench, const RunSpec& spec)
+      : kinect_(kinect_config(spec)), method_(workbench.make_method(spec.tracker, spec.database)) {
+    run_.spec = spec;
+  }
+
+  const RunSpec& spec() const { return run_.spec; }
+  /// The device frame of these images, under this run's noise.
+  DeviceFrame frame_of(const render::RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
+                       int number) const {
+    return render::make_device_frame(images, calibration, timestamp_us, kinect_.noise,
+                                     {kinect_.seed, kinect_.sequence, number});
+  }
+  void track(const DeviceFrame& frame, const render::RgbdImages& images) {
+    run_.answers.push_back(method_->track(frame, [&](std::string_view stage) { timer_.begin(stage); }));
+    run_.seen.push_back({reports::count_patches(images.patch), is_trackable(images, run_.spec.tracker)});
+  }
+  Run take() {
+    run_.stages = timer_.take_stages();
+    run_.frame_ms = timer_.take_frames();
+    return std::move(run_);
+  }
+
+ private:
+  Run run_;
+  render::SyntheticKinectConfig kinect_;
+  std::unique_ptr<Method> method_;
+  StageTimer timer_;
+};
+
+/// Runs specs that share their images, each frame rendered once. `frame_done` is called after each frame of each.
+std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> specs,
+                                const std::function<void()>& frame_done) {
+  const RunSpec& first = specs.front();
+  std::vector<Tracking> trackings;
+  for (const RunSpec& spec : specs) {
+    check(share_images(first, spec), "runs that are rendered once show the same");
+    trackings.emplace_back(workbench, spec);
+  }
+  render::SyntheticKinect kinect = make_kinect(workbench, first);
+  int number = first.frames.first;
+  for (const HandFrame& truth : frames_of(first)) {
+    std::optional<DeviceFrame> frame = kinect.next_frame();
+    check(frame.has_value(), "the device plays every frame of the trajectory");
+    const RunSpec* shown = &first;
+    for (Tracking& tracking : trackings) {
+      if (!share_noise(*shown, tracking.spec())) {
+        frame = tracking.frame_of(kinect.truth(), kinect.calibration(), truth.timestamp_us, number);
+        shown = &tracking.spec();
+      }
+      tracking.track(*frame, kinect.truth());
+      frame_done();
+    }
+    ++number;
+  }
+  std::vector<Run> runs;
+  for (Tracking& tracking : trackings) runs.push_back(tracking.take());
+  return runs;
+}
+
+std::optional<Run> load(Workbench& workbench, const RunSpec& spec, const RunStore& store) {
+  const std::optional<std::string> stored = store.load(run_key(workbench, spec));
+  return stored ? run_from_bytes(*stored, spec) : std::nullopt;
+}
+
+/// The runs of specs that share their images: those that the store has, and the others made.
+std::vector<Run> run_group(Workbench& workbench, std::span<const RunSpec> group, const RunStore* store,
+                           const std::function<void()>& frame_done) {
+  std::vector<Run> runs(group.size());
+  std::vector<RunSpec> left;
+  std::vector<size_t> places;
+  for (size_t i = 0; i < group.size(); ++i) {
+    if (auto stored = store ? load(workbench, group[i], *store) : std::nullopt) {
+      runs[i] = *std::move(stored);
+      for (size_t f = 0; f < frames_of(group[i]).size(); ++f) frame_done();
+      continue;
+    }
+    left.push_back(group[i]);
+    places.push_back(i);
+  }
+  if (left.empty()) return runs;
+  std::vector<Run> made = track_together(workbench, left, frame_done);
+  for (size_t i = 0; i < left.size(); ++i) {
+    if (store) store->save(run_key(workbench, left[i]), to_bytes(made[i]));
+    runs[places[i]] = std::move(made[i]);
+  }
+  return runs;
+}
+
+/// Where each group of specs that are rendered once begins, and the end. Larger groups save rendering, but there
+/// must be enough of them for all threads.
+std::vector<size_t> group_begins(std::span<const RunSpec> specs, int threads) {
+  constexpr size_t kLargest = 24;  // each run of a group has a tracker of its own in memory
+  const size_t size = std::clamp<size_t>(specs.size() / (2 * static_cast<size_t>(threads)), 1, kLargest);
+  std::vector<size_t> begins;
+  for (size_t s = 0; s < specs.size(); ++s) {
+    const bool joins = !begins.empty() && s - begins.back() < size && share_images(specs[begins.back()], specs[s]);
+    if (!joins) begins.push_back(s);
+  }
+  begins.push_back(specs.size());
+  return begins;
+}
+
+/// Makes or loads the hands, databases and color tables before the threads start: building a database uses all of
+/// them itself.
+void prepare(Workbench& workbench, std::span<const RunSpec> specs) {
+  for (const RunSpec& spec : specs) {
+    frames_of(spec);
+    workbench.subject(spec.subject);
+    workbench.database(spec.database);
+  }
+  for (const RunSpec& spec : specs) workbench.color_table(spec.tracker.segmentation.color_space);
+}
+
+}  // namespace
+
+std::span<const HandFrame> frames_of(const RunSpec& spec) {
+  const std::span<const HandFrame> all = spec.trajectory->frames;
+  const FrameRange& range = spec.frames;
+  const auto have = static_cast<int>(all.size());
+  const int count = range.count.value_or(have - range.first);
+  if (range.first < 0 || count < 1 || range.first > have - count) {
+    throw Error(spec.trajectory->name, "frames", fmt::format("{} from {} on", count, range.first),
+                fmt::format("some of 0 to {}", have - 1));
+  }
+  return all.subspan(range.first, count);
+}
+
+reports::ExperimentKey key_of(const RunSpec& spec) {
+  const bool is_recorded = spec.trajectory->kind == trajectories::TrajectoryKind::recorded;
+  return {spec.trajectory->name, spec.database,
+          is_recorded ? reports::TruthKind::recorded : reports::TruthKind::source, spec.subject, spec.noise};
+}
+
+render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec) {
+  const std::span<const HandFrame> frames = frames_of(spec);
+  return render::SyntheticKinect(workbench.calibration(), workbench.subject(spec.subject),
+                                 {frames.begin(), frames.end()}, kinect_config(spec));
+}
+
+bool share_images(const RunSpec& a, const RunSpec& b) {
+  return a.trajectory == b.trajectory && a.subject == b.subject && a.frames == b.frames &&
+         a.lighting == b.lighting && a.clutter_in_volume == b.clutter_in_volume;
+}
+
+std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options) {
+  prepare(workbench, specs);
+  if (options.store) options.store->begin();
+  size_t frames = 0;
+  for (const RunSpec& spec : specs) frames += frames_of(spec).size();
+  std::vector<Run> runs(specs.size());
+  const std::vector<size_t> begins = group_begins(specs, options.threads);
+  Progress progress("replaying", workbench.config().quiet);
+  std::atomic<size_t> done{0};
+  const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
+  tbb::task_arena arena(options.threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, begins.size() - 1, 1),
+        [&](const tbb::blocked_range<size_t>& range) {
+          for (size_t g = range.begin(); g != range.end(); ++g) {
+            const std::span<const RunSpec> group = specs.subspan(begins[g], begins[g + 1] - begins[g]);
+            std::ranges::move(run_group(workbench, group, options.store, frame_done),
+                              runs.begin() + static_cast<std::ptrdiff_t>(begins[g]));
+          }
+        },
+        tbb::simple_partitioner());
+  });
+  return runs;
+}
+
+std::string run_key(Workbench& workbench, const RunSpec& spec) {
+  const auto color_table = workbench.color_table(spec.tracker.segmentation.color_space);
+  const Eigen::Vector3d& light = spec.lighting.direction_to_light;
+  const nlohmann::json content = {
+      {"configuration", to_json(spec.tracker)},
+      {"truth", {spec.trajectory->name, trajectories::hash(*spec.trajectory)}},
+      {"frames", {spec.frames.first, frames_of(spec).size()}},
+      {"noise", {spec.noise.model, spec.noise.factor}},
+      {"seed", spec.seed},
+      {"lighting",
+       {spec.lighting.strength, spec.lighting.temperature_k, spec.lighting.ambient_share,
+        std::vector<double>(light.begin(), light.end())}},
+      {"clutter_in_volume", spec.clutter_in_volume},
+      {"subject", {spec.subject, workbench.subject(spec.subject).hash()}},
+      {"hand_model", workbench.model()->hash()},
+      {"database", {spec.database, workbench.database(spec.database)->content_hash()}},
+      {"calibration", to_json(workbench.calibration())},
+      {"color_table", hash_bytes(std::as_bytes(std::span(color_table->labels())))},
+  };
+  return hash_text(content.dump());
+}
+
+}  // namespace glovebench::eval

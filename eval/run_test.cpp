@@ -1,0 +1,99 @@
+#include "eval/measured_run.h"
+
+#include <gtest/gtest.h>
+
+#include "eval/share.h"
+#include "eval/test_program.h"
+#include "trajectories/catalog.h"
+
+namespace glovebench::eval {
+namespace {
+
+RunSpec spec_of_tr4(const FrameRange& frames) {
+  return {.trajectory = std::make_shared<const trajectories::Trajectory>(
+              trajectories::source_trajectory(trajectory_folder(), "Tr4")),
+          .frames = frames,
+          .database = "DB_open_power"};
+}
+
+TEST(Run, a_capsule_hand_has_joints_of_its_own) {
+  // An estimate without any error of posture or pose: the tracker's fingertips are not the person's.
+  Workbench workbench(test_workbench());
+  const HandFrame frame = trajectories::source_trajectory(trajectory_folder(), "Tr4").frames[40];
+  reports::FrameTruth truth;
+  truth.posture = frame.posture;
+  truth.T_camera_hand = frame.T_camera_hand;
+  truth.T_hand_joint = workbench.subject(3).joints(frame.posture);
+  TrackResult estimate;
+  estimate.status = TrackStatus::tracked;
+  estimate.posture = estimate.posture_unfiltered = frame.posture;
+  estimate.T_camera_hand = frame.T_camera_hand;
+  const reports::FrameErrors errors = reports::measure_frame(40, estimate, truth, *workbench.model());
+  EXPECT_GT(errors.record["fingertip_error_mm"].value(), 2);
+  EXPECT_GT(errors.record["joint_error_mm"].value(), 2);
+  // The tracker's mesh is posed twice: no vertex is compared with one of the other hand.
+  EXPECT_NEAR(errors.record["vertex_error_mm"].value(), 0, 1e-6);
+}
+
+TEST(RunLong, a_capsule_hand_is_tracked_and_shares_no_images) {
+  Workbench workbench(test_workbench());
+  const RunSpec own = spec_of_tr4({0, 2});
+  RunSpec other = own;
+  other.subject = 7;
+  EXPECT_FALSE(share_images(own, other));
+  EXPECT_NE(run_key(workbench, own), run_key(workbench, other));
+  const MeasuredRun tracked = measure(workbench, execute(workbench, {&other, 1}, {})).front();
+  const MeasuredRun again = measure(workbench, execute(workbench, {&other, 1}, {})).front();
+  for (size_t f = 0; f < 2; ++f) {
+    ASSERT_EQ(tracked.run.answers[f].status, TrackStatus::tracked);
+    EXPECT_LT(tracked.errors[f].record["position_error_mm"].value(), 20);
+    EXPECT_EQ(tracked.errors[f].record["position_error_mm"], again.errors[f].record["position_error_mm"]);
+  }
+}
+
+TEST(RunLong, of_a_group_equals_the_run_alone) {
+  Workbench workbench(test_workbench());
+  std::vector<RunSpec> specs(4, spec_of_tr4({38, 3}));
+  specs[1].database = "DB_open_pinch";
+  specs[2].seed = 2;
+  specs[3].tracker.icp.subsampling_factor = 8;
+  const std::vector<eval::Run> together = execute(workbench, specs, {});
+  ASSERT_EQ(together.size(), specs.size());
+  for (size_t s = 0; s < specs.size(); ++s) {
+    const eval::Run alone = execute(workbench, {&specs[s], 1}, {}).front();
+    ASSERT_EQ(together[s].answers.size(), 3U);
+    for (size_t f = 0; f < 3; ++f) {
+      const TrackResult& answer = together[s].answers[f];
+      EXPECT_EQ(answer.posture, alone.answers[f].posture) << s;
+      EXPECT_TRUE(answer.T_camera_hand.matrix() == alone.answers[f].T_camera_hand.matrix()) << s;
+      EXPECT_EQ(together[s].seen[f].visible_pixels, alone.seen[f].visible_pixels) << s;
+      EXPECT_TRUE(together[s].seen[f].trackable);
+      if (s < 2) continue;  // another database may give the same match
+      EXPECT_FALSE(answer.T_camera_hand.matrix() == together[0].answers[f].T_camera_hand.matrix()) << s;
+    }
+  }
+}
+
+TEST(RunLong, with_clutter_within_reach_shows_something_else) {
+  Workbench workbench(test_workbench());
+  const RunSpec plain = spec_of_tr4({40, 1});
+  RunSpec cluttered = plain;
+  EXPECT_TRUE(share_images(plain, cluttered));
+  EXPECT_EQ(run_key(workbench, plain), run_key(workbench, cluttered));
+  cluttered.clutter_in_volume = true;
+  EXPECT_FALSE(share_images(plain, cluttered));
+  EXPECT_NE(run_key(workbench, plain), run_key(workbench, cluttered));
+
+  render::SyntheticKinect a = make_kinect(workbench, plain), b = make_kinect(workbench, cluttered);
+  a.next_frame();
+  b.next_frame();
+  const TrackerConfig config = profile("paper");
+  const auto pixels_in_volume = [&](const DepthImage& depth) {
+    return std::ranges::count_if(depth,
+                                 [&](float z) { return z >= config.volume.z_min && z <= config.volume.z_max; });
+  };
+  EXPECT_GT(pixels_in_volume(b.truth().depth), pixels_in_volume(a.truth().depth) + 1000);
+}
+
+}  // namespace
+}  // namespace glovebench::eval
