@@ -115,7 +115,7 @@ Plan plan_reproduction(const ReproductionOptions& options) {
 }
 
 Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
-                       const std::string& folder) {
+                       const std::string& folder, const ShowResults& show) {
   const auto start = std::chrono::steady_clock::now();
   const int threads = workbench.config().threads;
   const Plan plan = plan_reproduction(options);
@@ -124,9 +124,12 @@ Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options,
   reports::RunResult result = results_of(plan, runs, workbench);
   reports::Timings timings = timings_of(runs, threads);
   add_commands(result, timings, runs, robot);
-  for (const Study& study : studies())
-    if (is_wanted(options, study.name))
-      result.studies.push_back(run_or_load({workbench, options.study, &store}, study));
+  show(result);
+  for (const Study& study : studies()) {
+    if (!is_wanted(options, study.name)) continue;
+    result.studies.push_back(run_or_load({workbench, options.study, &store}, study));
+    show(result);
+  }
   note_resources(timings, start);
   const auto estimates = estimates_of(runs);
   reports::write_report(folder, result, timings, page_material(workbench, plan, result, estimates), estimates);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,13 @@ struct Reproduction {
   reports::RunResult result;
   reports::Timings timings;
 };
+/// Takes the results so far.
+using ShowResults = std::function<void(const reports::RunResult& so_far)>;
 /// Runs the paper's experiments and studies and writes their report into a folder. What an interrupted run finished
-/// is taken from the folder. Throws Error for an unknown part.
-Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
-                       const std::string& folder);
+/// is taken from the folder. `show` is called when Figures 4 to 6 are there, and after each study. Throws Error for
+/// an unknown part.
+Reproduction reproduce(
+    Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot, const std::string& folder,
+    const ShowResults& show = [](const reports::RunResult&) {});
 
 }  // namespace glovebench::eval

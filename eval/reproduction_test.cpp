@@ -115,6 +115,8 @@ TEST_F(KilledReproductionLong, JudgesNoClaimAndResumesToTheSameResults) {
   const ProgramRun undisturbed = run_glovebench(reproduce_into("undisturbed"));
   ASSERT_EQ(undisturbed.exit_code, 0);
   EXPECT_THAT(undisturbed.out, HasSubstr("no claim is judged"));
+  EXPECT_LT(undisturbed.out.find("Figure 7"), undisturbed.out.find("no claim is judged"))
+      << "shown when it is there";
   EXPECT_FALSE(fs::exists(folder_ + "/undisturbed/claims.json"));
   const reports::RunResult result = reports::read_results(folder_ + "/undisturbed/results.json");
   ASSERT_EQ(result.studies.size(), 2U);

@@ -36,8 +36,8 @@ struct Reproduce {
     common.check_output_folder();
 
     Workbench workbench = common.workbench();
-    const Reproduction outcome = reproduce(workbench, options, robot.output_of(workbench), common.output);
-    print_figure4(outcome.result);
+    const Reproduction outcome = reproduce(workbench, options, robot.output_of(workbench), common.output,
+                                           [this](const reports::RunResult& so_far) { show_newest(so_far); });
     const std::vector<reports::ClaimVerdict> verdicts =
         reports::judge(reports::claims(), reports::all_measures(outcome.result));
     if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
@@ -58,12 +58,23 @@ struct Reproduce {
       throw Error(flag, "names", "one of them twice", "each once");
   }
 
-  void print_figure4(const reports::RunResult& result) const {
-    if (result.experiments.empty()) return;
+  /// Figure 4 at first, then the study that came last. If nobody reads it, the work goes on: the summary fails
+  /// then.
+  void show_newest(const reports::RunResult& so_far) const {
+    const std::string text =
+        so_far.studies.empty() ? figure4_text(so_far) : reports::study_markdown(so_far.studies.back());
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+  }
+
+  std::string figure4_text(const reports::RunResult& result) const {
+    std::string text;
+    if (result.experiments.empty()) return text;
     for (const reports::NoiseSetting& noise : options.noises) {
-      if (all_gains) fmt::print("Depth noise: {} x{}\n", noise.model, noise.factor);
-      fmt::print("{}\n", reports::figure4_table(result, reports::paper_numbers(), noise));
+      if (all_gains) text += fmt::format("Depth noise: {} x{}\n", noise.model, noise.factor);
+      text += reports::figure4_table(result, reports::paper_numbers(), noise) + "\n";
     }
+    return text;
   }
 };
 
