@@ -16,9 +16,9 @@ struct PixelBox {
 /// Around the labeled pixels, with a margin, within the image; empty if there are none.
 PixelBox label_box(const LabelImage& labels, int margin);
 
-/// Pixels at which the hand may be: those that are near enough, and those without a depth. Every pixel of the box
-/// stores its way to the nearest of those in its column; the nearest of all is found among these when it is asked
-/// for.
+/// Pixels at which the hand may be: those that are near enough, and those without a depth. Every other pixel of the
+/// box stores its way to the nearest of those (Danielsson 1980, sequential Euclidean mapping: off by at most a
+/// pixel).
 class HandMask {
  public:
   /// `depth` and `raw_disparity` are of one camera; the hand is nearer than `farthest` (m). Keeps its memory.
@@ -28,11 +28,17 @@ class HandMask {
   std::optional<Eigen::Vector2d> way_back_px(const Eigen::Vector2d& uv_px) const;
 
  private:
+  struct Offset {
+    int16_t du, dv;
+    int squared() const { return du * du + dv * dv; }
+  };
+  Offset* row(int v) { return offsets_.data() + static_cast<size_t>(v) * width_; }
+  void sweep(int v, int dv);
+
   PixelBox box_;
   int width_ = 0, height_ = 0;
   bool is_empty_ = true;
-  RecycledVector<int16_t> below_;  ///< rows down to the nearest pixel of the mask in the column; negative: up
-  RecycledVector<int16_t> next_;   ///< reused by `assign`: the same, of the row below, downward only
+  RecycledVector<Offset> offsets_;  ///< to the nearest pixel of the mask
 };
 
 }  // namespace glovebench

