@@ -10,6 +10,7 @@
 #include "core/base/parse_json.h"
 #include "core/base/text.h"
 #include "core/base/whole_file.h"
+#include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
 #include "trajectories/text_cells.h"
 
