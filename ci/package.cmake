@@ -1,4 +1,4 @@
-# What is installed, and the Debian packages that `cpack` makes of it: `glovebench` (component command) and
+# Installs the program with its data. `cpack` makes two Debian packages: `glovebench` (component command) and
 # `libglovebench-dev` (component core, core/CMakeLists.txt).
 
 # The manual page and the completion of shells, as the program prints them.

@@ -1,8 +1,6 @@
 #include "eval/measured_run.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include "eval/in_parallel.h"
 
 namespace glovebench::eval {
 
@@ -22,14 +20,10 @@ std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& track
 
 std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs) {
   std::vector<MeasuredRun> measured(runs.size());
-  const int threads = workbench.config().threads;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena(threads).execute([&] {
-    tbb::parallel_for(size_t{0}, runs.size(), [&](size_t r) {
-      const render::Subject subject = workbench.subject(runs[r].spec.subject);
-      std::vector<reports::FrameErrors> errors = measure(runs[r], *workbench.model(), subject);
-      measured[r] = {std::move(runs[r]), std::move(errors)};
-    });
+  in_parallel(workbench.config().threads, runs.size(), [&](size_t r) {
+    const render::Subject subject = workbench.subject(runs[r].spec.subject);
+    std::vector<reports::FrameErrors> errors = measure(runs[r], *workbench.model(), subject);
+    measured[r] = {std::move(runs[r]), std::move(errors)};
   });
   return measured;
 }

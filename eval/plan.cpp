@@ -68,17 +68,14 @@ std::string list_experiments(const Plan& plan) {
 std::string describe_plan(Workbench& workbench, const Plan& plan) {
   std::set<uint64_t> seeds;
   std::set<std::string> databases;
-  size_t rendered = 0, tracked = 0;
-  const RunSpec* before = nullptr;
+  size_t frames = 0;
   for (const RunSpec& spec : plan.specs) {
     seeds.insert(spec.seed);
     databases.insert(spec.database);
-    if (!before || !share_images(*before, spec)) rendered += frames_of(spec).size();
-    tracked += frames_of(spec).size();
-    before = &spec;
+    frames += frames_of(spec).size();
   }
   std::string text = list_experiments(plan);
-  text += fmt::format("seeds {}: {} frames to render, {} to track\n", fmt::join(seeds, ", "), rendered, tracked);
+  text += fmt::format("seeds {}: {} frames to track\n", fmt::join(seeds, ", "), frames);
   for (const std::string& name : databases) {
     text += fmt::format("database {}: {}\n", name, workbench.has_database(name) ? "there" : "to be built");
   }

@@ -1,9 +1,6 @@
 #include "eval/run.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -13,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "eval/in_parallel.h"
 #include "eval/terminal.h"
 #include "eval/thread_time.h"
 #include "reports/metrics/measure_frame.h"
@@ -152,30 +150,30 @@ std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> s
   return runs;
 }
 
-std::optional<Run> load(Workbench& workbench, const RunSpec& spec, const RunStore& store) {
-  const std::optional<std::string> stored = store.load(run_key(workbench, spec));
-  return stored ? run_from_bytes(*stored, spec) : std::nullopt;
-}
-
 /// The runs of specs that share their images: those that the store has, and the others made.
 std::vector<Run> run_group(Workbench& workbench, std::span<const RunSpec> group, const RunStore* store,
                            const std::function<void()>& frame_done) {
+  if (!store) return track_together(workbench, group, frame_done);
   std::vector<Run> runs(group.size());
   std::vector<RunSpec> left;
   std::vector<size_t> places;
+  std::vector<std::string> keys;
   for (size_t i = 0; i < group.size(); ++i) {
-    if (auto stored = store ? load(workbench, group[i], *store) : std::nullopt) {
+    const std::string key = run_key(workbench, group[i]);
+    const std::optional<std::string> bytes = store->load(key);
+    if (auto stored = bytes ? run_from_bytes(*bytes, group[i]) : std::nullopt) {
       runs[i] = *std::move(stored);
       for (size_t f = 0; f < frames_of(group[i]).size(); ++f) frame_done();
       continue;
     }
     left.push_back(group[i]);
     places.push_back(i);
+    keys.push_back(key);
   }
   if (left.empty()) return runs;
   std::vector<Run> made = track_together(workbench, left, frame_done);
   for (size_t i = 0; i < left.size(); ++i) {
-    if (store) store->save(run_key(workbench, left[i]), to_bytes(made[i]));
+    store->save(keys[i], to_bytes(made[i]));
     runs[places[i]] = std::move(made[i]);
   }
   return runs;
@@ -247,19 +245,10 @@ std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, c
   Progress progress("replaying", workbench.config().quiet);
   std::atomic<size_t> done{0};
   const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, options.threads);
-  tbb::task_arena arena(options.threads);
-  arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, begins.size() - 1, 1),
-        [&](const tbb::blocked_range<size_t>& range) {
-          for (size_t g = range.begin(); g != range.end(); ++g) {
-            const std::span<const RunSpec> group = specs.subspan(begins[g], begins[g + 1] - begins[g]);
-            std::ranges::move(run_group(workbench, group, options.store, frame_done),
-                              runs.begin() + static_cast<std::ptrdiff_t>(begins[g]));
-          }
-        },
-        tbb::simple_partitioner());
+  in_parallel(options.threads, begins.size() - 1, [&](size_t g) {
+    const std::span<const RunSpec> group = specs.subspan(begins[g], begins[g + 1] - begins[g]);
+    std::ranges::move(run_group(workbench, group, options.store, frame_done),
+                      runs.begin() + static_cast<std::ptrdiff_t>(begins[g]));
   });
   return runs;
 }

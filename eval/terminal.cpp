@@ -9,8 +9,8 @@ constexpr int kBarWidth = 40;
 constexpr double kBarDelay = 2.0;        // s
 constexpr double kStatusInterval = 0.5;  // s
 
-bool is_shown(bool quiet) {
-  return !quiet && isatty(STDERR_FILENO) != 0;
+bool is_terminal() {
+  return isatty(STDERR_FILENO) != 0;
 }
 
 double seconds_left(double share, double elapsed) {
@@ -46,7 +46,8 @@ void log_progress(double interval) {
   log.last = std::chrono::steady_clock::now();
 }
 
-Progress::Progress(std::string title, bool quiet) : title_(std::move(title)), quiet_(quiet) {}
+Progress::Progress(std::string title, bool quiet)
+    : title_(std::move(title)), quiet_(quiet), has_bar_(is_terminal()) {}
 
 Progress::~Progress() {
   if (last_percent_ >= 0) say("\r\x1b[K");
@@ -56,7 +57,7 @@ void Progress::show(double share) {
   if (quiet_) return;
   const std::lock_guard lock(mutex_);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-  if (isatty(STDERR_FILENO) != 0) return show_bar(share, elapsed.count());
+  if (has_bar_) return show_bar(share, elapsed.count());
   if (progress_log().is_due())
     say("{}: {:.0f}%, {:.0f} s left\n", title_, 100 * share, seconds_left(share, elapsed.count()));
 }
@@ -93,7 +94,7 @@ std::string LiveStatus::line(int dropped) const {
                      number(tracked > 0, "{:.1f}", 1000 * residuals / tracked), dropped);
 }
 
-StatusLine::StatusLine(bool quiet) : enabled_(is_shown(quiet)) {}
+StatusLine::StatusLine(bool quiet) : enabled_(!quiet && is_terminal()) {}
 
 StatusLine::~StatusLine() {
   if (last_ > 0) say("\n");

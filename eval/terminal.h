@@ -47,6 +47,7 @@ class Progress {
 
   std::string title_;
   bool quiet_;
+  bool has_bar_;  ///< standard error is a terminal
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   int last_percent_ = -1;

@@ -48,8 +48,8 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// So many postures: every angle drawn evenly from within its limits, a straight wrist. The first ones do not
-/// depend on how many there are.
+/// `count` postures with a straight wrist. Each angle is drawn evenly from within its limits. A larger count only
+/// appends.
 PostureSet random_postures(int count) {
   PostureSet set{fmt::format("DB_{}_random", count), {}, {}};
   for (int p = 0; p < count; ++p) {

@@ -37,7 +37,7 @@ struct LensDistortion {
   double k3 = 0;          ///< radial
 
   bool is_none() const { return *this == LensDistortion{}; }
-  /// Where the lens puts what a pinhole would put at xy = (x / z, y / z).
+  /// The distorted image, in the plane z = 1, of a point that a pinhole sees at xy = (x / z, y / z).
   Eigen::Vector2d distort(const Eigen::Vector2d& xy) const {
     const double x = xy.x(), y = xy.y(), r2 = xy.squaredNorm();
     const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));

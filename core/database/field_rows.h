@@ -11,9 +11,9 @@
 
 namespace glovebench {
 
-/// What a database holds of a view beside its labels. `normal`: its distance fields, and in memory their least
-/// values over 4 x 4 pixels. `low`: in memory the least values over up to 8 x 8 pixels alone; fields are made of
-/// the labels when a look-up asks for them. The matches are the same.
+/// A database holds the labels of each view. `normal`: it also holds the distance fields, and in memory their least
+/// values over 4 x 4 pixels. `low`: in memory it holds the least values over up to 8 x 8 pixels alone, and a
+/// look-up makes the fields of the labels. The matches are the same.
 enum class DatabaseMemory { normal, low };
 constexpr auto names_of(DatabaseMemory) {
   return std::to_array<std::string_view>({"normal", "low"});

@@ -43,7 +43,7 @@ Rectification::Rectification(const PinholeCamera& camera, const LensDistortion& 
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       const Eigen::Vector2d xy = lens.distort({(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy});
-      // What lies far outside must not come around in sixteen bits.
+      // The map below has sixteen bits: a pixel far outside of the image would wrap around.
       const Eigen::Vector2d uv_px(std::clamp(camera.fx * xy.x() + camera.cx, -2.0, camera.width + 1.0),
                                   std::clamp(camera.fy * xy.y() + camera.cy, -2.0, camera.height + 1.0));
       at.at<cv::Vec2f>(v, u) = {static_cast<float>(uv_px.x()), static_cast<float>(uv_px.y())};

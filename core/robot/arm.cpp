@@ -10,7 +10,7 @@ namespace {
 // Small against the arm (1.3 m), and few for the way between two frames.
 constexpr double kStep = 0.02, kTurn = 0.1;  // m, rad
 constexpr double kFarthestPose = 10;         // m: nothing that far away is worth the steps
-/// Of a joint in one step. Twice the step over the arm's shortest lever, wrist to flange, would be 0.5.
+/// A joint turns no farther in one step: twice the step, divided by the arm's shortest lever (wrist to flange).
 constexpr double kFarthestJoint = 0.5;  // rad
 
 bool is_near(const ArmJoints& a, const ArmJoints& b) {

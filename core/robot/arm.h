@@ -56,7 +56,7 @@ class ArmFollower {
   explicit ArmFollower(std::shared_ptr<const ArmSolver> solver, const ArmJoints& start = kArmAtRest)
       : solver_(std::move(solver)), joints_(start) {}
 
-  /// Whether the flange reaches that pose; if not, `joints` stay what they were.
+  /// Moves the joints to that pose of the flange. False if it is out of reach: then they stay.
   bool follow(const Eigen::Isometry3d& T_base_flange);
   const ArmJoints& joints() const { return joints_; }
 

@@ -75,7 +75,15 @@ if [[ "$funcstack[1]" == _glovebench ]]; then _glovebench "$@"; else compdef _gl
 )sh";
 
 constexpr std::string_view kFish = R"sh(# For fish: glovebench completion fish | source
-complete -c glovebench -a '(glovebench completion words -- (commandline -opc)[2..] 2>/dev/null)'
+function __glovebench_words
+  set -l found (glovebench completion words -- (commandline -opc)[2..] 2>/dev/null)
+  if test -n "$found"
+    printf '%s\n' $found
+  else
+    __fish_complete_path (commandline -ct)
+  end
+end
+complete -c glovebench -f -a '(__glovebench_words)'
 )sh";
 
 }  // namespace

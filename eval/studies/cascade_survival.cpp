@@ -1,14 +1,11 @@
 #include "eval/studies/cascade_survival.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 
 #include "core/base/error.h"
 #include "core/tracker/sighting.h"
+#include "eval/in_parallel.h"
 #include "eval/terminal.h"
 #include "eval/true_neighbor.h"
 
@@ -108,13 +105,8 @@ std::vector<StageSurvival> measure_survival(const StudyContext& context, const s
   std::atomic<size_t> done{0};
   const auto frame_done = [&] { progress.show(static_cast<double>(++done) / static_cast<double>(frames)); };
   std::vector<std::vector<FrameSurvival>> of_runs(specs.size());
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workbench.config().threads);
-  tbb::task_arena arena(workbench.config().threads);
-  arena.execute([&] {
-    tbb::parallel_for(size_t{0}, specs.size(), [&](size_t r) {
-      of_runs[r] = run_look_ups(workbench, specs[r], searched, cascades, frame_done);
-    });
-  });
+  in_parallel(workbench.config().threads, specs.size(),
+              [&](size_t r) { of_runs[r] = run_look_ups(workbench, specs[r], searched, cascades, frame_done); });
 
   std::vector<StageSurvival> stages = all_stages(databases, searched, cascades);
   for (size_t s = 0; s < stages.size(); ++s) {

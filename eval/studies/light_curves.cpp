@@ -1,14 +1,12 @@
 #include "eval/studies/light_curves.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "core/base/error.h"
 #include "core/calibration/glove_colors.h"
 #include "core/kinect/disparity.h"
+#include "eval/in_parallel.h"
 #include "eval/share.h"
 #include "render/lighting.h"
 #include "render/synthetic_kinect.h"
@@ -229,12 +227,9 @@ reports::StudyResult run_light_curves(const StudyContext& context) {
     ways[a].resize(axes[a].points.size());
     for (size_t p = 0; p < axes[a].points.size(); ++p) places.emplace_back(a, p);
   }
-  tbb::task_arena arena(context.workbench.config().threads);
-  arena.execute([&] {
-    tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
-      const auto [a, p] = places[i];
-      ways[a][p] = measure_light_point(context.workbench, 1, axes[a].points[p]);
-    });
+  in_parallel(context.workbench.config().threads, places.size(), [&](size_t i) {
+    const auto [a, p] = places[i];
+    ways[a][p] = measure_light_point(context.workbench, 1, axes[a].points[p]);
   });
   reports::StudyResult result{"light_curves", "Light", {}, mean_measures(axes, ways)};
   for (size_t a = 0; a < axes.size(); ++a) {

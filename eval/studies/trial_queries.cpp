@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <atomic>
 
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/tracker/sighting.h"
+#include "eval/in_parallel.h"
 #include "eval/terminal.h"
 #include "render/synthetic_kinect.h"
 
@@ -84,16 +82,11 @@ std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerCo
   tbb::enumerable_thread_specific<std::unique_ptr<TrialCamera>> cameras;
   Progress progress("drawing trial queries", workbench.config().quiet);
   std::atomic<int> done{0};
-  const int threads = workbench.config().threads;
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(0, count, [&](int number) {
-      std::unique_ptr<TrialCamera>& camera = cameras.local();
-      if (!camera) camera = std::make_unique<TrialCamera>(workbench, config, render::NoiseConfig{});
-      queries[number] = make_trial_query(*camera, postures, sizes, seed, number);
-      progress.show(static_cast<double>(++done) / count);
-    });
+  in_parallel(workbench.config().threads, queries.size(), [&](size_t number) {
+    std::unique_ptr<TrialCamera>& camera = cameras.local();
+    if (!camera) camera = std::make_unique<TrialCamera>(workbench, config, render::NoiseConfig{});
+    queries[number] = make_trial_query(*camera, postures, sizes, seed, static_cast<int>(number));
+    progress.show(static_cast<double>(++done) / count);
   });
   return queries;
 }

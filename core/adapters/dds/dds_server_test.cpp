@@ -106,6 +106,10 @@ class DdsServer : public testing::Test {
   static bool serves(const std::string& log, size_t begin = 0) {
     return comes_true([&] { return std::filesystem::exists(log) && std::filesystem::file_size(log) > begin; });
   }
+  /// Has the server begun, so that the log says where the joints are?
+  static bool has_state_after(const std::string& log, size_t begin) {
+    return read_file(log).find(R"("event":"state")", begin) != std::string::npos;
+  }
   static void change_at(const std::string& log, int64_t time_us) {
     const std::chrono::sys_time<std::chrono::microseconds> time{std::chrono::microseconds(time_us)};
     std::filesystem::last_write_time(log, std::chrono::file_clock::from_sys(time));
@@ -296,7 +300,7 @@ TEST_F(DdsServer, WaitsForAMeasuredStateWhereTheLogIsNotSure) {
   EXPECT_TRUE(comes_true([&] {
     const int64_t now_us = system_us();
     driver.write({ros_time(now_us), names, measured, {}}, now_us * 1000);
-    return read_file(log).find(R"("event":"state")", size) != std::string::npos;
+    return has_state_after(log, size);
   }));
   server->stop();
   EXPECT_THAT(read_file(log), HasSubstr(R"("event":"start",)"));
@@ -329,7 +333,7 @@ TEST_F(DdsServer, WaitsForTheArmsStateAndTheHands) {
   EXPECT_TRUE(comes_true([&] {
     measure(hand_joint_names(), std::vector<double>(kShadowJointCount, 0.1));
     measure(arm_joint_names(), rest);
-    return std::filesystem::file_size(log) > size;
+    return has_state_after(log, size);
   }));
   server->stop();
   EXPECT_NEAR(last_positions(log, both.names())[kFFJ3], 0.1, 1e-7);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace glovebench::eval {
+
+/// Calls work(i) for each i of 0 to count - 1, each by itself, on that many threads. What `work` does in parallel
+/// itself has no more threads either.
+template <typename Work>
+void in_parallel(int threads, size_t count, const Work& work) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena(threads).execute([&] {
+    const auto each = [&](const tbb::blocked_range<size_t>& range) {
+      for (size_t i = range.begin(); i != range.end(); ++i) work(i);
+    };
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1), each, tbb::simple_partitioner());
+  });
+}
+
+}  // namespace glovebench::eval
