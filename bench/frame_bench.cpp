@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 
 #include "bench/bench_data.h"
 #include "core/base/math.h"
@@ -11,20 +12,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Adds up the wall time of each stage that the tracker names.
+/// Adds up the wall time of each stage.
 class StageTimes {
  public:
-  void begin(std::string_view stage) {
-    const Clock::time_point now = Clock::now();
-    if (!current_.empty()) seconds_[current_] += std::chrono::duration<double>(now - start_).count();
+  void begin(Stage stage) {
+    end();
     current_ = stage;
+  }
+  /// Of the stage that runs.
+  void end() {
+    const Clock::time_point now = Clock::now();
+    if (current_) seconds_[*current_] += std::chrono::duration<double>(now - start_).count();
+    current_.reset();
     start_ = now;
   }
-  const std::map<std::string, double>& seconds() const { return seconds_; }
+  const std::map<Stage, double>& seconds() const { return seconds_; }
 
  private:
-  std::map<std::string, double> seconds_;
-  std::string current_;
+  std::map<Stage, double> seconds_;
+  std::optional<Stage> current_;
   Clock::time_point start_;
 };
 
@@ -48,7 +54,8 @@ void track(benchmark::State& state, IcpAlgorithm algorithm) {
   for (auto _ : state) {
     for (const BenchFrame& frame : d.frames) {
       const Clock::time_point start = Clock::now();
-      benchmark::DoNotOptimize(tracker.track(frame.device, [&](std::string_view stage) { times.begin(stage); }));
+      benchmark::DoNotOptimize(tracker.track(frame.device, [&](Stage stage) { times.begin(stage); }));
+      times.end();
       seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     }
     frames += static_cast<int64_t>(d.frames.size());
@@ -57,7 +64,7 @@ void track(benchmark::State& state, IcpAlgorithm algorithm) {
   state.counters["p50_us"] = 1e6 * *quantile_of(seconds, 0.5);
   state.counters["p99_us"] = 1e6 * *quantile_of(seconds, 0.99);
   for (const auto& [stage, stage_seconds] : times.seconds()) {
-    state.counters[stage] = stage_seconds / static_cast<double>(frames);
+    state.counters[std::string(to_string(stage))] = stage_seconds / static_cast<double>(frames);
   }
 }
 // The paper's alignment, which is the default, and the robust one.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -18,40 +18,50 @@
 namespace glovebench::eval {
 namespace {
 
-/// Collects the processor times of a tracker's frames and of their stages as the tracker names them; a stage that
-/// is named twice in a frame has the sum.
+/// Collects the processor times of a method's frames and of their stages. A stage that begins twice in a frame has
+/// the sum.
 class StageTimer {
  public:
-  void begin(std::string_view stage) {
-    const double now = thread_time_ms();
-    if (current_ < 0) frame_start_ = now;
-    if (current_ >= 0) in_this_frame_[current_] += now - start_;
-    if (stage.empty()) end_frame(now);
-    current_ = stage.empty() ? -1 : index_of(stage);
-    if (current_ >= 0) in_this_frame_.try_emplace(current_, 0.0);
-    start_ = now;
+  void begin_frame() {
+    frame_start_ = thread_time_ms();
+    current_.reset();
+    in_this_frame_.fill(std::nullopt);
   }
-  std::vector<reports::StageTiming> take_stages() { return std::move(stages_); }
+  void begin(Stage stage) {
+    end_stage();
+    current_ = stage;
+  }
+  void end_frame() {
+    end_stage();
+    for (size_t i = 0; i < in_this_frame_.size(); ++i)
+      if (in_this_frame_[i]) stage_ms_[i].push_back(*in_this_frame_[i]);
+    frame_ms_.push_back(thread_time_ms() - frame_start_);
+  }
+  /// Of the stages that ever began.
+  std::vector<reports::StageTiming> take_stages() {
+    std::vector<reports::StageTiming> stages;
+    for (const Stage stage : all_values<Stage>()) {
+      std::vector<double>& times = stage_ms_[static_cast<size_t>(stage)];
+      if (!times.empty()) stages.push_back({std::string(to_string(stage)), std::move(times)});
+    }
+    return stages;
+  }
   std::vector<double> take_frames() { return std::move(frame_ms_); }
 
  private:
-  void end_frame(double now) {
-    for (const auto& [stage, time] : in_this_frame_) stages_[stage].frame_ms.push_back(time);
-    in_this_frame_.clear();
-    frame_ms_.push_back(now - frame_start_);
-  }
-  int index_of(std::string_view stage) {
-    for (size_t i = 0; i < stages_.size(); ++i) {
-      if (stages_[i].stage == stage) return static_cast<int>(i);
+  void end_stage() {
+    const double now = thread_time_ms();
+    if (current_) {
+      std::optional<double>& time = in_this_frame_[static_cast<size_t>(*current_)];
+      time = time.value_or(0) + now - start_;
     }
-    stages_.push_back({std::string(stage), {}});
-    return static_cast<int>(stages_.size()) - 1;
+    start_ = now;
   }
 
-  std::vector<reports::StageTiming> stages_;
+  std::array<std::vector<double>, kCountOf<Stage>> stage_ms_;
   std::vector<double> frame_ms_;
-  std::map<int, double> in_this_frame_;  ///< of each stage, ms
-  int current_ = -1;
+  std::array<std::optional<double>, kCountOf<Stage>> in_this_frame_;  ///< ms
+  std::optional<Stage> current_;
   double start_ = 0, frame_start_ = 0;
 };
 
@@ -104,7 +114,9 @@ class Tracking {
                                      {kinect_.seed, kinect_.sequence, number});
   }
   void track(const DeviceFrame& frame, const render::RgbdImages& images) {
-    run_.answers.push_back(method_->track(frame, [&](std::string_view stage) { timer_.begin(stage); }));
+    timer_.begin_frame();
+    run_.answers.push_back(method_->track(frame, [&](Stage stage) { timer_.begin(stage); }));
+    timer_.end_frame();
     run_.seen.push_back({reports::count_patches(images.patch), is_trackable(images, run_.spec.tracker)});
   }
   Run take() {

@@ -48,8 +48,7 @@ class Articulated : public Method {
   }
 
   TrackResult track(const DeviceFrame& frame, const StageObserver& observe) override {
-    TrackResult result = estimate(
-        frame, observe ? observe : [](std::string_view) {});
+    TrackResult result = estimate(frame, observe);
     result.timestamp_us = frame.depth_timestamp_us;
     if (result.status == TrackStatus::tracked) {
       previous_ = {result.posture_unfiltered, result.T_camera_hand_unfiltered};
@@ -57,9 +56,7 @@ class Articulated : public Method {
     } else if (++lost_frames_ >= in_.config.smoothing.forget_after) {
       previous_.reset();
     }
-    result = smoother_.smooth(std::move(result));  // repeats the last answer in a lost frame, and does no more
-    if (observe) observe("");
-    return result;
+    return smoother_.smooth(std::move(result));  // repeats the last answer in a lost frame, and does no more
   }
 
  private:
@@ -106,12 +103,12 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const StageObserver&
   result.T_camera_hand_coarse =
       coarse_pose(*in_.model, in_.model->pose(mean.posture), mean.R_camera_hand, seen.cloud.points);
 
-  observe("mask");
+  observe(Stage::mask);
   mask_.assign(seen.depth, frame.raw_disparity, label_box(seen.cloud.labels, kMaskMargin_px),
                mean_depth(seen.cloud.points) + kBehindHand);
   const RecycledVector<LabeledPoint> points = points_off_edges(seen.cloud, seen.depth);
 
-  observe("fit");
+  observe(Stage::fit);
   const ArticulatedEstimate fitted =
       fit_({points, mask_, in_.calibration.ir}, starts(result, mean, ray, seen.cloud),
            previous_ ? &previous_->posture : nullptr);

@@ -13,8 +13,8 @@ namespace glovebench {
 class Method {
  public:
   virtual ~Method() = default;
-  /// The answer for one frame. `observe`, if given, is told the name of each stage when it begins.
-  virtual TrackResult track(const DeviceFrame& frame, const StageObserver& observe = {}) = 0;
+  /// The answer for one frame. `observe` is told each stage when it begins.
+  virtual TrackResult track(const DeviceFrame& frame, const StageObserver& observe = unobserved) = 0;
 };
 
 /// What a method may be made of; it sees nothing else.

@@ -45,13 +45,10 @@ class MonocularBbox : public Method {
   }
 
   TrackResult track(const DeviceFrame& frame, const StageObserver& observe) override {
-    TrackResult result = estimate(
-        frame.color, observe ? observe : [](std::string_view) {});
+    TrackResult result = estimate(frame.color, observe);
     result.timestamp_us = frame.depth_timestamp_us;
-    if (observe) observe("smooth");
-    result = smoother_.smooth(std::move(result));
-    if (observe) observe("");
-    return result;
+    observe(Stage::smoothing);
+    return smoother_.smooth(std::move(result));
   }
 
  private:
@@ -63,11 +60,11 @@ class MonocularBbox : public Method {
 
 TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver& observe) const {
   TrackResult result;
-  observe("segment");
+  observe(Stage::segmentation);
   LabelImage labels = segment(color, *in_.table);
   if (in_.config.segmentation.majority_filter) labels = majority_filter(labels);
 
-  observe("detect");
+  observe(Stage::detection);
   const Blob blob = largest_blob(std::move(labels));
   if (blob.pixels < in_.config.detection.min_pixels) return result.status = TrackStatus::no_hand, result;
   if (is_cut_by_border(blob.labels, blob.pixels, in_.config.detection)) {
@@ -82,7 +79,7 @@ TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver
   result.ambiguous = coarse.ambiguous;
   result.posture_unfiltered = coarse.posture;
 
-  observe("place");
+  observe(Stage::placement);
   // `R_camera_hand` is in the frame of the camera of the query: here the RGB camera.
   const auto placed = place_in_square(in_.model->pose(coarse.posture).vertices, coarse.R_camera_hand,
                                       image_square(found.square), in_.calibration.rgb);

@@ -5,11 +5,11 @@ namespace glovebench {
 HandLookUp look_up_hand(const LabelImage& labels, const PinholeCamera& camera, const Database& database,
                         const LookupConfig& config, const StageObserver& observe) {
   HandLookUp found;
-  observe("tiny_images");
+  observe(Stage::tiny_images);
   found.square = bounding_square(labels);
   const TinyImages query = make_tiny_images(labels, found.square, config.cascade);
 
-  observe("look_up");
+  observe(Stage::look_up);
   found.matches = look_up(database, query, config.cascade, config.implementation);
   if (found.matches.empty()) return found;
   if (found.matches.front().error > config.max_matching_error * config.cascade.back().size) {

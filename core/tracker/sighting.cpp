@@ -23,12 +23,12 @@ Sighting see_in(DepthImage depth, const ColorImage& color, const RgbdCalibration
   seen.depth = std::move(depth);
   seen.mapped = register_color(seen.depth, color, calibration, config.registration);
 
-  observe("segment");
+  observe(Stage::segmentation);
   seen.labels = segment(seen.mapped, table);
   if (config.segmentation.majority_filter) seen.labels = majority_filter(seen.labels);
   if (config.segmentation.surface_majority) seen.labels = surface_majority(seen.labels, seen.depth);
 
-  observe("cloud");
+  observe(Stage::cloud);
   seen.cloud = build_cloud(seen.depth, seen.labels, calibration.ir, config.volume);
   if (config.segmentation.largest_component) {
     seen.cloud = largest_component(seen.cloud, config.detection.component_depth_step);
@@ -59,12 +59,12 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
              const TrackerConfig& config) {
   return see_in(depth_from_disparity(frame.raw_disparity, calibration.disparity), frame.color, calibration, table,
-                config, [](std::string_view) {});
+                config, unobserved);
 }
 
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe) {
-  observe("register");
+  observe(Stage::registration);
   // A filter over neighbors looks across the border of what is left out.
   if (!config.segmentation.majority_filter && !config.segmentation.surface_majority) {
     Sighting seen = see_in(
@@ -72,7 +72,7 @@ Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibrati
         frame.color, calibration, table, config, observe);
     // With too few points the status depends on what lies outside.
     if (static_cast<int>(seen.cloud.points.size()) >= config.detection.min_pixels) return seen;
-    observe("register");
+    observe(Stage::registration);
   }
   return see_in(depth_from_disparity(frame.raw_disparity, calibration.disparity), frame.color, calibration, table,
                 config, observe);

@@ -62,9 +62,20 @@ struct TrackResult {
   std::optional<AngleCertainty> certainty;  ///< of methods that know it
 };
 
-/// Told the name of each stage when it begins ("register", "segment", ...; "" at the end of the frame), so
-/// that a caller who has a clock can time them. A stage that is done again in a frame is told again.
-using StageObserver = std::function<void(std::string_view stage)>;
+/// The stages of the methods, in the order of a frame.
+enum class Stage { registration, segmentation, cloud, detection, tiny_images, look_up, alignment, placement, mask, fit,
+                   smoothing };
+/// As in timings.json.
+constexpr auto names_of(Stage) {
+  return std::to_array<std::string_view>({"register", "segment", "cloud", "detect", "tiny_images", "look_up", "align",
+                                          "place", "mask", "fit", "smooth"});
+}
+static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
+
+/// Called when a stage begins, so that a caller with a clock can time it. A frame may enter a stage twice.
+using StageObserver = std::function<void(Stage stage)>;
+/// Observes nothing.
+inline void unobserved(Stage) {}
 
 /// One estimate as one line of JSON (no line end): frame, timestamp_us, status, angles_deg (22, filtered),
 /// position_mm, quaternion_wxyz, matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; of a

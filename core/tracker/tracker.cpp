@@ -53,12 +53,9 @@ Tracker::Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_
 }
 
 TrackResult Tracker::track(const DeviceFrame& frame, const StageObserver& observe) {
-  const StageObserver silent = [](std::string_view) {};
-  TrackResult result = estimate(frame, observe ? observe : silent);
-  if (observe) observe("smooth");
-  result = smoother_.smooth(std::move(result));
-  if (observe) observe("");
-  return result;
+  TrackResult result = estimate(frame, observe);
+  observe(Stage::smoothing);
+  return smoother_.smooth(std::move(result));
 }
 
 FrameTrace Tracker::inspect(const DeviceFrame& frame) const {
@@ -88,7 +85,7 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
   result.ambiguous = coarse.ambiguous;
   result.posture_unfiltered = coarse.posture;
 
-  observe("align");
+  observe(Stage::alignment);
   const PosedHand hand = model_->pose(coarse.posture);
   result.T_camera_hand_coarse = coarse_pose(*model_, hand, coarse.R_camera_hand, cloud.points);
   const Alignment alignment = align(*model_, hand, cloud.points, result.T_camera_hand_coarse, config_.icp);

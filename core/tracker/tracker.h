@@ -29,8 +29,8 @@ class Tracker {
   Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
           std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table);
 
-  /// The answer for one frame. `observe`, if given, is told the name of each stage when it begins.
-  TrackResult track(const DeviceFrame& frame, const StageObserver& observe = {});
+  /// The answer for one frame. `observe` is told each stage when it begins.
+  TrackResult track(const DeviceFrame& frame, const StageObserver& observe = unobserved);
   /// What the stages make of the whole images, also of what lies beyond the working volume. Changes nothing.
   FrameTrace inspect(const DeviceFrame& frame) const;
 

@@ -39,12 +39,13 @@ TEST(Tracker, tracks_the_hand) {
 }
 
 TEST(Tracker, tells_its_stages_and_what_they_made) {
-  std::vector<std::string> stages;
+  std::vector<Stage> stages;
   Tracker tracker = make_tracker();
   const Shot shot = shoot(test_pose({0.02, 0.03, 0.7}));
   const FrameTrace trace = tracker.inspect(shot.frame);
-  const TrackResult seen = tracker.track(shot.frame, [&](std::string_view stage) { stages.emplace_back(stage); });
-  EXPECT_THAT(stages, ElementsAre("register", "segment", "cloud", "tiny_images", "look_up", "align", "smooth", ""));
+  const TrackResult seen = tracker.track(shot.frame, [&](Stage stage) { stages.push_back(stage); });
+  EXPECT_THAT(stages, ElementsAre(Stage::registration, Stage::segmentation, Stage::cloud, Stage::tiny_images,
+                                  Stage::look_up, Stage::alignment, Stage::smoothing));
   EXPECT_EQ(trace.tiny.width(), 64);
   EXPECT_EQ(static_cast<int>(trace.cloud.points.size()), seen.cloud_points);
   // Looking on changes nothing.
