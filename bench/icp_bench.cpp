@@ -6,7 +6,7 @@
 #include "core/base/random.h"
 #include "core/pose/icp.h"
 #include "core/pose/matcher.h"
-#include "core/pose/robust_icp.h"
+#include "core/pose/alignments/robust_alignment.h"
 
 namespace glovebench::bench {
 namespace {
@@ -15,7 +15,7 @@ Alignment align_frame(const BenchFrame& frame, const IcpConfig& config) {
   return align(*data().model, frame.posed, frame.trace.cloud.points, frame.result.T_camera_hand_coarse, config);
 }
 
-IcpConfig config_of(IcpAlgorithm algorithm, Implementation implementation, int max_points) {
+IcpConfig config_of(const char* algorithm, Implementation implementation, int max_points) {
   IcpConfig config = data().config.icp;
   config.algorithm = algorithm;
   config.implementation = implementation;
@@ -60,7 +60,7 @@ std::vector<const BenchFrame*> some_frames() {
   return frames;
 }
 
-void icp(benchmark::State& state, IcpAlgorithm algorithm, Implementation implementation, int max_points) {
+void icp(benchmark::State& state, const char* algorithm, Implementation implementation, int max_points) {
   const IcpConfig config = config_of(algorithm, implementation, max_points);
   const IcpConfig plain = config_of(algorithm, Implementation::plain, max_points);
   const std::vector<const BenchFrame*> frames = some_frames();
@@ -80,19 +80,19 @@ void icp(benchmark::State& state, IcpAlgorithm algorithm, Implementation impleme
   if (implementation == Implementation::fast)
     set_errors(state, mean_errors([&](const BenchFrame& frame) { return align_frame(frame, config); }));
 }
-BENCHMARK_CAPTURE(icp, plain, IcpAlgorithm::horn, Implementation::plain, 1000)
+BENCHMARK_CAPTURE(icp, plain, "horn", Implementation::plain, 1000)
     ->Name("icp/horn/plain")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(icp, fast, IcpAlgorithm::horn, Implementation::fast, 1000)
+BENCHMARK_CAPTURE(icp, fast, "horn", Implementation::fast, 1000)
     ->Name("icp/horn/fast")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(icp, horn_3000, IcpAlgorithm::horn, Implementation::fast, 3000)
+BENCHMARK_CAPTURE(icp, horn_3000, "horn", Implementation::fast, 3000)
     ->Name("icp/horn_3000")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(icp, robust, IcpAlgorithm::robust, Implementation::fast, 1000)
+BENCHMARK_CAPTURE(icp, robust, "robust", Implementation::fast, 1000)
     ->Name("icp/robust")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(icp, robust_3000, IcpAlgorithm::robust, Implementation::fast, 3000)
+BENCHMARK_CAPTURE(icp, robust_3000, "robust", Implementation::fast, 3000)
     ->Name("icp/robust_3000")
     ->Unit(benchmark::kMillisecond);
 
@@ -100,7 +100,7 @@ BENCHMARK_CAPTURE(icp, robust_3000, IcpAlgorithm::robust, Implementation::fast, 
 /// no colors and no triangles: so is its answer, whose errors are shown, and which must be nearer than the start.
 void icp_peer(benchmark::State& state, AlignPeer peer, int max_points) {
   if (peer == nullptr) return state.SkipWithError(kMissing);
-  const IcpConfig config = config_of(IcpAlgorithm::horn, Implementation::fast, max_points);
+  const IcpConfig config = config_of("horn", Implementation::fast, max_points);
   const auto align_one = [&](const BenchFrame& frame) {
     const Eigen::Isometry3d& coarse = frame.result.T_camera_hand_coarse;
     const Surface surface(*data().model, frame.posed, viewpoint_hand(coarse));
@@ -138,7 +138,7 @@ void set_both_errors(benchmark::State& state, const Align& align_posed) {
 
 /// Of the robust alignment with weights of so many percent of the textbook's width.
 void robust_errors(benchmark::State& state) {
-  const IcpConfig config = config_of(IcpAlgorithm::robust, Implementation::fast, 1000);
+  const IcpConfig config = config_of("robust", Implementation::fast, 1000);
   set_both_errors(state, [&](const BenchFrame& frame, const PosedHand& posed) {
     return align_robust(*data().model, posed, subsample(frame.trace.cloud.points, config.max_points),
                         frame.result.T_camera_hand_coarse, config, 0.01 * static_cast<double>(state.range(0)));
@@ -157,7 +157,7 @@ BENCHMARK(robust_errors)
     ->Unit(benchmark::kMillisecond);
 
 void horn_errors(benchmark::State& state) {
-  const IcpConfig config = config_of(IcpAlgorithm::horn, Implementation::fast, 1000);
+  const IcpConfig config = config_of("horn", Implementation::fast, 1000);
   set_both_errors(state, [&](const BenchFrame& frame, const PosedHand& posed) {
     return align(*data().model, posed, frame.trace.cloud.points, frame.result.T_camera_hand_coarse, config);
   });
@@ -166,7 +166,7 @@ BENCHMARK(horn_errors)->Name("icp/errors/horn")->Iterations(1)->Unit(benchmark::
 
 /// Starts 3 cm and so many degrees from the truth, in the true posture: the share that ends within 2 mm and 1
 /// degree of where an alignment that starts at the truth ends.
-void convergence(benchmark::State& state, IcpAlgorithm algorithm) {
+void convergence(benchmark::State& state, const char* algorithm) {
   const IcpConfig config = config_of(algorithm, Implementation::fast, 3000);
   const auto turn = radians_from_degrees(static_cast<double>(state.range(0)));
   double converged = 0;
@@ -191,13 +191,13 @@ void convergence(benchmark::State& state, IcpAlgorithm algorithm) {
   }
   state.counters["converged"] = converged / static_cast<double>(data().frames.size());
 }
-BENCHMARK_CAPTURE(convergence, horn, IcpAlgorithm::horn)
+BENCHMARK_CAPTURE(convergence, horn, "horn")
     ->Name("icp/convergence/horn")
     ->ArgName("deg")
     ->DenseRange(5, 35, 10)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(convergence, robust, IcpAlgorithm::robust)
+BENCHMARK_CAPTURE(convergence, robust, "robust")
     ->Name("icp/convergence/robust")
     ->ArgName("deg")
     ->DenseRange(5, 35, 10)

@@ -10,6 +10,7 @@
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
+#include "core/base/registry.h"
 #include "core/base/text.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
@@ -36,7 +37,7 @@ bool is_database_file(const std::string& name) {
 reports::NoiseSetting noise_from(const JsonCursor& field) {
   field.expect_keys({"model", "factor"});
   const JsonCursor model = field["model"];
-  const std::vector<std::string> known = render::depth_noise_names();
+  const std::vector<std::string> known = names_in(render::depth_noises());
   if (std::ranges::find(known, model.text()) == known.end())
     model.fail(fmt::format("one of {}", fmt::join(known, ", ")));
   return {model.text(), field["factor"].number(0, kMaxNoiseFactor)};

@@ -73,7 +73,7 @@ void look_up_all(const Database& database, const uint8_t* data, size_t bytes) {
     TinyImages query;
     for (const CascadeStage& stage : cascade) query.images.push_back(query_of(stage.size, data, bytes));
     const auto fast = look_up(database, query, cascade),
-               plain = look_up(database, query, cascade, Implementation::plain);
+               plain = look_up(database, query, cascade, "plain");
     check(fast.size() == plain.size(), "as many matches");
     for (size_t m = 0; m < fast.size(); ++m) {
       check(fast[m].entry >= 0 && fast[m].entry < database.entry_count(), "an entry that exists");

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "core/base/registry.h"
 #include "core/database/look_up_parts.h"
 
 namespace glovebench {
-namespace {
 
-/// Where a query reads in the fields of an entry: one offset a glove pixel.
 RecycledVector<int> glove_offsets(const LabelImage& query) {
   RecycledVector<int> offsets;
   const int pixels = static_cast<int>(query.size());
@@ -17,34 +16,11 @@ RecycledVector<int> glove_offsets(const LabelImage& query) {
   return offsets;
 }
 
-/// Sum of the distances, in steps of 1/kFieldScale px; at most 4096 * 255.
 uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets) {
   uint32_t sum = 0;
   for (const int offset : offsets) sum += fields[offset];
   return sum;
 }
-
-/// Entry after entry.
-RecycledVector<Match> look_up_plain(const Database& database, const TinyImages& query, const Cascade& cascade,
-                                    LookUpTrace* trace) {
-  RecycledVector<Candidate> candidates(database.entry_count());
-  for (int entry = 0; entry < database.entry_count(); ++entry) candidates[entry] = {0, entry};
-  size_t glove_pixels = 0;
-  for (size_t s = 0; s < cascade.size(); ++s) {
-    const RecycledVector<int> offsets = glove_offsets(query.images[s]);
-    if (offsets.empty()) return {};
-    EntryFields fields(database, query.images[s]);
-    for (Candidate& candidate : candidates) candidate.sum = sum_of(fields.of(candidate.entry), offsets);
-    const size_t keep = std::min<size_t>(cascade[s].keep, candidates.size());
-    std::partial_sort(candidates.begin(), candidates.begin() + static_cast<ptrdiff_t>(keep), candidates.end());
-    candidates.resize(keep);
-    note_kept(candidates, trace);
-    glove_pixels = offsets.size();
-  }
-  return matches_of(candidates, glove_pixels);
-}
-
-}  // namespace
 
 EntryFields::EntryFields(const Database& database, const LabelImage& query)
     : database_(database), size_(query.width()) {
@@ -87,11 +63,11 @@ std::vector<float> distances(const Database& database, const LabelImage& query) 
 }
 
 RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
-                              Implementation implementation, LookUpTrace* trace) {
+                              std::string_view name, LookUpTrace* trace) {
+  const LookUpEntry& entry = find_in(look_ups(), name, "look-up", "name");
   database.require_unchanged();
   if (trace != nullptr) trace->kept.clear();
-  return implementation == Implementation::plain ? look_up_plain(database, query, cascade, trace)
-                                                 : look_up_fast(database, query, cascade, trace);
+  return entry.look_up(database, query, cascade, trace);
 }
 
 }  // namespace glovebench

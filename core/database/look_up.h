@@ -1,8 +1,9 @@
 #pragma once
 
+#include <span>
+#include <string_view>
 #include <vector>
 
-#include "core/base/implementation.h"
 #include "core/database/cascade.h"
 #include "core/database/database.h"
 
@@ -33,11 +34,22 @@ struct LookUpTrace {
   std::vector<std::vector<int>> kept;
 };
 
+/// A way to search. All give the same matches and the same trace: X_look_up.cpp in core/database/look_ups defines
+/// `LookUpEntry X_look_up()`.
+struct LookUpEntry {
+  std::string_view name;         ///< X
+  std::string_view description;  ///< one line
+  /// As `look_up` below.
+  RecycledVector<Match> (*look_up)(const Database& database, const TinyImages& query, const Cascade& cascade,
+                                   LookUpTrace* trace);
+};
+/// All of that folder, sorted by name.
+std::span<const LookUpEntry> look_ups();
+
 /// The matching cascade of section III-B: each stage ranks what the one before it kept. Best first; equal errors by
-/// entry number. Empty for a query without glove pixels. `trace`, if given, receives what each stage kept. Both
-/// implementations give the same matches and the same trace: `plain` goes entry after entry as the paper describes
-/// it.
+/// entry number. Empty for a query without glove pixels. `name`: of `look_ups`. `trace`, if given, receives what
+/// each stage kept.
 RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
-                              Implementation implementation = Implementation::fast, LookUpTrace* trace = nullptr);
+                              std::string_view name = "fast", LookUpTrace* trace = nullptr);
 
 }  // namespace glovebench

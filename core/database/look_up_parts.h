@@ -20,6 +20,11 @@ inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
   return static_cast<float>(sum) / static_cast<float>(kFieldScale * glove_pixels);
 }
 
+/// Where a query reads in the fields of an entry: one offset a glove pixel.
+RecycledVector<int> glove_offsets(const LabelImage& query);
+/// Sum of the distances, in steps of 1/kFieldScale px; at most 4096 * 255.
+uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets);
+
 /// Appends what a stage kept to the trace, if there is one.
 inline void note_kept(const RecycledVector<Candidate>& candidates, LookUpTrace* trace) {
   if (trace == nullptr) return;
@@ -49,11 +54,5 @@ class EntryFields {
   std::vector<uint8_t> colors_;  ///< the query's
   std::vector<uint8_t> made_;    ///< of one entry; none: fields are stored
 };
-
-/// `look_up`, fast. A first stage by small images adds up the rows of `FieldRows` over all entries at once; one by
-/// large images adds up rows of cell minima, which bounds every distance from below, and computes distances only
-/// where the bound is under the last one kept. Later stages stop adding up an entry as soon as it is too far.
-RecycledVector<Match> look_up_fast(const Database& database, const TinyImages& query, const Cascade& cascade,
-                                   LookUpTrace* trace);
 
 }  // namespace glovebench

@@ -163,7 +163,7 @@ TEST(LookUp, the_trace_holds_what_each_stage_kept) {
     return entries;
   };
   LookUpTrace trace{{{1, 2, 3}}};  // of another look-up
-  const RecycledVector<Match> matches = look_up(database, query, cascade, Implementation::plain, &trace);
+  const RecycledVector<Match> matches = look_up(database, query, cascade, "plain", &trace);
   ASSERT_EQ(trace.kept.size(), 2u);
   EXPECT_EQ(trace.kept[0], entries_of(look_up(database, {{query.images[0]}}, {{8, 40}})));
   EXPECT_EQ(trace.kept[1], entries_of(matches));

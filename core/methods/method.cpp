@@ -1,10 +1,8 @@
 #include "core/methods/method.h"
 
-#include <fmt/ranges.h>
-
 #include <vector>
 
-#include "core/base/error.h"
+#include "core/base/registry.h"
 
 namespace glovebench {
 
@@ -18,9 +16,7 @@ std::span<const std::string_view> method_names() {
 }
 
 const MethodEntry& find_method(std::string_view name) {
-  for (const MethodEntry& entry : methods())
-    if (entry.name == name) return entry;
-  throw Error("method", "name", std::string(name), fmt::format("one of {}", fmt::join(method_names(), ", ")));
+  return find_in(methods(), name, "method", "name");
 }
 
 }  // namespace glovebench

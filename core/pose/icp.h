@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "core/base/implementation.h"
 #include "core/cloud/labeled_cloud.h"
@@ -9,15 +11,8 @@
 
 namespace glovebench {
 
-/// How the closest points move the hand: Horn's alignment in each iteration (the paper), or the schedule of
-/// robust_icp.h.
-enum class IcpAlgorithm { horn, robust };
-constexpr auto names_of(IcpAlgorithm) {
-  return std::to_array<std::string_view>({"horn", "robust"});
-}
-
 struct IcpConfig {
-  IcpAlgorithm algorithm = IcpAlgorithm::horn;
+  std::string algorithm = "horn";    ///< how the closest points move the hand: a name of `alignments`
   int max_points = 1000;             ///< uniform stride down to at most this many, >= 3
   int subsampling_factor = 0;        ///< every n-th point (Figure 9); 0: as many as `max_points` allows, >= 0
   int max_iterations = 100;          ///< >= 1
@@ -47,9 +42,20 @@ RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points);
 
-/// Color-sensitive iterative closest point-to-triangle (section III-C, equation 3): each point goes to the closest
-/// front-facing triangle of its color (or of any, if so configured), Horn's alignment moves the hand, until the
-/// mean distance settles. With `IcpAlgorithm::robust` as `align_robust` says (robust_icp.h).
+/// An alignment: X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`.
+struct AlignmentEntry {
+  std::string_view name;         ///< X
+  std::string_view description;  ///< one line
+  /// `points`: at least 3, camera frame, m, with the labels under which a surface keeps its faces. `config` limits
+  /// the iterations.
+  Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
+                     const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
+};
+/// All of that folder, sorted by name.
+std::span<const AlignmentEntry> alignments();
+
+/// Color-sensitive iterative closest point-to-triangle (section III-C, equation 3) of a part of the cloud, by the
+/// alignment that `config` names: each point goes to the closest front-facing triangle of its color, or of any.
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 

@@ -131,7 +131,7 @@ TEST(Allocation, does_not_happen_once_a_tracker_has_begun) {
   EXPECT_THAT(requests_a_frame({}), testing::Each(0));
 
   TrackerConfig robust;
-  robust.icp.algorithm = IcpAlgorithm::robust;
+  robust.icp.algorithm = "robust";
   robust.lookup.cascade = parse_cascade("exact:3");
   EXPECT_THAT(requests_a_frame(robust), testing::Each(0));
 

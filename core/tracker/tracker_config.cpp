@@ -1,6 +1,6 @@
 #include "core/tracker/tracker_config.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/json_cursor.h"
+#include "core/base/registry.h"
 
 namespace glovebench {
 namespace {
@@ -31,6 +32,11 @@ struct Range {
 constexpr Range kPositive{0, kUnbounded, true};
 constexpr Range kShare{0, 1, true};
 
+/// Of a field that names an entry of a registry.
+struct Names {
+  std::vector<std::string> known;
+};
+
 /// Every field of a configuration, once: section, key, value and range. Reading, writing and checking go through
 /// here.
 template <typename Config, typename Visit>
@@ -52,10 +58,10 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("detection", "max_border_pixels", c.detection.max_border_pixels, Range{0, 307200});
   visit("detection", "max_border_share", c.detection.max_border_share, kPositive);
   visit("lookup", "cascade", c.lookup.cascade, Range{});
-  visit("lookup", "implementation", c.lookup.implementation, Range{});
+  visit("lookup", "implementation", c.lookup.implementation, Names{names_in(look_ups())});
   visit("lookup", "interpolation_epsilon_px", c.lookup.interpolation_epsilon, kPositive);
   visit("lookup", "max_matching_error_share", c.lookup.max_matching_error, kPositive);
-  visit("icp", "algorithm", c.icp.algorithm, Range{});
+  visit("icp", "algorithm", c.icp.algorithm, Names{names_in(alignments())});
   visit("icp", "max_points", c.icp.max_points, Range{3, 307200});
   visit("icp", "subsampling_factor", c.icp.subsampling_factor, Range{0, 307200});
   visit("icp", "implementation", c.icp.implementation, Range{});
@@ -77,6 +83,9 @@ void read(int& value, const JsonCursor& json) {
 }
 void read(bool& value, const JsonCursor& json) {
   value = json.boolean();
+}
+void read(std::string& value, const JsonCursor& json) {
+  value = json.text();
 }
 template <Named Enum>
 void read(Enum& value, const JsonCursor& json) {
@@ -100,6 +109,9 @@ json written(int value) {
 json written(bool value) {
   return value;
 }
+json written(const std::string& value) {
+  return value;
+}
 template <Named Enum>
 json written(Enum value) {
   return to_string(value);
@@ -117,6 +129,11 @@ template <>
 void check_range(const std::string&, bool, const Range&, std::vector<std::string>&) {}
 template <Named Enum>
 void check_range(const std::string&, Enum, const Range&, std::vector<std::string>&) {}
+void check_range(const std::string& field, const std::string& value, const Names& names,
+                 std::vector<std::string>& problems) {
+  if (std::ranges::find(names.known, value) != names.known.end()) return;
+  problems.push_back(fmt::format("{}: found {}, expected one of {}", field, value, fmt::join(names.known, ", ")));
+}
 void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
   try {
     parse_cascade(to_string(value));
@@ -130,7 +147,7 @@ void refuse_unknown_keys(const JsonCursor& root) {
   std::vector<std::string_view> top = {"profile", "method"};
   std::map<std::string_view, std::vector<std::string_view>> sections;
   const TrackerConfig any;
-  visit_fields(any, [&](const char* section, const char* key, const auto&, const Range&) {
+  visit_fields(any, [&](const char* section, const char* key, const auto&, const auto&) {
     if (sections[section].empty()) top.emplace_back(section);
     sections[section].emplace_back(key);
   });
@@ -143,7 +160,7 @@ void refuse_unknown_keys(const JsonCursor& root) {
 
 std::vector<std::string> TrackerConfig::problems() const {
   std::vector<std::string> problems;
-  visit_fields(*this, [&](const char* section, const char* key, const auto& value, const Range& range) {
+  visit_fields(*this, [&](const char* section, const char* key, const auto& value, const auto& range) {
     check_range(fmt::format("{}.{}", section, key), value, range, problems);
   });
   const std::span<const std::string_view> methods = method_names();
@@ -174,7 +191,7 @@ TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const s
     }
   }
   if (root.has("method")) config.method = root["method"].text();
-  visit_fields(config, [&](const char* section, const char* key, auto& value, const Range&) {
+  visit_fields(config, [&](const char* section, const char* key, auto& value, const auto&) {
     if (root.has(section) && root[section].has(key)) read(value, root[section][key]);
   });
   const std::vector<std::string> problems = config.problems();
@@ -186,7 +203,7 @@ json to_json(const TrackerConfig& config) {
   json j;
   j["profile"] = config.profile;
   j["method"] = config.method;
-  visit_fields(config, [&](const char* section, const char* key, const auto& value, const Range&) {
+  visit_fields(config, [&](const char* section, const char* key, const auto& value, const auto&) {
     j[section][key] = written(value);
   });
   return j;

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/implementation.h"
 #include "core/camera/registration.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/database/look_up.h"
@@ -25,7 +24,7 @@ struct SegmentationConfig {
 struct LookupConfig {
   Cascade cascade = {{16, 500}, {64, 3}};  ///< the paper's choice (section IV-B)
   double interpolation_epsilon = 0.01;     ///< eps in the weights 1 / (E + eps), px of the last stage, > 0
-  Implementation implementation = Implementation::fast;  ///< of the search; the matches are the same
+  std::string implementation = "fast";     ///< a name of `look_ups`; the matches are the same
   double max_matching_error = 0.08;  ///< above it the frame is `poor_match`, share of the last stage's side, > 0
 };
 

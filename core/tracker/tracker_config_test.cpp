@@ -93,7 +93,7 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
             "cull_each_iteration": true, "color_sensitive": false, "max_residual_m": 0.01},
     "smoothing": {"posture_keep": 0.5, "pose_keep": 0.25, "forget_after_frames": 4}})"));
   EXPECT_EQ(config.registration.occlusion_tolerance, 0.02);
-  EXPECT_EQ(config.lookup.implementation, Implementation::plain);
+  EXPECT_EQ(config.lookup.implementation, "plain");
   EXPECT_EQ(config.icp.implementation, Implementation::plain);
   EXPECT_EQ(config.segmentation.color_space, ColorSpace::rgb);
   EXPECT_TRUE(config.segmentation.majority_filter);
@@ -113,7 +113,7 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
   EXPECT_EQ(config.lookup.cascade, (Cascade{{8, 9}}));
   EXPECT_EQ(config.lookup.interpolation_epsilon, 0.1);
   EXPECT_EQ(config.lookup.max_matching_error, 0.2);
-  EXPECT_EQ(config.icp.algorithm, IcpAlgorithm::robust);
+  EXPECT_EQ(config.icp.algorithm, "robust");
   EXPECT_EQ(config.icp.max_points, 500);
   EXPECT_EQ(config.icp.subsampling_factor, 20);
   EXPECT_FALSE(config.icp.color_sensitive);

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file_set.h"
+#include "core/base/registry.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording.h"
 #include "eval/commands/flags.h"
@@ -105,7 +106,7 @@ void add_render(Command program) {
               "png: color and depth pictures; exr: color, z, label, and with --database the tracker's view;\n"
               "fakenect: a recording that libfreenect's fakenect and `glovebench track` play")
       .one_of({"png", "exr", "fakenect"});
-  command.option("--noise", state->noise, "depth noise").one_of(render::depth_noise_names());
+  command.option("--noise", state->noise, "depth noise").one_of(names_in(render::depth_noises()));
   command.option("--subject", state->subject, "whose hand (`glovebench list subjects`)")
       .in(1, render::kSubjectCount);
   command.option("--database", state->database, "exr: track with this database and add the tracker's view");

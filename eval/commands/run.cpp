@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/registry.h"
 #include "eval/commands/flags.h"
 #include "eval/experiment.h"
 #include "eval/pictures.h"
@@ -154,7 +155,7 @@ void add_run(Command program) {
   command.option("--database", state->databases,
                  "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)");
   command.option("--truth", state->truth, "which truth of a named one").one_of({"source", "recorded"});
-  command.option("--noise", state->noise, "depth noise").one_of(render::depth_noise_names());
+  command.option("--noise", state->noise, "depth noise").one_of(names_in(render::depth_noises()));
   command.option("--gain", state->gain, "factor on the noise's gain").in(0, 100);
   command.option("--subject", state->subject, "whose hand is in front of the camera (`glovebench list subjects`)")
       .in(1, render::kSubjectCount);

@@ -114,7 +114,7 @@ Runs time_settings(const StudyContext& context, const std::vector<Setting>& sett
           study_specs(context, {setting}, {database}, reports::TruthKind::source, trajectories);
       for (RunSpec& spec : specs) {
         spec.frames = context.options.quick ? kQuickTimedFrames : kTimedFrames;
-        spec.tracker.lookup.implementation = implementation;
+        spec.tracker.lookup.implementation = to_string(implementation);
         spec.tracker.icp.implementation = implementation;
       }
       std::ranges::move(measure(context.workbench, execute(context.workbench, specs, {})),

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/base/error.h"
+#include "core/base/registry.h"
 
 namespace glovebench::render {
 
@@ -13,7 +13,7 @@ std::vector<std::string> NoiseConfig::problems() const {
   const auto require = [&found](bool fine, const char* problem) {
     if (!fine) found.emplace_back(problem);
   };
-  const std::vector<std::string> names = depth_noise_names();
+  const std::vector<std::string> names = names_in(depth_noises());
   if (std::ranges::find(names, depth) == names.end())
     found.push_back(fmt::format("depth must be one of {}", fmt::join(names, ", ")));
   require(gain_factor >= 0, "gain_factor must be >= 0");
@@ -28,18 +28,8 @@ std::vector<std::string> NoiseConfig::problems() const {
   return found;
 }
 
-std::vector<std::string> depth_noise_names() {
-  std::vector<std::string> names;
-  for (const DepthNoise& noise : depth_noises()) names.emplace_back(noise.name);
-  return names;
-}
-
 const DepthNoise& find_depth_noise(std::string_view name) {
-  const auto found = std::ranges::find(depth_noises(), name, &DepthNoise::name);
-  if (found == depth_noises().end())
-    throw Error("noise", "depth", "\"" + std::string(name) + "\"",
-                fmt::format("one of {}", fmt::join(depth_noise_names(), ", ")));
-  return *found;
+  return find_in(depth_noises(), name, "noise", "depth");
 }
 
 DepthImage add_depth_noise(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,

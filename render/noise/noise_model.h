@@ -51,7 +51,6 @@ struct DepthNoise {
 };
 /// Sorted by name.
 std::span<const DepthNoise> depth_noises();
-std::vector<std::string> depth_noise_names();
 /// Throws Error listing the known ones.
 const DepthNoise& find_depth_noise(std::string_view name);
 

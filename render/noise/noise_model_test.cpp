@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/base/error.h"
+#include "core/base/registry.h"
 #include "render/noise/depth_gradient.h"
 
 namespace glovebench::render {
@@ -132,7 +133,7 @@ TEST(Noise, KinectDropsGrazingAndNearSurfaces) {
 }
 
 TEST(Noise, NamesAndProblems) {
-  EXPECT_EQ(depth_noise_names(), (std::vector<std::string>{"gradient", "kinect", "none"}));
+  EXPECT_EQ(names_in(depth_noises()), (std::vector<std::string>{"gradient", "kinect", "none"}));
   for (const DepthNoise& noise : depth_noises()) EXPECT_EQ(&find_depth_noise(noise.name), &noise);
   EXPECT_THROW(find_depth_noise("gaussian"), Error);
   EXPECT_TRUE(NoiseConfig{}.problems().empty());

@@ -1,4 +1,4 @@
-#include "core/pose/robust_icp.h"
+#include "core/pose/alignments/robust_alignment.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 namespace glovebench {
 namespace {
 
-constexpr IcpConfig kRobust{.algorithm = IcpAlgorithm::robust, .max_points = 3000};
-constexpr IcpConfig kHorn{.algorithm = IcpAlgorithm::horn, .max_points = 3000};
+const IcpConfig kRobust{.algorithm = "robust", .max_points = 3000};
+const IcpConfig kHorn{.algorithm = "horn", .max_points = 3000};
 
 TEST(RobustIcp, stays_at_the_truth) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});

@@ -9,7 +9,7 @@ namespace glovebench {
 /// source trajectories; bench/README.md has what it gives on others.
 inline constexpr double kRobustWidth = 0.6;
 
-/// An alignment that is not the paper's (`IcpAlgorithm::robust`): it starts as Horn's, whose basin is wide, and
+/// An alignment that is not the paper's: it starts as Horn's, whose basin is wide, and
 /// ends with point-to-plane steps (Chen and Medioni 1991), which settle in few iterations and, with Tukey's
 /// weights, look away from points on a wrong patch. On a fifth of the points three steps of Horn, three on the
 /// normals and in part on the points themselves, three on the normals; then two on the normals with all points. The
@@ -19,7 +19,7 @@ inline constexpr double kRobustWidth = 0.6;
 /// steps taken, 11, or fewer if `max_iterations` is less. `converged`: the last step changed the mean distance by
 /// at most a hundredth, or by `convergence_share` if that is more; else `not_converged`. `residual` and the other
 /// statuses are Horn's.
-Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> points,
+Alignment align_robust(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                        const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config,
                        double width = kRobustWidth);
 

@@ -1,4 +1,4 @@
-#include "core/pose/robust_icp.h"
+#include "core/pose/alignments/robust_alignment.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -165,14 +165,14 @@ bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& 
 
 }  // namespace
 
-Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> points,
+Alignment align_robust(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                        const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config, double width) {
   Alignment result;
   result.T_camera_hand = T_camera_hand_coarse;
   result.points = static_cast<int>(points.size());
   const size_t stride = std::clamp<size_t>(points.size() / kEnough, 1, kStride);
   Matcher some(model, hand, every_nth(points, stride), config);
-  Matcher all(model, hand, {points.begin(), points.end()}, config);
+  Matcher all(model, hand, std::move(points), config);
   if (!take_steps(some, kOnSome, config, width, result)) {
     // What a part of the points cannot do, such as share a color with the hand, all of them may.
     result.T_camera_hand = T_camera_hand_coarse;
@@ -192,6 +192,14 @@ Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<
   const bool whole = result.iterations == static_cast<int>(std::size(kOnSome) + std::size(kOnAll));
   result.status = whole && settled ? AlignmentStatus::converged : AlignmentStatus::not_converged;
   return result;
+}
+
+AlignmentEntry robust_alignment() {
+  return {"robust", "steps of Horn, then point-to-plane steps with Tukey's weights",
+          [](const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
+             const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
+            return align_robust(model, hand, std::move(points), T_camera_hand_coarse, config);
+          }};
 }
 
 }  // namespace glovebench

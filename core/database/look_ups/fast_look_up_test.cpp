@@ -21,10 +21,10 @@ bool equal(const RecycledVector<Match>& a, const RecycledVector<Match>& b) {
 /// The fast look-up's matches and trace are the plain one's, on each instruction set.
 void expect_equal_to_plain(const Database& database, const TinyImages& query, const Cascade& cascade) {
   LookUpTrace plain_trace{{{1}}};  // of another look-up
-  const RecycledVector<Match> plain = look_up(database, query, cascade, Implementation::plain, &plain_trace);
+  const RecycledVector<Match> plain = look_up(database, query, cascade, "plain", &plain_trace);
   on_each_instruction_set([&] {
     LookUpTrace fast_trace{{{2}}};
-    const RecycledVector<Match> fast = look_up(database, query, cascade, Implementation::fast, &fast_trace);
+    const RecycledVector<Match> fast = look_up(database, query, cascade, "fast", &fast_trace);
     EXPECT_TRUE(equal(plain, fast)) << to_string(cascade);
     EXPECT_EQ(plain_trace.kept, fast_trace.kept) << to_string(cascade);
   });
@@ -110,14 +110,14 @@ TEST(FastLookUpLong, finds_the_same_in_a_low_memory_database) {
       SCOPED_TRACE(number);
       const TinyImages query = hostile_queries(normal, cascade, number);
       LookUpTrace expected, found;
-      const RecycledVector<Match> matches = look_up(normal, query, cascade, Implementation::plain, &expected);
+      const RecycledVector<Match> matches = look_up(normal, query, cascade, "plain", &expected);
       on_each_instruction_set([&] {
-        EXPECT_TRUE(equal(matches, look_up(low, query, cascade, Implementation::fast, &found))) << text;
+        EXPECT_TRUE(equal(matches, look_up(low, query, cascade, "fast", &found))) << text;
         EXPECT_EQ(expected.kept, found.kept) << text;
       });
     }
     const TinyImages query = hostile_queries(normal, cascade, 7);
-    EXPECT_TRUE(equal(look_up(normal, query, cascade), look_up(low, query, cascade, Implementation::plain)))
+    EXPECT_TRUE(equal(look_up(normal, query, cascade), look_up(low, query, cascade, "plain")))
         << text;
   }
 }
@@ -147,8 +147,8 @@ TEST(FastLookUpLong, finds_the_neighbors_of_brute_force_for_ten_thousand_queries
   const Cascade exact = parse_cascade("exact:3");
   for (int number = 0; number < 10'000; ++number) {
     const TinyImages query = hostile_queries(database, exact, number);
-    ASSERT_TRUE(equal(look_up(database, query, exact, Implementation::plain),
-                      look_up(database, query, exact, Implementation::fast)))
+    ASSERT_TRUE(equal(look_up(database, query, exact, "plain"),
+                      look_up(database, query, exact, "fast")))
         << number;
   }
 }

@@ -190,8 +190,9 @@ RecycledVector<Candidate> later_stage(const Database& database, const LabelImage
   return std::move(nearest).sorted();
 }
 
-}  // namespace
-
+/// A first stage by small images adds up the rows of `FieldRows` over all entries at once; one by large images adds
+/// up rows of cell minima, which bounds every distance from below, and computes distances only where the bound is
+/// under the last one kept. Later stages stop adding up an entry as soon as it is too far.
 RecycledVector<Match> look_up_fast(const Database& database, const TinyImages& query, const Cascade& cascade,
                                    LookUpTrace* trace) {
   RecycledVector<Candidate> candidates;
@@ -206,6 +207,12 @@ RecycledVector<Match> look_up_fast(const Database& database, const TinyImages& q
     note_kept(candidates, trace);
   }
   return matches_of(candidates, glove_pixels);
+}
+
+}  // namespace
+
+LookUpEntry fast_look_up() {
+  return {"fast", "all entries at once, with SIMD and bounds of the distances", look_up_fast};
 }
 
 }  // namespace glovebench

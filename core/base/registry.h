@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+
+namespace glovebench {
+
+/// The names of a registry's entries (glovebench_registry in CMakeLists.txt), sorted.
+template <typename Entry>
+std::vector<std::string> names_in(std::span<const Entry> entries) {
+  std::vector<std::string> names;
+  for (const Entry& entry : entries) names.emplace_back(entry.name);
+  return names;
+}
+
+/// "one of horn, robust"
+template <typename Entry>
+std::string one_of(std::span<const Entry> entries) {
+  std::string text = "one of ";
+  for (const Entry& entry : entries) text += (&entry == entries.data() ? "" : ", ") + std::string(entry.name);
+  return text;
+}
+
+/// Throws: Error that names the place, the field and the known names.
+template <typename Entry>
+const Entry& find_in(std::span<const Entry> entries, std::string_view name, const char* where, const char* field) {
+  const auto found = std::ranges::find(entries, name, &Entry::name);
+  if (found == entries.end()) throw Error(where, field, std::string(name), one_of(entries));
+  return *found;
+}
+
+}  // namespace glovebench
