@@ -24,7 +24,7 @@ struct FitStage {
   int max_points;           ///< uniform stride down to at most this many
   double tukey_mm[2];       ///< farther points have no weight
   double start_weight[2];   ///< of the start's posture, per square degree
-  double tangential[2];     ///< share of a point's distance along the surface
+  double tangential[2];     ///< relative weight of a distance along the surface
   bool outline_moves_pose;  ///< false: it moves the angles only
 };
 /// Each start runs `trial`, the best `rough`, the best of those `fine`. Point weights are normalized to 1,000
