@@ -4,9 +4,9 @@
 #include "bench/peers/peers.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "core/pose/alignments/robust_alignment.h"
 #include "core/pose/icp.h"
 #include "core/pose/matcher.h"
-#include "core/pose/alignments/robust_alignment.h"
 
 namespace glovebench::bench {
 namespace {

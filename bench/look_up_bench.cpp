@@ -77,8 +77,7 @@ void run_look_up(benchmark::State& state, const char* text, std::string_view imp
   state.counters["entries"] = database.entry_count();
   if (implementation == "fast" && cascade.size() == 1)
     set_bytes_touched(state, {.far = row_bytes(queries, cascade)});
-  if (implementation == "plain")
-    set_time_each(state, "read", static_cast<size_t>(plain_reads(queries, cascade)));
+  if (implementation == "plain") set_time_each(state, "read", static_cast<size_t>(plain_reads(queries, cascade)));
 }
 
 /// One query after the other, or all at once.

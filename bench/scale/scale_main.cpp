@@ -140,8 +140,7 @@ void check_matches(const Database& database, const Cascade& cascade) {
     const BenchFrame& frame = data().frames[f];
     const TinyImages query = make_tiny_images(frame.trace.cloud.labels, frame.square, cascade);
     const auto equal = [](const Match& a, const Match& b) { return a.entry == b.entry && a.error == b.error; };
-    if (!std::ranges::equal(look_up(database, query, cascade),
-                            look_up(database, query, cascade, "plain"), equal))
+    if (!std::ranges::equal(look_up(database, query, cascade), look_up(database, query, cascade, "plain"), equal))
       throw Error("look-up", "matches", "others", "those of the plain look-up");
   }
 }

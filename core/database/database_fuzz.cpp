@@ -72,8 +72,7 @@ void look_up_all(const Database& database, const uint8_t* data, size_t bytes) {
        {Cascade{{26, 3}}, Cascade{{8, 3}}, Cascade{{8, 100}, {26, 3}}, Cascade{{8, 9}, {26, 2}}}) {
     TinyImages query;
     for (const CascadeStage& stage : cascade) query.images.push_back(query_of(stage.size, data, bytes));
-    const auto fast = look_up(database, query, cascade),
-               plain = look_up(database, query, cascade, "plain");
+    const auto fast = look_up(database, query, cascade), plain = look_up(database, query, cascade, "plain");
     check(fast.size() == plain.size(), "as many matches");
     for (size_t m = 0; m < fast.size(); ++m) {
       check(fast[m].entry >= 0 && fast[m].entry < database.entry_count(), "an entry that exists");

@@ -156,8 +156,7 @@ void expect_entries(const Database& database) {
     for (int number = 0; number < 8; ++number) {
       const TinyImages query = queries(cascade, number);
       const auto matches = look_up(database, query, cascade);
-      ASSERT_TRUE(
-          std::ranges::equal(matches, look_up(database, query, cascade, "plain"), is_same_match));
+      ASSERT_TRUE(std::ranges::equal(matches, look_up(database, query, cascade, "plain"), is_same_match));
       for (const Match& match : matches) {
         ASSERT_GE(match.entry, 0);
         ASSERT_LT(match.entry, database.entry_count());

@@ -7,15 +7,14 @@
 
 namespace glovebench {
 
-/// A database entry in a stage of the look-up.
 struct Candidate {
-  uint32_t sum = 0;  ///< of the stored distances over the query's glove pixels, 1/kFieldScale px; <= 4096 * 255
+  uint32_t sum = 0;  ///< of distances over the query's glove pixels, 1/kFieldScale px
   int entry = 0;
 
   friend auto operator<=>(const Candidate&, const Candidate&) = default;
 };
 
-/// The mean distance, px.
+/// The mean, px.
 inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
   return static_cast<float>(sum) / static_cast<float>(kFieldScale * glove_pixels);
 }
@@ -25,7 +24,7 @@ RecycledVector<int> glove_offsets(const LabelImage& query);
 /// Sum of the distances, in steps of 1/kFieldScale px; at most 4096 * 255.
 uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets);
 
-/// Appends what a stage kept to the trace, if there is one.
+/// `trace` may be null.
 inline void note_kept(const RecycledVector<Candidate>& candidates, LookUpTrace* trace) {
   if (trace == nullptr) return;
   std::vector<int>& kept = trace->kept.emplace_back();
@@ -39,20 +38,19 @@ inline RecycledVector<Match> matches_of(const RecycledVector<Candidate>& candida
   return matches;
 }
 
-/// The fields of single entries for one query: as they are stored, or made of the labels in a low-memory database.
-/// The values are the same.
+/// Fields of single entries: stored ones, or made from labels in low memory.
 class EntryFields {
  public:
-  /// `query` has the size whose fields are wanted. Throws Error if that size was not loaded.
+  /// Throws: Error if the query's size is not loaded.
   EntryFields(const Database& database, const LabelImage& query);
-  /// As `Database::fields`, but with any values for colors that the query does not have. Valid up to the next call.
+  /// As Database::fields, but undefined for colors that the query lacks. Valid until the next call.
   const uint8_t* of(int entry);
 
  private:
   const Database& database_;
   int size_;
-  std::vector<uint8_t> colors_;  ///< the query's
-  std::vector<uint8_t> made_;    ///< of one entry; none: fields are stored
+  std::vector<uint8_t> colors_;  ///< in the query
+  std::vector<uint8_t> made_;    ///< empty if fields are stored
 };
 
 }  // namespace glovebench

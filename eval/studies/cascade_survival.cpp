@@ -56,8 +56,7 @@ FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<C
     for (const Cascade& cascade : cascades) {
       LookUpTrace trace;
       if (looked_up)
-        look_up(*in.database, make_tiny_images(seen.cloud.labels, square, cascade), cascade, "fast",
-                &trace);
+        look_up(*in.database, make_tiny_images(seen.cloud.labels, square, cascade), cascade, "fast", &trace);
       for (size_t stage = 0; stage < cascade.size(); ++stage) {
         const bool ran = stage < trace.kept.size();
         const bool kept = ran && std::ranges::find(trace.kept[stage], neighbor) != trace.kept[stage].end();

@@ -117,8 +117,7 @@ TEST(FastLookUpLong, finds_the_same_in_a_low_memory_database) {
       });
     }
     const TinyImages query = hostile_queries(normal, cascade, 7);
-    EXPECT_TRUE(equal(look_up(normal, query, cascade), look_up(low, query, cascade, "plain")))
-        << text;
+    EXPECT_TRUE(equal(look_up(normal, query, cascade), look_up(low, query, cascade, "plain"))) << text;
   }
 }
 
@@ -147,9 +146,7 @@ TEST(FastLookUpLong, finds_the_neighbors_of_brute_force_for_ten_thousand_queries
   const Cascade exact = parse_cascade("exact:3");
   for (int number = 0; number < 10'000; ++number) {
     const TinyImages query = hostile_queries(database, exact, number);
-    ASSERT_TRUE(equal(look_up(database, query, exact, "plain"),
-                      look_up(database, query, exact, "fast")))
-        << number;
+    ASSERT_TRUE(equal(look_up(database, query, exact, "plain"), look_up(database, query, exact, "fast"))) << number;
   }
 }
 
