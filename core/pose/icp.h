@@ -54,8 +54,9 @@ struct AlignmentEntry {
 /// All of that folder, sorted by name.
 std::span<const AlignmentEntry> alignments();
 
-/// Aligns a part of the cloud by the configured alignment: each point with the closest camera-facing triangle of
-/// its color. Throws: Error if no alignment has the name. Paper: section III-C, equation (3).
+/// Aligns a part of the cloud by the configured alignment: each point to the closest visible triangle of its color.
+/// Throws: Error if no alignment has the name.
+/// Paper: section III-C, equation (3).
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 
