@@ -99,14 +99,16 @@ std::vector<BenchFrame> track_frames(const BenchData& data, const Movement& move
   render::SyntheticKinectConfig config;
   config.sequence = movement.name;
   render::SyntheticKinect kinect(data.calibration, data.model, movement.frames, config);
-  Tracker tracker(data.config, data.calibration, data.model, data.database, data.table);
+  const Tracker tracker(data.config, data.calibration, data.model, data.database, data.table);
   std::vector<BenchFrame> frames;
+  std::vector<TrackResult> results;
   for (const HandFrame& hand : movement.frames) {
     BenchFrame frame;
     frame.hand = hand;
     frame.device = *kinect.next_frame();
     frame.images = kinect.truth();
-    frame.result = tracker.track(frame.device);
+    frame.result = tracker.track(frame.device, results);
+    results.push_back(frame.result);
     frame.trace = tracker.inspect(frame.device);
     check(frame.result.status == TrackStatus::tracked, "the tracker follows the benchmark's frames");
     frame.square = bounding_square(frame.trace.cloud.labels);

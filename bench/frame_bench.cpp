@@ -38,7 +38,7 @@ void track(benchmark::State& state, const char* algorithm) {
   const BenchData& d = data();
   TrackerConfig config = d.config;
   config.icp.algorithm = algorithm;
-  Tracker tracker(config, d.calibration, d.model, d.database, d.table);
+  const Tracker tracker(config, d.calibration, d.model, d.database, d.table);
   for (const BenchFrame& frame : d.frames) {
     const Eigen::Isometry3d found = tracker.track(frame.device).T_camera_hand_unfiltered,
                             again = tracker.track(frame.device).T_camera_hand_unfiltered;
@@ -54,7 +54,7 @@ void track(benchmark::State& state, const char* algorithm) {
   for (auto _ : state) {
     for (const BenchFrame& frame : d.frames) {
       const Clock::time_point start = Clock::now();
-      benchmark::DoNotOptimize(tracker.track(frame.device, [&](Stage stage) { times.begin(stage); }));
+      benchmark::DoNotOptimize(tracker.track(frame.device, {}, [&](Stage stage) { times.begin(stage); }));
       times.end();
       seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     }

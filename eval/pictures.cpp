@@ -111,7 +111,7 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
   }
   const OneFrame taken = take_frame(workbench, spec, frame);
   const std::shared_ptr<const Database> database = workbench.database(spec.database);
-  Tracker tracker = workbench.make_tracker(spec.tracker, spec.database);
+  const Tracker tracker = workbench.make_tracker(spec.tracker, spec.database);
   const TrackResult result = tracker.track(taken.frame);
   const FrameTrace trace = tracker.inspect(taken.frame);
 

@@ -115,7 +115,7 @@ class Tracking {
   }
   void track(const DeviceFrame& frame, const render::RgbdImages& images) {
     timer_.begin_frame();
-    run_.answers.push_back(method_->track(frame, [&](Stage stage) { timer_.begin(stage); }));
+    run_.answers.push_back(method_->track(frame, run_.answers, [&](Stage stage) { timer_.begin(stage); }));
     timer_.end_frame();
     run_.seen.push_back({reports::count_patches(images.patch), is_trackable(images, run_.spec.tracker)});
   }

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/math.h"
-#include "core/tracker/smoother.h"
+#include "core/tracker/smoothing.h"
 #include "eval/share.h"
 #include "trajectories/catalog.h"
 
@@ -12,13 +12,14 @@ namespace {
 /// answered with the true posture in every frame.
 double filter_only_error_deg(const std::string& name) {
   const trajectories::Trajectory truth = trajectories::recorded_trajectory(trajectory_folder(), name);
-  Smoother smoother({});
+  std::vector<TrackResult> results;
   double sum = 0;
   for (const HandFrame& frame : truth.frames) {
     TrackResult result;
     result.status = TrackStatus::tracked;
     result.posture_unfiltered = frame.posture;
-    sum += degrees_from_radians(posture_distance(smoother.smooth(result).posture, frame.posture));
+    results.push_back(smoothed(result, results, {}));
+    sum += degrees_from_radians(posture_distance(results.back().posture, frame.posture));
   }
   return sum / static_cast<double>(truth.frames.size());
 }

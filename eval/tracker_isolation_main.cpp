@@ -38,9 +38,11 @@ void track_recording(char** arguments) {
   while (std::optional<DeviceFrame> frame = device.next_frame()) frames.push_back(std::move(*frame));
   forbid_files(arguments[1]);
 
-  Tracker tracker(profile("paper"), device.calibration(), model, database, table);
+  const Tracker tracker(profile("paper"), device.calibration(), model, database, table);
+  std::vector<TrackResult> results;
   for (size_t f = 0; f < frames.size(); ++f) {
-    std::printf("%s\n", estimate_line(static_cast<int>(f), tracker.track(frames[f])).c_str());
+    results.push_back(tracker.track(frames[f], results));
+    std::printf("%s\n", estimate_line(static_cast<int>(f), results.back()).c_str());
   }
 }
 

@@ -5,6 +5,7 @@
 #include "core/pose/articulated_fit.h"
 #include "core/tracker/hand_look_up.h"
 #include "core/tracker/sighting.h"
+#include "core/tracker/smoothing.h"
 
 namespace glovebench {
 namespace {
@@ -41,42 +42,35 @@ float mean_depth(std::span<const LabeledPoint> points) {
 class Articulated : public Method {
  public:
   explicit Articulated(const MethodInputs& inputs)
-      : in_(inputs),
-        fit_(inputs.model, {}, inputs.config.icp.implementation),
-        smoother_({0, 0, inputs.config.smoothing.forget_after}) {
+      : in_(inputs), fit_(inputs.model, {}, inputs.config.icp.implementation) {
     check_inputs(in_.config, *in_.model, *in_.database, *in_.table);
   }
 
-  TrackResult track(const DeviceFrame& frame, const StageObserver& observe) override {
-    TrackResult result = estimate(frame, observe);
+  TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous,
+                    const StageObserver& observe) override {
+    const SmoothingConfig unfiltered = {0, 0, in_.config.smoothing.forget_after};
+    TrackResult result = estimate(frame, last_tracked(previous, unfiltered.forget_after), observe);
     result.timestamp_us = frame.depth_timestamp_us;
-    if (result.status == TrackStatus::tracked) {
-      previous_ = {result.posture_unfiltered, result.T_camera_hand_unfiltered};
-      lost_frames_ = 0;
-    } else if (++lost_frames_ >= in_.config.smoothing.forget_after) {
-      previous_.reset();
-    }
-    return smoother_.smooth(std::move(result));  // repeats the last answer in a lost frame, and does no more
+    return smoothed(std::move(result), previous, unfiltered);
   }
 
  private:
-  TrackResult estimate(const DeviceFrame& frame, const StageObserver& observe);
+  TrackResult estimate(const DeviceFrame& frame, const TrackResult* previous, const StageObserver& observe);
   /// The matches, their mean, and the frame before.
-  RecycledVector<ArticulatedPose> starts(const TrackResult& result, const CoarseEstimate& mean,
-                                         const Eigen::Vector3d& ray, const LabeledCloud& cloud) const;
+  RecycledVector<ArticulatedPose> starts(const TrackResult& result, const TrackResult* previous,
+                                         const CoarseEstimate& mean, const Eigen::Vector3d& ray,
+                                         const LabeledCloud& cloud) const;
 
   MethodInputs in_;
   ArticulatedFit fit_;
-  Smoother smoother_;
   HandMask mask_;
-  std::optional<ArticulatedPose> previous_;
-  int lost_frames_ = 0;
 };
 
-RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, const CoarseEstimate& mean,
-                                                    const Eigen::Vector3d& ray, const LabeledCloud& cloud) const {
+RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, const TrackResult* previous,
+                                                    const CoarseEstimate& mean, const Eigen::Vector3d& ray,
+                                                    const LabeledCloud& cloud) const {
   RecycledVector<ArticulatedPose> all = {{mean.posture, result.T_camera_hand_coarse}};
-  if (previous_) all.push_back(*previous_);
+  if (previous != nullptr) all.push_back({previous->posture_unfiltered, previous->T_camera_hand_unfiltered});
   for (const Match& match : result.matches) {
     const CoarseEstimate one =
         interpolate(*in_.database, std::span(&match, 1), ray, in_.config.lookup.interpolation_epsilon);
@@ -86,7 +80,8 @@ RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, c
   return all;
 }
 
-TrackResult Articulated::estimate(const DeviceFrame& frame, const StageObserver& observe) {
+TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* previous,
+                                  const StageObserver& observe) {
   TrackResult result;
   const Sighting seen = see_in_reach(frame, in_.calibration, *in_.table, in_.config, observe);
   result.cloud_points = static_cast<int>(seen.cloud.points.size());
@@ -110,8 +105,8 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const StageObserver&
 
   observe(Stage::fit);
   const ArticulatedEstimate fitted =
-      fit_({points, mask_, in_.calibration.ir}, starts(result, mean, ray, seen.cloud),
-           previous_ ? &previous_->posture : nullptr);
+      fit_({points, mask_, in_.calibration.ir}, starts(result, previous, mean, ray, seen.cloud),
+           previous == nullptr ? nullptr : &previous->posture_unfiltered);
   result.posture_unfiltered = fitted.pose.posture;
   result.T_camera_hand_unfiltered = fitted.pose.T_camera_hand;
   result.converged = fitted.status == AlignmentStatus::converged;

@@ -55,8 +55,8 @@ TEST(Articulated, does_not_lag) {
   const auto method = method_named("articulated");
   const Eigen::Isometry3d before = render::test_pose({0.02, 0.03, 0.7}),
                           after = render::test_pose({0.05, 0.0, 0.65});
-  method->track(shoot(before).frame);
-  const TrackResult result = method->track(shoot(after, power_posture()).frame);
+  const TrackResult first = method->track(shoot(before).frame);
+  const TrackResult result = method->track(shoot(after, power_posture()).frame, {&first, 1});
   EXPECT_LT(error_of(result.T_camera_hand, after).mm, 1);
   EXPECT_EQ(result.posture, result.posture_unfiltered);
 }
@@ -67,11 +67,11 @@ TEST(Articulated, repeats_its_last_answer_over_lost_frames) {
   DeviceFrame nothing = frame;
   for (uint16_t& raw : nothing.raw_disparity) raw = 2047;
   const TrackResult seen = method->track(frame);
-  const TrackResult lost = method->track(nothing);
+  const TrackResult lost = method->track(nothing, {&seen, 1});
   EXPECT_EQ(lost.status, TrackStatus::no_hand);
   EXPECT_EQ(lost.posture, seen.posture);
   EXPECT_EQ(lost.T_camera_hand.matrix(), seen.T_camera_hand.matrix());
-  EXPECT_EQ(method->track(frame).status, TrackStatus::tracked);
+  EXPECT_EQ(method->track(frame, std::vector{seen, lost}).status, TrackStatus::tracked);
 }
 
 }  // namespace

@@ -9,12 +9,16 @@
 
 namespace glovebench {
 
-/// Tracks one hand from device frames in time order.
+/// Tracks one hand. All memory of the frames before is in their results.
 class Method {
  public:
   virtual ~Method() = default;
-  /// `observe` receives each stage when it begins.
-  virtual TrackResult track(const DeviceFrame& frame, const StageObserver& observe = unobserved) = 0;
+  /// As Tracker::track.
+  virtual TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous,
+                            const StageObserver& observe) = 0;
+  TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous = {}) {
+    return track(frame, previous, unobserved);
+  }
 };
 
 struct MethodInputs {

@@ -39,8 +39,8 @@ TEST(Methods, are_named_after_their_files) {
 TEST(Methods, the_papers_is_the_tracker) {
   const Shot shot = shoot(pose_before_camera(0.02, 0.65));
   std::vector<Stage> stages_of_method, stages_of_tracker;
-  const TrackResult a = make(kPaperMethod)->track(shot.frame, [&](Stage s) { stages_of_method.push_back(s); });
-  const TrackResult b = make_tracker().track(shot.frame, [&](Stage s) { stages_of_tracker.push_back(s); });
+  const TrackResult a = make(kPaperMethod)->track(shot.frame, {}, [&](Stage s) { stages_of_method.push_back(s); });
+  const TrackResult b = make_tracker().track(shot.frame, {}, [&](Stage s) { stages_of_tracker.push_back(s); });
   EXPECT_EQ(a.status, TrackStatus::tracked);
   EXPECT_EQ(estimate_line(0, a), estimate_line(0, b));
   EXPECT_EQ(stages_of_method, stages_of_tracker);

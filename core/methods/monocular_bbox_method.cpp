@@ -7,6 +7,7 @@
 #include "core/pose/box_placement.h"
 #include "core/tracker/hand_look_up.h"
 #include "core/tracker/sighting.h"
+#include "core/tracker/smoothing.h"
 
 namespace glovebench {
 namespace {
@@ -40,22 +41,22 @@ Blob largest_blob(LabelImage labels) {
 
 class MonocularBbox : public Method {
  public:
-  explicit MonocularBbox(const MethodInputs& inputs) : in_(inputs), smoother_(inputs.config.smoothing) {
+  explicit MonocularBbox(const MethodInputs& inputs) : in_(inputs) {
     check_inputs(in_.config, *in_.model, *in_.database, *in_.table);
   }
 
-  TrackResult track(const DeviceFrame& frame, const StageObserver& observe) override {
+  TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous,
+                    const StageObserver& observe) override {
     TrackResult result = estimate(frame.color, observe);
     result.timestamp_us = frame.depth_timestamp_us;
     observe(Stage::smoothing);
-    return smoother_.smooth(std::move(result));
+    return smoothed(std::move(result), previous, in_.config.smoothing);
   }
 
  private:
   TrackResult estimate(const ColorImage& color, const StageObserver& observe) const;
 
   MethodInputs in_;
-  Smoother smoother_;
 };
 
 TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver& observe) const {

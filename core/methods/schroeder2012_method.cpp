@@ -7,8 +7,9 @@ class Schroeder2012 : public Method {
  public:
   explicit Schroeder2012(const MethodInputs& in)
       : tracker_(in.config, in.calibration, in.model, in.database, in.table) {}
-  TrackResult track(const DeviceFrame& frame, const StageObserver& observe) override {
-    return tracker_.track(frame, observe);
+  TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous,
+                    const StageObserver& observe) override {
+    return tracker_.track(frame, previous, observe);
   }
 
  private:

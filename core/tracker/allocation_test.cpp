@@ -83,10 +83,15 @@ std::vector<int> requests_a_frame(const TrackerConfig& config) {
   const std::unique_ptr<Method> method = find_method(config.method)
                                              .make({config, synthetic_calibration(), borrowed(render::test_hand()),
                                                     borrowed(test_database()), borrowed(test_color_table())});
-  for (int round = 0; round < 2; ++round)
-    for (const DeviceFrame& frame : frames()) EXPECT_EQ(method->track(frame).status, TrackStatus::tracked);
+  std::vector<TrackResult> results;
+  for (int round = 0; round < 2; ++round) {
+    for (const DeviceFrame& frame : frames()) {
+      results.push_back(method->track(frame, results));
+      EXPECT_EQ(results.back().status, TrackStatus::tracked);
+    }
+  }
   std::vector<int> counts;
-  for (const DeviceFrame& frame : frames()) counts.push_back(requests_of([&] { method->track(frame); }));
+  for (const DeviceFrame& frame : frames()) counts.push_back(requests_of([&] { method->track(frame, results); }));
   return counts;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/tracker/hand_look_up.h"
+#include "core/tracker/smoothing.h"
 
 namespace glovebench {
 
@@ -47,15 +48,15 @@ Tracker::Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_
       calibration_(std::move(calibration)),
       model_(std::move(model)),
       database_(std::move(database)),
-      table_(std::move(table)),
-      smoother_(config_.smoothing) {
+      table_(std::move(table)) {
   check_inputs(config_, *model_, *database_, *table_);
 }
 
-TrackResult Tracker::track(const DeviceFrame& frame, const StageObserver& observe) {
+TrackResult Tracker::track(const DeviceFrame& frame, std::span<const TrackResult> previous,
+                           const StageObserver& observe) const {
   TrackResult result = estimate(frame, observe);
   observe(Stage::smoothing);
-  return smoother_.smooth(std::move(result));
+  return smoothed(std::move(result), previous, config_.smoothing);
 }
 
 FrameTrace Tracker::inspect(const DeviceFrame& frame) const {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "core/database/database.h"
 #include "core/hand/hand_model.h"
 #include "core/tracker/sighting.h"
-#include "core/tracker/smoother.h"
 
 namespace glovebench {
 
@@ -27,8 +27,10 @@ class Tracker {
   Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
           std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table);
 
-  TrackResult track(const DeviceFrame& frame, const StageObserver& observe = unobserved);
-  /// Processes the whole images; changes nothing.
+  /// `previous`: the results of the frames before, in time order; the newest `smoothing.forget_after` suffice.
+  TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous = {},
+                    const StageObserver& observe = unobserved) const;
+  /// Processes the whole images.
   FrameTrace inspect(const DeviceFrame& frame) const;
 
   const TrackerConfig& config() const { return config_; }
@@ -41,7 +43,6 @@ class Tracker {
   std::shared_ptr<const HandModel> model_;
   std::shared_ptr<const Database> database_;
   std::shared_ptr<const ColorTable> table_;
-  Smoother smoother_;
 };
 
 }  // namespace glovebench

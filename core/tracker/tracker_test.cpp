@@ -43,7 +43,7 @@ TEST(Tracker, tells_its_stages_and_what_they_made) {
   Tracker tracker = make_tracker();
   const Shot shot = shoot(test_pose({0.02, 0.03, 0.7}));
   const FrameTrace trace = tracker.inspect(shot.frame);
-  const TrackResult seen = tracker.track(shot.frame, [&](Stage stage) { stages.push_back(stage); });
+  const TrackResult seen = tracker.track(shot.frame, {}, [&](Stage stage) { stages.push_back(stage); });
   EXPECT_THAT(stages, ElementsAre(Stage::registration, Stage::segmentation, Stage::cloud, Stage::tiny_images,
                                   Stage::look_up, Stage::alignment, Stage::smoothing));
   EXPECT_EQ(trace.tiny.width(), 64);
@@ -178,26 +178,29 @@ TEST(Tracker, repeats_the_last_answer_over_lost_frames_and_goes_on_from_there) {
   DeviceFrame nothing = open;
   for (uint16_t& raw : nothing.raw_disparity) raw = 2047;
 
-  Tracker tracker = make_tracker();
-  EXPECT_EQ(tracker.track(nothing).T_camera_hand.matrix(), Eigen::Matrix4d::Identity());
-  const TrackResult first = tracker.track(open);
+  const Tracker tracker = make_tracker();
+  std::vector<TrackResult> results;
+  const auto track = [&](const DeviceFrame& frame) { return results.emplace_back(tracker.track(frame, results)); };
+  EXPECT_EQ(track(nothing).T_camera_hand.matrix(), Eigen::Matrix4d::Identity());
+  const TrackResult first = track(open);
   ASSERT_EQ(first.status, TrackStatus::tracked);
   for (int i = 0; i < 14; ++i) {
-    const TrackResult lost = tracker.track(nothing);
+    const TrackResult lost = track(nothing);
     EXPECT_EQ(lost.status, TrackStatus::no_hand);
     EXPECT_EQ(lost.posture, first.posture);
     EXPECT_EQ(lost.T_camera_hand.matrix(), first.T_camera_hand.matrix());
   }
-  const TrackResult back = tracker.track(power);
+  const TrackResult back = track(power);
   EXPECT_NEAR((back.posture - 0.75 * first.posture - 0.25 * back.posture_unfiltered).norm(), 0, 1e-12);
-  for (int i = 0; i < 15; ++i) tracker.track(nothing);  // now the filter forgets
-  const TrackResult anew = tracker.track(power);
+  for (int i = 0; i < 15; ++i) track(nothing);  // now the filter forgets
+  const TrackResult anew = track(power);
   EXPECT_EQ(anew.posture, anew.posture_unfiltered);
 }
 
 TEST(Tracker, garbage_frames_give_a_status) {
   std::array<int, kCountOf<TrackStatus>> counts{};
-  Tracker tracker = make_tracker();
+  const Tracker tracker = make_tracker();
+  std::vector<TrackResult> results;
   for (int number = 0; number < 200; ++number) {
     RandomStream random(1, "garbage", number, "frame");
     DeviceFrame frame{Image<uint16_t>(640, 480), ColorImage(640, 480)};
@@ -215,7 +218,7 @@ TEST(Tracker, garbage_frames_give_a_status) {
                        : Rgb{static_cast<uint8_t>(bits), static_cast<uint8_t>(bits >> 8),
                              static_cast<uint8_t>(bits >> 16)};
     }
-    const TrackResult result = tracker.track(frame);
+    const TrackResult& result = results.emplace_back(tracker.track(frame, results));
     ASSERT_TRUE(result.T_camera_hand.matrix().allFinite());
     ASSERT_TRUE(result.posture.allFinite());
     ASSERT_FALSE(to_string(result.status).empty());

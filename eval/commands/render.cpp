@@ -48,13 +48,15 @@ struct Render {
     std::unique_ptr<Method> tracker;
     if (!database.empty()) tracker = workbench.make_method(common.tracker_config(), database);
 
+    std::vector<TrackResult> results;
     Progress progress("rendering", common.quiet);
     const int count = static_cast<int>(movement->frames.size());
     for (int f = 0; f < count; ++f) {
       const DeviceFrame frame = *kinect.next_frame();
       if (recording) recording->write(frame);
       if (format == "png") add_pngs(*pictures, frame, f);
-      if (format == "exr") add_layers(*pictures, workbench, kinect, tracker, frame, f);
+      if (tracker) results.push_back(tracker->track(frame, results));
+      if (format == "exr") add_layers(*pictures, workbench, kinect, results, frame, f);
       progress.show(static_cast<double>(f + 1) / count);
     }
     if (recording) recording->finish();
@@ -75,18 +77,16 @@ struct Render {
   }
 
   static void add_layers(WholeFiles& pictures, Workbench& workbench, const render::SyntheticKinect& kinect,
-                         const std::unique_ptr<Method>& tracker, const DeviceFrame& frame, int f) {
+                         std::span<const TrackResult> results, const DeviceFrame& frame, int f) {
     render::FrameLayers layers{frame.color, kinect.truth().depth, kinect.truth().label, {}, {}};
-    if (tracker) {
-      const TrackResult result = tracker->track(frame);
-      if (result.status == TrackStatus::tracked) {
-        const HandModel& model = *workbench.model();
-        render::LabelRenderer renderer;
-        const render::HandImages estimate = renderer.render_ids(model, model.pose(result.posture),
-                                                                workbench.calibration().ir, result.T_camera_hand);
-        layers.tracker_depth = estimate.depth;
-        layers.tracker_label = estimate.label;
-      }
+    if (!results.empty() && results.back().status == TrackStatus::tracked) {
+      const TrackResult& result = results.back();
+      const HandModel& model = *workbench.model();
+      render::LabelRenderer renderer;
+      const render::HandImages estimate =
+          renderer.render_ids(model, model.pose(result.posture), workbench.calibration().ir, result.T_camera_hand);
+      layers.tracker_depth = estimate.depth;
+      layers.tracker_label = estimate.label;
     }
     const std::string name = fmt::format("frame_{:04}.exr", f);
     pictures.add(name, render::encode_exr(layers, name));

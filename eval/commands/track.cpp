@@ -74,7 +74,8 @@ struct Track {
     const Interruption interruption;  // after all files were read: a pipe may never end, and a signal must end that
     setup.arm_start = outputs.arm_start().value_or(setup.arm_start);
     RobotCommander commander(setup);
-    track_all(source, *method, output, [&](const TrackResult& result) {
+    const size_t kept_results = static_cast<size_t>(config.smoothing.forget_after);
+    track_all(source, *method, kept_results, output, [&](const TrackResult& result) {
       if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
     });
     if (frames == unusable) refuse();
@@ -96,19 +97,21 @@ struct Track {
                            .longest_step_s = limits.longest_step_s};
   }
 
-  void track_all(TrackSource& source, Method& method, LineFile& output,
+  void track_all(TrackSource& source, Method& method, size_t kept_results, LineFile& output,
                  const std::function<void(const TrackResult&)>& command_robot) {
     Progress progress("tracking", common.quiet);
     StatusLine status(common.quiet || source.frame_count > 0);
     Pace pace;
     const bool drives_a_robot = !bus.middleware.empty();
+    std::vector<TrackResult> results;  // the newest
     while (!failure && !Interruption::wished() && (limit == 0 || frames < limit)) {
       const int number = frames;
       const std::optional<DeviceFrame> frame = next_frame(*source.device);
       if (!frame && frames == number) return;
       if (frame) {
         if (drives_a_robot && source.frame_count > 0) pace.wait_for(frame->depth_timestamp_us);
-        const TrackResult result = method.track(*frame);
+        const TrackResult result = results.emplace_back(method.track(*frame, results));
+        if (results.size() > kept_results) results.erase(results.begin());
         command_robot(result);
         if_it_fails([&] { output.append(estimate_line(number, result)); });
         tracked += result.status == TrackStatus::tracked;

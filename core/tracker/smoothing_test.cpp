@@ -1,4 +1,4 @@
-#include "core/tracker/smoother.h"
+#include "core/tracker/smoothing.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,18 @@ TrackResult measured(double angle, double x, TrackStatus status = TrackStatus::t
   return result;
 }
 
-TEST(Smoother, posture_error_decays_by_three_quarters_a_frame) {
-  Smoother smoother({});
+/// Smooths results one after the other.
+struct Sequence {
+  SmoothingConfig config;
+  std::vector<TrackResult> results;
+  TrackResult smooth(TrackResult result) {
+    results.push_back(smoothed(std::move(result), results, config));
+    return results.back();
+  }
+};
+
+TEST(Smoothing, posture_error_decays_by_three_quarters_a_frame) {
+  Sequence smoother;
   smoother.smooth(measured(1, 0));
   double expected = 1;
   for (int frame = 0; frame < 20; ++frame) {
@@ -24,34 +34,34 @@ TEST(Smoother, posture_error_decays_by_three_quarters_a_frame) {
   }
 }
 
-TEST(Smoother, reproduces_the_steps_of_the_papers_figure_5) {
+TEST(Smoothing, reproduces_the_steps_of_the_papers_figure_5) {
   // 14.2984, 25.0216, 33.0639: a grasp 57.19 degrees away is approached by a quarter a frame.
-  Smoother smoother({});
+  Sequence smoother;
   smoother.smooth(measured(0, 0));
   for (const double printed : {14.2984, 25.0216, 33.0639}) {
     EXPECT_NEAR(smoother.smooth(measured(57.19, 0)).posture[0], printed, 0.002);
   }
 }
 
-TEST(Smoother, leaves_the_pose_unless_configured) {
-  Smoother paper({});
+TEST(Smoothing, leaves_the_pose_unless_configured) {
+  Sequence paper;
   paper.smooth(measured(0, 0));
   const TrackResult result = paper.smooth(measured(0.4, 0.2));
   EXPECT_EQ(result.T_camera_hand.matrix(), result.T_camera_hand_unfiltered.matrix());
 
   SmoothingConfig config;
   config.pose_keep = 0.75;
-  Smoother both(config);
+  Sequence both{config};
   both.smooth(measured(0, 0));
   const TrackResult filtered = both.smooth(measured(0.4, 0.2));
   EXPECT_NEAR(filtered.T_camera_hand.translation().x(), 0.05, 1e-12);
   EXPECT_NEAR(Eigen::AngleAxisd(filtered.T_camera_hand.linear()).angle(), 0.1, 1e-12);
 }
 
-TEST(Smoother, repeats_the_last_answer_while_lost_and_starts_anew_after_a_while) {
+TEST(Smoothing, repeats_the_last_answer_while_lost_and_starts_anew_after_a_while) {
   SmoothingConfig config;
   config.forget_after = 3;
-  Smoother smoother(config);
+  Sequence smoother{config};
   smoother.smooth(measured(1, 0));
   EXPECT_EQ(smoother.smooth(measured(9, 9, TrackStatus::no_hand)).posture[0], 1);
   EXPECT_NEAR(smoother.smooth(measured(0, 0)).posture[0], 0.75, 1e-12);
