@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// One command as one line of JSON, without the line end; the keys are documented in core/robot/README.md.
+/// One command as one line of JSON, without the line end; core/robot/command.schema.json documents the keys.
 /// Numbers are rounded to 1e-6 of their unit, so equal commands are equal bytes. Throws Error if one is not finite.
 std::string to_json_line(const RobotCommand& command);
 

@@ -9,7 +9,8 @@ namespace glovebench::trajectories {
 /// gestures and scripts that lie there. Throws Error if those are missing or wrong.
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder);
 
-/// The table of README.md: properties of the source trajectories in the data folder. Throws Error.
+/// Properties of the source trajectories in the data folder, a line of Markdown each: distances, speeds, grasps.
+/// Throws Error.
 std::string source_properties_table(const std::string& data_folder);
 
 }  // namespace glovebench::trajectories

@@ -17,10 +17,9 @@ struct DdsSinkOptions {
   bool alone = false;                                      ///< nobody else may write on the topics
 };
 
-/// Sends commands over DDS as a node of ROS 2 would (core/robot/README.md: topics, types, quality of service): the
-/// joints of the hand, those of its wrist, and a pose for the arm, one message of each a command. A lost frame
-/// sends the last targets again; before the first tracked frame nothing is sent. Nobody has to listen, and nobody
-/// who does holds it up.
+/// Sends commands over DDS as a node of ROS 2 would (core/adapters/dds/README.md has topics and types): the joints
+/// of the hand, those of its wrist, and a pose for the arm, one message of each a command. Nothing is sent while a
+/// command holds or has no targets yet. Nobody has to listen, and nobody who does holds it up.
 class DdsSink : public RobotCommandSink {
  public:
   /// Domain 0..230. Throws Error if there is no such domain or no network, or, if the sink must be alone, as soon
