@@ -5,8 +5,7 @@
 
 namespace glovebench {
 
-/// Bad input at an edge of the program: a file, a configuration, a command line, a device.
-/// The message is one line that names where it was, which field, what was found and what was expected.
+/// Bad input from a file, a configuration, the command line or a device. The message is one line.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
@@ -15,7 +14,8 @@ class Error : public std::runtime_error {
       : std::runtime_error(where + ": " + field + ": found " + found + ", expected " + expected) {}
 };
 
-/// A broken invariant of the program itself; stays on in release builds.
+/// Checks an invariant of the program, in release builds too.
+/// Throws: std::logic_error if it is broken.
 inline void check(bool condition, const char* what) {
   if (!condition) throw std::logic_error(std::string("broken invariant: ") + what);
 }
