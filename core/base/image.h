@@ -49,7 +49,7 @@ class Image {
 /// Red, green, blue, each 0..255.
 using Rgb = std::array<uint8_t, 3>;
 using ColorImage = Image<Rgb>;
-/// z along the optical axis, 0 without a value.
+/// Depth z along the optical axis, not the length of the ray; 0: no value.
 /// Units: m.
 using DepthImage = Image<float>;
 /// 1..kColorCount; 0 where there is no glove.
