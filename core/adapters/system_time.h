@@ -1,13 +1,13 @@
 #pragma once
 
-// The time of day, for what other machines and processes compare with theirs.
+// System time, to compare with other machines and processes.
 
 #include <chrono>
 #include <cstdint>
 
 namespace glovebench {
 
-/// Microseconds since 1970. Set clocks jump: to measure how long something takes, use steady_clock.
+/// Microseconds since 1970. The clock may jump, so measure durations with steady_clock.
 inline int64_t system_us() {
   using namespace std::chrono;
   return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
