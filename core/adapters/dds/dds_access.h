@@ -4,9 +4,8 @@
 
 namespace glovebench {
 
-/// How a DDS participant communicates.
 struct DdsAccess {
-  /// Network interface. Empty: as CYCLONEDDS_URI says, or loopback if it is not set.
+  /// Network interface; empty: CYCLONEDDS_URI's, or loopback if that is not set.
   std::string interface;
   /// Folder of keys for DDS Security (`glovebench robot-server keys`); empty: none.
   std::string security;
@@ -15,12 +14,12 @@ struct DdsAccess {
   bool operator==(const DdsAccess&) const = default;
 };
 
-/// Topics in DDS, with the `rt/` that ROS 2 puts before its names.
+/// DDS names of topics: ROS 2 puts `rt/` before its own.
 struct Topics {
-  const char* hand;          ///< trajectory_msgs/JointTrajectory
-  const char* wrist;         ///< trajectory_msgs/JointTrajectory
-  const char* arm;           ///< geometry_msgs/PoseStamped of the wrist
-  const char* joint_states;  ///< sensor_msgs/JointState: targets
+  const char* hand;          ///< JointTrajectory
+  const char* wrist;         ///< JointTrajectory
+  const char* arm;           ///< PoseStamped of the wrist
+  const char* joint_states;  ///< JointState, as commanded
 };
 
 namespace topics {
@@ -32,7 +31,7 @@ inline constexpr Topics kOwn = {"rt/glovebench/hand/command", "rt/glovebench/wri
 inline constexpr Topics kController = {"rt/rh_trajectory_controller/command",
                                        "rt/rh_wr_trajectory_controller/command", "rt/pa10/command/pose",
                                        "rt/joint_states"};
-/// sensor_msgs/JointState measured by the robot's driver.
+/// JointState, as a robot's driver measures.
 inline constexpr const char* kMeasuredJointStates = "rt/glovebench/measured_joint_states";
 
 }  // namespace topics

@@ -23,12 +23,12 @@ namespace glovebench {
 /// Throws: Error if it is an error of Cyclone DDS.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// Bounds of the memory that others can claim: the size of a message, and messages that wait in a reader. A message
-/// for the hand has 1000 bytes; the library drops larger ones at their first fragment.
+/// The largest message, and how many may wait in a reader, so that others cannot claim much memory. The library
+/// drops larger ones.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
 inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s
 
-/// Messages that a writer keeps, as in ROS 2.
+/// Messages kept by a writer, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
 /// Messages dropped by size since the process began.
@@ -39,9 +39,9 @@ struct DdsDomain;
 /// A participant in a domain; owns the entities that it makes.
 class DdsParticipant {
  public:
-  /// Limits messages, and the library's lines on stderr.
-  /// Throws: Error for a domain outside 0..230, an unknown interface or one beside CYCLONEDDS_URI, or another
-  /// access than this process already has in the domain.
+  /// Limits message sizes, and the library's lines on stderr.
+  /// Throws: Error for a domain outside 0..230, an unknown interface, one beside CYCLONEDDS_URI, or a second access
+  /// to the domain in this process.
   explicit DdsParticipant(int domain, const DdsAccess& access = {});
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
@@ -51,10 +51,10 @@ class DdsParticipant {
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
   /// As in ROS 2: reliable, volatile, the last 10.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile; keeps up to `max_waiting` messages, then senders wait. So a flood cannot push out what
-  /// others sent.
+  /// Reliable, volatile; keeps up to `max_waiting` messages, then senders wait: a flood pushes out no other's
+  /// message.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
-  /// Keeps the last `depth` messages of other participants.
+  /// Keeps the last `depth` of other participants.
   dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
 
  private:
@@ -73,7 +73,7 @@ class DdsWriter {
   void write(const Message& message, int64_t source_ns) const {
     checked_dds(DdsType<Message>::write(writer_, message, source_ns), topic_, "a message to be sent");
   }
-  /// Waits up to `timeout_s` until all listeners have everything; false if they do not.
+  /// Waits up to `timeout_s` until all listeners have everything; else false.
   bool wait_for_listeners(double timeout_s) const {
     return dds_wait_for_acks(writer_, static_cast<dds_duration_t>(timeout_s * 1e9)) == DDS_RETCODE_OK;
   }
@@ -105,19 +105,19 @@ class DdsOtherWriters {
   std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with their topics
 };
 
-/// Writers that a reader tells apart. Messages of others are not read, so that peers without end take no memory.
+/// Writers that a reader tells apart; it does not read messages of others, who could be many.
 inline constexpr size_t kMostWriters = 64;
 
-/// Messages of such others since the process began.
+/// Messages that were not read, since the process began.
 int64_t dds_messages_of_too_many();
 
 /// Finds the process of each writer.
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The writer's participant, even if it has gone. Nothing, and counted, if kMostWriters others are present.
+  /// The writer's participant, even if gone. Nothing, and counted, if kMostWriters others are present.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
-  /// Participants of present writers: all that have sent something, and some others.
+  /// Participants of present writers: of all that have sent, and of some others.
   std::set<uint64_t> present();
 
  private:
@@ -140,7 +140,7 @@ class DdsReader {
   /// Keeps up to `max_waiting` messages, then senders wait.
   DdsReader(const DdsParticipant& participant, const std::string& topic, int max_waiting = kMaxWaiting)
       : DdsReader(participant.make_reader(make_topic(participant, topic), max_waiting)) {}
-  /// Keeps the last `depth` messages of other participants.
+  /// Keeps the last `depth` of other participants.
   static DdsReader of_others(const DdsParticipant& participant, const std::string& topic, int depth = kRosDepth) {
     return DdsReader(participant.make_reader_of_others(make_topic(participant, topic), depth));
   }
@@ -148,7 +148,7 @@ class DdsReader {
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
 
-  /// The next message, if any. Reads it only if `is_wanted(sender)`, so that a flood of others costs little.
+  /// The next message, if any; it is read only if `is_wanted(sender)`, so floods of others cost little.
   template <typename IsWanted>
   std::optional<Received> take(const IsWanted& is_wanted) {
     for (;;) {

@@ -13,13 +13,13 @@ struct DdsServerOptions {
   int domain = 0;
   DdsAccess access;
   ServedRobot robot;
-  /// The log to append to, which also tells where the joints start; empty: none.
+  /// The log, which also says where the joints start; empty: none.
   std::string log;
-  /// Largest age of that, since somebody may have moved them.
+  /// Largest age of its last state: later, somebody may have moved the joints.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
   std::function<bool()> stopping;  ///< asked 100 times a second; true ends the server
-  /// Gets lines that a person should know at once.
+  /// Shows a line to a person.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -28,10 +28,9 @@ struct DdsServerSummary {
   int64_t lost_log_lines = 0;
 };
 
-/// Serves a robot over DDS until `stopping`: takes commands and sends the joints' targets as
-/// sensor_msgs/JointState, 100 times a second. The joints start where the log says, or at rest.
-/// Throws: Error if the domain, the log or its state is unusable, or another server has the log or is in the
-/// domain.
+/// Serves a robot over DDS until `stopping`: takes commands and sends JointState 100 times a second. Joints start
+/// where the log says, or at rest.
+/// Throws: Error if domain, log or its state is unusable, or another server has the log or is in the domain.
 DdsServerSummary serve(const DdsServerOptions& options);
 
 }  // namespace glovebench

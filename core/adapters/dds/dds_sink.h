@@ -16,8 +16,8 @@ struct DdsSinkOptions {
   bool alone = false;                                      ///< nobody else may write on the topics
 };
 
-/// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md): one message each for hand, wrist
-/// and arm. Lost frames send nothing. Listeners are optional and cannot block it.
+/// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md). Lost frames send nothing. Listeners
+/// are optional and cannot block it.
 class DdsSink : public RobotCommandSink {
  public:
   /// `domain`: 0..230.
@@ -26,8 +26,7 @@ class DdsSink : public RobotCommandSink {
 
   /// Sets the next command's source time, microseconds since 1970; by default the time of sending.
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
-  /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or, if `alone`, there is
-  /// another writer.
+  /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
   void send(const RobotCommand& command) override;
   /// Waits up to 1 s until listeners have everything.
   void finish() override;

@@ -11,17 +11,15 @@
 
 namespace glovebench {
 
-/// Joints as a robot's driver measures them: sensor_msgs/JointState on a topic.
-///
-/// A message is believed if it has each joint once, with a finite position; further joints do not matter. Its age
-/// is the largest of three: since DDS's source time, since its stamp (unless 0), both by this host's system clock,
-/// and since reception. If two processes publish the joints, neither is believed.
+/// Joints as a robot's driver measures them: JointState on a topic. A message is believed if it has each joint
+/// once, with a finite position, and only one process publishes them. Its age is the largest since source time,
+/// stamp (unless 0) and reception.
 class MeasuredJoints {
  public:
   /// `names`: the joints, in the order of the answers.
   MeasuredJoints(const DdsParticipant& participant, const std::string& topic, std::vector<std::string> names);
 
-  /// Positions (rad) by the newest message, if it is believed and at most 0.1 s old. `system_us`: now, since 1970.
+  /// Positions (rad) by the newest message, if believed and at most 0.1 s old. `system_us`: now, since 1970;
   /// `steady_us`: now, monotonic.
   std::optional<std::vector<double>> latest(int64_t system_us, int64_t steady_us);
   /// Why `latest` had no answer; empty if it had one.
@@ -44,12 +42,12 @@ class MeasuredJoints {
   std::vector<std::string> names_;
   DdsReader<ros::JointState> reader_;
   std::optional<State> state_;           ///< of the newest message with one of the joints
-  std::map<uint64_t, int64_t> tellers_;  ///< processes that published the joints lately, and when (steady clock)
+  std::map<uint64_t, int64_t> tellers_;  ///< publishing processes, and when (steady clock)
   std::string doubt_ = "nothing asked";
 };
 
 struct MeasuredState {
-  std::vector<double> hand;      ///< 24 joints in the order of ShadowJoint, rad; empty if not asked for
+  std::vector<double> hand;      ///< rad, as ShadowJoint; empty if not asked for
   std::optional<ArmJoints> arm;  ///< rad; likewise
 };
 
@@ -71,11 +69,11 @@ class MeasuredRobot {
   std::vector<MeasuredJoints> hand_, arm_;  ///< by preference; empty if not asked for
 };
 
-/// A joint measured this far beyond a limit, or J1 beyond J2, counts as at the limit.
+/// A joint this far beyond a limit, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// The targets that the robot already has, for `CommandGuard::start_from`. `T_base_hand` is used without an arm.
-/// Throws: Error if a joint exceeds its limits by more than kMeasuredNoise.
+/// The targets that the robot has, for `CommandGuard::start_from`. `T_base_hand` is used without an arm.
+/// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);
 

@@ -13,8 +13,8 @@ namespace glovebench {
 struct RobotBusOptions {
   int domain = 0;  ///< 0..230
   DdsAccess access;
-  /// Send to a robot's own controllers, not to `robot-server`: nobody else may write on their topics, and each
-  /// motion starts at the robot's measured place.
+  /// Send to a robot's own controllers, not to `robot-server`: nobody else may write there, and motions start at
+  /// the measured place.
   bool to_controller = false;
   bool arm = true;                                              ///< command a controller's arm
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();  ///< mount of the hand
@@ -27,10 +27,10 @@ class RobotBus {
  public:
   virtual ~RobotBus() = default;
 
-  /// The arm's joints at the start, rad; empty unless a controller's arm is commanded.
+  /// The arm at the start, rad; empty unless a controller's arm is commanded.
   virtual std::optional<ArmJoints> arm_start() const = 0;
-  /// The command's time, microseconds: the first frame's time stamp plus the time since then. Before a motion on a
-  /// controller's topics it tells the guard where the robot stands.
+  /// The command's time, microseconds: the first frame's time stamp plus the time since then. Before a controller's
+  /// motion, tells the guard where the robot stands.
   virtual int64_t start(CommandGuard& guard, const RobotCommand& command) = 0;
   /// `arrived_us`: when the frame was complete, microseconds since 1970.
   virtual void send(const RobotCommand& safe, int64_t arrived_us) = 0;

@@ -5,37 +5,37 @@
 #include <string>
 #include <vector>
 
-/// DDS Security: files that say who may do what. `openssl` makes them: X.509 certificates and S/MIME signatures in
-/// PEM, with EC P-256 keys and SHA-256.
+/// DDS Security: files that say who may do what. `openssl` makes certificates and signatures with EC P-256 and
+/// SHA-256.
 namespace glovebench {
 
-/// When a certificate is valid, seconds since 1970.
+/// Seconds since 1970.
 struct Validity {
   int64_t begin_s = 0;
   int64_t end_s = 0;
 };
 
-/// Topics that a role may write and read, as patterns of fnmatch.
+/// Topics of a role, as patterns of fnmatch.
 struct SecurityRole {
   std::string name;
   std::vector<std::string> writes, reads;
 };
-/// `sender` (track), `server`, `robot` (the driver that measures) and `observer`.
+/// `sender` (track), `server`, `robot` (its driver), `observer`.
 const std::vector<SecurityRole>& security_roles();
 
 /// Requires identities, and encryption with proof of origin.
 std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
-/// Makes a folder (mode 0700) with two authorities' certificates, their signed `governance.p7s`, and for each role
-/// NAME.pem, NAME.key (mode 0600) and NAME.p7s, as a set (core/base/file_set.h). The authorities' private keys are
-/// never on a disk, so another role takes a new folder. `others`: roles with another validity.
+/// Makes a folder (mode 0700) with two authorities' certificates, `governance.p7s`, and for each role NAME.pem,
+/// NAME.key (mode 0600) and NAME.p7s. The authorities' private keys are never on a disk: another role takes a new
+/// folder. `others`: roles with another validity.
 /// Throws: Error if the folder is not empty or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});
 
 /// Cyclone DDS's configuration for a role.
-/// Throws: Error naming a file that is missing, unreadable, expired at `now_s`, or does not belong to the others.
+/// Throws: Error for a file that is missing, unreadable, expired at `now_s` or not of this set.
 std::string security_configuration(const std::string& folder, const std::string& role, int64_t now_s);
 
 }  // namespace glovebench

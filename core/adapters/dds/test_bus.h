@@ -12,8 +12,7 @@
 
 namespace glovebench {
 
-/// Gives this process and its children a Cyclone DDS of their own: loopback, no multicast, an own tag. `more`:
-/// further configuration.
+/// Gives this process and its children a Cyclone DDS of their own on loopback. `more`: further configuration.
 inline void use_loopback_dds(const std::string& more = "") {
   const std::string uri =
       "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"

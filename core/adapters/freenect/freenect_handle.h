@@ -6,9 +6,9 @@
 
 namespace glovebench {
 
-/// The library's last complaint for the end of a message, " (libfreenect: ...)", or "".
+/// " (libfreenect: ...)" with the library's last complaint, or "".
 std::string last_complaint();
-/// Throws: Error with the field, `expected` and the complaint, unless `success`.
+/// Throws: Error with the last complaint unless `success`.
 void require_freenect(bool success, const char* field, const std::string& expected);
 
 /// libfreenect with one open device.

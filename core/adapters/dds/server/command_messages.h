@@ -53,13 +53,13 @@ struct JointState {
 
 namespace glovebench {
 
-/// What a server did with a message; checks are in this order.
+/// What became of a message, in the order of the checks.
 enum class Receipt {
   foreign,       ///< another sender owns the stream
   bad_time,      ///< before 1970, or nanoseconds of a second or more
   wrong_joints,  ///< not each of the topic's joints once, in any order
   wrong_points,  ///< not exactly one point, or one position a joint
-  wrong_frame,   ///< a pose not in kBaseFrame
+  wrong_frame,   ///< not in kBaseFrame
   not_finite,
   not_rotation,  ///< the quaternion's length is not 1
   stale,         ///< older than `silence_s`, or it waited through a gap
@@ -74,9 +74,9 @@ constexpr auto names_of(Receipt) {
 }
 static_assert(kCountOf<Receipt> == static_cast<int>(Receipt::accepted) + 1, "each value has a name");
 
-/// What a server sends to its joints, which is where they stand.
+/// What a server tells its joints.
 struct RobotState {
-  int64_t clock_us = 0;  ///< of the server, monotonic
+  int64_t clock_us = 0;  ///< monotonic
   CommandState state = CommandState::stopped;
   std::vector<double> position;  ///< rad
   std::vector<double> velocity;  ///< rad/s, since the last state
@@ -85,8 +85,7 @@ struct RobotState {
 /// The frame of the arm's poses.
 inline constexpr const char* kBaseFrame = "base_link";
 
-/// ROS names, `rh_FFJ1` ...: the 22 joints of the hand's controller, the 2 of the wrist's, and all 24 in the order
-/// of ShadowJoint.
+/// ROS names, `rh_FFJ1` ...: of the hand's controller, of the wrist's, and all 24 in the order of ShadowJoint.
 const std::vector<std::string>& hand_trajectory_names();
 const std::vector<std::string>& wrist_trajectory_names();
 const std::vector<std::string>& hand_joint_names();
@@ -101,15 +100,15 @@ int64_t nanoseconds(const ros::Time& time);
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
 /// How long a controller shall take to a command's targets. If it goes there straight, it keeps the guard's speeds
-/// whenever commands come: each command moves the targets at most `longest_step_s` away, and a start was measured
-/// at most kMeasuredAgeUs ago.
+/// whenever commands come: targets move at most `longest_step_s` away, and a start was measured at most
+/// kMeasuredAgeUs ago.
 int64_t time_to_targets_us(double longest_step_s);
 
-/// A command's targets, which must exist, as one point to reach in `time_us`, stamped with the frame's time.
+/// A command's targets, which must exist: one point, to reach in `time_us`, stamped with the frame's time.
 /// Throws: Error if a target is not finite.
 ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us);
 ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us);
-/// The pose of WRJ2, fixed to the forearm, in kBaseFrame, for which the hand gets to T_base_hand.
+/// The pose of WRJ2 in kBaseFrame with which the hand gets to T_base_hand.
 ros::PoseStamped pose_message(const RobotCommand& command);
 
 struct JointsRead {

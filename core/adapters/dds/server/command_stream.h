@@ -22,22 +22,16 @@ struct ServerTime {
 
 struct Arrival {
   uint64_t sender = 0;    ///< identifies a process
-  int64_t source_ns = 0;  ///< DDS's source time, by the sender's clock
-  int64_t now_us = 0;     ///< reception, by the server's monotonic clock
+  int64_t source_ns = 0;  ///< DDS's source time
+  int64_t now_us = 0;     ///< reception, monotonic
 };
 
-/// Decides which messages a server follows: good, fresh ones of one owner, in time order. Reads no clock.
-/// core/adapters/dds/README.md ("Old commands and gaps") gives the reasons.
+/// Decides which messages a server follows: good, fresh ones of one owner, in time order
+/// (core/adapters/dds/README.md, "Old commands and gaps"). Reads no clock.
 ///
-/// A message's delay is the server's time minus its source time. Its age is its delay minus the smallest one of the
-/// last 10 to 11 s, by topic and sender. If older than `silence_s`, it is stale. A stream's first 0.2 s are
-/// `starting`. They begin anew if source times gain more than 20 ms on the server's clock, as those of messages
-/// that waited do.
-///
-/// A gap is a pause of more than 0.1 s between ticks, or a jump of more than 0.1 s between the server's clocks.
-/// After it all streams start anew, and messages of the next 0.1 s are stale. If a sender's clock jumps by more
-/// than 0.1 s, that sender starts anew. After a gap, or a jump of the owner, nobody owns the stream and nothing is
-/// followed.
+/// A message is stale if it is older than `silence_s`, or within 0.1 s after a gap. A stream is `starting` for 0.2
+/// s at first, after a gap, and after a jump of its sender's clock. A gap, or a jump of the owner's clock, releases
+/// the owner, and nothing before it is followed.
 ///
 /// The first sender of a good message owns all topics until it is gone or sends nothing good for `stop_after_s`;
 /// other senders are foreign. In a topic its stamps must rise or all be zero, which in ROS means now.
@@ -51,8 +45,8 @@ class CommandStream {
   /// Judges and counts a message whose content is judged as `found`.
   Receipt receive(const Arrival& arrival, int topic, const ros::Time& stamp, Receipt found);
   void tick(const ServerTime& now);
-  /// Whether the last accepted message, of a topic or of any, still counts: it is at most `silence_s` old, and no
-  /// gap or new owner came since.
+  /// Whether the last accepted message, of a topic or of any, still counts: at most `silence_s` old, with no gap or
+  /// new owner since.
   bool is_current(int topic, int64_t now_us) const;
   bool is_current(int64_t now_us) const;
   /// Releases an owner that is not present.
@@ -66,8 +60,8 @@ class CommandStream {
  private:
   /// Delays on one topic of one sender.
   struct Delays {
-    std::deque<std::pair<int64_t, int64_t>> smallest;  ///< start and smallest delay of each second, us
-    std::optional<std::pair<int64_t, int64_t>> start;  ///< server time and source time of the first message, us
+    std::deque<std::pair<int64_t, int64_t>> smallest;  ///< of each second: start, smallest delay, us
+    std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time, us
     bool started = false;
     int64_t heard_us = 0, source_us = 0, delay_us = 0;  ///< of the last message
 
@@ -89,13 +83,13 @@ class CommandStream {
   int64_t silence_us_, release_us_;
   std::array<int64_t, kCountOf<Receipt>> receipts_{};
   std::map<std::pair<uint64_t, int>, Delays> delays_;
-  std::optional<int64_t> seen_us_, apart_us_;  ///< of the last tick: time, and the clocks' difference
+  std::optional<int64_t> seen_us_, apart_us_;  ///< of the last tick: time, difference of the clocks
   std::optional<int64_t> settled_us_;          ///< until then all is stale
   int64_t gaps_ = 0;
   std::optional<uint64_t> owner_;
   int64_t owners_ = 0;
   int64_t good_us_ = 0;                                       ///< of the owner's last good message
-  std::vector<std::optional<int64_t>> stamps_ns_, until_us_;  ///< by topic: last stamp, and until when it counts
+  std::vector<std::optional<int64_t>> stamps_ns_, until_us_;  ///< by topic: last stamp; end of its effect
 };
 
 }  // namespace glovebench

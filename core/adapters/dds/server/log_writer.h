@@ -12,27 +12,26 @@ namespace glovebench {
 int64_t changed_us(const std::string& path);
 
 /// The last `max_bytes` of a file; empty if it is missing or a device.
-/// Throws: Error if it is unreadable.
+/// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines to a log in its own thread, so that callers never wait for the disk. A line that cannot be written
-/// is counted and still changes the file's time.
+/// Appends lines to a log in its own thread, so callers never wait for the disk. A line that cannot be written is
+/// counted and still changes the file's time.
 class LogWriter {
  public:
-  /// The name of a new file survives a power failure.
-  /// Throws: Error if the file cannot be opened, or another LogWriter has it (devices and pipes may be shared).
+  /// Throws: Error if the file cannot be opened, or is regular and another LogWriter has it.
   explicit LogWriter(const std::string& path);
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// Takes a line without its end. Returns its number, from 1, or 0 if too many wait and it is lost. Lines are
-  /// written at once and synced within 1 s, or at once if `urgent`.
+  /// Takes a line without its end. Returns its number, from 1, or 0 if too many wait. Lines are written at once and
+  /// synced within 1 s, or at once if `urgent`.
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
-    uint64_t done = 0;       ///< lines up to this one were written or lost
-    uint64_t durable = 0;    ///< lines after `failed` up to this one are on the disk; 0 for devices and pipes
+    uint64_t done = 0;       ///< written or lost up to this line
+    uint64_t durable = 0;    ///< on the disk after `failed`, up to this line; 0 for devices and pipes
     uint64_t failed = 0;     ///< this line or an earlier one may be lost
     int64_t lost = 0;        ///< lines
     std::string failure;     ///< the first
@@ -40,14 +39,14 @@ class LogWriter {
   };
   Progress progress() const;
 
-  /// Takes no more lines. Waits up to 2 s for the disk; then the rest is lost.
+  /// Takes no more lines and waits up to 2 s for the disk; then the rest is lost.
   void finish();
 
  private:
   struct Shared;
   static void write_lines(const std::shared_ptr<Shared>& shared);
 
-  std::shared_ptr<Shared> shared_;  ///< shared with the thread, which a slow disk may hold longer
+  std::shared_ptr<Shared> shared_;  ///< the thread may outlive this at a slow disk
   std::thread thread_;
 };
 

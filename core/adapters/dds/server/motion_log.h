@@ -19,15 +19,15 @@ struct LoggedStart {
   std::string age;             ///< of the log's last state, as text; empty at rest
 };
 
-/// The log of a running server. It never delays the server, a flood does not fill it, and the joints move only
-/// inside what it has stated on the disk. Without a file nothing is written and all may move.
+/// The log of a running server. It never delays the server, and joints move only inside what it has stated on the
+/// disk. Without a file nothing is written and all may move.
 class MotionLog {
  public:
-  /// `path`: empty for no file.
-  /// Throws: Error if it cannot be opened or another server has it.
+  /// `path`: empty for none.
+  /// Throws: Error if the file cannot be opened or another server has it.
   MotionLog(const std::string& path, std::vector<std::string> names, std::vector<JointMotion> joints);
 
-  /// Where the joints start: as the last server left them, or at `rest`. `period_s`: between ticks.
+  /// Where the joints start: as the last server left them, else `rest`. `period_s`: between ticks.
   /// Throws: Error if the log has other joints, is too old or has lost its end.
   LoggedStart start(const std::vector<double>& rest, int64_t now_us, double max_age_s, double period_s) const;
 
@@ -36,7 +36,7 @@ class MotionLog {
   void received(const ReceivedLine& line);
   /// `at_rest`: the joints stay until a new start.
   void ticked(const RobotState& state, int64_t time_us, bool at_rest);
-  /// The joints stay where they are.
+  /// The joints stay.
   void finish(const RobotState& state, int64_t time_us);
 
   /// Whether the joints may move freely for `seconds`.

@@ -27,38 +27,33 @@ enum class RobotTopic { fingers, wrist, pose };
 inline constexpr int kRobotTopicCount = 3;
 std::string_view to_string(RobotTopic topic);
 
-/// The joints of a server.
 struct ServedRobot {
   bool hand = true;
   std::optional<MountedArm> arm = std::nullopt;
 
   GuardedPart part() const;
   std::string name() const;  ///< "hand", "arm" or "hand and arm"
-  /// The order of all joints: the hand's as ShadowJoint, then the arm's.
+  /// The order of all joints: the hand's (ShadowJoint), then the arm's.
   std::vector<std::string> names() const;
   std::vector<double> at_rest() const;  ///< rad: an open hand, kArmAtRest
   std::vector<JointMotion> motions(const CommandLimits& limits) const;
 };
 
-/// Where a server starts, and who says so.
 struct StartPlace {
   std::vector<double> joints;  ///< rad
   std::string source = "start";
   double tolerance = radians_from_degrees(1e-6);  ///< rad: twice the log's rounding
 };
 
-/// Serves hand, arm or both, without middleware or clock. core/robot/README.md ("Who knows what") says which limits
-/// each of them gets.
-///
-/// A topic moves nothing unless CommandStream::is_current. Of J1 and J2 only the sum is taken, and split by the
-/// coupling.
+/// Serves hand, arm or both, without middleware or clock; core/robot/README.md ("Who knows what") has the limits. A
+/// topic moves nothing unless CommandStream::is_current. Of J1 and J2 the coupling splits the sum.
 class RobotServer {
  public:
   /// Joints within the start's tolerance of a limit are moved onto it.
   /// Throws: Error if the start is farther outside, or the limits have problems.
   RobotServer(const CommandLimits& limits, const ServedRobot& robot, const StartPlace& start);
 
-  /// For topics of joints that the server has.
+  /// For topics of the server's joints.
   Receipt receive(RobotTopic topic, const ros::JointTrajectory& message, const Arrival& arrival);
   Receipt receive(RobotTopic topic, const ros::PoseStamped& message, const Arrival& arrival);
   /// What the joints shall do now; time must have advanced. `may_move`: false holds them.
@@ -82,9 +77,9 @@ class RobotServer {
   CommandStream stream_;
   RobotTargets stands_;  ///< where the joints were last sent
   std::array<double, kShadowJointCount> hand_goal_{};
-  Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();  ///< if wanted
+  Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();  ///< while wanted
   std::array<bool, kRobotTopicCount> wanted_{};                          ///< by topic: there is a goal
-  bool changed_ = false;                                                 ///< since the guard got the goal
+  bool changed_ = false;                                                 ///< the goal, since the guard got it
   bool ticked_ = false;
   RobotState last_;
 };

@@ -18,20 +18,20 @@ struct JointInterval {
   bool operator==(const JointInterval&) const = default;
 };
 
-/// Whether each joint's interval is at most its way in `seconds`, plus 1e-5 degrees for the log's rounding.
+/// Whether each joint's interval is at most its way in `seconds`, plus 1e-5 degrees of rounding.
 bool is_one_step(const JointInterval& interval, const std::vector<JointMotion>& joints, double seconds);
 
-/// What a log states in advance about where the joints are, until a later statement is on the disk. The joints stay
-/// inside every interval that may be the last on the disk after a crash: the durable one, the pending one, and
-/// those that failed. Reads no clock and writes nothing.
+/// Where a log states in advance that the joints are, until a later statement is on the disk. So the joints stay
+/// inside all that may be last on the disk after a crash: the durable interval, the pending one, and those that
+/// failed.
 class StatedInterval {
  public:
   explicit StatedInterval(std::vector<JointMotion> joints) : joints_(std::move(joints)) {}
 
-  /// The interval to state now, if any: what the joints can reach in 0.5 s, or at rest their place. Restates once a
-  /// second, and in motion before half of the 0.5 s is over.
+  /// The interval to state now, if any: what is in reach in 0.5 s, or at rest the place. Restates once a second,
+  /// and in motion within 0.25 s.
   std::optional<JointInterval> next(const std::vector<double>& positions, bool at_rest, int64_t now_us);
-  /// The interval was handed over as `line`; 0: it was lost.
+  /// `line`: its number in the log; 0: it was lost.
   void stated(JointInterval interval, uint64_t line, int64_t now_us);
   /// From LogWriter::Progress.
   void update(uint64_t done, uint64_t durable, uint64_t failed);
