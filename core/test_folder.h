@@ -16,8 +16,7 @@
 
 namespace glovebench {
 
-/// A folder that test processes share.
-/// Throws: std::runtime_error unless it belongs to this user alone.
+/// Throws: std::runtime_error unless the folder belongs to this user alone.
 inline std::string shared_folder(const std::string& name) {
   std::string path = testing::TempDir() + name;
   ::mkdir(path.c_str(), 0700);
@@ -49,18 +48,18 @@ class TestFolder {
   }
 
  private:
-  const pid_t owner_ = ::getpid();  ///< a forked process must not remove it
+  const pid_t owner_ = ::getpid();  ///< forks must not remove it
   std::string path_ = testing::TempDir() + "glovebench-test-XXXXXX";
 };
 
-/// The folder of the running test, or of its suite during set-up; it lasts until the program ends.
+/// The folder of the running test or suite, until the program ends.
 inline const std::string& test_folder() {
   static std::map<const testing::TestInfo*, TestFolder> folders;
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// A folder that all processes of this build of the executable share, for files that are expensive to make. Removes
-/// the folders of other builds.
+/// A folder for expensive files, which all processes of this build of the executable share. Removes those of other
+/// builds.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");

@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs a test on each instruction set that the processor and the build have.
+// Runs a test on each instruction set of the processor and the build.
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

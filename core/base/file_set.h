@@ -14,14 +14,13 @@
 
 namespace glovebench {
 
-// A set: files of one folder that change together (core/base/README.md). A write
+// Sets: files of one folder that change together (core/base/README.md). A write
 //
 //   1. writes and syncs the new files in FOLDER/.staged/,
 //   2. replaces manifest.json by a rename,
 //   3. moves the staged files to their places and removes others.
 //
-// A reader takes a file from its place if its hash is in the manifest, else from .staged. After a crash the next
-// writer finishes step 3.
+// After a crash the next writer finishes step 3.
 
 inline constexpr const char* kManifest = "manifest.json";
 /// Bytes; enough for 1.7 million files.
@@ -40,11 +39,11 @@ struct ManifestEntry {
 /// By the file's path in the folder.
 using Manifest = std::map<std::string, ManifestEntry>;
 
-/// Throws: Error if the text exceeds `max_bytes`.
+/// Throws: Error if it exceeds `max_bytes`.
 std::string manifest_json(const Manifest& manifest, uint64_t max_bytes = kLargestManifest);
-/// Throws: Error if the text is no manifest, or a name leads out of the folder.
+/// Throws: Error, also if a name leads out of the folder.
 Manifest parse_manifest(const std::string& text, const std::string& where);
-/// Returns nothing if the folder has no manifest.
+/// Nothing if the folder has none.
 /// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
 
@@ -65,7 +64,7 @@ class FileSet {
     std::string content;
     bool is_changed = false;  ///< the content differs from the manifest
   };
-  /// Reads a file that a user may change or add: it need not match the manifest.
+  /// Reads a file that may differ from the manifest, or not be in it.
   /// Throws: Error.
   Found find(const std::string& name, uint64_t max_bytes) const;
   /// Throws: BrokenSet about a changed file.
@@ -93,7 +92,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Writes a set; holds a FolderLock. Files that it does not name stay, and without `commit` all files stay.
+/// Writes a set; holds a FolderLock. Unnamed files stay, and without `commit` all files stay.
 /// Throws: Error, from every function.
 class WholeFiles {
  public:
@@ -103,7 +102,7 @@ class WholeFiles {
   WholeFiles& operator=(const WholeFiles&) = delete;
 
   const Manifest& manifest() const { return manifest_; }
-  /// `name` may contain folders. A replaced file keeps its mode; a link is an error. A new manifest has the
+  /// `name` may contain folders. A replaced file keeps its mode; a link is an error. A new manifest gets the
   /// permissions that all files share.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
   void remove(const std::string& name);

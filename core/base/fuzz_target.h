@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Code that eval/fuzz_main.cpp runs on any bytes. It may return or throw Error of one line; all else is a finding.
+/// Code that eval/fuzz_main.cpp runs on any bytes. Only Error of one line may be thrown.
 struct FuzzTarget {
   std::string name;  ///< as in NAME_fuzz.cpp and ci/corpora/NAME
   std::function<void(std::string_view bytes)> run;

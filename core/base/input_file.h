@@ -9,13 +9,13 @@
 
 namespace glovebench {
 
-/// An open regular file or pipe. Reads and checks concern this file, even if its name is given to another.
+/// An open file. Reads and checks are of this file, even if its name goes to another.
 class InputFile {
  public:
   enum class Kind { regular, regular_or_pipe };
 
   /// Waits for the writer of a pipe.
-  /// Throws: Error if the file cannot be opened, or is a device, socket or folder, which may never end.
+  /// Throws: Error also for devices, sockets and folders, which may never end.
   explicit InputFile(const std::string& path, Kind kind = Kind::regular_or_pipe);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -47,9 +47,9 @@ inline constexpr uint64_t kLargestSmallFile = 16'000'000;
 /// All others.
 inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
-/// Throws: Error if the file is missing, unreadable or larger than `max_bytes`.
+/// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// As `read_file`, for files that the user did not name. Refuses pipes: their writer may never come.
+/// As `read_file`, but refuses pipes, for files that the user did not name: a pipe's writer may never come.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

@@ -18,7 +18,7 @@ namespace glovebench {
 class JsonItems;
 class JsonMembers;
 
-/// Reads a JSON value strictly and knows its path. The document and `where` must outlive the cursor.
+/// Reads a JSON value strictly. The document and `where` must outlive the cursor.
 /// Throws: Error(where, "frames[17].angles_deg[3]", found, expected) for missing or unknown keys and for wrong
 /// kinds or ranges.
 class JsonCursor {
@@ -28,7 +28,7 @@ class JsonCursor {
   JsonCursor(const nlohmann::json& value, std::string&& where, std::string path = "") = delete;
   JsonCursor(nlohmann::json&& value, const std::string& where, std::string path = "") = delete;
 
-  /// Requires all required keys and no others but optional ones.
+  /// Requires all `required` keys and no others but `optional` ones.
   void expect_keys(std::initializer_list<std::string_view> required,
                    std::initializer_list<std::string_view> optional = {}) const {
     expect_keys({required.begin(), required.end()}, {optional.begin(), optional.end()});

@@ -7,11 +7,8 @@
 
 namespace glovebench {
 
-/// Writes lines that cannot be made again to NAME.partial (or NAME.partial-2, ...); `finish` renames it to NAME.
-/// After an error or a kill the lines stay in the partial file, and an older NAME is unchanged. A power failure may
-/// take the last seconds.
-///
-/// Modes, links and streams are handled as by WholeFile, but the constructor opens streams.
+/// Writes lines that cannot be made again (core/base/README.md): to NAME.partial, or NAME.partial-2 and so on,
+/// which `finish` renames to NAME. A power failure may take the last seconds. The constructor opens streams.
 class LineFile {
  public:
   /// Throws: Error.
@@ -21,10 +18,10 @@ class LineFile {
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Adds the line end; after an error writes nothing more.
+  /// Adds the line end; writes nothing more after an error.
   /// Throws: Error naming the partial file.
   void append(std::string_view line);
-  /// Throws: Error naming the partial file if it cannot be synced or renamed, or lacks a line.
+  /// Throws: Error naming the partial file, also if it lacks a line.
   void finish();
   /// As "3 lines in NAME.partial"; empty if none are there.
   std::string kept() const;

@@ -16,8 +16,8 @@ class MappedMemory {
   /// Zeros, in large pages if possible.
   /// Throws: std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// Maps a file for reading. Meanwhile the file may be replaced (WholeFile) but must not change: an access to
-  /// bytes that are gone ends the process (SIGBUS).
+  /// Maps a file for reading. It may be replaced (WholeFile) but not changed: access to bytes that are gone ends
+  /// the process (SIGBUS).
   /// Throws: Error.
   static MappedMemory of_file(const std::string& path);
   /// Maps an open file for writing.
@@ -27,7 +27,7 @@ class MappedMemory {
   MappedMemory(MappedMemory&& other) noexcept;
   MappedMemory& operator=(MappedMemory&& other) noexcept;
 
-  /// Frees the memory of a file's pages wholly in this range; an access reads them again. No effect on `zeros`.
+  /// Frees a file's pages wholly in this range; an access reads them again. No effect on `zeros`.
   void release(size_t offset, size_t bytes) const;
   /// Turns off read-ahead for this range of a file.
   void expect_random_reads(size_t offset, size_t bytes) const;

@@ -16,7 +16,7 @@ inline constexpr uint64_t kJsonBytesPerByte = 12;
 inline constexpr uint64_t kCborBytesPerByte = 64;
 
 /// Parses strictly: no comments, NaN, Infinity, repeated keys or numbers beyond a double.
-/// Throws: Error(where, place or key, found, expected), also beyond the limits above.
+/// Throws: Error, also beyond the limits above.
 nlohmann::json parse_json(std::string_view text, const std::string& where);
 nlohmann::json parse_cbor(std::string_view bytes, const std::string& where);
 

@@ -9,8 +9,8 @@ namespace glovebench {
 /// Memory of at least `bytes`, aligned to 64 bytes, from this thread's store or the heap.
 /// Throws: std::bad_alloc.
 void* take_memory(size_t bytes);
-/// Gives memory from `take_memory(bytes)` to this thread's store, up to 64 MiB. With the address sanitizer nothing
-/// is stored.
+/// Gives memory from `take_memory(bytes)` to this thread's store of up to 64 MiB, which is off with the address
+/// sanitizer.
 void give_memory(void* memory, size_t bytes) noexcept;
 
 template <typename T>

@@ -26,7 +26,7 @@ inline constexpr const char* kNameExpected =
     "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
 
 /// Returns `name`.
-/// Throws: Error naming `where` and `field` unless `is_name`.
+/// Throws: Error unless `is_name`.
 std::string checked_name(std::string name, const std::string& where, const std::string& field);
 
 /// "FOLDER/NAME"; the name may contain folders ("tables/figure4.csv").

@@ -11,8 +11,7 @@
 
 namespace glovebench {
 
-/// Where an output goes, with symbolic links followed: to a regular file, which is replaced, or to a stream
-/// (device, pipe, "-", /dev/fd/3), which is written directly.
+/// Where an output goes (core/base/README.md): to a file, or to a stream (device, pipe, "-", /dev/fd/3).
 struct OutputTarget {
   bool is_stream = false;
   int descriptor = -1;  ///< if the stream is already open
@@ -48,11 +47,8 @@ void sync_folder(const std::string& folder);
 /// The folder of a path; "." for a plain name.
 std::string folder_above(const std::string& path);
 
-/// Writes a file whole: to a temporary name, which `commit` syncs and renames. Without `commit` the old file stays.
-/// Creates missing folders.
-///
-/// The new file keeps the old one's mode and, if permitted, owner. Access lists are lost; other hard links keep the
-/// old content. Streams open at the first `append`.
+/// Writes a file whole (core/base/README.md): to a temporary name, which `commit` syncs and renames. Without
+/// `commit` the old file stays. Creates missing folders. Streams open at the first `append`.
 /// Throws: Error, from every function.
 class WholeFile {
  public:
@@ -63,7 +59,7 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   void append(std::string_view content);
-  /// Reserves zero bytes on the disk for an empty file and maps them for writing. Not for streams.
+  /// Reserves zeros on the disk for an empty file and maps them for writing. Not for streams.
   MappedMemory map(uint64_t bytes);
   /// Afterwards content and name survive a power failure.
   void commit();
@@ -77,8 +73,8 @@ class WholeFile {
 
 void write_file(const std::string& path, std::string_view content);
 
-/// Removes temporary files of killed writers, if `is_such` accepts the target's name. Keeps those in use, which are
-/// locked.
+/// Removes temporary files of killed writers, if `is_such` accepts the target's name. Those in use are locked and
+/// stay.
 void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 
 }  // namespace glovebench

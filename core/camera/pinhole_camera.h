@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// The largest images that are read, so that small files cannot claim much memory.
+/// The largest images that are read: a small file cannot claim much memory.
 inline constexpr int kMostSide_px = 4096;
 inline constexpr int kMostPixels = 1 << 21;  // 1920x1080 and a little more
 

@@ -43,8 +43,7 @@ Extent extent_of(const DepthImage& depth) {
     int32_t row_largest = 0;
     for (int u = 0; u < depth.width(); ++u) {
       const auto of_value = std::bit_cast<int32_t>(row[u]);
-      const int32_t bits =
-          of_value <= std::bit_cast<int32_t>(kInfinitelyFar) ? of_value : 0;  // 0 for NaN
+      const int32_t bits = of_value <= std::bit_cast<int32_t>(kInfinitelyFar) ? of_value : 0;  // 0 for NaN
       row_largest = std::max(row_largest, bits);
       least = std::min(least, static_cast<uint32_t>(bits) - 1);  // zero and negative values become large
     }

@@ -10,8 +10,8 @@
 
 namespace glovebench {
 
-/// A calibration of a Kinect's depth: z = 1 / (a * raw + b), with raw 11-bit disparity. For baseline B, focal
-/// length f (px) and disparity d at infinity, a = -1 / (8 f B) and b = d / (8 f B).
+/// A Kinect's calibrated depth: z = 1 / (a * raw + b), with raw 11-bit disparity. With baseline B, focal length f
+/// (px) and disparity d at infinity, a = -1 / (8 f B) and b = d / (8 f B).
 struct DisparityLine {
   double a_per_m = 0;  ///< below 0
   double b_per_m = 0;  ///< above 0
@@ -37,19 +37,18 @@ struct RgbdCalibration {
   }
 };
 
-/// The synthetic Kinect: IR f 575.816 px, RGB f 525 px, principal points near the center, baseline 24 mm, rotation
-/// under 1 degree.
+/// The calibration of the synthetic Kinect.
 RgbdCalibration synthetic_calibration();
 
-/// A Kinect by design: IR f 575.816 px, RGB f 525 px, principal points in the center, RGB camera 25 mm to the
-/// right, no rotation. Colors of a real device are some pixels off.
+/// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right, no rotation. On a real
+/// device colors are some pixels off.
 RgbdCalibration nominal_kinect_calibration();
 
 /// Reads {"version": 1, "ir": CAMERA, "rgb": CAMERA, "T_rgb_ir": {"rotation": 3 rows of 3, "translation_m": 3}},
 /// CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}. Optional: "disparity": {"a_per_m",
 /// "b_per_m"}, and in CAMERA "distortion": {"k1", "k2", "p1", "p2", "k3"}.
-/// Throws: Error naming `where` and the field, unless numbers are finite, focal lengths positive, sizes within
-/// kMostSide_px and kMostPixels, the rotation right-handed and orthonormal (1e-6), a < 0 and b > 0.
+/// Throws: Error unless numbers are finite, focal lengths positive, sizes within kMostSide_px and kMostPixels, the
+/// rotation right-handed and orthonormal (1e-6), a < 0 and b > 0.
 RgbdCalibration calibration_from_json(const nlohmann::json& json, const std::string& where);
 RgbdCalibration calibration_from_text(std::string_view text, const std::string& where);
 nlohmann::json to_json(const RgbdCalibration& calibration);
@@ -58,7 +57,7 @@ inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes
 
 /// The content of a file, which gives the same calibration bit for bit.
 std::string calibration_text(const RgbdCalibration& calibration);
-/// Throws: Error, as `save_calibration`.
+/// Throws: Error.
 RgbdCalibration load_calibration(const std::string& path);
 void save_calibration(const RgbdCalibration& calibration, const std::string& path);
 

@@ -14,7 +14,7 @@ struct WorkingVolume {
   double z_max = 0.95;  ///< m, > z_min; the synthetic table is at 1.06
 };
 
-/// Glove pixels within this distance of the volume, but outside, count as a cut-off hand, m.
+/// Glove pixels outside the volume, but within this distance, count as cut off, m.
 inline constexpr double kCutOffMargin = 0.05;
 
 struct LabeledPoint {
@@ -36,8 +36,8 @@ struct LabeledCloud {
 LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, const PinholeCamera& camera,
                          const WorkingVolume& volume);
 
-/// Pixel counts of the connected components, largest first. Connected are 8-neighbors whose depths differ by at
-/// most `depth_step`.
+/// Pixel counts of connected components, largest first. Connected are 8-neighbors whose depths differ by at most
+/// `depth_step`.
 /// Units: m.
 RecycledVector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
 /// Keeps the largest component; not in the paper.

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// One frame of a Kinect v1, which is all that the tracker sees.
+/// A Kinect's frame, which is all that the tracker sees.
 struct DeviceFrame {
   Image<uint16_t> raw_disparity;  ///< 640x480, 11 bits, 2047: no value
   ColorImage color;               ///< 640x480, not registered

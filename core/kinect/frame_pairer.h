@@ -14,7 +14,7 @@ namespace glovebench {
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
 /// Turns ticks into microseconds that do not wrap around. Successive stamps, of one or both streams, must be less
-/// than 35.8 s (half a round) apart.
+/// than 35.8 s apart.
 class TickClock {
  public:
   TickClock() = default;
@@ -45,10 +45,10 @@ struct PairingRules {
 
 /// Pairs each depth image with the color image nearest in time, the earlier of two equally near. A depth image
 /// waits for the first color image not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait,
-/// or `finish`. A color image may be in several pairs and is copied.
+/// or `finish`. A color image, which is copied, may be in several pairs.
 ///
-/// Pairs come in order of time. An image is dropped if its time stamp is not later than its kind's last one. When
-/// the clock was restarted, waiting images are dropped instead, and times go back.
+/// Pairs come in order of time. Images that are not later than their kind's last one are dropped. At a restart of
+/// the clock, waiting images are dropped instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:

@@ -25,20 +25,20 @@ namespace glovebench {
 /// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
  public:
-  /// `calibration` replaces the folder's, which fakenect's recordings lack. Images are read in `next_frame`.
+  /// `calibration` replaces the folder's, which fakenect's recordings lack. `next_frame` reads the images.
   /// Throws: Error if index or calibration is missing or malformed, a file is listed twice, or there is no pair.
   explicit RecordingDevice(const std::string& folder,
                            const std::optional<RgbdCalibration>& calibration = std::nullopt);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
-  /// Throws: FrameError naming a malformed image, or one with another hash than in the manifest.
+  /// Throws: FrameError for an image that is malformed or differs from the manifest.
   std::optional<DeviceFrame> next_frame() override;
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
-  /// Dropped images, whose time stamp is that of the one before.
+  /// Dropped images with the time stamp of the one before.
   int repeated_count() const { return repeated_count_; }
-  /// Names of calibration and index if they differ from the manifest.
+  /// Calibration and index, if they differ from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }
 
  private:
@@ -55,7 +55,7 @@ class RecordingDevice : public Device {
   int repeated_count_ = 0;
 };
 
-/// Writes frames as a recording. It plays back equal if each color image is the nearest to its depth image.
+/// Writes frames as a recording, which plays back equal if each color image is the nearest to its depth image.
 class RecordingWriter {
  public:
   /// Throws: Error if the folder has a recording or cannot be written.
@@ -64,7 +64,7 @@ class RecordingWriter {
   /// Depth time stamps must rise; an equal color time stamp means the same color image.
   /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
-  /// Makes the folder a recording. Without it all frames are lost: not for a live camera.
+  /// Makes the folder a recording. Without it all frames are lost: not for live cameras.
   /// Throws: Error if there are no frames.
   void finish();
 

@@ -21,12 +21,12 @@ struct RecordingEntry {
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
 
-/// The images in an INDEX.txt by time, depth before color, then in order of the list.
+/// Images by time, depth before color, then in order of the list.
 /// Throws: Error if it is malformed or lists a file twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 
-/// Checks that fakenect can play all files; a missing or short one would end the program.
-/// Throws: Error naming the first bad file, by its size and header.
+/// Checks sizes and headers of the files: fakenect ends the program at a bad one.
+/// Throws: Error naming the first bad file.
 void check_fakenect_dump(const std::string& folder);
 
 }  // namespace glovebench

@@ -13,7 +13,7 @@ namespace glovebench {
 /// Throws: Error if the distortion folds the image, so that it cannot be undone.
 void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens);
 
-/// Undistorts images of a camera. Pixels from outside the image are empty.
+/// Undistorts images of the camera's size. Pixels from outside the image are empty.
 class Rectification {
  public:
   /// Throws: Error, as `require_unfolded`.
@@ -28,11 +28,10 @@ class Rectification {
   using Place = std::array<int16_t, 2>;  ///< u, v in the distorted image
 
   Image<Place> nearest_;
-  Image<Place> top_left_;      ///< of the four neighbors
+  Image<Place> top_left_;      ///< of four neighbors
   Image<uint16_t> fractions_;  ///< OpenCV's index of their weights
 };
 
-/// A device with rectified frames and calibration.
 class RectifiedDevice : public Device {
  public:
   /// Throws: Error, as `require_unfolded`.

@@ -32,7 +32,7 @@ Eigen::Isometry3d arm_flange_pose(const ArmJoints& joints);
 class ArmSolver {
  public:
   virtual ~ArmSolver() = default;
-  /// Joint angles within the limits for this pose, near `start`; nothing if none were found.
+  /// Joint angles within the limits, near `start`; nothing if none were found.
   virtual std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const = 0;
 };
 
@@ -54,7 +54,7 @@ class ArmFollower {
   explicit ArmFollower(std::shared_ptr<const ArmSolver> solver, const ArmJoints& start = kArmAtRest)
       : solver_(std::move(solver)), joints_(start) {}
 
-  /// Moves the flange to a pose. If it is out of reach, returns false and stays.
+  /// Moves the flange to a pose; returns false and stays if it is out of reach.
   bool follow(const Eigen::Isometry3d& T_base_flange);
   const ArmJoints& joints() const { return joints_; }
 

@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// What a guard knows of the robot, and so which fingertips it limits.
+/// What a guard knows, and so which fingertips it limits.
 enum class GuardedPart {
   robot,  ///< all joints and `T_base_hand`: fingertips in the base frame
   hand,   ///< only the hand's joints: speeds of fingertips in the forearm's frame
@@ -16,13 +16,10 @@ enum class GuardedPart {
 ///   fit their joints; hand and fingertips are in the workspace (with an arm, to 0.1 mm);
 /// - time stamps rise, and frame stamps do not go back unless the stream had stopped;
 /// - joints, hand, fingertips and arm keep their speed limits between time stamps, of which at most
-///   `longest_step_s` counts. One factor slows the whole motion;
+///   `longest_step_s` counts; one factor slows the whole motion;
 /// - nothing moves unless the state is `following`.
-/// Safe commands pass bit for bit.
-///
-/// After a lost, refused or `hold` command it repeats the last targets, `holding`, and `stopped` after
-/// `stop_after_s`; the next good command moves on from there. The first targets pass anywhere, unless `start_from`
-/// was called. With an arm, the guard moves its joints, and `T_base_hand` is where they take the hand.
+/// Safe commands pass bit for bit. The first targets pass anywhere, unless `start_from` was called. With an arm,
+/// `T_base_hand` is where its joints take the hand.
 class CommandGuard {
  public:
   /// With `arm`, call `start_from` first.
@@ -30,9 +27,9 @@ class CommandGuard {
   explicit CommandGuard(const CommandLimits& limits = {}, GuardedPart part = GuardedPart::robot,
                         std::optional<MountedArm> arm = std::nullopt);
 
-  /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling and approach it while moving.
-  /// Throws: Error unless values are finite and within the limits, J1 is not above J2, and a guard with an arm gets
-  /// its joints.
+  /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling and approach it in motion.
+  /// Throws: Error unless values are finite and within limits, J1 is not above J2, and a guard with an arm gets its
+  /// joints.
   void start_from(const RobotTargets& measured);
 
   /// The safe command, at the command's own time; nothing if time did not advance.
@@ -45,8 +42,8 @@ class CommandGuard {
 
   /// The state at a time if nothing arrives before.
   CommandState state_at(int64_t now_us) const;
-  /// Interventions since the guard was made. `RobotCommand::interventions` counts those since the last command that
-  /// was sent.
+  /// Interventions since the guard was made. `RobotCommand::interventions` counts those since the last sent
+  /// command.
   const Interventions& interventions() const { return total_; }
   /// For an arm alone the workspace is smaller by kShadowWristReach on all sides.
   const CommandLimits& limits() const { return limits_; }
@@ -63,14 +60,14 @@ class CommandGuard {
   std::optional<MountedArm> arm_;
   Interventions total_, pending_;
   CommandState state_ = CommandState::stopped;
-  std::optional<RobotTargets> goal_;  ///< of the last good command, within the limits
+  std::optional<RobotTargets> goal_;  ///< of the last good command, within limits
   std::optional<RobotTargets> sent_;
   std::optional<int64_t> now_us_;    ///< of the last output
-  std::optional<int64_t> good_us_;   ///< of the last good command's arrival
-  std::optional<int64_t> stamp_us_;  ///< of the last command, by its sender
+  std::optional<int64_t> good_us_;   ///< of the last good command
+  std::optional<int64_t> stamp_us_;  ///< of the last command
   int64_t frame_us_ = 0;             ///< of its frame
   TrackStatus status_ = TrackStatus::no_hand;
-  bool lost_ = false;  ///< the last command was not good
+  bool lost_ = false;
 };
 
 }  // namespace glovebench

@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// Limits of commands; joint limits are in `shadow_joint_infos` and `arm_joint_infos`.
+/// Limits of commands. Joint limits are in `shadow_joint_infos` and `arm_joint_infos`.
 struct CommandLimits {
   double hand_joint_speed = 2;   ///< of each joint of the hand, rad/s
   double hand_speed = 0.25;      ///< of the hand's origin, m/s: as ISO 10218-1's reduced speed
@@ -30,7 +30,7 @@ struct CommandLimits {
 };
 
 /// Reads limits; missing fields keep their defaults.
-/// Throws: Error naming `where` for unknown keys, wrong kinds, and limits with problems.
+/// Throws: Error for unknown keys, wrong kinds, and limits with problems.
 CommandLimits command_limits_from_json(const nlohmann::json& json, const std::string& where);
 /// All fields but the coupling, which is a separate option.
 nlohmann::json to_json(const CommandLimits& limits);

@@ -9,10 +9,9 @@ namespace glovebench {
 /// Units: m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
-/// Maps postures so that a pinch stays a pinch (core/robot/README.md). Where a human finger is near the thumb, the
-/// vector between them is fitted; far apart the direct mapping stays, with a smooth transition.
-/// Levenberg-Marquardt, started at the last result, moves the motors (not the wrist's) as little as possible within
-/// the limits.
+/// Maps postures so that a pinch stays a pinch (core/robot/README.md). Near the thumb, the vector from thumb to
+/// finger is fitted; farther away it fades into the direct mapping. Levenberg-Marquardt, started at the last
+/// result, moves the motors (not the wrist's) as little as possible.
 class FingertipMapping {
  public:
   explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)

@@ -23,13 +23,13 @@ bool flag_changes(ShadowHandTargets& hand, const std::array<double, kShadowJoint
 /// Moves from `from` towards `to`, both within the limits, for `seconds`. All parts go the same share of their
 /// ways, the largest (to 0.1%) at which none is too fast. Motors and the hand's origin go straight, the hand turns
 /// about one axis; it is shifted where fingertips would leave the workspace. An arm without a target stays. Adds
-/// what was too fast to `done`.
+/// slowed kinds to `done`.
 RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
                            const CommandLimits& limits, GuardedPart part, Interventions& done);
 
-/// The same for a hand on an arm, where limits apply to `carried_pose` and no part may leave the workspace. `from`
-/// has the arm's joints. If `to` has none, they are solved for the next step; without a solution the arm stays and
-/// the fingers go on.
+/// The same for a hand on an arm: limits apply to `carried_pose`, which stays in the workspace. `from` has the
+/// arm's joints. If `to` has none, they are solved for the next step; without a solution the arm stays and the
+/// fingers go on.
 RobotTargets moved_by_arm(const MountedArm& arm, const RobotTargets& from, const RobotTargets& to, double seconds,
                           const CommandLimits& limits, GuardedPart part, Interventions& done);
 

@@ -29,19 +29,17 @@ struct RobotCommand {
   Interventions interventions;          ///< since the last command
 };
 
-/// The synthetic camera: 1.2 m above and 0.9 m ahead of the base, looking straight down, the top of its image away
-/// from the arm.
+/// The synthetic camera (core/robot/README.md), the top of its image away from the arm.
 Eigen::Isometry3d default_T_base_camera();
 
-/// WRJ2 on the flange: a forearm of 213 mm lies across it, along its y. In line, the arm's wrist would wind up
-/// (core/robot/README.md).
+/// WRJ2 on the flange: the forearm lies across it, along its y (core/robot/README.md).
 Eigen::Isometry3d default_T_flange_wrist();
 
 struct RobotSetup {
   Eigen::Isometry3d T_base_camera = default_T_base_camera();
-  std::optional<Skeleton> skeleton = {};  ///< to map fingertips; without it, angles
+  std::optional<Skeleton> skeleton = {};  ///< with it fingertips are mapped, else angles
   ShadowCoupling coupling = ShadowCoupling::series;
-  std::shared_ptr<const ArmSolver> arm = {};  ///< without it no arm joints
+  std::shared_ptr<const ArmSolver> arm = {};  ///< none: no arm joints
   ArmJoints arm_start = kArmAtRest;           ///< before the first frame, rad
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
 };

@@ -9,11 +9,11 @@
 
 namespace glovebench {
 
-/// How one motor moves J1 and J2 of a free finger. Its target is J0 = J1 + J2, 0 to 180 degrees; J1 and J2 cannot
-/// be commanded apart (github.com/shadow-robot/sr_core, issue 150).
+/// How one motor moves J1 and J2 of a free finger (core/robot/README.md). Its target is J0 = J1 + J2, 0 to 180
+/// degrees.
 enum class ShadowCoupling {
-  series,  ///< J2 alone to 90 degrees, then J1 (google-deepmind/mujoco_menagerie, issue 132; not verified)
-  even,    ///< J1 = J2, as in published simulation models
+  series,  ///< J2 alone to 90 degrees, then J1
+  even,    ///< J1 = J2
 };
 constexpr auto names_of(ShadowCoupling) {
   return std::to_array<std::string_view>({"series", "even"});
@@ -66,9 +66,8 @@ enum ShadowJoint : int {
 inline constexpr int kShadowJointCount = 24;
 inline constexpr int kShadowActuatorCount = 20;
 
-/// A joint's limits and its source: robot angle = sign * human angle. J4 is negative towards the thumb on the first
-/// and middle finger, positive on ring and little. THJ5 turns the thumb across the palm, THJ4 lifts it off; WRJ1
-/// bends to the palm, WRJ2 turns to the thumb.
+/// A joint's limits and source: robot angle = sign * human angle (core/robot/README.md). THJ5 turns the thumb
+/// across the palm, THJ4 lifts it off; WRJ1 bends to the palm, WRJ2 turns to the thumb.
 struct ShadowJointInfo {
   std::string_view name;
   double min_deg;
@@ -78,7 +77,7 @@ struct ShadowJointInfo {
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// A motor. A finger's J0 drives two joints; its target is their sum.
+/// A finger's J0 drives two joints; its target is their sum.
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;

@@ -137,7 +137,6 @@ class DdsReader {
     int64_t source_ns = 0;
   };
 
-  /// Keeps up to `max_waiting` messages, then senders wait.
   DdsReader(const DdsParticipant& participant, const std::string& topic, int max_waiting = kMaxWaiting)
       : DdsReader(participant.make_reader(make_topic(participant, topic), max_waiting)) {}
   /// Keeps the last `depth` of other participants.

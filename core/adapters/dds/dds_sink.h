@@ -32,7 +32,7 @@ class DdsSink : public RobotCommandSink {
   void finish() override;
 
   int64_t sent() const { return sent_; }  ///< commands
-  int listeners() const;                  ///< to the topic that has the fewest
+  int listeners() const;                  ///< of the topic with the fewest
 
  private:
   DdsParticipant participant_;

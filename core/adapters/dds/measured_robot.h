@@ -28,7 +28,7 @@ class MeasuredJoints {
 
  private:
   struct State {
-    std::vector<double> positions;  ///< empty if there is a `fault`
+    std::vector<double> positions;
     std::string fault;
     int64_t source_us = 0;
     std::optional<int64_t> stamp_us;

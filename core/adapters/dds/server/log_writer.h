@@ -31,7 +31,7 @@ class LogWriter {
 
   struct Progress {
     uint64_t done = 0;       ///< written or lost up to this line
-    uint64_t durable = 0;    ///< on the disk after `failed`, up to this line; 0 for devices and pipes
+    uint64_t durable = 0;    ///< lines after `failed`, up to this one, are on the disk; 0 for devices and pipes
     uint64_t failed = 0;     ///< this line or an earlier one may be lost
     int64_t lost = 0;        ///< lines
     std::string failure;     ///< the first

@@ -36,7 +36,7 @@ class MotionLog {
   void received(const ReceivedLine& line);
   /// `at_rest`: the joints stay until a new start.
   void ticked(const RobotState& state, int64_t time_us, bool at_rest);
-  /// The joints stay.
+  /// Writes that the joints stay where they are.
   void finish(const RobotState& state, int64_t time_us);
 
   /// Whether the joints may move freely for `seconds`.

@@ -17,9 +17,9 @@ namespace glovebench {
 //
 //   received   RobotServer::receive gets it with its Arrival.
 //   judged     read_joints or read_pose, then CommandStream. Unless `accepted`, it has no effect.
-//   followed   It becomes the goal of its topic; the last one before a tick counts.
+//   followed   It becomes the goal of its topic until the next one.
 //   limited    A tick moves towards the goal as far as CommandGuard allows.
-//   stated     The tick holds unless MotionLog has stated where the joints may be.
+//   stated     The tick holds unless MotionLog allows the motion.
 //   sent       The tick's RobotState goes to the joints (dds_server.cpp).
 
 /// The hand's topics and the arm's `pose`, which is that of the wrist.
@@ -46,7 +46,7 @@ struct StartPlace {
 };
 
 /// Serves hand, arm or both, without middleware or clock; core/robot/README.md ("Who knows what") has the limits. A
-/// topic moves nothing unless CommandStream::is_current. Of J1 and J2 the coupling splits the sum.
+/// topic moves nothing unless CommandStream::is_current. The coupling splits the sum of J1 and J2.
 class RobotServer {
  public:
   /// Joints within the start's tolerance of a limit are moved onto it.
@@ -79,7 +79,7 @@ class RobotServer {
   std::array<double, kShadowJointCount> hand_goal_{};
   Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();  ///< while wanted
   std::array<bool, kRobotTopicCount> wanted_{};                          ///< by topic: there is a goal
-  bool changed_ = false;                                                 ///< the goal, since the guard got it
+  bool changed_ = false;  ///< the goal changed since the guard got it
   bool ticked_ = false;
   RobotState last_;
 };

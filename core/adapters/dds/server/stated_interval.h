@@ -21,15 +21,14 @@ struct JointInterval {
 /// Whether each joint's interval is at most its way in `seconds`, plus 1e-5 degrees of rounding.
 bool is_one_step(const JointInterval& interval, const std::vector<JointMotion>& joints, double seconds);
 
-/// Where a log states in advance that the joints are, until a later statement is on the disk. So the joints stay
-/// inside all that may be last on the disk after a crash: the durable interval, the pending one, and those that
-/// failed.
+/// Decides what a log states in advance about where the joints may be, until a later statement is on the disk.
+/// Joints stay inside every statement that may be the last one after a crash: durable, pending or failed.
 class StatedInterval {
  public:
   explicit StatedInterval(std::vector<JointMotion> joints) : joints_(std::move(joints)) {}
 
-  /// The interval to state now, if any: what is in reach in 0.5 s, or at rest the place. Restates once a second,
-  /// and in motion within 0.25 s.
+  /// The interval to state now, if any: what is in reach in 0.5 s, or at rest the place. Restates every second, and
+  /// in motion before 0.25 s are left.
   std::optional<JointInterval> next(const std::vector<double>& positions, bool at_rest, int64_t now_us);
   /// `line`: its number in the log; 0: it was lost.
   void stated(JointInterval interval, uint64_t line, int64_t now_us);
