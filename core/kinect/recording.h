@@ -72,7 +72,7 @@ class RecordingWriter {
   WholeFiles files_;
   std::string folder_;
   RgbdCalibration calibration_;
-  std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp, file name
+  std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp, name
   int64_t last_depth_us_ = -1;
   int64_t last_color_us_ = -1;
 };

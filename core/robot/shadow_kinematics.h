@@ -21,8 +21,8 @@ inline constexpr double kShadowHandReach = 0.15, kShadowWristReach = 0.23;
 /// a human hand's pose fits the robot's.
 const Eigen::Isometry3d& shadow_T_hand_palm();
 
-/// Forward kinematics of the right hand with Shadow's dimensions (sr_common, sr_description). A fingertip is the
-/// end of its last segment; the wrist does not move it. A left hand mirrors x.
+/// Forward kinematics of the right hand with Shadow's dimensions (sr_common, sr_description); the left hand mirrors
+/// x. The wrist does not move fingertips.
 Fingertips shadow_fingertips(const std::array<double, kShadowJointCount>& joints);
 FingertipJacobian shadow_fingertip_jacobian(const std::array<double, kShadowJointCount>& joints);
 

@@ -91,7 +91,7 @@ class DdsWriter {
 /// Watches topics on which only one participant may write.
 class DdsOtherWriters {
  public:
-  /// Looks for 1 s, in which participants find each other.
+  /// Looks for 1 s.
   /// Throws: Error, as `refuse`.
   DdsOtherWriters(const DdsParticipant& participant, std::vector<std::string> topics);
   /// Throws: Error if another participant writes now.
@@ -139,7 +139,6 @@ class DdsReader {
 
   DdsReader(const DdsParticipant& participant, const std::string& topic, int max_waiting = kMaxWaiting)
       : DdsReader(participant.make_reader(make_topic(participant, topic), max_waiting)) {}
-  /// Keeps the last `depth` of other participants.
   static DdsReader of_others(const DdsParticipant& participant, const std::string& topic, int depth = kRosDepth) {
     return DdsReader(participant.make_reader_of_others(make_topic(participant, topic), depth));
   }

@@ -11,9 +11,8 @@
 
 namespace glovebench {
 
-/// Joints as a robot's driver measures them: JointState on a topic. A message is believed if it has each joint
-/// once, with a finite position, and only one process publishes them. Its age is the largest since source time,
-/// stamp (unless 0) and reception.
+/// Joints as a robot's driver measures them: JointState on a topic. core/adapters/dds/README.md ("A controller's
+/// topics") says which messages are believed, and what their age is.
 class MeasuredJoints {
  public:
   /// `names`: the joints, in the order of the answers.

@@ -13,8 +13,7 @@ namespace glovebench {
 struct RobotBusOptions {
   int domain = 0;  ///< 0..230
   DdsAccess access;
-  /// Send to a robot's own controllers, not to `robot-server`: nobody else may write there, and motions start at
-  /// the measured place.
+  /// Send to a robot's own controllers (core/adapters/dds/README.md), not to `robot-server`.
   bool to_controller = false;
   bool arm = true;                                              ///< command a controller's arm
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();  ///< mount of the hand

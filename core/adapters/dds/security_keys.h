@@ -27,9 +27,8 @@ const std::vector<SecurityRole>& security_roles();
 std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
-/// Makes a folder (mode 0700) with two authorities' certificates, `governance.p7s`, and for each role NAME.pem,
-/// NAME.key (mode 0600) and NAME.p7s. The authorities' private keys are never on a disk: another role takes a new
-/// folder. `others`: roles with another validity.
+/// Makes a folder of keys for all roles (core/adapters/dds/README.md, "DDS Security"). The authorities' private
+/// keys are never on a disk. `others`: roles with another validity.
 /// Throws: Error if the folder is not empty or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});

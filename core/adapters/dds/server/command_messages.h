@@ -99,9 +99,8 @@ int64_t nanoseconds(const ros::Time& time);
 /// A measured state is not believed if it is older, or farther in the future.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
-/// How long a controller shall take to a command's targets. If it goes there straight, it keeps the guard's speeds
-/// whenever commands come: targets move at most `longest_step_s` away, and a start was measured at most
-/// kMeasuredAgeUs ago.
+/// How long a controller shall take to a command's targets. If it goes there straight, it then keeps the guard's
+/// speeds whenever commands come.
 int64_t time_to_targets_us(double longest_step_s);
 
 /// A command's targets, which must exist: one point, to reach in `time_us`, stamped with the frame's time.

@@ -26,15 +26,12 @@ struct Arrival {
   int64_t now_us = 0;     ///< reception, monotonic
 };
 
-/// Decides which messages a server follows: good, fresh ones of one owner, in time order
-/// (core/adapters/dds/README.md, "Old commands and gaps"). Reads no clock.
+/// Decides which messages a server follows: good, fresh ones of one owner, in time order.
+/// core/adapters/dds/README.md ("The server", "Old commands and gaps") has the rules. Reads no clock.
 ///
 /// A message is stale if it is older than `silence_s` or comes within 0.1 s after a gap. A stream is `starting` for
 /// 0.2 s at first, after a gap, and after a jump of its sender's clock. A gap, or a jump of the owner's clock,
 /// releases the owner and ends what is followed.
-///
-/// The first sender of a good message owns all topics until it is gone or sends nothing good for `stop_after_s`;
-/// other senders are foreign. In a topic its stamps must rise or all be zero, which in ROS means now.
 class CommandStream {
  public:
   /// `topics`: their number.
