@@ -39,7 +39,7 @@ struct ManifestEntry {
 /// By the file's path in the folder.
 using Manifest = std::map<std::string, ManifestEntry>;
 
-/// Throws: Error if it exceeds `max_bytes`.
+/// Throws: Error beyond `max_bytes`.
 std::string manifest_json(const Manifest& manifest, uint64_t max_bytes = kLargestManifest);
 /// Throws: Error, also if a name leads out of the folder.
 Manifest parse_manifest(const std::string& text, const std::string& where);
@@ -47,7 +47,7 @@ Manifest parse_manifest(const std::string& text, const std::string& where);
 /// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
 
-/// Reads files that all belong to one state of the folder.
+/// Reads files of one state of the folder.
 class FileSet {
  public:
   /// Throws: Error if the manifest is unreadable.
@@ -57,7 +57,7 @@ class FileSet {
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   /// Whether the manifest names the file or, without a manifest, it exists.
   bool has(const std::string& name) const;
-  /// Throws: BrokenSet if the file differs from the manifest; Error if it is unreadable or too large.
+  /// Throws: BrokenSet if it differs from the manifest; Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
 
   struct Found {
@@ -67,7 +67,7 @@ class FileSet {
   /// Reads a file that may differ from the manifest, or not be in it.
   /// Throws: Error.
   Found find(const std::string& name, uint64_t max_bytes) const;
-  /// Throws: BrokenSet about a changed file.
+  /// Throws: BrokenSet.
   [[noreturn]] void refuse(const std::string& name) const;
 
  private:

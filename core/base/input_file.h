@@ -9,19 +9,19 @@
 
 namespace glovebench {
 
-/// An open file. Reads and checks are of this file, even if its name goes to another.
+/// An open file; its name may go to another file meanwhile.
 class InputFile {
  public:
   enum class Kind { regular, regular_or_pipe };
 
   /// Waits for the writer of a pipe.
-  /// Throws: Error also for devices, sockets and folders, which may never end.
+  /// Throws: Error, also for devices, sockets and folders.
   explicit InputFile(const std::string& path, Kind kind = Kind::regular_or_pipe);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// Bytes of a regular file (0 for files of /proc); empty for a pipe.
+  /// Bytes (0 in /proc); empty for a pipe.
   std::optional<uint64_t> size() const { return size_; }
   int descriptor() const { return descriptor_; }
   /// Throws: Error if size or time of change are not those at opening.
@@ -49,7 +49,7 @@ inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// As `read_file`, but refuses pipes, for files that the user did not name: a pipe's writer may never come.
+/// As `read_file`, but refuses pipes: their writer may never come.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

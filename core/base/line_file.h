@@ -8,7 +8,7 @@
 namespace glovebench {
 
 /// Writes lines that cannot be made again (core/base/README.md): to NAME.partial, or NAME.partial-2 and so on,
-/// which `finish` renames to NAME. A power failure may take the last seconds. The constructor opens streams.
+/// which `finish` renames to NAME. The constructor opens streams.
 class LineFile {
  public:
   /// Throws: Error.

@@ -16,8 +16,8 @@ class MappedMemory {
   /// Zeros, in large pages if possible.
   /// Throws: std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// Maps a file for reading. It may be replaced (WholeFile) but not changed: access to bytes that are gone ends
-  /// the process (SIGBUS).
+  /// Maps a file for reading. It may be replaced (WholeFile) but not changed: access to missing bytes ends the
+  /// process (SIGBUS).
   /// Throws: Error.
   static MappedMemory of_file(const std::string& path);
   /// Maps an open file for writing.

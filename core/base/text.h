@@ -19,8 +19,8 @@ std::string quoted_excerpt(std::string_view text);
 /// A value; of an array or object only the kind.
 std::string excerpt(const nlohmann::json& value);
 
-/// Whether a name from a file may be part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces, starting
-/// with a letter or digit.
+/// Whether a name may be part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces, starting with a letter
+/// or digit.
 bool is_name(std::string_view text);
 inline constexpr const char* kNameExpected =
     "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";

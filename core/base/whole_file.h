@@ -35,13 +35,13 @@ struct Written {
 };
 Written write_all(int descriptor, std::string_view content);
 
-/// Makes the content survive a power failure; ignores streams that cannot sync. Returns 0 or errno.
+/// Makes content survive a power failure, but not in streams. Returns 0 or errno.
 int sync_file(int descriptor);
 
-/// Creates a folder and its parents, and syncs them. "" is the current folder.
+/// Creates and syncs a folder and its parents; "" is the current one.
 /// Throws: Error.
 void make_folders(const std::string& folder);
-/// Makes new names in a folder survive a power failure, where the file system can.
+/// Makes new names survive a power failure, if the file system can.
 /// Throws: Error if the disk fails.
 void sync_folder(const std::string& folder);
 /// The folder of a path; "." for a plain name.
@@ -73,7 +73,7 @@ class WholeFile {
 
 void write_file(const std::string& path, std::string_view content);
 
-/// Removes temporary files of killed writers, if `is_such` accepts the target's name. Those in use are locked and
+/// Removes temporary files of killed writers, if `is_such` accepts the target's name. Locked ones are in use and
 /// stay.
 void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 

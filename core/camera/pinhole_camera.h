@@ -8,7 +8,7 @@ namespace glovebench {
 inline constexpr int kMostSide_px = 4096;
 inline constexpr int kMostPixels = 1 << 21;  // 1920x1080 and a little more
 
-/// A camera without distortion. Axes: x right, y down, z forward. Pixel centers are integers (as in OpenCV), so the
+/// A camera without distortion. Axes: x right, y down, z forward. Pixel centers are integers, as in OpenCV: the
 /// image spans [-0.5, width - 0.5).
 struct PinholeCamera {
   int width = 640;
@@ -38,7 +38,7 @@ struct LensDistortion {
   double k3 = 0;          ///< radial
 
   bool is_none() const { return *this == LensDistortion{}; }
-  /// Maps a point of the plane z = 1 from the pinhole's image to the lens's.
+  /// Maps a point of the plane z = 1 from pinhole to lens.
   Eigen::Vector2d distort(const Eigen::Vector2d& xy) const {
     const double x = xy.x(), y = xy.y(), r2 = xy.squaredNorm();
     const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));

@@ -6,7 +6,7 @@
 namespace glovebench {
 
 struct RegistrationConfig {
-  /// A depth pixel gets no color if another surface is this much nearer on its ray of the RGB camera, m, > 0.
+  /// A pixel gets no color if another surface is this much nearer on its RGB ray, m, > 0.
   double occlusion_tolerance = 0.015;
 };
 
@@ -17,8 +17,8 @@ struct RegisteredImage {
   Image<uint8_t> has_color;  ///< 1 if the RGB camera sees the depth pixel, else 0
 };
 
-/// Maps colors to the depth image; all inputs are rectified. Pixels without depth, outside the RGB image or hidden
-/// from the RGB camera get no color.
+/// Maps colors to the depth image; inputs are rectified. Pixels without depth, outside the RGB image or hidden from
+/// the RGB camera get no color.
 RegisteredImage register_color(const DepthImage& depth, const ColorImage& color, const RgbdCalibration& calibration,
                                const RegistrationConfig& config);
 

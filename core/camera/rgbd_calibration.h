@@ -26,10 +26,10 @@ struct RgbdCalibration {
   PinholeCamera rgb;
   Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< p_rgb = T_rgb_ir * p_ir, m
   std::optional<DisparityLine> disparity = std::nullopt;       ///< none: as in kinect/disparity.h
-  LensDistortion ir_lens = {}, rgb_lens = {};                  ///< of images from the device
+  LensDistortion ir_lens = {}, rgb_lens = {};                  ///< of the device's images
 
   bool has_lens() const { return !(ir_lens.is_none() && rgb_lens.is_none()); }
-  /// For rectified images, which the tracker takes (kinect/rectified_device.h).
+  /// For rectified images, which trackers take.
   RgbdCalibration rectified() const {
     RgbdCalibration calibration = *this;
     calibration.ir_lens = calibration.rgb_lens = {};
@@ -40,8 +40,8 @@ struct RgbdCalibration {
 /// The calibration of the synthetic Kinect.
 RgbdCalibration synthetic_calibration();
 
-/// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right, no rotation. On a real
-/// device colors are some pixels off.
+/// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right. Real colors are some
+/// pixels off.
 RgbdCalibration nominal_kinect_calibration();
 
 /// Reads {"version": 1, "ir": CAMERA, "rgb": CAMERA, "T_rgb_ir": {"rotation": 3 rows of 3, "translation_m": 3}},

@@ -10,15 +10,15 @@
 
 namespace glovebench {
 
-/// The Kinect's clock, 60 MHz, whose 32 bits wrap around every 71.6 s.
+/// The Kinect's 60 MHz clock, whose 32 bits wrap around every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
-/// Turns ticks into microseconds that do not wrap around. Successive stamps, of one or both streams, must be less
-/// than 35.8 s apart.
+/// Turns ticks into microseconds without wraps. Successive stamps, of one or both streams, must be less than 35.8 s
+/// apart.
 class TickClock {
  public:
   TickClock() = default;
-  /// `first_us`: the first stamp's time, to within half a round; magnitude below 1.5e17.
+  /// `first_us`: the first stamp's time, within half a round; magnitude below 1.5e17.
   explicit TickClock(int64_t first_us) : first_us_(first_us) {}
 
   int64_t microseconds(uint32_t ticks) {
@@ -38,17 +38,17 @@ class TickClock {
 };
 
 struct PairingRules {
-  int64_t max_gap_us = 50'000;     ///< largest difference in a pair
-  int64_t restart_us = 1'000'000;  ///< a time stamp that goes back by more means a restarted clock
+  int64_t max_gap_us = 50'000;                              ///< largest in a pair
+  int64_t restart_us = 1'000'000;                           ///< a step back by more is a restart of the clock
   size_t max_waiting = std::numeric_limits<size_t>::max();  ///< of each kind
 };
 
 /// Pairs each depth image with the color image nearest in time, the earlier of two equally near. A depth image
 /// waits for the first color image not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait,
-/// or `finish`. A color image, which is copied, may be in several pairs.
+/// or `finish`. Color images are copied.
 ///
-/// Pairs come in order of time. Images that are not later than their kind's last one are dropped. At a restart of
-/// the clock, waiting images are dropped instead, and times go back.
+/// Pairs come in order of time. An image that is not later than its kind's last one is dropped. At a restart of the
+/// clock, waiting images are dropped instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:
@@ -74,7 +74,7 @@ class FramePairer {
     pair_up();
     if (colors_.size() > rules_.max_waiting) colors_.pop_front();
   }
-  /// No more images follow; pairs the waiting ones.
+  /// Pairs what waits; no more images follow.
   void finish() {
     finished_ = true;
     pair_up();
@@ -87,7 +87,7 @@ class FramePairer {
   }
 
   int unpaired() const { return unpaired_; }
-  /// Dropped images, whose time stamps were not later.
+  /// Dropped images that were not later.
   int went_back() const { return went_back_; }
 
  private:

@@ -25,7 +25,7 @@ namespace glovebench {
 /// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
  public:
-  /// `calibration` replaces the folder's, which fakenect's recordings lack. `next_frame` reads the images.
+  /// `calibration` replaces the folder's, which fakenect's recordings lack.
   /// Throws: Error if index or calibration is missing or malformed, a file is listed twice, or there is no pair.
   explicit RecordingDevice(const std::string& folder,
                            const std::optional<RgbdCalibration>& calibration = std::nullopt);
@@ -61,7 +61,7 @@ class RecordingWriter {
   /// Throws: Error if the folder has a recording or cannot be written.
   RecordingWriter(const std::string& folder, const RgbdCalibration& calibration);
 
-  /// Depth time stamps must rise; an equal color time stamp means the same color image.
+  /// Depth time stamps must rise; an equal color time stamp means the same image.
   /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
   /// Makes the folder a recording. Without it all frames are lost: not for live cameras.

@@ -19,7 +19,7 @@ class Rectification {
   /// Throws: Error, as `require_unfolded`.
   Rectification(const PinholeCamera& camera, const LensDistortion& lens);
 
-  /// Takes the nearest pixel, which never mixes surfaces. Empty pixels are 2047.
+  /// Takes the nearest pixel, to mix no surfaces. Empty pixels are 2047.
   Image<uint16_t> operator()(const Image<uint16_t>& raw_disparity) const;
   /// Interpolates between pixels. Empty pixels are black.
   ColorImage operator()(const ColorImage& color) const;

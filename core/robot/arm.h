@@ -14,7 +14,7 @@ inline constexpr int kArmJointCount = 7;
 /// Units: rad.
 using ArmJoints = std::array<double, kArmJointCount>;
 
-/// Limits, speed and Denavit-Hartenberg row of a joint: T = R_z(angle) * T_z(d) * R_x(alpha), a = 0.
+/// Limits, speed and Denavit-Hartenberg row, T = R_z(angle) * T_z(d) * R_x(alpha), a = 0.
 struct ArmJointInfo {
   std::string_view name;
   double min_deg;
@@ -45,7 +45,7 @@ struct MountedArm {
   Eigen::Isometry3d T_base_wrist(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_wrist; }
 };
 
-/// The arm at rest: elbow up, the flange 0.6 m ahead of the base, looking down.
+/// Elbow up, the flange 0.6 m ahead of the base, looking down.
 inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, 1.04, 1.5708};
 
 /// Solves in small steps between poses, so that joint angles never jump.

@@ -12,11 +12,11 @@ enum class GuardedPart {
 };
 
 /// Makes commands safe for every sink (core/robot/README.md). Reads no clock. Whatever the input, in the output
-/// - values are finite and rotations valid; joints are within limits, J1 and J2 follow ShadowCoupling, and motors
-///   fit their joints; hand and fingertips are in the workspace (with an arm, to 0.1 mm);
+/// - values are finite and rotations valid; joints are within limits, J1 and J2 follow ShadowCoupling, motors fit
+///   their joints; hand and fingertips are in the workspace (with an arm, to 0.1 mm);
 /// - time stamps rise, and frame stamps do not go back unless the stream had stopped;
 /// - joints, hand, fingertips and arm keep their speed limits between time stamps, of which at most
-///   `longest_step_s` counts; one factor slows the whole motion;
+///   `longest_step_s` counts; one factor slows all;
 /// - nothing moves unless the state is `following`.
 /// Safe commands pass bit for bit. The first targets pass anywhere, unless `start_from` was called. With an arm,
 /// `T_base_hand` is where its joints take the hand.
@@ -27,7 +27,7 @@ class CommandGuard {
   explicit CommandGuard(const CommandLimits& limits = {}, GuardedPart part = GuardedPart::robot,
                         std::optional<MountedArm> arm = std::nullopt);
 
-  /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling and approach it in motion.
+  /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling.
   /// Throws: Error unless values are finite and within limits, J1 is not above J2, and a guard with an arm gets its
   /// joints.
   void start_from(const RobotTargets& measured);
@@ -45,7 +45,7 @@ class CommandGuard {
   /// Interventions since the guard was made. `RobotCommand::interventions` counts those since the last sent
   /// command.
   const Interventions& interventions() const { return total_; }
-  /// For an arm alone the workspace is smaller by kShadowWristReach on all sides.
+  /// For an arm alone, the workspace is smaller by kShadowWristReach on all sides.
   const CommandLimits& limits() const { return limits_; }
 
  private:

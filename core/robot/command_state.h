@@ -12,8 +12,8 @@ namespace glovebench {
 /// What the robot shall do.
 enum class CommandState {
   following,  ///< go to the targets
-  holding,    ///< the hand is not seen: stay at the last targets
-  stopped,    ///< not seen for too long: stay, and start slowly
+  holding,    ///< hand not seen: stay at the last targets
+  stopped,    ///< not seen for long: stay, then start slowly
 };
 constexpr auto names_of(CommandState) {
   return std::to_array<std::string_view>({"following", "holding", "stopped"});
@@ -28,16 +28,16 @@ enum class Intervention {
   joint_limit,        ///< a joint was moved into its limits, or J1 under J2
   coupling,           ///< J1 and J2 did not follow ShadowCoupling
   actuator_mismatch,  ///< motors did not fit their joints
-  joint_speed,        ///< a joint was slowed down
-  workspace,          ///< hand or fingertips were moved into the workspace
+  joint_speed,        ///< slowed down
+  workspace,          ///< hand or fingertips were moved into it
   hand_speed,         ///< slowed down
   hand_turn_speed,    ///< slowed down
   fingertip_speed,    ///< slowed down
   arm_limit,          ///< a joint was moved into its limits
-  arm_speed,          ///< a joint was slowed down
-  arm_unreachable,    ///< no joint angles for the pose near the last ones, which are kept
-  hold,               ///< the targets were held
-  stop,               ///< the stream stopped
+  arm_speed,          ///< slowed down
+  arm_unreachable,    ///< no joint angles near the last ones, which are kept
+  hold,
+  stop,
 };
 constexpr auto names_of(Intervention) {
   return std::to_array<std::string_view>({"stale", "not_finite", "not_rigid", "joint_limit", "coupling",

@@ -10,8 +10,8 @@ namespace glovebench {
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
 /// Maps postures so that a pinch stays a pinch (core/robot/README.md). Near the thumb, the vector from thumb to
-/// finger is fitted; farther away it fades into the direct mapping. Levenberg-Marquardt, started at the last
-/// result, moves the motors (not the wrist's) as little as possible.
+/// finger is fitted; farther away it fades into the direct mapping. Levenberg-Marquardt, from the last result,
+/// moves the motors but the wrist's as little as possible.
 class FingertipMapping {
  public:
   explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)

@@ -4,13 +4,13 @@
 
 namespace glovebench {
 
-// The guard's computations for one command, without its state.
+// The guard's computations, without its state.
 
-/// Why targets are unusable; nothing if they are usable.
+/// Why targets are unusable, if so.
 std::optional<Intervention> refusal(const RobotTargets& targets);
 
-/// Moves finite targets into the limits: joints, then J1 and J2 by their coupling, then the hand's place. Flags
-/// moved joints; adds what it did to `done`.
+/// Moves finite targets into the limits: joints, then J1 and J2 by their coupling, then the hand. Flags moved
+/// joints; adds interventions to `done`.
 RobotTargets within_limits(const RobotTargets& targets, const CommandLimits& limits, GuardedPart part,
                            Interventions& done);
 
@@ -26,9 +26,9 @@ bool flag_changes(ShadowHandTargets& hand, const std::array<double, kShadowJoint
 RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
                            const CommandLimits& limits, GuardedPart part, Interventions& done);
 
-/// The same for a hand on an arm: limits apply to `carried_pose`, which stays in the workspace. `from` has the
-/// arm's joints. If `to` has none, they are solved for the next step; without a solution the arm stays and the
-/// fingers go on.
+/// The same with the arm's joints, which `from` has: limits apply to `carried_pose`, which stays in the workspace.
+/// If `to` has no joints, they are solved for the next step; without a solution the arm stays and the fingers go
+/// on.
 RobotTargets moved_by_arm(const MountedArm& arm, const RobotTargets& from, const RobotTargets& to, double seconds,
                           const CommandLimits& limits, GuardedPart part, Interventions& done);
 

@@ -23,7 +23,7 @@ struct RobotCommand {
   int64_t frame_timestamp_us = 0;  ///< of the tracked frame
   int64_t timestamp_us = 0;        ///< of its frame, or the guard's time
   TrackStatus status = TrackStatus::no_hand;
-  bool hold = true;  ///< the frame is lost; repeats the last targets
+  bool hold = true;  ///< lost: repeats the last targets
   CommandState state = CommandState::stopped;
   std::optional<RobotTargets> targets;  ///< empty before the first tracked frame
   Interventions interventions;          ///< since the last command
@@ -32,7 +32,7 @@ struct RobotCommand {
 /// The synthetic camera (core/robot/README.md), the top of its image away from the arm.
 Eigen::Isometry3d default_T_base_camera();
 
-/// WRJ2 on the flange: the forearm lies across it, along its y (core/robot/README.md).
+/// WRJ2 on the flange, across which the forearm lies (core/robot/README.md).
 Eigen::Isometry3d default_T_flange_wrist();
 
 struct RobotSetup {
@@ -44,8 +44,8 @@ struct RobotSetup {
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
 };
 
-/// Turns track results into commands, in time order. A lost frame repeats the last targets. An unreachable pose
-/// keeps the arm's joints (`arm_unreachable`).
+/// Turns track results into commands, in time order. Lost frames repeat the last targets; an unreachable pose keeps
+/// the arm's joints.
 class RobotCommander {
  public:
   /// Throws: Error unless the transforms are finite and rigid.

@@ -31,10 +31,10 @@ CoupledJoints split_motor(double motor, ShadowCoupling coupling);
 double distal_share(double motor, ShadowCoupling coupling);
 
 /// The joints at a share (0 to 1) of the way; the motor goes straight. A deviation of `from` from the model, as of
-/// a finger that touches something, fades. Joints stay within limits, J1 under J2.
+/// a finger that touches something, fades. J1 stays under J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
-/// Joints of a Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
+/// Joints of a Shadow Dexterous Hand: J1 is a finger's last joint, J4 its spread.
 // clang-format off: one finger a row
 enum ShadowJoint : int {
   kFFJ1,
@@ -85,7 +85,7 @@ struct ShadowActuatorInfo {
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, flagged where they differ from the posture's.
+/// Targets within the limits, flagged where they differ from what was asked.
 /// Units: rad.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};

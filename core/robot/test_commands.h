@@ -6,7 +6,7 @@
 
 namespace glovebench {
 
-/// All joints at zero, the hand 0.5 m ahead of the base and 0.5 m above it.
+/// All joints at zero, the hand at (0.5, 0, 0.5) m.
 inline RobotCommand good_command(int64_t timestamp_us) {
   RobotCommand command;
   command.frame_timestamp_us = command.timestamp_us = timestamp_us;
@@ -18,7 +18,6 @@ inline RobotCommand good_command(int64_t timestamp_us) {
   return command;
 }
 
-/// A command of a lost frame.
 inline RobotCommand lost_command(int64_t timestamp_us) {
   RobotCommand command;
   command.frame_timestamp_us = command.timestamp_us = timestamp_us;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The robot's fingertips from Shadow's dimensions, for tests; independent of the library's kinematics.
+// Fingertips from Shadow's dimensions, for tests; independent of the library.
 
 #include <Eigen/Core>
 #include <array>

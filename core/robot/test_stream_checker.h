@@ -1,6 +1,6 @@
 #pragma once
 
-// Checks streams of guarded commands, for tests; independent of the guard's code and tables.
+// Checks streams of guarded commands, for tests; independent of the guard.
 
 #include <cmath>
 #include <string>

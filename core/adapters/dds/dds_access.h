@@ -5,9 +5,9 @@
 namespace glovebench {
 
 struct DdsAccess {
-  /// Network interface; empty: CYCLONEDDS_URI's, or loopback if that is not set.
+  /// Empty: CYCLONEDDS_URI's, or loopback if that is not set.
   std::string interface;
-  /// Folder of keys for DDS Security (`glovebench robot-server keys`); empty: none.
+  /// Folder of keys (`glovebench robot-server keys`); empty: no DDS Security.
   std::string security;
   std::string role;  ///< whose keys (`security_roles`)
 

@@ -16,22 +16,21 @@
 #include "core/adapters/dds/dds_types.h"
 
 /// Owners of Cyclone DDS's entities.
-/// Throws: Error for everything that the library refuses.
+/// Throws: Error if the library refuses.
 namespace glovebench {
 
 /// Returns `result`.
 /// Throws: Error if it is an error of Cyclone DDS.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// The largest message, and how many may wait in a reader, so that others cannot claim much memory. The library
-/// drops larger ones.
+/// The largest message, and how many may wait in a reader: they bound the memory that others can claim.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
 inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s
 
 /// Messages kept by a writer, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
-/// Messages dropped by size since the process began.
+/// Larger messages that were dropped since the process began.
 int64_t dds_messages_too_large();
 
 struct DdsDomain;
@@ -39,9 +38,9 @@ struct DdsDomain;
 /// A participant in a domain; owns the entities that it makes.
 class DdsParticipant {
  public:
-  /// Limits message sizes, and the library's lines on stderr.
+  /// Limits message sizes and the library's lines on stderr.
   /// Throws: Error for a domain outside 0..230, an unknown interface, one beside CYCLONEDDS_URI, or a second access
-  /// to the domain in this process.
+  /// to the domain.
   explicit DdsParticipant(int domain, const DdsAccess& access = {});
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
@@ -105,10 +104,10 @@ class DdsOtherWriters {
   std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with their topics
 };
 
-/// Writers that a reader tells apart; it does not read messages of others, who could be many.
+/// Writers that a reader tells apart; messages of others are not read.
 inline constexpr size_t kMostWriters = 64;
 
-/// Messages that were not read, since the process began.
+/// Messages of such others since the process began.
 int64_t dds_messages_of_too_many();
 
 /// Finds the process of each writer.
@@ -117,7 +116,7 @@ class DdsSenders {
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
   /// The writer's participant, even if gone. Nothing, and counted, if kMostWriters others are present.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
-  /// Participants of present writers: of all that have sent, and of some others.
+  /// Participants of present writers: of all that have sent, and some others.
   std::set<uint64_t> present();
 
  private:
@@ -146,7 +145,7 @@ class DdsReader {
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
 
-  /// The next message, if any; it is read only if `is_wanted(sender)`, so floods of others cost little.
+  /// The next message, if any, read only if `is_wanted(sender)`, so floods of others cost little.
   template <typename IsWanted>
   std::optional<Received> take(const IsWanted& is_wanted) {
     for (;;) {

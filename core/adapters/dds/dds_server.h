@@ -13,9 +13,9 @@ struct DdsServerOptions {
   int domain = 0;
   DdsAccess access;
   ServedRobot robot;
-  /// The log, which also says where the joints start; empty: none.
+  /// Log, which also says where the joints start; empty: none.
   std::string log;
-  /// Largest age of its last state: later, somebody may have moved the joints.
+  /// Largest age of its last state: joints may be moved meanwhile.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
   std::function<bool()> stopping;  ///< asked 100 times a second; true ends the server
@@ -30,7 +30,7 @@ struct DdsServerSummary {
 
 /// Serves a robot over DDS until `stopping`: takes commands and sends JointState 100 times a second. Joints start
 /// where the log says, or at rest.
-/// Throws: Error if domain, log or its state is unusable, or another server has the log or is in the domain.
+/// Throws: Error if domain or log is unusable, or another server has the log or is in the domain.
 DdsServerSummary serve(const DdsServerOptions& options);
 
 }  // namespace glovebench

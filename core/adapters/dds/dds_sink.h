@@ -17,14 +17,14 @@ struct DdsSinkOptions {
 };
 
 /// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md). Lost frames send nothing. Listeners
-/// are optional and cannot block it.
+/// cannot block it.
 class DdsSink : public RobotCommandSink {
  public:
   /// `domain`: 0..230.
   /// Throws: Error if domain or network is unusable or, if `alone`, another writer is found within 1 s.
   explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
 
-  /// Sets the next command's source time, microseconds since 1970; by default the time of sending.
+  /// Sets the next command's source time, microseconds since 1970; else that is the time of sending.
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
   /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
   void send(const RobotCommand& command) override;

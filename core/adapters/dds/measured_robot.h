@@ -18,8 +18,8 @@ class MeasuredJoints {
   /// `names`: the joints, in the order of the answers.
   MeasuredJoints(const DdsParticipant& participant, const std::string& topic, std::vector<std::string> names);
 
-  /// Positions (rad) by the newest message, if believed and at most 0.1 s old. `system_us`: now, since 1970;
-  /// `steady_us`: now, monotonic.
+  /// Positions (rad) by the newest message, if it is believed and at most 0.1 s old. `system_us`: since 1970;
+  /// `steady_us`: monotonic.
   std::optional<std::vector<double>> latest(int64_t system_us, int64_t steady_us);
   /// Why `latest` had no answer; empty if it had one.
   const std::string& doubt() const { return doubt_; }
@@ -68,10 +68,10 @@ class MeasuredRobot {
   std::vector<MeasuredJoints> hand_, arm_;  ///< by preference; empty if not asked for
 };
 
-/// A joint this far beyond a limit, or J1 beyond J2, counts as at the limit.
+/// A joint this far beyond a limit, or J1 beyond J2, counts as at it.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// The targets that the robot has, for `CommandGuard::start_from`. `T_base_hand` is used without an arm.
+/// Targets where the robot stands, for `CommandGuard::start_from`. `T_base_hand` is used without an arm.
 /// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);

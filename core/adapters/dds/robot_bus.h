@@ -28,7 +28,7 @@ class RobotBus {
 
   /// The arm at the start, rad; empty unless a controller's arm is commanded.
   virtual std::optional<ArmJoints> arm_start() const = 0;
-  /// The command's time, microseconds: the first frame's time stamp plus the time since then. Before a controller's
+  /// The command's time, microseconds: the first frame's time stamp plus the time since. Before a controller's
   /// motion, tells the guard where the robot stands.
   virtual int64_t start(CommandGuard& guard, const RobotCommand& command) = 0;
   /// `arrived_us`: when the frame was complete, microseconds since 1970.

@@ -11,7 +11,7 @@ namespace glovebench {
 
 struct LiveOptions {
   int index = 0;  ///< of libfreenect's devices
-  /// Makes fakenect wait for a slow reader; a real Kinect loses packets.
+  /// Makes fakenect wait for slow readers; a real Kinect loses packets.
   bool every_frame = false;
   double silence_limit = 10;                     ///< s without a frame, then the device has failed
   std::string calibration_name = "calibration";  ///< its file, for messages
@@ -28,8 +28,8 @@ struct LiveLosses {
 };
 
 /// A live Kinect v1, 640x480, whose images FramePairer pairs up to 33 ms after the depth image. Unless fetched
-/// before the next two, a frame is dropped. Device time stamps do not wrap around. `next_frame` returns nothing at
-/// the end of fakenect's recording and when `interrupted`.
+/// before the next two, a frame is dropped. `next_frame` returns nothing at the end of fakenect's recording and
+/// when `interrupted`.
 /// Throws: Error, after earlier frames, if the device is unplugged, silent for `silence_limit`, or memory runs out.
 class LiveKinect : public Device {
  public:
@@ -42,8 +42,8 @@ class LiveKinect : public Device {
 
 extern const bool kHasFreenect;
 
-/// Starts both streams and a thread that serves them. The loaded library is libfreenect, or fakenect, which plays a
-/// recording and lets the thread end only at a pause of it.
+/// Starts both streams and a thread that serves them. The loaded library is libfreenect or fakenect, which plays a
+/// recording and lets the thread end only at a pause.
 /// Throws: Error if there is no device or it refuses, the calibration is not 640x480, this build has no
 /// libfreenect, or fakenect's recording (FAKENECT_PATH) is damaged.
 std::unique_ptr<LiveKinect> open_kinect(const RgbdCalibration& calibration, const LiveOptions& options = {});

@@ -56,14 +56,14 @@ namespace glovebench {
 /// What became of a message, in the order of the checks.
 enum class Receipt {
   foreign,       ///< another sender owns the stream
-  bad_time,      ///< before 1970, or nanoseconds of a second or more
-  wrong_joints,  ///< not each of the topic's joints once, in any order
-  wrong_points,  ///< not exactly one point, or one position a joint
+  bad_time,      ///< before 1970, or 1 s or more of nanoseconds
+  wrong_joints,  ///< not exactly the topic's joints, in any order
+  wrong_points,  ///< not exactly one point, with one position a joint
   wrong_frame,   ///< not in kBaseFrame
   not_finite,
-  not_rotation,  ///< the quaternion's length is not 1
+  not_rotation,  ///< no unit quaternion
   stale,         ///< older than `silence_s`, or it waited through a gap
-  starting,      ///< its stream has not been live for 0.2 s
+  starting,      ///< its stream is live for less than 0.2 s
   went_back,     ///< not stamped after its sender's last
   accepted,
 };
@@ -96,7 +96,7 @@ const std::vector<std::string>& arm_joint_names();
 ros::Time ros_time(int64_t time_us);
 int64_t nanoseconds(const ros::Time& time);
 
-/// A measured state is not believed if it is older, or farther in the future.
+/// Measured states that are older, or farther in the future, are not believed.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
 /// How long a controller shall take to a command's targets. If it goes there straight, it then keeps the guard's

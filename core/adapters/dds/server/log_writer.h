@@ -15,8 +15,8 @@ int64_t changed_us(const std::string& path);
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines to a log in its own thread, so callers never wait for the disk. A line that cannot be written is
-/// counted and still changes the file's time.
+/// Appends lines to a log in its own thread, so callers never wait for the disk. A lost line still changes the
+/// file's time.
 class LogWriter {
  public:
   /// Throws: Error if the file cannot be opened, or is regular and another LogWriter has it.
@@ -25,21 +25,21 @@ class LogWriter {
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// Takes a line without its end. Returns its number, from 1, or 0 if too many wait. Lines are written at once and
+  /// Takes a line without its end. Returns its number, from 1, or 0 if too many wait. It is written at once and
   /// synced within 1 s, or at once if `urgent`.
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
     uint64_t done = 0;       ///< written or lost up to this line
     uint64_t durable = 0;    ///< lines after `failed`, up to this one, are on the disk; 0 for devices and pipes
-    uint64_t failed = 0;     ///< this line or an earlier one may be lost
+    uint64_t failed = 0;     ///< this or an earlier line may be lost
     int64_t lost = 0;        ///< lines
     std::string failure;     ///< the first
     bool misplaced = false;  ///< the file was removed, renamed or cut
   };
   Progress progress() const;
 
-  /// Takes no more lines and waits up to 2 s for the disk; then the rest is lost.
+  /// Takes no more lines; waits up to 2 s for the disk, then loses the rest.
   void finish();
 
  private:

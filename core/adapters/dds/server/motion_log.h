@@ -10,21 +10,20 @@
 
 namespace glovebench {
 
-/// Where a server starts by its log.
 struct LoggedStart {
   std::vector<double> joints;  ///< rad
   std::string source;          ///< who says so
   std::string from;            ///< `rest` or `log`, for start_line
   std::string doubt;           ///< why the joints must be measured; empty if the log suffices
-  std::string age;             ///< of the log's last state, as text; empty at rest
+  std::string age;             ///< of the last state, as text; empty at rest
 };
 
-/// The log of a running server. It never delays the server, and joints move only inside what it has stated on the
-/// disk. Without a file nothing is written and all may move.
+/// The log of a running server, which it never delays. Joints move only inside what it has stated on the disk;
+/// without a file, all may move.
 class MotionLog {
  public:
   /// `path`: empty for none.
-  /// Throws: Error if the file cannot be opened or another server has it.
+  /// Throws: Error if it cannot be opened or another server has it.
   MotionLog(const std::string& path, std::vector<std::string> names, std::vector<JointMotion> joints);
 
   /// Where the joints start: as the last server left them, else `rest`. `period_s`: between ticks.

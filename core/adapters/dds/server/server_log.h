@@ -25,7 +25,7 @@ std::string received_line(const ReceivedLine& received);
 std::string state_line(const RobotState& state, int64_t time_us, const std::vector<std::string>& names);
 /// The joints are in the interval, rounded outwards, until the next such line.
 std::string interval_line(const JointInterval& interval, int64_t time_us, const std::vector<std::string>& names);
-/// `from`: what says where the joints are.
+/// `from`: what says where joints are.
 std::string start_line(int64_t time_us, std::string_view from);
 
 struct LoggedState {
@@ -44,8 +44,8 @@ std::optional<JointInterval> last_interval(std::string_view log, const std::vect
 std::string age_text(const LoggedState& state, int64_t now_us);
 /// Default of `max_age_s`: a failed server is restarted by then.
 inline constexpr double kMaxLogAge = 600;
-/// Throws: Error with a remedy if the state is older than `max_age_s`, since the joints may have been moved, or
-/// over 1 s in the future.
+/// Throws: Error with a remedy if the state is older than `max_age_s`, since joints may have been moved, or over 1
+/// s in the future.
 void check_age(const LoggedState& state, int64_t now_us, double max_age_s, const std::string& path);
 
 /// Throws: Error if the file was changed over 5 s after the state, so states after it are lost.

@@ -21,8 +21,8 @@ struct JointInterval {
 /// Whether each joint's interval is at most its way in `seconds`, plus 1e-5 degrees of rounding.
 bool is_one_step(const JointInterval& interval, const std::vector<JointMotion>& joints, double seconds);
 
-/// Decides what a log states in advance about where the joints may be, until a later statement is on the disk.
-/// Joints stay inside every statement that may be the last one after a crash: durable, pending or failed.
+/// Decides what a log states in advance about where joints may be, until a later statement is on the disk. Joints
+/// stay inside every statement that may be the last one after a crash: durable, pending or failed.
 class StatedInterval {
  public:
   explicit StatedInterval(std::vector<JointMotion> joints) : joints_(std::move(joints)) {}
