@@ -20,8 +20,7 @@ struct Lighting {
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
-/// Linear sRGB of black-body light at luminance 1, balanced for 5000 K (Kim et al.'s spline of the Planckian
-/// locus).
+/// Linear sRGB of black-body light at luminance 1, balanced for 5000 K (Kim et al.'s spline).
 Eigen::Vector3d rgb_of_temperature(double temperature_k);
 
 /// Linear 0..1 to sRGB-coded 0..1.

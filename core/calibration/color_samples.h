@@ -36,7 +36,7 @@ struct VolumeView {
 };
 VolumeView view_volume(const DeviceFrame& frame, const RgbdCalibration& calibration, const SampleConfig& config);
 
-/// Collects pixels of an unlabeled recording. Even pixels have the surface and color of their four neighbors.
+/// Collects pixels of an unlabeled recording. Even pixels share surface and color with their four neighbors.
 class ColorSamples {
  public:
   explicit ColorSamples(SampleConfig config = {}) : config_(config) {}

@@ -11,7 +11,7 @@ struct StereoFit {
   CameraFit ir, rgb;               ///< each camera alone
   RgbdCalibration calibration;     ///< fitted to the pairs
   double error_px = 0;             ///< RMS over all corners of all pairs
-  std::vector<std::string> pairs;  ///< names of views of both cameras
+  std::vector<std::string> pairs;  ///< of views of both cameras
   std::vector<double> pair_errors_px;
   std::vector<LeftOut> left_out;  ///< pairs above misfit_limit
   /// Standard errors of T_rgb_ir over the pairs.

@@ -33,7 +33,7 @@ inline RecycledVector<Match> matches_of(const RecycledVector<Candidate>& candida
   return matches;
 }
 
-/// Fields of single entries: stored ones, or made from labels in low memory.
+/// Fields of single entries, stored or made from labels.
 class EntryFields {
  public:
   /// Throws: Error if the query's size is not loaded.
@@ -48,8 +48,7 @@ class EntryFields {
   std::vector<uint8_t> made_;    ///< empty if fields are stored
 };
 
-/// The fast `look_up`. A first stage sums rows over all entries; sums that are only bounds select the entries to
-/// compute. Later stages stop at entries that are too far.
+/// The fast implementation of `look_up`.
 RecycledVector<Match> look_up_fast(const Database& database, const TinyImages& query, const Cascade& cascade,
                                    LookUpTrace* trace);
 

@@ -68,7 +68,7 @@ struct RowSums {
   void add_along_axes(const Eigen::Vector3d& q, const Eigen::Vector3d& apart_mm, double weight);
 };
 
-/// The same, faster: sums 6 x 6 products for each pair of bodies that share points; angles enter at the end.
+/// The same equations, faster: sums for each pair of bodies that share points.
 class PullSums {
  public:
   explicit PullSums(const std::array<Screw, kAngleCount>& screws);

@@ -35,21 +35,20 @@ struct SearchWork {
   int64_t boxes = 0;     ///< face boxes tested
 };
 
-/// Gives the results of `closest_points_plain` bit for bit (for very thin faces within `rounding_blur`), faster:
-/// each group measures the faces nearest in the last call, then those whose boxes may be nearer. One object serves
-/// one set of points that moves little between calls; later calls do not allocate.
+/// Gives the results of `closest_points_plain` bit for bit (for very thin faces within `rounding_blur`), faster.
+/// One object serves one set of points that moves little between calls; later calls do not allocate.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;
   explicit ClosestPointSearch(const Surface& surface) { start(surface); }
-  /// Copies a surface; the groups' nearest faces that it still has are measured first.
+  /// Copies another surface. Points start at their last faces, if these are left.
   void start(const Surface& surface);
   /// Valid until the next call.
   const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);
   const SearchWork& work() const { return work_; }
 
  private:
-  /// Convert nearest faces to triangles of the model and back.
+  /// Convert nearest faces to the model's triangles and back.
   void keep_nearest_as_triangles();
   void find_nearest_of_triangles(const Surface& surface);
   /// Does nothing if labels are unchanged.

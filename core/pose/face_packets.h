@@ -36,8 +36,8 @@ struct FacePackets {
   void assign(std::span<const Surface::Face> surface_faces);
 };
 
-/// In single precision, the closest point to a point at distance D may lie outside a thin face by blur * D^2. Blur
-/// doubles the effect of area errors of 8 * 2^-24 (length * D)^2; it is infinite for a face without area.
+/// By rounding, the closest point of a thin face may lie outside it by blur * D^2, where D is the point's distance.
+/// Infinite for a face without area.
 float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench

@@ -65,9 +65,9 @@ struct TrackResult {
 /// Receives each stage's name when it begins, "" at the end of the frame. Stages may repeat.
 using StageObserver = std::function<void(std::string_view stage)>;
 
-/// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
-/// icp_iterations, icp_residual_mm, ambiguous, converged; if known angle_deviations_deg and hidden (names). Lost
-/// frames have no posture and pose. Numbers are rounded to 1e-6.
+/// A JSON line without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
+/// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known angle_deviations_deg and
+/// hidden (names). A lost frame has no posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

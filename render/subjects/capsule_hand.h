@@ -9,8 +9,8 @@
 namespace glovebench::render {
 
 /// A gloved hand unlike the tracker's mesh: a smooth union of tapered capsules with anthropometric dimensions. The
-/// seed draws person, skeleton and glove. It is polygonized once with spread fingers; a posture projects each
-/// vertex onto the union of its moved capsules (Vaillant et al. 2013, "Implicit Skinning", without contact).
+/// seed draws person, skeleton and glove. A posture moves the capsules and projects each vertex onto their union
+/// (Vaillant et al. 2013, "Implicit Skinning", without contact).
 class CapsuleHand {
  public:
   /// `definition`: the package's skeleton, for the thumb's zero.
