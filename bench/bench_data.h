@@ -17,7 +17,7 @@ namespace glovebench::bench {
 
 struct Movement {
   std::string name;
-  std::vector<HandFrame> frames;  ///< a selection
+  std::vector<HandFrame> frames;
 };
 
 /// Every 19th frame of the five source trajectories, on which the robust alignment's width was chosen.
@@ -47,8 +47,8 @@ struct BenchFrame {
   render::RgbdImages images;  ///< without noise
   DeviceFrame device;
   FrameTrace trace;
-  Square square;    ///< around the labels
-  TinyImages tiny;  ///< of the default cascade
+  Square square;
+  TinyImages tiny;
   PosedHand posed;  ///< in the looked-up posture
   TrackResult result;
 };

@@ -12,7 +12,6 @@ struct Measured {
   bool missing = false;
   double near_bytes = 0, far_bytes = 0;  ///< for one item; 0: unknown
 };
-/// By benchmark name.
 using Measurements = std::map<std::string, Measured>;
 
 /// STAGE/ENGINE compared with STAGE/fast in one process.
@@ -38,9 +37,7 @@ inline const std::string kNearBandwidth = "read_bandwidth/near", kFarBandwidth =
 /// Empty unless both bandwidths were measured.
 std::vector<StageFloor> stage_floors(const Measurements& measurements);
 
-/// One line for each ratio.
 std::string ratio_lines(const std::vector<EngineRatio>& ratios);
-/// Both tables as Markdown.
 std::string speed_markdown(const Measurements& measurements);
 
 }  // namespace glovebench::bench

@@ -68,7 +68,6 @@ class Framebuffer {
   int height_ = 0;
 };
 
-/// An indexed triangle mesh.
 class VertexArray {
  public:
   VertexArray();

@@ -15,7 +15,7 @@ struct Lighting {
   double temperature_k = 5000;                               ///< 2000..10000; the camera is balanced for 5000 K
   double ambient_share = 0.35;                               ///< of the strength, [0, 1]
 
-  /// One problem a line; empty without any.
+  /// One problem per line.
   std::vector<std::string> problems() const;
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };

@@ -20,10 +20,10 @@ constexpr auto names_of(TrajectoryKind) {
 struct Provenance {
   std::string source;
   std::string source_hash;
-  std::string database;       ///< such as "DB_open_power"
+  std::string database;
   std::string database_hash;  ///< of its inputs
-  std::string profile;        ///< of the tracker
-  std::string profile_hash;   ///< of the effective configuration
+  std::string profile;
+  std::string profile_hash;  ///< of the effective configuration
 
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };

@@ -59,7 +59,6 @@ class ChromaDensity {
   static bool is_inside(const Eigen::Vector2i& place);
   static size_t index(const Eigen::Vector2i& place);
   void blur(double width);
-  /// Whether no valley separates `place` from a higher known peak.
   bool is_flank(const Chroma& place, const KnownChroma& known) const;
 
   std::vector<double> cells_;

@@ -17,7 +17,7 @@ struct ColorSeparation {
   std::array<std::optional<std::array<double, kColorCount + 1>>, kColorCount + 1> confusion;
   std::array<int, kColorCount + 1> nearest{};              ///< label
   std::array<double, kColorCount + 1> nearest_distance{};  ///< chroma
-  /// Distance of the centers over the sum of both deviations along it, camera noise included.
+  /// Distance of the centers over the sum of both deviations along it.
   std::array<double, kColorCount + 1> nearest_deviations{};
   double unlabeled_share = 0;        ///< of glove and mixed pixels
   double mixed_unlabeled_share = 0;  ///< 0 without mixed pixels

@@ -10,7 +10,7 @@
 namespace glovebench::calibration {
 
 struct SampleConfig {
-  WorkingVolume volume;  ///< where the hand is
+  WorkingVolume volume;
   RegistrationConfig registration;
   double surface_step = 0.02;  ///< depth step that separates surfaces, m, > 0
   int beyond_stride = 16;      ///< keep every nth pixel, >= 1
@@ -61,7 +61,7 @@ class ColorSamples {
   int64_t beyond_pixels_ = 0;
   std::vector<ColorSample> inside_, beyond_;
   std::vector<MixedSample> mixed_;
-  std::vector<double> noise_;  ///< for each frame
+  std::vector<double> noise_;
 };
 
 }  // namespace glovebench::calibration

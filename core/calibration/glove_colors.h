@@ -50,8 +50,7 @@ struct GloveColorFit {
   int64_t beyond = 0, beyond_like_glove = 0;           ///< pixels beyond the volume
   std::array<int64_t, kColorCount + 1> beyond_like{};  ///< by color
 
-  /// The most probable color if within `glove_distance`, else kNotGlove or kUnsure. Dark pixels are unsure, as are
-  /// overexposed ones of no color of the glove.
+  /// The most probable color if within `glove_distance`, else kNotGlove or kUnsure. Dark pixels are unsure.
   uint8_t classify(const Rgb& rgb) const;
 };
 
@@ -61,8 +60,7 @@ struct GloveColorFit {
 GloveColorFit fit_glove_colors(const ColorSamples& samples, const ColorSeeds& seeds, const std::string& where,
                                const GloveColorConfig& config = {});
 
-/// Builds the table by ColorCalibration from classified pixels in the volume and those beyond it that are not
-/// glove.
+/// Builds the table from classified pixels, without clutter in the glove's colors beyond the volume.
 ColorTable build_color_table(const ColorSamples& samples, const GloveColorFit& fit,
                              ColorSpace space = ColorSpace::yuv);
 

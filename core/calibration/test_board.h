@@ -44,7 +44,6 @@ inline Corners true_corners(const PinholeCamera& camera, const LensDistortion& l
   return corners;
 }
 
-/// The board has a white rim and a gray wall behind it.
 inline double gray_at(const Eigen::Vector2d& p, const Chessboard& board) {
   const double column = std::floor(p.x() / board.square) + 1, row = std::floor(p.y() / board.square) + 1;
   if (column < -1 || row < -1 || column > board.columns + 1 || row > board.rows + 1) return 90;
@@ -85,8 +84,8 @@ class BoardCamera {
 
  private:
   static constexpr int kSide = 3;
-  static constexpr size_t kRays = kSide * kSide;  ///< for each pixel
-  static constexpr double kNoise = 2;             ///< gray levels
+  static constexpr size_t kRays = kSide * kSide;
+  static constexpr double kNoise = 2;  ///< gray levels
 
   PinholeCamera camera_;
   std::vector<Eigen::Vector2d> rays_;

@@ -49,15 +49,14 @@ class FieldRows {
 
   /// Counts the query's pixels in each color and cell.
   RecycledVector<WeightedRow> rows_of(const LabelImage& query) const;
-  /// The weighted sum of these rows for one entry.
   uint32_t sum(int entry, std::span<const WeightedRow> rows) const;
 
  private:
-  int size_;  ///< px
+  int size_;
   int entry_count_;
   int pool_;  ///< px
   int cells_;
-  std::array<uint8_t, 64> cell_of_pixel_{};  ///< along a side
+  std::array<uint8_t, 64> cell_of_pixel_{};
   size_t block_count_;
   uint8_t largest_value_;
   MappedMemory values_;

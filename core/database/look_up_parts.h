@@ -44,8 +44,8 @@ class EntryFields {
  private:
   const Database& database_;
   int size_;
-  std::vector<uint8_t> colors_;  ///< in the query
-  std::vector<uint8_t> made_;    ///< empty if fields are stored
+  std::vector<uint8_t> colors_;
+  std::vector<uint8_t> made_;
 };
 
 /// The fast implementation of `look_up`.

@@ -31,7 +31,7 @@ class MadeDistances {
   int size_;
   uint8_t cap_;
   QueryLabels labels_;
-  RecycledVector<Part> parts_;  ///< most pixels first
+  RecycledVector<Part> parts_;
 };
 
 }  // namespace glovebench

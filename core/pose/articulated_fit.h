@@ -76,8 +76,8 @@ class ArticulatedFit {
 
  private:
   std::shared_ptr<const HandModel> model_;
-  std::vector<BodyShares> shares_;  ///< for each vertex
-  std::vector<FaceBodies> faces_;   ///< for each triangle
+  std::vector<BodyShares> shares_;
+  std::vector<FaceBodies> faces_;
   FitSchedule schedule_;
   IcpConfig search_;
 };

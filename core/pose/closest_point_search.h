@@ -48,21 +48,19 @@ class ClosestPointSearch {
   const SearchWork& work() const { return work_; }
 
  private:
-  /// Convert nearest faces to the model's triangles and back.
   void keep_nearest_as_triangles();
   void find_nearest_of_triangles(const Surface& surface);
-  /// Does nothing if labels are unchanged.
   void group(std::span<const LabeledPoint> points_hand);
 
   std::array<FacePackets, kColorCount + 1> colors_;
-  std::array<RecycledVector<int32_t>, kColorCount + 1> triangles_;  ///< for each face
+  std::array<RecycledVector<int32_t>, kColorCount + 1> triangles_;
   struct Place {
-    int32_t face = -1;  ///< in Surface::faces; -1: not there
+    int32_t face = -1;
     uint8_t label = 0;
   };
-  RecycledVector<Place> places_;  ///< of the triangles
+  RecycledVector<Place> places_;
   PlaceOrder order_;
-  RecycledVector<uint8_t> labels_;  ///< of the grouped points
+  RecycledVector<uint8_t> labels_;
   RecycledVector<PointGroup> groups_;
   GroupScratch scratch_;
   RecycledVector<ClosestPoint> closest_;

@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// The answer of the look-up, theta and R-hat-prime.
+/// The look-up's answer, theta and R-hat-prime.
 /// Paper: sections III-B and III-C.
 struct CoarseEstimate {
   Posture posture = Posture::Zero();  ///< rad

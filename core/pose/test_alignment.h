@@ -19,7 +19,6 @@ inline PosedHand posed() {
   return test_hand().pose(render::test_posture());
 }
 
-/// As an ideal camera sees the hand.
 inline RecycledVector<LabeledPoint> true_cloud(const Eigen::Isometry3d& T_camera_hand) {
   render::LabelRenderer renderer;
   const render::HandImages images = renderer.render_ids(test_hand(), posed(), kKinect, T_camera_hand);

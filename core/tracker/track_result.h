@@ -17,11 +17,11 @@ namespace glovebench {
 /// the origin).
 enum class TrackStatus {
   tracked,
-  no_hand,           ///< too few glove pixels
-  outside_volume,    ///< at least a third of the glove is too near or too far
-  cut_by_border,     ///< the glove touches the image border too long
-  several_hands,     ///< more than one large glove-colored object
-  too_few_points,    ///< fewer than three usable points
+  no_hand,         ///< too few glove pixels
+  outside_volume,  ///< at least a third of the glove is too near or too far
+  cut_by_border,   ///< the glove touches the image border too long
+  several_hands,   ///< more than one large glove-colored object
+  too_few_points,
   degenerate_cloud,  ///< the points lie on one line
   no_shared_color,   ///< cloud and visible model share none
   poor_match,        ///< nearest entry beyond `max_matching_error`
@@ -50,13 +50,13 @@ struct TrackResult {
 
   Posture posture_unfiltered = Posture::Zero();  ///< rad
   Eigen::Isometry3d T_camera_hand_unfiltered = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();  ///< before the alignment
+  Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();
   RecycledVector<Match> matches;
 
   bool ambiguous = false;  ///< rotations differ by more than 60 degrees
   bool converged = false;  ///< of the alignment
   int cloud_points = 0;    ///< |C|
-  int icp_points = 0;      ///< used by the alignment
+  int icp_points = 0;
   int icp_iterations = 0;
   double icp_residual = 0;  ///< final mean point-to-triangle distance, m
   std::optional<AngleCertainty> certainty;

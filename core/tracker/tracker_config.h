@@ -60,7 +60,7 @@ struct TrackerConfig {
   double max_residual = 0.02;  ///< larger: `poor_alignment`, m, > 0
   SmoothingConfig smoothing;
 
-  /// One problem a line; empty without any.
+  /// One problem per line.
   std::vector<std::string> problems() const;
 };
 

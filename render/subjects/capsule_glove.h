@@ -31,9 +31,7 @@ class CapsuleGlove {
   std::vector<double> folds(const std::vector<Eigen::Vector3d>& places) const;
 
  private:
-  /// Constant and varying parts of a border's shift.
   double shift(int border, const Eigen::Vector3d& p) const;
-  /// Shares of thumb to little, with sum 1.
   std::array<double, 5> ray_shares(const Eigen::Vector3d& p) const;
 
   const std::vector<HandCapsule>& capsules_;

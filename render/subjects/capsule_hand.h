@@ -52,9 +52,9 @@ class CapsuleHand {
   Skeleton skeleton_;
   std::vector<HandCapsule> capsules_;
   std::vector<Triangle> triangles_;
-  std::vector<Eigen::Vector3d> rest_;  ///< with spread fingers, without folds
+  std::vector<Eigen::Vector3d> rest_;
   std::vector<double> levels_;
-  JointPoses T_joint_rest_;  ///< from hand coordinates at rest
+  JointPoses T_joint_rest_;
   std::vector<UnionPart> parts_;
   std::vector<uint32_t> first_part_;
   std::vector<Follow> follows_;

@@ -31,7 +31,7 @@ Published published_breadth(bool woman);
 /// `segment`: 0..2 as in HandDimensions::segments, 3: pulp; both sexes.
 Published published_segment(int finger, int segment);
 
-/// Draws a hand. Segments vary with its length, girths with its breadth; draws end at two standard deviations.
+/// Draws a hand whose segments vary with its length and girths with its breadth.
 HandDimensions draw_dimensions(uint64_t seed);
 
 }  // namespace glovebench::render

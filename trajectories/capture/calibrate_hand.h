@@ -25,8 +25,8 @@ class HandParameters {
   CaptureHand nominal_;
   Eigen::VectorXd deviations_;
   Eigen::MatrixXd frame_constraints_;
-  std::array<int, kJointCount> first_of_joint_;  ///< first parameter of each joint
-  std::vector<int> first_of_marker_;             ///< -1 for a joint center
+  std::array<int, kJointCount> first_of_joint_;
+  std::vector<int> first_of_marker_;
 };
 
 struct Calibration {

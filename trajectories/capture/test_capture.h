@@ -38,7 +38,6 @@ inline std::vector<std::string> webxr_names() {
   return names;
 }
 
-/// Markers on segments and fingertips, six on the palm, two on the forearm.
 inline std::vector<std::string> skin_names() {
   std::vector<std::string> names = {"thumb_metacarpal", "thumb_proximal", "thumb_distal",   "thumb_tip",
                                     "wrist_radial",     "wrist_ulnar",    "forearm_radial", "forearm_ulnar"};
@@ -50,7 +49,6 @@ inline std::vector<std::string> skin_names() {
   return names;
 }
 
-/// Markers displaced from their places.
 inline std::vector<PlacedMarker> stuck_markers(const std::vector<std::string>& names, const HandModel& hand,
                                                const CaptureFlaws& flaws) {
   std::vector<PlacedMarker> markers;
@@ -84,7 +82,6 @@ inline MarkerSequence captured(const Trajectory& movement, const HandModel& hand
   return sequence;
 }
 
-/// Adds gaps, swaps and unlabeled points.
 inline MarkerSequence flawed(MarkerSequence sequence, const CaptureFlaws& flaws) {
   const size_t markers = sequence.names.size();
   for (int u = 0; u < kUnlabeledColumns; ++u) sequence.names.push_back("unlabeled_" + std::to_string(u + 1));
