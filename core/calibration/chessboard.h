@@ -26,7 +26,7 @@ using Corners = std::vector<Eigen::Vector2d>;
 /// Corners in the board's frame, z = 0.
 std::vector<Eigen::Vector3d> corners_on(const Chessboard& board);
 
-/// All inner corners with subpixel accuracy, if the board is whole.
+/// All inner corners with subpixel accuracy, if the whole board is visible.
 std::optional<Corners> find_corners(const Image<uint8_t>& gray, const Chessboard& board);
 
 /// Reverses corners whose rows run opposite to those of `reference`, the same board from a nearby camera.

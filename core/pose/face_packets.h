@@ -16,7 +16,7 @@ struct alignas(64) Boxes {
   float blur[kCount];                     ///< `rounding_blur`, 1/m
 };
 
-/// The faces of one color in packets of consecutive ones, mostly neighbors.
+/// The faces of one color in packets of consecutive ones.
 struct FacePackets {
   static constexpr int kFaces = 8;     ///< per packet
   static constexpr int kPackets = 16;  ///< per group, for the widest vectors

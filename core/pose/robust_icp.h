@@ -10,8 +10,8 @@ inline constexpr double kRobustWidth = 0.6;
 
 /// Aligns with Horn's and point-to-plane steps (Chen and Medioni 1991) under Tukey's weights, 9 on a fifth of the
 /// points, then 2 on all. This is not the paper's method.
-/// `points`: at least 3, camera frame. `width` > 0. It converged if it took all steps and the last one changed the
-/// mean distance by at most 1% or `convergence_share`.
+/// `points`: at least 3, camera frame. `width` > 0. The status is `converged` if all steps were taken and the last
+/// changed the mean distance by at most 1% or `convergence_share`.
 Alignment align_robust(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> points,
                        const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config,
                        double width = kRobustWidth);

@@ -65,7 +65,7 @@ struct TrackResult {
 /// Receives each stage's name when it begins, "" at the end of the frame. Stages may repeat.
 using StageObserver = std::function<void(std::string_view stage)>;
 
-/// A JSON line without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
+/// A JSON object without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
 /// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known angle_deviations_deg and
 /// hidden (names). A lost frame has no posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
