@@ -10,7 +10,6 @@
 
 namespace glovebench::trajectories {
 
-/// The text as a JSON string.
 std::string in_quotes(std::string_view text);
 /// The names of angle_infos() as a JSON array.
 std::string joint_order_json();

@@ -28,7 +28,7 @@ struct Provenance {
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
-/// A ground truth.
+/// A ground truth: a movement of the hand before the camera.
 struct Trajectory {
   std::string name;
   std::string description;

@@ -29,8 +29,8 @@ struct WeightedRow {
 class FieldRows {
  public:
   static constexpr int kBlock = 64;            ///< entries; a row is a cache line
-  static constexpr int kLargestExact = 24;     ///< px
-  static constexpr int kLargestFinePool = 32;  ///< px
+  static constexpr int kLargestExact = 24;     ///< px; larger sizes hold cell minima
+  static constexpr int kLargestFinePool = 32;  ///< px; larger sizes have 8 x 8 cells in low memory
 
   /// Rows are 0 until `put`.
   FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value);

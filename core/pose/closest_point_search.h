@@ -20,7 +20,6 @@ struct PointGroup {
   uint8_t label = 0;
 };
 
-/// Buffers for one group.
 struct GroupScratch {
   RecycledVector<uint8_t> is_measured;  ///< for each face; 0 between groups
   RecycledVector<int32_t> candidates;   ///< in FacePackets::faces
