@@ -4,23 +4,21 @@
 
 namespace glovebench::render {
 
-/// An off-screen OpenGL 4.5 core context (OSMesa). Several threads draw in turn, bit for bit alike: while a context
-/// is current in one thread, others wait to make theirs current. One context may serve several threads one after
-/// the other; a thread has at most one that is current. Mesa's own threads are switched off for the whole process
-/// (LP_NUM_THREADS=0): images are small, and callers work on several frames at once instead. The first context must
-/// not be made while another thread reads or writes the environment.
+/// An off-screen OpenGL 4.5 core context (OSMesa). Threads draw in turn with equal images: making a context current
+/// waits for other threads. A thread has at most one current context. Mesa's own threads are off
+/// (LP_NUM_THREADS=0); create the first context while no thread uses the environment.
 class Context {
  public:
-  /// Throws Error saying what was asked for if it is refused. The new context is current.
+  /// Makes it current.
+  /// Throws: Error if OpenGL refuses it.
   Context();
-  /// It must be current in the calling thread.
+  /// It must be current in this thread.
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Makes this the context that the calling thread draws with; waits for the thread that is drawing now.
+  /// Waits for the thread that draws.
   void make_current() const;
-  /// Leaves the calling thread without a context, so that no thread remembers one that another destroys.
   void release() const;
 
  private:
@@ -28,7 +26,6 @@ class Context {
   std::unique_ptr<State> state_;
 };
 
-/// Makes a context current for as long as this lives.
 class CurrentContext {
  public:
   explicit CurrentContext(const Context& context) : context_(context) { context_.make_current(); }

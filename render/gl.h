@@ -1,6 +1,6 @@
 #pragma once
 
-// OpenGL for the sources of this module only; its headers do not show it.
+// OpenGL, for this folder's sources only.
 #include <GL/gl.h>
 #include <GL/glcorearb.h>
 
@@ -14,16 +14,15 @@
 
 namespace glovebench::render::gl {
 
-/// Nearest and farthest depth that is drawn, m.
+/// Drawn depths, m.
 inline constexpr double kNear = 0.05;
 inline constexpr double kFar = 10.0;
 
-/// Camera coordinates (x right, y down, z forward) to OpenGL's clip space, such that the framebuffer's first row is
-/// the image's top row. OpenGL's pixel centers lie at +0.5, the camera's at integers. The mirrored y turns
-/// counter-clockwise triangles clockwise (glFrontFace(GL_CW)).
+/// From camera to clip coordinates, with the image's top row first and pixel centers at +0.5. Front faces become
+/// clockwise (glFrontFace(GL_CW)).
 Eigen::Matrix4f projection(const PinholeCamera& camera);
 
-/// A compiled and linked program. Compiler errors are broken invariants: the sources are this module's own.
+/// A compiler error is a broken invariant.
 class Program {
  public:
   Program(const std::string& vertex_source, const std::string& fragment_source);
@@ -43,7 +42,7 @@ class Program {
   GLuint id_;
 };
 
-/// Color attachments of the given internal formats and a 32-bit float depth buffer.
+/// Color attachments and 32-bit float depth.
 class Framebuffer {
  public:
   explicit Framebuffer(std::vector<GLenum> formats) : formats_(std::move(formats)) {}
@@ -51,10 +50,10 @@ class Framebuffer {
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
 
-  /// Binds it for drawing; (re)makes its textures only if the size changed.
+  /// Makes textures if the size changed.
   void bind(int width, int height);
   GLuint texture(int attachment) const { return textures_[attachment]; }
-  /// Copies a rectangle of pixels of one attachment, top row first.
+  /// Copies pixels, top row first.
   void read(int attachment, GLenum format, GLenum type, int left, int top, int width, int height,
             void* pixels) const;
 
@@ -69,7 +68,6 @@ class Framebuffer {
   int height_ = 0;
 };
 
-/// An indexed triangle mesh in OpenGL's memory. Attribute locations are chosen by the caller.
 class VertexArray {
  public:
   VertexArray();
@@ -91,9 +89,9 @@ class VertexArray {
   std::vector<GLuint> buffers_;
 };
 
-/// Depth test, culling of back faces, no blending, no dithering: the same in every pass.
+/// Depth test, back-face culling, no blending or dithering.
 void set_pass_state();
-/// Limits clearing and drawing to a rectangle of pixels until the next `set_pass_state`.
+/// Limits clearing and drawing until `set_pass_state`.
 void limit_to(int left, int top, int width, int height);
 
 }  // namespace glovebench::render::gl

@@ -8,8 +8,7 @@
 
 namespace glovebench::render {
 
-/// A hand's triangles for drawing: a vertex on a patch border stands once for each of its patches, so that label
-/// and patch belong to vertices.
+/// Triangles for drawing; a vertex on a border is repeated for each patch.
 struct HandMesh {
   std::vector<uint32_t> source;   ///< vertex of the hand
   std::vector<uint8_t> labels;    ///< 1..kColorCount
@@ -18,10 +17,10 @@ struct HandMesh {
 };
 HandMesh make_hand_mesh(std::span<const Triangle> triangles);
 
-/// One value per vertex of the mesh, from one per vertex of the hand.
+/// Repeats values of the hand's vertices for the mesh.
 std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, std::span<const Eigen::Vector3f> values);
 
-/// Unit normals of the posed hand's vertices in the hand frame, area-weighted, pointing outwards.
+/// Area-weighted unit normals, outward, hand frame.
 std::vector<Eigen::Vector3f> vertex_normals(std::span<const Triangle> triangles, const PosedHand& hand);
 
 }  // namespace glovebench::render

@@ -8,24 +8,22 @@
 
 namespace glovebench::render {
 
-/// What a camera sees of the hand alone, at each pixel's center.
+/// The hand alone; 0 elsewhere.
 struct HandImages {
-  LabelImage label;      ///< 1..kColorCount, 0 where there is no hand
-  Image<uint8_t> patch;  ///< patch + 1, 0 where there is no hand
-  DepthImage depth;      ///< z, m, 0 where there is no hand
+  LabelImage label;      ///< 1..kColorCount
+  Image<uint8_t> patch;  ///< patch + 1
+  DepthImage depth;      ///< z, m
 };
 
-/// Draws the hand's labels with OpenGL. Surfaces between 0.05 and 10 m are drawn, back faces are not. An object
-/// serves one thread at a time.
+/// Draws from 0.05 to 10 m, without back faces. Serves one thread at a time.
 class LabelRenderer : public ViewRenderer {
  public:
-  /// Throws Error if no OpenGL context can be had.
+  /// Throws: Error if OpenGL is missing.
   LabelRenderer();
   ~LabelRenderer() override;
 
   LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                            const Eigen::Isometry3d& T_camera_hand) override;
-  /// Labels, patches and metric depth at once.
   HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                         const Eigen::Isometry3d& T_camera_hand);
 
@@ -34,9 +32,8 @@ class LabelRenderer : public ViewRenderer {
   std::unique_ptr<State> state_;
 };
 
-/// For `Database::build`.
 ViewRendererFactory label_renderer_factory();
-/// For `DatabaseCache`: hash of the sources that decide what a database holds of its inputs (ci/source_hash.cmake).
+/// Hash of the sources that determine a database (ci/source_hash.cmake).
 std::string database_source_hash();
 
 }  // namespace glovebench::render

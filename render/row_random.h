@@ -6,19 +6,18 @@
 
 namespace glovebench::render {
 
-/// Names the random numbers of one frame; neither thread nor order changes them.
 struct FrameKey {
   uint64_t seed = 0;
   std::string_view sequence;
   int64_t frame = 0;
 };
 
-/// Random numbers of one image row (SplitMix64), so that rows can be made in any order.
+/// Random numbers of one image row (SplitMix64).
 class RowRandom {
  public:
   explicit RowRandom(uint64_t state) : state_(state) {}
 
-  /// Standard normal; the tails end at 4.3 sigma.
+  /// Standard normal; tails end at 4.3 sigma.
   float normal();
   /// [0, 1)
   float uniform() { return static_cast<float>(next16()) * 0x1p-16f; }
@@ -44,7 +43,6 @@ class RowRandom {
   int left_ = 0;
 };
 
-/// A seed for each row of the frame's image.
 std::vector<uint64_t> row_seeds(const FrameKey& key, std::string_view purpose, int rows);
 
 }  // namespace glovebench::render

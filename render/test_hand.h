@@ -1,7 +1,5 @@
 #pragma once
 
-// The hand that the tests of this module draw.
-
 #include "ci/build_paths.h"
 #include "core/hand/hand_model.h"
 
@@ -12,7 +10,7 @@ inline const HandModel& test_hand() {
   return model;
 }
 
-/// Half-closed fingers, so that surfaces cover each other.
+/// Fingers cover each other.
 inline Posture test_posture() {
   Posture posture = Posture::Zero();
   posture[kWristFlexion] = 0.3;
@@ -23,7 +21,7 @@ inline Posture test_posture() {
   return posture;
 }
 
-/// The camera looks down on the back of the hand, whose fingers point up in the image; then turned about x, y, z.
+/// Back of the hand to the camera, fingers up, then turned about x, y, z.
 inline Eigen::Isometry3d test_pose(const Eigen::Vector3d& position,
                                    const Eigen::Vector3d& turn = {0.4, -0.5, 0.3}) {
   Eigen::Matrix3d R_camera_hand;

@@ -9,12 +9,10 @@
 
 namespace glovebench::calibration {
 
-/// A picture in which the board was found.
 struct BoardView {
-  std::string name;  ///< the same for a pose of the board in both cameras
+  std::string name;  ///< file name without ending, or number in the recording
   Corners corners;
 };
-/// A picture that is of no use, and why.
 struct LeftOut {
   std::string name;
   std::string reason;
@@ -22,23 +20,21 @@ struct LeftOut {
 
 /// The board as one camera saw it.
 struct BoardViews {
-  int width_px = 0, height_px = 0;  ///< of all pictures
-  std::vector<BoardView> views;     ///< by name
+  int width_px = 0, height_px = 0;
+  std::vector<BoardView> views;
   std::vector<LeftOut> left_out;
-  std::vector<std::string> changed = {};  ///< files of a recording, changed since it was recorded
+  std::vector<std::string> changed = {};  ///< recorded files that were changed later
 };
 
-/// Says how many of how many pictures were looked at.
+/// Called before each picture; `done` counts those before it.
 using Looked = std::function<void(size_t done, size_t count)>;
 
-/// The gray image that a file's content is. Throws Error naming `path` if it is none, or has over kMostPixels.
+/// Decodes an image file to gray.
+/// Throws: Error naming `path` if it is no image or exceeds kMostPixels.
 Image<uint8_t> decode_gray(std::string_view content, const std::string& path);
 
-/// Looks for the board in the pictures of a source: a folder of image files (PNG, JPEG, PGM, PPM, TIFF, BMP; 8 or
-/// 16 bits), each named by its file name without ending, or fakenect:FOLDER, a recording's color images, each named
-/// by its number from 0; of more than `most`, that many evenly over the recording. Pictures that cannot be read, or
-/// show no whole board, or are larger than kMostPixels, are left out. Throws Error if there is no picture, or they
-/// are of different sizes.
+/// Finds the board in a folder of images, or in at most `most` color images, evenly spaced, of `fakenect:FOLDER`.
+/// Throws: Error if there is no picture or their sizes differ.
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked = {});
 
 }  // namespace glovebench::calibration

@@ -9,11 +9,9 @@
 
 namespace glovebench::calibration {
 
-/// What is left of a color without its brightness: ((U - 128) / Y, (V - 128) / Y) over gamma-coded RGB (BT.601).
-/// Shade moves a matte color's chroma little; camera noise of s gray levels moves it by about s / Y.
+/// Color without brightness: ((U - 128) / Y, (V - 128) / Y) of gamma-coded RGB (BT.601).
 using Chroma = Eigen::Vector2d;
 
-/// Y of gamma-coded R, G, B, in their unit.
 inline double luma_of(const Eigen::Array3d& rgb) {
   return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
 }
@@ -22,7 +20,7 @@ inline Chroma chroma_of(const Eigen::Array3d& rgb) {
   const double luma = luma_of(rgb);
   return {(rgb[2] - luma) / (1.772 * luma), (rgb[0] - luma) / (1.402 * luma)};
 }
-/// The color of that chroma with Y = 1.
+/// The color with Y = 1.
 inline Eigen::Array3d rgb_of_chroma(const Chroma& chroma) {
   return {1 + 1.402 * chroma[1], 1 - 0.344136 * chroma[0] - 0.714136 * chroma[1], 1 + 1.772 * chroma[0]};
 }
@@ -30,29 +28,27 @@ inline Eigen::Array3d array_of(const Rgb& rgb) {
   return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
 }
 
-/// A channel may have been cut off at white: the color is not known.
+/// Whether a channel may be clipped, which hides the color.
 inline bool is_overexposed(const Rgb& rgb) {
   constexpr uint8_t kWhite = 251;
   return rgb[0] >= kWhite || rgb[1] >= kWhite || rgb[2] >= kWhite;
 }
 
-/// A place whose neighborhood is spoken for.
 struct KnownChroma {
   Chroma place = Chroma::Zero();
-  double reach = 0;  ///< as far as that
+  double reach = 0;  ///< no new peak within this distance
 };
 
-/// How many of the samples lie about each place of the chroma plane: shares, weighted by a bell of that width whose
-/// height is 1. Samples darker than `min_luma` and chroma beyond -1.2 to 2 are left out.
+/// Density of samples in the chroma plane, smoothed by a Gaussian of peak 1 and deviation `width`. Samples with Y <
+/// `min_luma` are left out.
 class ChromaDensity {
  public:
   ChromaDensity(std::span<const ColorSample> samples, double min_luma, double width);
 
-  /// 0 outside.
+  /// Weighted share of the samples around `chroma`; 0 outside -1.2 to 2.
   double at(const Chroma& chroma) const;
-  /// The places about which more than `share` lies, and more than about their neighbors, the highest first: out of
-  /// reach of those that are known, and with a valley between unless they are the higher ones; those that are found
-  /// are known to those after them, with that reach. At most that many.
+  /// At most `most` local maxima above `share`, highest first, outside the reach and slope of known ones. Each peak
+  /// found becomes known, with `reach`.
   std::vector<Chroma> peaks(std::vector<KnownChroma> known, double reach, double share, size_t most) const;
 
  private:
@@ -63,7 +59,6 @@ class ChromaDensity {
   static bool is_inside(const Eigen::Vector2i& place);
   static size_t index(const Eigen::Vector2i& place);
   void blur(double width);
-  /// Is the place on the way down from what is known?
   bool is_flank(const Chroma& place, const KnownChroma& known) const;
 
   std::vector<double> cells_;

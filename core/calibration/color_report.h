@@ -10,27 +10,25 @@
 
 namespace glovebench::calibration {
 
-/// How well a table tells the colors of its recording apart. Index 0: not glove, or no label.
+/// How well a table separates a recording's colors. Index 0 is "not glove" or "no label".
 struct ColorSeparation {
-  /// [what a pixel is][what the table says], shares of 1 in a row. A color's pixels are drawn from its bell with
-  /// the camera's noise, at the five brightnesses of GloveColor::lumas; those that are not glove are the
-  /// recording's own. A row without pixels is empty.
+  /// [true color][table's label], as shares of a row; empty without pixels. Pixels of a color are drawn from its
+  /// Gaussian with camera noise.
   std::array<std::optional<std::array<double, kColorCount + 1>>, kColorCount + 1> confusion;
-  std::array<int, kColorCount + 1> nearest{};              ///< the color nearest to each
-  std::array<double, kColorCount + 1> nearest_distance{};  ///< to it, chroma
-  /// The same in deviations of the two bells along the line between their centers, with the camera's noise.
+  std::array<int, kColorCount + 1> nearest{};              ///< label
+  std::array<double, kColorCount + 1> nearest_distance{};  ///< chroma
+  /// Distance of the centers over the sum of both deviations along it.
   std::array<double, kColorCount + 1> nearest_deviations{};
-  double unlabeled_share = 0;  ///< of the recording's glove pixels, mixed ones too: without a label in the table
-  double mixed_unlabeled_share = 0;  ///< of the mixed ones alone; 0 if there are none
+  double unlabeled_share = 0;        ///< of glove and mixed pixels
+  double mixed_unlabeled_share = 0;  ///< 0 without mixed pixels
 };
 ColorSeparation separate_colors(const ColorSamples& samples, const GloveColorFit& fit, const ColorTable& table);
 
-/// What to know before the table is used: colors that were seen too little, that lie close together, that lie where
-/// the seeds would not have them; clutter in the glove's colors; overexposed or dark pixels. A sentence each.
+/// One sentence for each problem with the colors or the recording.
 std::vector<std::string> color_warnings(const ColorSamples& samples, const GloveColorFit& fit,
                                         const ColorSeparation& separation);
 
-/// The report as JSON (README.md lists the keys), and as Markdown.
+/// The keys are listed in README.md.
 nlohmann::ordered_json color_report_json(const ColorSamples& samples, const GloveColorFit& fit,
                                          const ColorSeparation& separation, const std::string& recording);
 std::string color_report_markdown(const ColorSamples& samples, const GloveColorFit& fit,

@@ -10,35 +10,33 @@
 namespace glovebench::calibration {
 
 struct SampleConfig {
-  WorkingVolume volume;  ///< where the hand is
+  WorkingVolume volume;
   RegistrationConfig registration;
-  double surface_step = 0.02;  ///< neighbors that differ more in depth lie on different surfaces, m, > 0
-  int beyond_stride = 16;      ///< of the pixels beyond the volume, every nth is kept, >= 1
+  double surface_step = 0.02;  ///< depth step that separates surfaces, m, > 0
+  int beyond_stride = 16;      ///< keep every nth pixel, >= 1
 };
 
-/// A pixel's color, and in which frame it was.
 struct ColorSample {
   Rgb rgb{};
-  uint16_t frame = 0;  ///< number among those added
+  uint16_t frame = 0;  ///< in the order added
 };
 
-/// A pixel between two even ones, and those: where two patches meet, or the hand ends, one pixel mixes two colors.
+/// A pixel that mixes two colors, between even pixels of both.
 struct MixedSample {
   Rgb rgb{};
-  Rgb near{};   ///< of the even pixel nearest to it, in the volume
-  Rgb other{};  ///< of the one within reach that differs most from that, in the volume or beyond
+  Rgb near{};   ///< nearest even pixel, in the volume
+  Rgb other{};  ///< even pixel within 3 px that differs most from `near`
   bool other_is_inside = false;
 };
 
-/// A frame as the IR camera's pixels: its color, and 1 where there is one and the depth lies in the volume.
+/// A frame in the IR camera's pixels; `inside` is 1 for a colored pixel with depth in the volume.
 struct VolumeView {
   ColorImage color;
   Image<uint8_t> inside;
 };
 VolumeView view_volume(const DeviceFrame& frame, const RgbdCalibration& calibration, const SampleConfig& config);
 
-/// Pixels of a recording without labels: even ones, which look like their four neighbors on the same surface, and
-/// what lies between two of them.
+/// Collects pixels of an unlabeled recording. Even pixels share surface and color with their four neighbors.
 class ColorSamples {
  public:
   explicit ColorSamples(SampleConfig config = {}) : config_(config) {}
@@ -48,13 +46,12 @@ class ColorSamples {
   const SampleConfig& config() const { return config_; }
   int frames() const { return frames_; }
   const std::vector<ColorSample>& inside() const { return inside_; }
-  /// Farther than the volume, by more than a hand that is cut off by it reaches (kCutOffMargin).
+  /// Even pixels more than kCutOffMargin behind the volume.
   const std::vector<ColorSample>& beyond() const { return beyond_; }
   const std::vector<MixedSample>& mixed() const { return mixed_; }
-  /// All pixels with a color in the volume, even or not.
+  /// All colored pixels in the volume.
   int64_t inside_pixels() const { return inside_pixels_; }
-  /// Camera noise, the standard deviation of the green channel: the median over the frames that show anything in
-  /// the volume; 0 if none does.
+  /// Camera noise: standard deviation of the green channel; 0 without pixels in the volume.
   double noise_gray() const;
 
  private:
@@ -64,7 +61,7 @@ class ColorSamples {
   int64_t beyond_pixels_ = 0;
   std::vector<ColorSample> inside_, beyond_;
   std::vector<MixedSample> mixed_;
-  std::vector<double> noise_;  ///< of each frame with something in the volume
+  std::vector<double> noise_;
 };
 
 }  // namespace glovebench::calibration

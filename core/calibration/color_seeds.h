@@ -9,18 +9,20 @@
 
 namespace glovebench::calibration {
 
-/// What the glove's ten colors look like under some light: where a calibration begins. Index 0 is unused.
+/// Chroma of the glove's ten colors, where a calibration starts. Index 0 is unused.
 using ColorSeeds = std::array<Chroma, kColorCount + 1>;
 
-/// The middle of each color's cells in a table. Throws Error naming `where` and the color that has none.
+/// The mean of each color's cells.
+/// Throws: Error naming `where` and a color without cells.
 ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where);
 
-/// Reads {"format": "glovebench-glove-colors", "version": 1, "colors_rgb": [[R, G, B], ...]}: the ten colors in the
-/// order of the labels, as a picture shows them in an even light, 0..255, none black. Throws Error naming `where`
-/// and the field.
+/// Reads {"format": "glovebench-glove-colors", "version": 1, "colors_rgb": [[R, G, B], ...]}: ten colors in the
+/// order of the labels, 0..255, not black.
+/// Throws: Error naming `where` and the field.
 ColorSeeds parse_glove_colors(std::string_view text, const std::string& where);
 
-/// A color table, or a list of colors, by what the file holds. Throws Error.
+/// Reads a color table or a list of colors.
+/// Throws: Error.
 ColorSeeds load_seeds(const std::string& path);
 
 }  // namespace glovebench::calibration

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the fits say to OpenCV and back. For the sources of this folder only.
+// Conversions to and from OpenCV.
 
 #include <opencv2/calib3d.hpp>
 
@@ -43,7 +43,6 @@ inline cv::Mat matrix_of(const PinholeCamera& camera) {
   return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
 }
 
-/// Coefficients are k1, k2, p1, p2, k3.
 inline LensDistortion lens_of(const cv::Mat& coefficients) {
   const auto at = [&](int i) { return coefficients.at<double>(i); };
   return {.k1 = at(0), .k2 = at(1), .p1 = at(2), .p2 = at(3), .k3 = at(4)};

@@ -1,6 +1,6 @@
 #pragma once
 
-// Pictures of a chessboard whose cameras are known: cast rays, nine a pixel, through a lens that distorts.
+// Ray-cast pictures of a chessboard by known cameras with lens distortion.
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,14 @@
 
 namespace glovebench::calibration {
 
-/// What a pinhole would see where the lens shows xy: the inverse of LensDistortion::distort.
+/// Inverts LensDistortion::distort.
 inline Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector2d& xy) {
   Eigen::Vector2d guess = xy, error = xy;
   for (int i = 0; i < 50 && error.squaredNorm() > 1e-22; ++i) guess += error = xy - lens.distort(guess);
   return guess;
 }
 
-/// A Kinect with the lenses of a calibration that is widely used, and its cameras turned against each other by 1.5
-/// degrees about an axis of no symmetry, so that a rotation and its inverse differ.
+/// A widely used calibration, with cameras rotated by 1.5 degrees.
 inline RgbdCalibration kinect_with_lenses() {
   RgbdCalibration truth;
   truth.ir = {.width = 640, .height = 480, .fx = 594.21, .fy = 591.04, .cx = 339.31, .cy = 242.74};
@@ -33,7 +32,6 @@ inline RgbdCalibration kinect_with_lenses() {
   return truth;
 }
 
-/// Where the lens shows a point that the camera sees.
 inline Eigen::Vector2d project(const PinholeCamera& camera, const LensDistortion& lens, const Eigen::Vector3d& p) {
   const Eigen::Vector2d xy = lens.distort(p.hnormalized());
   return {camera.fx * xy.x() + camera.cx, camera.fy * xy.y() + camera.cy};
@@ -46,7 +44,6 @@ inline Corners true_corners(const PinholeCamera& camera, const LensDistortion& l
   return corners;
 }
 
-/// Gray of a point of the board's plane: squares, a white rim as wide as one, a gray wall.
 inline double gray_at(const Eigen::Vector2d& p, const Chessboard& board) {
   const double column = std::floor(p.x() / board.square) + 1, row = std::floor(p.y() / board.square) + 1;
   if (column < -1 || row < -1 || column > board.columns + 1 || row > board.rows + 1) return 90;
@@ -54,7 +51,6 @@ inline double gray_at(const Eigen::Vector2d& p, const Chessboard& board) {
   return (static_cast<int>(column) + static_cast<int>(row)) % 2 == 0 ? 35 : 215;
 }
 
-/// A camera that takes pictures of boards.
 class BoardCamera {
  public:
   BoardCamera(const PinholeCamera& camera, const LensDistortion& lens) : camera_(camera) {
@@ -88,14 +84,14 @@ class BoardCamera {
 
  private:
   static constexpr int kSide = 3;
-  static constexpr size_t kRays = kSide * kSide;  ///< of a pixel
-  static constexpr double kNoise = 2;             ///< gray levels
+  static constexpr size_t kRays = kSide * kSide;
+  static constexpr double kNoise = 2;  ///< gray levels
 
   PinholeCamera camera_;
   std::vector<Eigen::Vector2d> rays_;
 };
 
-/// Poses of the board, tilted by up to 45 degrees, in which both cameras see it whole.
+/// Poses tilted by 15 to 45 degrees at which both cameras see the whole board.
 inline std::vector<Eigen::Isometry3d> poses_before(const RgbdCalibration& truth, const Chessboard& board, int count,
                                                    uint64_t seed) {
   RandomStream random(seed, "board", 0, "poses");

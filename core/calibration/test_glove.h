@@ -1,6 +1,6 @@
 #pragma once
 
-// Frames of a glove that is ten stripes, for the tests of this folder. Not part of the library.
+// Frames of a glove with ten stripes.
 
 #include <vector>
 
@@ -15,23 +15,22 @@ namespace glovebench::calibration {
 
 struct TestScene {
   double strength = 1;
-  Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< of light and white balance, linear
+  Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< of linear light
   double noise_gray = 2;
-  int missing = 0;    ///< a color of the glove that is not there; 0: none
-  bool glove = true;  ///< else skin alone
-  bool hand = true;   ///< else nothing in the volume
+  int missing = 0;    ///< color without a stripe; 0: none
+  bool glove = true;  ///< false: skin only
+  bool hand = true;   ///< false: empty volume
 };
 
 inline constexpr int kTestWidth = 160, kTestHeight = 200, kStripe = 16, kTestMargin = 12;
 inline constexpr int kSkinStripe = kColorCount + 1;
 
-/// Both cameras are one.
 inline RgbdCalibration test_calibration() {
   const PinholeCamera camera{kTestWidth, kTestHeight, 570, 570, kTestWidth / 2.0, kTestHeight / 2.0};
   return {camera, camera, Eigen::Isometry3d::Identity()};
 }
 
-/// The stripe of a pixel: 1..10 the glove's colors, kSkinStripe, or 0 for the table behind.
+/// The glove's color 1..10, kSkinStripe, or 0 for the table behind.
 inline int stripe_at(int u, int v, const TestScene& scene) {
   const bool inside = u >= kTestMargin && u < kTestWidth - kTestMargin && v >= kTestMargin;
   const int stripe = (v - kTestMargin) / kStripe + 1;
@@ -39,7 +38,6 @@ inline int stripe_at(int u, int v, const TestScene& scene) {
   return scene.glove ? stripe : kSkinStripe;
 }
 
-/// Linear, lit from the left: an even table, skin, or the glove.
 inline Eigen::Array3d light_at(int u, int v, const TestScene& scene) {
   const int stripe = stripe_at(u, v, scene);
   Eigen::Array3d albedo(0.42, 0.38, 0.33);
@@ -50,7 +48,7 @@ inline Eigen::Array3d light_at(int u, int v, const TestScene& scene) {
   return albedo * scene.gain * (scene.strength * (0.35 + 0.65 * u / kTestWidth));
 }
 
-/// Frame `number`; the first row of a stripe is half the one above.
+/// A stripe's first row mixes it with the stripe above.
 inline DeviceFrame test_frame(const TestScene& scene, int number) {
   DeviceFrame frame{Image<uint16_t>(kTestWidth, kTestHeight), ColorImage(kTestWidth, kTestHeight)};
   RandomStream random(3, "test glove", number, "noise");
@@ -74,7 +72,6 @@ inline ColorSamples test_samples(const TestScene& scene, int frames = 3) {
   return samples;
 }
 
-/// The colors under strength 1 and no gain, as a picture shows them in half of the light.
 inline ColorSeeds test_seeds() {
   ColorSeeds seeds;
   seeds[0] = Chroma::Zero();

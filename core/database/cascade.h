@@ -6,7 +6,7 @@
 
 namespace glovebench {
 
-/// One stage of the look-up: keep the `keep` nearest entries by images of `size` px.
+/// Keeps the `keep` nearest entries by images of `size` px.
 struct CascadeStage {
   int size = 64;
   int keep = 3;
@@ -15,9 +15,8 @@ struct CascadeStage {
 };
 using Cascade = std::vector<CascadeStage>;
 
-/// "16:500,64:3". "exact:3" is another spelling of "64:3": the nearest by the largest images with no stage before
-/// that could lose them. Throws Error if malformed or impossible (unknown size, a stage that keeps more than the
-/// one before it).
+/// Reads "16:500,64:3"; "exact:3" means "64:3".
+/// Throws: Error on a malformed or impossible stage.
 Cascade parse_cascade(std::string_view text);
 std::string to_string(const Cascade& cascade);
 

@@ -7,25 +7,21 @@
 
 namespace glovebench {
 
-/// Of the name of a database file.
 inline constexpr std::string_view kDatabaseEnding = ".glovedb";
 
-/// Loads the database of these inputs from `folder`, or builds and stores it there. The file's name holds the hash
-/// of all inputs and that of the code that builds: a change of either makes another file, as does low memory. Two
-/// processes that want the same one wait for each other; a damaged file is named through `message` and rebuilt. A
-/// build removes what other code built of the same inputs.
+/// Loads a database from `folder`, or builds and stores it. Processes that need the same file wait for each other.
+/// A damaged file is reported and rebuilt; a build removes files of older code.
 struct DatabaseCache {
   std::string folder;
   ViewRendererFactory renderers;
-  std::string source_hash;  ///< of the code that builds, `renderers` included (render::database_source_hash)
+  std::string source_hash;  ///< of the building code
   int threads = 1;
   DatabaseMemory memory = DatabaseMemory::normal;
   std::function<void(const std::string&)> message = [](const std::string&) {};
-  std::function<void(double)> progress;  ///< share built, 0..1; may be empty
+  std::function<void(double)> progress;  ///< share built, 0..1
 
   Database get(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                std::span<const int> sizes) const;
-  /// Where `get` keeps the database of these inputs.
   std::string path(const PostureSet& postures, const HandModel& model, const ViewConfig& views) const;
 };
 

@@ -8,30 +8,29 @@
 
 namespace glovebench {
 
-/// The labels of a tiny image as the kernels read them: whole chunks of 64 pixels, without a label behind the last.
+/// Labels in chunks of 64 pixels, padded by 0.
 struct QueryLabels {
   static constexpr size_t kChunk = 64;
   static constexpr size_t kLargest = 64 * 64;
   alignas(64) uint8_t labels[kLargest] = {};
 };
 
-/// 64 bytes of the field of one color, of which a query reads those where it has that color.
+/// 64 bytes of a field, read where the query has its color.
 struct FieldChunk {
-  uint32_t field;   ///< from the start of the entry's fields, bytes
+  uint32_t field;   ///< bytes from the entry's first field
   uint16_t pixels;  ///< first pixel of the query
   uint8_t color;
 };
 
-// The inner loops of the look-up, for the best instruction set of this processor (Highway). All give the same
-// result.
+// Inner loops of the look-up by Highway; all instruction sets give equal results.
 
-/// For each entry of `field_rows` the weighted sum of these rows, 65535 if it is larger; `sums` has room for whole
-/// blocks. `block_minima`: the least sum of each block.
+/// Weighted sums of rows for each entry, at most 65535, and the minimum of each block. `sums` has room for whole
+/// blocks.
 void add_rows(const FieldRows& field_rows, std::span<const WeightedRow> rows, std::span<uint16_t> sums,
               std::span<uint16_t> block_minima);
 
-/// The sum of what the query's chunks read, or any number above `limit` if the sum is above it. While it runs it
-/// asks for the same chunks at `next`, which may be null. Reads up to 63 bytes behind an entry's fields.
+/// The sum over the chunks, or any number above `limit` if it exceeds that. Prefetches `next`, which may be null.
+/// Reads up to 63 bytes behind the fields.
 uint32_t add_chunks(const uint8_t* fields, const QueryLabels& query, std::span<const FieldChunk> chunks,
                     uint32_t limit, const uint8_t* next);
 

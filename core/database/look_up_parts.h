@@ -7,20 +7,19 @@
 
 namespace glovebench {
 
-/// A database entry in a stage of the look-up.
 struct Candidate {
-  uint32_t sum = 0;  ///< of the stored distances over the query's glove pixels, 1/kFieldScale px; <= 4096 * 255
+  uint32_t sum = 0;  ///< of distances over the query's glove pixels, 1/kFieldScale px
   int entry = 0;
 
   friend auto operator<=>(const Candidate&, const Candidate&) = default;
 };
 
-/// The mean distance, px.
+/// The mean, px.
 inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
   return static_cast<float>(sum) / static_cast<float>(kFieldScale * glove_pixels);
 }
 
-/// Appends what a stage kept to the trace, if there is one.
+/// `trace` may be null.
 inline void note_kept(const RecycledVector<Candidate>& candidates, LookUpTrace* trace) {
   if (trace == nullptr) return;
   std::vector<int>& kept = trace->kept.emplace_back();
@@ -34,25 +33,22 @@ inline RecycledVector<Match> matches_of(const RecycledVector<Candidate>& candida
   return matches;
 }
 
-/// The fields of single entries for one query: as they are stored, or made of the labels in a low-memory database.
-/// The values are the same.
+/// Fields of single entries, stored or made from labels.
 class EntryFields {
  public:
-  /// `query` has the size whose fields are wanted. Throws Error if that size was not loaded.
+  /// Throws: Error if the query's size is not loaded.
   EntryFields(const Database& database, const LabelImage& query);
-  /// As `Database::fields`, but with any values for colors that the query does not have. Valid up to the next call.
+  /// As Database::fields, but undefined for colors that the query lacks. Valid until the next call.
   const uint8_t* of(int entry);
 
  private:
   const Database& database_;
   int size_;
-  std::vector<uint8_t> colors_;  ///< the query's
-  std::vector<uint8_t> made_;    ///< of one entry; none: fields are stored
+  std::vector<uint8_t> colors_;
+  std::vector<uint8_t> made_;
 };
 
-/// `look_up`, fast. A first stage by small images adds up the rows of `FieldRows` over all entries at once; one by
-/// large images adds up rows of cell minima, which bounds every distance from below, and computes distances only
-/// where the bound is under the last one kept. Later stages stop adding up an entry as soon as it is too far.
+/// The fast implementation of `look_up`.
 RecycledVector<Match> look_up_fast(const Database& database, const TinyImages& query, const Cascade& cascade,
                                    LookUpTrace* trace);
 

@@ -7,7 +7,6 @@
 
 namespace glovebench {
 
-/// Postures of one database, e.g. "DB_open_power".
 struct PostureSet {
   std::string name;
   std::vector<std::string> posture_names;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Databases of painted blocks: made in no time, for tests of everything but the pictures.
+// Databases of painted blocks, quick to make.
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Paints blocks of two colors that follow from the view alone. Each color costs a field of distances.
+/// Paints blocks of two colors that depend on the view.
 class BlockRenderer : public ViewRenderer {
  public:
   LabelImage render_labels(const HandModel&, const PosedHand&, const PinholeCamera& camera,

@@ -1,7 +1,6 @@
 #pragma once
 
-// A small database's file without a hand, a renderer or a mesh, and files whose checksums are right all the same:
-// for tests and the fuzz target.
+// A small database file, and damaged ones with correct checksums.
 
 #include <cstring>
 #include <string>
@@ -13,7 +12,6 @@
 
 namespace glovebench {
 
-/// The file of a database of one posture, whose 756 views are two painted blocks each.
 inline std::string painted_database(DatabaseMemory memory, std::set<int> sizes_px) {
   DatabaseLayout layout({.postures = {"DB_painted", {"open"}, {Posture::Zero()}},
                          .side = Side::right,
@@ -42,18 +40,15 @@ inline std::string painted_database(DatabaseMemory memory, std::set<int> sizes_p
   return {bytes, bytes + layout.bytes()};
 }
 
-/// The layout of a good file.
 inline DatabaseLayout layout_of(const std::string& file) {
   return DatabaseLayout({reinterpret_cast<const uint8_t*>(file.data()), file.size()}, "layout_of");
 }
-/// Those of its sections that the file holds.
 inline std::vector<Section> stored_sections(const DatabaseLayout& layout) {
   std::vector<Section> sections = layout.sections();
   std::erase_if(sections, [](const Section& section) { return section.bytes == 0; });
   return sections;
 }
 
-/// The file with the right checksum of its header again.
 inline std::string with_right_header(std::string file) {
   constexpr size_t kLength = 22, kHash = 30, kHeader = 62;
   uint64_t length = 0;
@@ -62,7 +57,7 @@ inline std::string with_right_header(std::string file) {
   return file.replace(kHash, hash.size(), hash);
 }
 
-/// The file with right hashes again, also of the fields that it does not hold. `layout`: before it was damaged.
+/// `layout` is that of the undamaged file.
 inline std::string with_right_hashes(std::string file, const DatabaseLayout& layout) {
   MappedMemory bytes = MappedMemory::zeros(file.size());
   std::ranges::copy(file, bytes.writable().begin());

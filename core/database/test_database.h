@@ -1,6 +1,6 @@
 #pragma once
 
-// The hand and the database that the tests of this module look up.
+// The hand and database of this folder's tests.
 
 #include "core/database/database_cache.h"
 #include "core/test_folder.h"
@@ -25,7 +25,7 @@ inline PostureSet test_postures() {
   return {"DB_test", {"open", "power"}, {Posture::Zero(), power_posture()}};
 }
 
-/// The database of these postures; built by the first test process that asks.
+/// Built by the first test process that asks.
 inline const Database& test_database(DatabaseMemory memory = DatabaseMemory::normal) {
   const auto get = [](DatabaseMemory which) {
     DatabaseCache cache;
@@ -44,7 +44,6 @@ inline const Database& test_database(DatabaseMemory memory = DatabaseMemory::nor
   return normal;
 }
 
-/// Labels of an entry as an image, as if it were a query.
 inline LabelImage entry_image(const Database& database, int size, int entry) {
   return database.labels(size, entry);
 }

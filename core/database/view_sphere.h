@@ -12,23 +12,21 @@
 
 namespace glovebench {
 
-inline constexpr int kCameraPositions = 42;   ///< an icosahedron subdivided once (section III)
+inline constexpr int kCameraPositions = 42;   ///< icosahedron subdivided once (section III)
 inline constexpr int kInPlaneRotations = 18;  ///< 20 degrees apart
 inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;  ///< 756
 
-/// Unit vectors to the camera positions: corners and edge midpoints of an icosahedron.
+/// Unit vectors to the corners and edge midpoints of an icosahedron.
 std::vector<Eigen::Vector3d> camera_directions();
 
-/// R_view_hand of the 756 views: cameras (x right, y down, z forward) that look at the hand origin.
-/// View = position * 18 + rotation.
+/// R_view_hand, cameras looking at the hand origin. View = position * 18 + rotation.
 const std::vector<Eigen::Matrix3d>& view_rotations();
 
-/// Draws the hand's labels as a camera sees them. `render` implements it with OSMesa; an object belongs to
-/// one thread.
+/// Draws label views; belongs to one thread.
 class ViewRenderer {
  public:
   virtual ~ViewRenderer() = default;
-  /// Labels of the nearest surfaces, 0 where there is none. Camera axes: x right, y down, z forward.
+  /// Labels of the nearest surfaces, 0 elsewhere.
   virtual LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                    const Eigen::Isometry3d& T_camera_hand) = 0;
 };

@@ -14,48 +14,45 @@
 
 namespace glovebench {
 
-/// How a subject's hand differs from the mesh of the package.
+/// Differences from the package's mesh.
 struct HandShape {
-  double scale = 1.0;  ///< of the whole hand
-  /// Relative length of each segment: thumb metacarpal, proximal, distal; then proximal, intermediate, distal of
-  /// index, middle, ring, little.
+  double scale = 1.0;
+  /// relative lengths: thumb metacarpal, proximal, distal; then proximal, intermediate, distal of index to little
   std::array<double, 15> segment_scale = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  double patch_border_shift = 0.0;  ///< how far the patch borders lie towards the fingertips, m
+  double patch_border_shift = 0.0;  ///< towards the fingertips, m
 
   friend bool operator==(const HandShape&, const HandShape&) = default;
 };
 
-/// The second subject: 5% larger, segments +-8%, patch borders shifted by 2 mm.
+/// 5% larger, segments +-8%, borders shifted by 2 mm.
 HandShape second_subject();
 
-/// The mesh with its segments stretched along their bones and the whole hand scaled, in the bind pose. The mesh is
-/// in the hand frame, with the forearm.
+/// Applies a shape to a mesh with forearm, in the hand frame and bind pose.
 RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
-/// The hand in one posture, in the hand frame (metres): rooted at the palm, origin midway between the wrist
-/// joint and the middle MCP, -z to the fingertips, +y dorsal.
+/// The hand in the hand frame, m: origin midway between the wrist joint and the middle MCP, -z to the fingertips,
+/// +y dorsal.
 struct PosedHand {
   RecycledVector<Eigen::Vector3f> vertices;
   JointPoses T_hand_joint;
 };
 
-/// The rigged, gloved hand: kinematics, linear blend skinning, and a closed mesh cut along the patch borders.
+/// The gloved hand: kinematics, linear blend skinning and a closed mesh.
 class HandModel {
  public:
-  /// Loads the mesh (generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20). Throws Error if the
-  /// file is missing or is not that file (checksum).
+  /// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20.
+  /// Throws: Error if the file is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
   PosedHand pose(const Posture& posture) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
   size_t vertex_count() const { return bind_vertices_.size(); }
-  /// Joints and weights of each vertex.
   const std::vector<Influence>& influences() const { return influences_; }
   Side side() const { return side_; }
-  /// Of the right hand; the left hand is its mirror image.
+  /// The right hand's; the left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const HandShape& shape() const { return shape_; }
-  /// Hash of the mesh after cutting, with its weights and skeleton: changes whenever the model does.
+  /// Hash of cut mesh, weights and skeleton.
   const std::string& hash() const { return hash_; }
 
  private:
@@ -64,7 +61,7 @@ class HandModel {
   Skeleton skeleton_;
   std::vector<Eigen::Vector3d> bind_vertices_;
   std::vector<Influence> influences_;
-  JointPoses T_joint_bind_;  ///< bind-pose hand coordinates to joint coordinates
+  JointPoses T_joint_bind_;
   std::vector<Triangle> triangles_;
   std::string hash_;
 };

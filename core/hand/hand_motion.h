@@ -7,25 +7,22 @@
 
 namespace glovebench {
 
-/// How a point q moves that hangs on a joint whose angle turns: by axis x q + moment a radian. Hand frame, m.
+/// A point q moves by axis x q + moment per radian. Hand frame, m.
 struct Screw {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length, right-handed
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
-/// The screw of each angle in this posture.
 std::array<Screw, kAngleCount> angle_screws(const HandModel& model, const PosedHand& hand);
 
-/// The rigid bodies that the angles move: the palm, three segments of each finger, the forearm.
+/// Rigid bodies: palm, three segments of each finger, forearm.
 inline constexpr int kBodyCount = 17;
-/// The angles that move a body, as bits. None moves the first one, the palm.
+/// The angles that move a body, as bits; none for body 0, the palm.
 uint32_t angles_of_body(int body);
-/// The share of each body in a point of the surface: the sum of its joints' weights; all sum to 1.
+/// Each body's share in a surface point; the sum is 1.
 using BodyShares = std::array<float, kBodyCount>;
-/// One a vertex.
 std::vector<BodyShares> body_shares(const HandModel& model);
 
-/// The share of each angle's turn that a point of the surface follows, 0..1: those of the bodies that it moves.
-/// With linear blending this is the derivative up to what the bodies of one point disagree on.
+/// How much a surface point follows each angle, 0..1: the summed shares of the bodies that the angle moves.
 using AngleShares = Eigen::Matrix<float, kAngleCount, 1>;
 AngleShares angle_shares(const BodyShares& shares);
 

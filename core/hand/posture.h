@@ -8,7 +8,8 @@
 
 namespace glovebench {
 
-/// The 22 joint angles of section III: 16 flexions and 6 abductions. Radians; in files degrees.
+/// The 22 joint angles, rad; degrees in files.
+/// Paper: section III.
 inline constexpr int kAngleCount = 22;
 using Posture = Eigen::Matrix<double, kAngleCount, 1>;
 
@@ -37,8 +38,8 @@ enum Angle : int {
   kLittleDipFlexion,
 };
 
-/// Name as it stands in files, and the limits of a human hand. Positive flexion bends to the palm, positive
-/// abduction turns towards the thumb; zero is a straight finger in line with the palm.
+/// The name in files and limits of a human hand. Positive flexion bends to the palm, positive abduction turns to
+/// the thumb; zero is straight and in line with the palm.
 struct AngleInfo {
   std::string_view name;
   double min_deg;
@@ -47,9 +48,8 @@ struct AngleInfo {
 const std::array<AngleInfo, kAngleCount>& angle_infos();
 
 Posture posture_from_degrees(const std::array<double, kAngleCount>& degrees);
-/// Each angle moved to the nearest limit if it lies outside.
 Posture clamp_to_limits(const Posture& posture);
-/// The headline posture error: root mean square over the 22 angles, radians.
+/// Root mean square over the angles, rad.
 double posture_distance(const Posture& a, const Posture& b);
 
 enum class Side { right, left };

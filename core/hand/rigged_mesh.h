@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// Up to four joints that move a vertex; weights are >= 0 and sum to 1, unused slots have weight 0.
+/// Up to four joints that move a vertex; weights are >= 0 and sum to 1.
 struct Influence {
   std::array<uint8_t, 4> joint = {0, 0, 0, 0};
   std::array<float, 4> weight = {0, 0, 0, 0};
@@ -16,20 +16,19 @@ struct Influence {
   float weight_of(int j) const;
 };
 
-/// A closed triangle mesh with a bind pose. All coordinates in one frame, metres.
+/// A closed triangle mesh in bind pose, m.
 struct RiggedMesh {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Influence> influences;               ///< one a vertex
-  std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
-  std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< bind pose, by joint index (skeleton.h)
+  std::vector<Influence> influences;               ///< one for each vertex
+  std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
+  std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< by joint (skeleton.h)
 };
 
-/// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20, welded by position. The frame is the
-/// file's. Throws Error if the file is missing, altered (checksum), or cannot be parsed.
+/// Loads the file of HandModel::load in its own frame, welded by position.
+/// Throws: Error as HandModel::load does.
 RiggedMesh load_rigged_mesh(const std::string& path);
 
-/// Cuts the flat cap off the wrist end of a mesh in the hand frame, extrudes `length` metres of forearm from the
-/// opening, closes it, adds the forearm joint at the wrist and blends its weight in over +-12 mm around it.
+/// Replaces the cap at the wrist of a mesh in the hand frame by a forearm of `length` m, blended in over +-12 mm.
 RiggedMesh with_forearm(const RiggedMesh& hand, double length);
 
 }  // namespace glovebench

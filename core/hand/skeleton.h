@@ -9,51 +9,47 @@
 
 namespace glovebench {
 
-/// The 25 joints of the WebXR hand and, last, the forearm.
+/// WebXR's 25 joints, then the forearm.
 inline constexpr int kJointCount = 26;
 inline constexpr int kWristJoint = 0;
 inline constexpr int kForearmJoint = 25;
 
-/// WebXR name of a joint ("thumb-tip"; the last is "forearm"), and back. `joint_index` throws Error if there is no
-/// such joint.
+/// WebXR names; the last is "forearm".
+/// Throws: Error for an unknown name.
 const std::string& joint_name(int joint);
 int joint_index(const std::string& webxr_name);
-/// Parent of each joint; -1 for what is fixed to the palm (wrist, finger metacarpals) or hangs on it.
+/// -1: attached to the palm.
 const std::array<int, kJointCount>& joint_parents();
 /// The joint that an angle turns.
 int joint_of_angle(int angle);
-/// The fingertip joints, thumb to little.
+/// Thumb to little.
 const std::array<int, 5>& fingertip_joints();
 
 using JointPoses = std::array<Eigen::Isometry3d, kJointCount>;
 
-/// The kinematic tree of the hand. A moving joint's rotation in its parent is
-/// R_zero_before * R_y(abduction) * R_x(-flexion) * R_zero_after: abduction first, then flexion about the abducted
-/// axis. At zero the finger joints line up with the hand frame's -z; the thumb's base keeps its bind orientation.
+/// The kinematic tree of the right hand. A joint's rotation in its parent is R_zero_before * R_y(abduction) *
+/// R_x(-flexion) * R_zero_after. At zero, fingers point to -z of the hand frame, and the thumb's base keeps its
+/// bind orientation.
 class Skeleton {
  public:
   Skeleton() = default;
-  /// From the bind pose in the hand frame (right hand).
   explicit Skeleton(const JointPoses& T_hand_joint_bind);
 
-  /// Pose of every joint in the hand frame (right hand).
   JointPoses pose(const Posture& posture) const;
-  /// The axis (hand frame, unit length) about which each angle turns its joint and what hangs on it, right-handed,
-  /// in the pose of that posture.
+  /// The right-handed unit axis of each angle in the hand frame.
   std::array<Eigen::Vector3d, kAngleCount> axes(const JointPoses& T_hand_joint) const;
-  /// The angles at which the bind pose is reached.
   const Posture& bind_posture() const { return bind_posture_; }
 
-  /// Where a joint lies in its parent's frame, in the hand frame if it has none, m. Another hand has other places.
+  /// A joint's position in its parent's frame, or else the hand frame, m.
   const Eigen::Vector3d& offset(int joint) const { return joints_.at(joint).offset; }
   void set_offset(int joint, const Eigen::Vector3d& offset) { joints_.at(joint).offset = offset; }
 
  private:
   struct Joint {
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< in the parent's frame
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     Eigen::Matrix3d before = Eigen::Matrix3d::Identity();
     Eigen::Matrix3d after = Eigen::Matrix3d::Identity();
-    int abduction = -1;  ///< index of the angle, or -1
+    int abduction = -1;
     int flexion = -1;
   };
 

@@ -9,15 +9,14 @@
 
 namespace glovebench {
 
-/// A way to follow one hand: from device frames to posture and pose. Frames are given in time order.
+/// Tracks one hand from device frames in time order.
 class Method {
  public:
   virtual ~Method() = default;
-  /// The answer for one frame. `observe`, if given, is told the name of each stage when it begins.
+  /// `observe` receives each stage's name when it begins.
   virtual TrackResult track(const DeviceFrame& frame, const StageObserver& observe = {}) = 0;
 };
 
-/// What a method may be made of; it sees nothing else.
 struct MethodInputs {
   TrackerConfig config;
   RgbdCalibration calibration;
@@ -26,16 +25,16 @@ struct MethodInputs {
   std::shared_ptr<const ColorTable> table;
 };
 
-/// A method: X_method.cpp in this folder defines `MethodEntry X_method()`.
+/// X_method.cpp in this folder defines `MethodEntry X_method()`.
 struct MethodEntry {
   std::string_view name;         ///< X
   std::string_view description;  ///< one line
-  /// Throws Error as Tracker does.
+  /// Throws: Error as Tracker does.
   std::unique_ptr<Method> (*make)(const MethodInputs& inputs);
 };
-/// All of this folder, sorted by name.
+/// Sorted by name.
 std::span<const MethodEntry> methods();
-/// Throws Error listing the known ones.
+/// Throws: Error listing the known names.
 const MethodEntry& find_method(std::string_view name);
 
 }  // namespace glovebench

@@ -5,9 +5,9 @@
 
 namespace glovebench {
 
-/// The method of the paper, and the default.
+/// The default.
 inline constexpr std::string_view kPaperMethod = "schroeder2012";
-/// The names of all methods, sorted: the X of the files X_method.cpp in this folder.
+/// Sorted names: the X of this folder's X_method.cpp.
 std::span<const std::string_view> method_names();
 
 }  // namespace glovebench

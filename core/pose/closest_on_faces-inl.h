@@ -1,5 +1,4 @@
-// The closest points of one face to several points, side by side.
-// Included once for each instruction set (Highway); the guard turns with it.
+// Included once for each instruction set (Highway); the guard toggles with it.
 #if defined(GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H
 #undef GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H
@@ -42,7 +41,7 @@ HWY_INLINE Vectors operator+(const Vectors& a, const Vectors& b) {
 HWY_INLINE Vectors operator*(Floats s, const Vectors& v) {
   return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)};
 }
-/// In the order in which Eigen adds.
+/// Adds in Eigen's order.
 HWY_INLINE Floats dot(const Vectors& a, const Vectors& b) {
   return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
 }
@@ -56,8 +55,7 @@ HWY_INLINE Mask all(Mask a, Mask b, Mask c) {
   return hn::And(a, hn::And(b, c));
 }
 
-/// `closest_on_triangle` with exactly its operations in each lane: a difference rounded otherwise would be another
-/// face's victory.
+/// Repeats the operations of `closest_on_triangle`: another rounding could select another face.
 HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& face) {
   const Vectors a = set(face.a), b = set(face.b), c = set(face.c), ab = set(face.ab), ac = set(face.ac);
   const Vectors ap = p - a, bp = p - b, cp = p - c;
@@ -67,7 +65,7 @@ HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& fa
   const Floats vc = cross(d1, d4, d3, d2), vb = cross(d5, d2, d1, d6), va = cross(d3, d6, d5, d4);
   const Floats zero = hn::Zero(kFloats), d43 = hn::Sub(d4, d3), d56 = hn::Sub(d5, d6);
 
-  // The regions in the order in which they are asked for; a later one counts where no earlier one does.
+  // In the order of the tests; earlier ones win.
   const Mask at_a = hn::And(hn::Le(d1, zero), hn::Le(d2, zero));
   const Mask at_b = hn::And(hn::Ge(d3, zero), hn::Le(d4, d3));
   const Mask on_ab = all(hn::Le(vc, zero), hn::Ge(d1, zero), hn::Le(d3, zero));
@@ -93,7 +91,7 @@ HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& fa
   return choose(at_a, a, result);
 }
 
-/// The nearest face to each of the points so far.
+/// The nearest face so far to each point.
 struct Nearest {
   Floats squared;
   Ints face;
@@ -103,7 +101,7 @@ struct Nearest {
       : squared(hn::Set(kFloats, kInfinity)),
         face(hn::Set(kInts, -1)),
         p{hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)} {}
-  /// Takes a face where it is nearer, or as near and comes first; never one whose distance is not a number.
+  /// Takes a nearer face, or an equally near one with a smaller index; ignores NaN.
   HWY_INLINE void consider(const Vectors& points, const FacePackets::Face& candidate) {
     const Vectors closest = closest_on_face(points, candidate), apart = closest - points;
     const Floats distance2 = dot(apart, apart);

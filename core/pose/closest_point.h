@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// The triangles of a posed hand that face a viewpoint, by color; hand frame, metres.
+/// The triangles of a posed hand that face a viewpoint, by color; hand frame, m.
 class Surface {
  public:
   struct Face {
@@ -19,16 +19,16 @@ class Surface {
     uint32_t triangle;  ///< in the model
   };
   enum class Coloring { by_color, any_color };
-  /// The label under which a surface without colors (`any_color`) keeps all its faces; its points have it too.
+  /// The label of all faces and points with `any_color`.
   static constexpr uint8_t kAnyColor = 0;
 
   Surface() = default;
-  /// Faces turned away from `viewpoint_hand` are culled (section III-C).
+  /// Culls faces turned away from `viewpoint_hand`.
+  /// Paper: section III-C.
   Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
           Coloring coloring = Coloring::by_color) {
     assign(model, hand, viewpoint_hand, coloring);
   }
-  /// Made anew; keeps its memory.
   void assign(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
               Coloring coloring);
 
@@ -39,23 +39,20 @@ class Surface {
   std::array<RecycledVector<Face>, kColorCount + 1> faces_;
 };
 
-/// Center of the faces of a posed hand that look at a viewpoint, weighted by the areas that are seen from there;
-/// all in the hand frame, m. The origin if no face does.
+/// Mean of the seen faces, weighted by visible area, hand frame, m; the origin if none is seen.
 Eigen::Vector3f seen_center(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand);
 
-/// A point's closest point on the surface of its color.
 struct ClosestPoint {
   Eigen::Vector3f p_hand = Eigen::Vector3f::Zero();
   float distance = 0;  ///< m
-  int face = -1;       ///< in Surface::faces of the point's color; -1 if that color faces away altogether
+  int face = -1;       ///< in Surface::faces of the point's color; -1: none
 };
 
-/// The closest point of one triangle (Ericson, Real-Time Collision Detection, section 5.1.5).
+/// Ericson, Real-Time Collision Detection, section 5.1.5.
 Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Face& face);
 
-/// For each point (hand frame) the closest point on the faces of its label; of equally close faces the first. As
-/// the paper describes it: every face of the color. A point that is not finite has none (face -1), as has one so
-/// far away that the square of its distance is not finite.
+/// Searches all faces of each point's label; the first of equally near ones wins. A point without a finite squared
+/// distance gets face -1.
 RecycledVector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand,
                                                   const Surface& surface);
 

@@ -8,41 +8,36 @@
 
 namespace glovebench {
 
-/// Boxes with what says how far rounding may put closest points outside of them; side by side, for SIMD.
+/// Boxes for SIMD, with bounds on rounding.
 template <int kCount>
 struct alignas(64) Boxes {
   float low[3][kCount], high[3][kCount];  ///< [axis][box], m
-  float length[kCount];                   ///< of the longest edge of a face, m
-  float blur[kCount];                     ///< 1/m: see `rounding_blur`
+  float length[kCount];                   ///< longest edge of a face, m
+  float blur[kCount];                     ///< `rounding_blur`, 1/m
 };
 
-/// The faces of one color in packets of those that follow each other, which are neighbors in the mesh mostly: what
-/// the fast closest-point search reads.
+/// The faces of one color in packets of consecutive ones.
 struct FacePackets {
-  static constexpr int kFaces = 8;     ///< in a packet
-  static constexpr int kPackets = 16;  ///< whose boxes lie together: the most lanes of any instruction set
+  static constexpr int kFaces = 8;     ///< per packet
+  static constexpr int kPackets = 16;  ///< per group, for the widest vectors
 
-  /// One cache line.
   struct alignas(64) Face {
     float a[3], b[3], c[3];
     float ab[3], ac[3];  ///< b - a, c - a
-    int32_t face;        ///< in Surface::faces: its own place, but for what is repeated
+    int32_t face;        ///< in Surface::faces
   };
 
-  RecycledVector<Face> faces;                    ///< as in Surface::faces; the last one is repeated: whole packets
-  RecycledVector<Boxes<kFaces>> face_boxes;      ///< a packet each; what repeats a face is very far away
-  RecycledVector<Boxes<kPackets>> packet_boxes;  ///< behind the last packet they are very far away
-  float slack = 0;                               ///< m: what rounding may move a corner, seen from anywhere
+  RecycledVector<Face> faces;                    ///< the last is repeated to fill its packet
+  RecycledVector<Boxes<kFaces>> face_boxes;      ///< one for each packet; padding is very far
+  RecycledVector<Boxes<kPackets>> packet_boxes;  ///< padding is very far
+  float slack = 0;                               ///< rounding error of a corner, m
 
   int packet_count() const { return static_cast<int>(face_boxes.size()); }
-  /// Made anew of these faces; keeps its memory.
   void assign(std::span<const Surface::Face> surface_faces);
 };
 
-/// In single precision the closest point of a thin face may come to lie outside of it: for a point at most D away
-/// by up to blur * D^2. That takes the rounding error of the areas in `closest_on_triangle` for 8 * 2^-24 (length *
-/// D)^2: not the worst case, but several times what independent roundings add up to; and it is doubled. Infinite
-/// for a face without an area.
+/// By rounding, the closest point of a thin face may lie outside it by blur * D^2, where D is the point's distance.
+/// Infinite for a face without area.
 float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench

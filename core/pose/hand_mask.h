@@ -9,22 +9,20 @@
 
 namespace glovebench {
 
-/// Pixels from `left`, `top` to before `right`, `bottom`.
+/// `right` and `bottom` are excluded.
 struct PixelBox {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
-/// Around the labeled pixels, with a margin, within the image; empty if there are none.
+/// Around the labeled pixels, within the image; empty without any.
 PixelBox label_box(const LabelImage& labels, int margin);
 
-/// Pixels at which the hand may be: those that are near enough, and those without a depth. Every other pixel of the
-/// box stores its way to the nearest of those (Danielsson 1980, sequential Euclidean mapping: off by at most a
-/// pixel).
+/// Pixels that may show the hand: near ones and those without depth. The others store the offset to their nearest
+/// one (Danielsson 1980, off by at most 1 px).
 class HandMask {
  public:
-  /// `depth` and `raw_disparity` are of one camera; the hand is nearer than `farthest` (m). Keeps its memory.
+  /// The hand is nearer than `farthest`, m.
   void assign(const DepthImage& depth, const Image<uint16_t>& raw_disparity, const PixelBox& box, float farthest);
-  /// From a place in the image to the nearest pixel of the mask, px, if that is farther than a pixel away. Nothing
-  /// in a box without such pixels.
+  /// From a position to the nearest mask pixel, px. Empty if it is within 1 px or the mask is empty.
   std::optional<Eigen::Vector2d> way_back_px(const Eigen::Vector2d& uv_px) const;
 
  private:
@@ -38,7 +36,7 @@ class HandMask {
   PixelBox box_;
   int width_ = 0, height_ = 0;
   bool is_empty_ = true;
-  RecycledVector<Offset> offsets_;  ///< to the nearest pixel of the mask
+  RecycledVector<Offset> offsets_;
 };
 
 }  // namespace glovebench

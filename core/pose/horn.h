@@ -6,14 +6,13 @@
 
 namespace glovebench {
 
-/// T_to_from that takes `from` to `to` with the least mean squared distance: Horn 1987, by the largest eigenvector
-/// of a 4x4 matrix (reference 23 of the paper). Nothing if there are fewer than three points or they lie on one
+/// T_to_from with the least mean squared distance (Horn 1987). Empty for fewer than three points or points on a
 /// line.
+/// Paper: reference 23.
 std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> from,
                                               std::span<const Eigen::Vector3f> to);
 
-/// Unit eigenvector of the largest eigenvalue of the symmetric `matrix`: the rotation as a quaternion that Horn's
-/// and Markley's sums ask for. Its sign is free.
+/// Unit eigenvector of the largest eigenvalue, with either sign.
 Eigen::Vector4d largest_eigenvector(const Eigen::Matrix4d& matrix);
 
 }  // namespace glovebench

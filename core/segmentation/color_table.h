@@ -13,10 +13,10 @@
 
 namespace glovebench {
 
-/// Y, U, V, each 0..255 (BT.601, full range, U and V centered at 128).
+/// Y, U, V in 0..255 (BT.601, full range, U and V centered at 128).
 using Yuv = std::array<uint8_t, 3>;
 constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
-  // 16-bit fixed point, rounded (halves down, so that U and V of pure blue and red end at 255 without a clamp).
+  // 16-bit fixed point; halves round down, so no clamp is needed.
   constexpr int half = (1 << 15) - 1, center = 128 << 16;
   const int r = rgb[0], g = rgb[1], b = rgb[2];
   return {static_cast<uint8_t>((19595 * r + 38470 * g + 7471 * b + half) >> 16),
@@ -24,24 +24,24 @@ constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
           static_cast<uint8_t>((32768 * r - 27439 * g - 5329 * b + half + center) >> 16)};
 }
 
-/// The axes of a color table: the paper's (Y, U, V), or (R, G, B) to compare it with.
+/// The paper's, or RGB to compare.
 enum class ColorSpace { yuv, rgb };
 constexpr auto names_of(ColorSpace) {
   return std::to_array<std::string_view>({"yuv", "rgb"});
 }
 
-/// The look-up table of section III-A: 64 x 64 x 64 cells over (Y, U, V), or over (R, G, B), each holding a label
-/// 0..10.
+/// Labels 0..10 of 64 x 64 x 64 color cells.
+/// Paper: section III-A.
 class ColorTable {
  public:
   static constexpr int kBits = 6;
   static constexpr size_t kCells = size_t{1} << (3 * kBits);
 
   ColorTable() : labels_(kCells, 0) {}
-  /// Throws Error unless there are kCells labels, all 0..kColorCount.
+  /// Throws: Error unless `labels` are kCells values in 0..kColorCount.
   explicit ColorTable(std::vector<uint8_t> labels, ColorSpace space = ColorSpace::yuv);
 
-  /// The cell of a color given in the table's own space.
+  /// `color` is in the table's space.
   static size_t cell(const std::array<uint8_t, 3>& color) {
     constexpr int shift = 8 - kBits;
     return (size_t{color[0]} >> shift) << (2 * kBits) | (size_t{color[1]} >> shift) << kBits |
@@ -54,7 +54,8 @@ class ColorTable {
   const std::vector<uint8_t>& labels() const { return labels_; }
   ColorSpace space() const { return space_; }
 
-  /// Versioned, checksummed file. `load` throws Error naming the file and what is wrong with it.
+  /// A versioned, checksummed file.
+  /// Throws: Error naming the file and the fault.
   void save(const std::string& path) const;
   static ColorTable load(const std::string& path);
 
@@ -63,23 +64,20 @@ class ColorTable {
   ColorSpace space_ = ColorSpace::yuv;
 };
 
-/// The labeled image L: the table applied to every pixel of M that has a color.
+/// The label image L of the mapped image M.
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table);
-/// The table applied to every pixel of a color image.
 LabelImage segment(const ColorImage& color, const ColorTable& table);
 
-/// Replaces each label by the majority of its 3x3 neighborhood (a configuration, not in the paper).
+/// The most frequent label of each 3x3 neighborhood (not in the paper).
 LabelImage majority_filter(const LabelImage& labels);
 
-/// The table of what a file of ColorTable::save holds; `where` names it in messages. Throws Error naming the field
-/// that is wrong.
+/// Reads what ColorTable::save writes.
+/// Throws: Error naming `where` and the field.
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
 
-/// Labels where patches meet and where the hand ends: there a pixel mixes two colors, and a color table says
-/// nothing of it, or a third color (not in the paper). Each pixel with a depth takes the label that most of its 3x3
-/// neighborhood has, itself included, of those within `depth_step` (m) of its depth; pixels without a label do not
-/// vote, its own label wins a tie, else the smallest. A pixel that has none takes one only if two vote. Both images
-/// have one size.
+/// Corrects labels at borders, where pixels mix colors (not in the paper): a pixel takes the most frequent label of
+/// its 3x3 neighborhood within `depth_step`, m. Ties go to its own label, else the smallest. An unlabeled pixel
+/// needs two votes.
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step = 0.02);
 
 }  // namespace glovebench

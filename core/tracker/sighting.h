@@ -10,28 +10,27 @@
 
 namespace glovebench {
 
-/// Does the glove touch the image border over a longer stretch than `config` allows? Then its bounding box is not
-/// the hand's. `glove_pixels` is the number of labeled pixels.
+/// Whether the glove touches the image border over a longer stretch than `config` allows.
 bool is_cut_by_border(const LabelImage& labels, size_t glove_pixels, const DetectionConfig& config);
 
-/// Is there one whole hand in the cloud? `tracked` if so, else why not.
+/// `tracked` if the cloud is one whole hand.
 TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config);
 
-/// What a frame shows before anything is looked up (section III-A), stage by stage.
+/// What a frame shows before the look-up.
+/// Paper: section III-A.
 struct Sighting {
   DepthImage depth;
-  RegisteredImage mapped;                     ///< M
-  LabelImage labels;                          ///< L
-  LabeledCloud cloud;                         ///< C
-  TrackStatus status = TrackStatus::no_hand;  ///< `tracked` if there is one whole hand to look up
+  RegisteredImage mapped;  ///< M
+  LabelImage labels;       ///< L
+  LabeledCloud cloud;      ///< C
+  TrackStatus status = TrackStatus::no_hand;
 };
 
-/// Registers, segments, and makes the cloud, of the whole images.
+/// Processes the whole images.
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
              const TrackerConfig& config);
-/// The same cloud and status, faster: what lies more than `kCutOffMargin` beyond the working volume is left out of
-/// the images and of `labeled_outside`. It can neither be in the cloud nor hide from the RGB camera what is. If too
-/// few points are left, everything is done again with the whole images.
+/// The same cloud and status, faster: leaves out depths more than `kCutOffMargin` behind the working volume, also
+/// from `labeled_outside`.
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);
 

@@ -5,13 +5,12 @@
 
 namespace glovebench {
 
-/// The smoothing of section III-C as its printed numbers show it: the recursive filter x = keep * previous +
-/// (1 - keep) * new, on the posture and, if configured, on the pose.
+/// Recursive filter x = keep * previous + (1 - keep) * new of the posture and, if configured, the pose.
+/// Paper: section III-C, as its printed numbers show.
 class Smoother {
  public:
   explicit Smoother(const SmoothingConfig& config) : config_(config) {}
-  /// Fills the smoothed posture and pose of a result from its unfiltered ones. A lost frame repeats the last
-  /// smoothed values.
+  /// Fills the smoothed values of a result. A lost frame repeats the last ones.
   TrackResult smooth(TrackResult result);
 
  private:

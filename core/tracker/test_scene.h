@@ -1,6 +1,6 @@
 #pragma once
 
-// A synthetic Kinect before the gloved hand, and a tracker for it.
+// A synthetic Kinect before the gloved hand, with a tracker.
 
 #include "core/base/math.h"
 #include "core/base/random.h"
@@ -12,13 +12,13 @@
 
 namespace glovebench {
 
-/// Shared pointer to an object that outlives it.
+/// `object` outlives the pointer.
 template <typename T>
 std::shared_ptr<const T> borrowed(const T& object) {
   return {&object, [](const T*) {}};
 }
 
-/// Calibrated from views under the lighting of the frames below; made by the first test process that asks.
+/// Made by the first test process that asks.
 inline const ColorTable& test_color_table() {
   static const ColorTable table = [] {
     const std::string path = shared_test_folder() + "/colors.table";
@@ -47,7 +47,7 @@ inline Tracker make_tracker(const TrackerConfig& config = {}) {
                  borrowed(test_color_table()));
 }
 
-/// What a Kinect sees of the hand in the scene, and where the glove is in its two images.
+/// A frame, with the glove in both images.
 struct Shot {
   DeviceFrame frame;
   LabelImage ir_labels;
@@ -63,7 +63,7 @@ inline Shot shoot(const Eigen::Isometry3d& T_camera_hand, const Posture& posture
           images.label, renderer.render_color_labels(hand, T_camera_hand)};
 }
 
-/// The first shot with the second's glove in front of it: right as long as the two do not cover each other.
+/// Correct as long as the gloves do not overlap.
 inline DeviceFrame with_second_glove(const Shot& first, const Shot& second) {
   DeviceFrame frame = first.frame;
   for (size_t i = 0; i < frame.raw_disparity.size(); ++i) {

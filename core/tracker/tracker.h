@@ -9,29 +9,26 @@
 
 namespace glovebench {
 
-/// What the stages make of one frame, for pictures.
 struct FrameTrace : Sighting {
-  LabelImage tiny;  ///< of the last cascade stage; empty where there is no hand to look up
+  LabelImage tiny;  ///< of the last stage; empty without a hand
 };
 
-/// Throws Error if the configuration is impossible, or if model, database, color table and configuration do not
-/// belong together: another side, tiny images that the cascade asks for missing, another color space.
+/// Throws: Error if the configuration is impossible, or side, tiny images or color spaces differ.
 void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
                   const ColorTable& table);
 /// `tracked` unless the alignment had no answer.
 TrackStatus status_of(AlignmentStatus status);
 
-/// Color-glove hand tracking after Schroeder et al. 2012: from device frames to posture and pose. Sees device
-/// frames and calibration only. One tracker follows one hand; frames are given in time order.
+/// Color-glove tracking of one hand from device frames in time order.
+/// Paper: Schröder et al. 2012.
 class Tracker {
  public:
-  /// Throws Error as `check_inputs` does.
+  /// Throws: Error as `check_inputs`.
   Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
           std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table);
 
-  /// The answer for one frame. `observe`, if given, is told the name of each stage when it begins.
   TrackResult track(const DeviceFrame& frame, const StageObserver& observe = {});
-  /// What the stages make of the whole images, also of what lies beyond the working volume. Changes nothing.
+  /// Processes the whole images; changes nothing.
   FrameTrace inspect(const DeviceFrame& frame) const;
 
   const TrackerConfig& config() const { return config_; }

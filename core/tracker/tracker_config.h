@@ -16,38 +16,39 @@
 namespace glovebench {
 
 struct SegmentationConfig {
-  ColorSpace color_space = ColorSpace::yuv;  ///< of the color table; the paper's is YUV
-  bool majority_filter = false;              ///< 3x3 majority of the labels; not in the paper
-  bool surface_majority = false;             ///< of the neighbors on the same surface (2 cm); not in the paper
-  bool largest_component = false;            ///< keep the largest connected component; not in the paper
+  ColorSpace color_space = ColorSpace::yuv;
+  bool majority_filter = false;    ///< 3x3 (not in the paper)
+  bool surface_majority = false;   ///< of neighbors within 2 cm depth (not in the paper)
+  bool largest_component = false;  ///< keep that one only (not in the paper)
 };
 
 struct LookupConfig {
-  Cascade cascade = {{16, 500}, {64, 3}};  ///< the paper's choice (section IV-B)
-  double interpolation_epsilon = 0.01;     ///< eps in the weights 1 / (E + eps), px of the last stage, > 0
-  Implementation implementation = Implementation::fast;  ///< of the search; the matches are the same
-  double max_matching_error = 0.08;  ///< above it the frame is `poor_match`, share of the last stage's side, > 0
+  Cascade cascade = {{16, 500}, {64, 3}};  ///< section IV-B
+  double interpolation_epsilon = 0.01;     ///< eps in 1 / (E + eps), px, > 0
+  Implementation implementation = Implementation::fast;
+  double max_matching_error = 0.08;  ///< larger: `poor_match`; share of the last stage's side, > 0
 };
 
 struct SmoothingConfig {
-  double posture_keep = 0.75;  ///< x = keep * previous + (1 - keep) * new, in [0, 1)
-  double pose_keep = 0.0;      ///< the same for the pose (slerp for the rotation), in [0, 1)
-  int forget_after = 15;       ///< lost frames after which the filter starts anew, >= 1
+  double posture_keep = 0.75;  ///< x = keep * previous + (1 - keep) * new, [0, 1)
+  double pose_keep = 0.0;      ///< the same (slerp for the rotation), [0, 1)
+  int forget_after = 15;       ///< lost frames before a restart, >= 1
 };
 
 struct DetectionConfig {
-  int min_pixels = 150;            ///< fewer glove pixels: no hand, >= 3
-  double second_hand_share = 0.3;  ///< a second component above this share of the largest: several hands, (0, 1]
-  double component_depth_step = 0.05;  ///< neighbors farther apart in depth are not connected, m, > 0
-  int max_border_pixels = 40;          ///< more glove pixels than this on the image border: cut by it, >= 0
-  double max_border_share = 0.35;  ///< the same, as a share of the square root of all glove pixels: a single finger
-                                   ///< that reaches into the image touches its border with few pixels, > 0
+  int min_pixels = 150;  ///< glove pixels; fewer: `no_hand`, >= 3
+  /// A second component above this share of the largest means `several_hands`, (0, 1].
+  double second_hand_share = 0.3;
+  double component_depth_step = 0.05;  ///< depth step between components, m, > 0
+  int max_border_pixels = 40;          ///< glove pixels; more: `cut_by_border`, >= 0
+  /// The same for single fingers, as a share of the square root of all glove pixels, > 0.
+  double max_border_share = 0.35;
 };
 
-/// A named, complete configuration ("profile") of the tracker. `paper` does what the paper says.
+/// A named, complete configuration.
 struct TrackerConfig {
   std::string profile = "paper";
-  std::string method{kPaperMethod};  ///< `method_names` (core/methods) lists all
+  std::string method{kPaperMethod};  ///< one of `method_names`
   RegistrationConfig registration;
   SegmentationConfig segmentation;
   WorkingVolume volume;
@@ -55,17 +56,17 @@ struct TrackerConfig {
   DetectionConfig detection;
   LookupConfig lookup;
   IcpConfig icp;
-  double max_residual = 0.02;  ///< a larger mean distance after the alignment is `poor_alignment`, m, > 0
+  double max_residual = 0.02;  ///< larger: `poor_alignment`, m, > 0
   SmoothingConfig smoothing;
 
-  /// All problems, one per line; empty if there are none.
+  /// One problem per line.
   std::vector<std::string> problems() const;
 };
 
-/// The profile of that name ("paper"). Throws Error listing the known ones.
+/// Throws: Error listing the known names.
 TrackerConfig profile(const std::string& name);
-/// Overrides the fields of `base` that stand in the JSON object. Unknown keys, wrong types and values out of
-/// range throw Error naming `where` and the key.
+/// Overrides fields of `base` by those of a JSON object.
+/// Throws: Error naming `where` and an unknown, mistyped or out-of-range key.
 TrackerConfig config_from_json(const nlohmann::json& json, const TrackerConfig& base, const std::string& where);
 nlohmann::json to_json(const TrackerConfig& config);
 

@@ -6,7 +6,7 @@
 
 namespace glovebench::render {
 
-/// Central, where one of the neighbors has no value (0) one-sided, else 0.
+/// One-sided beside a missing value (0).
 inline float central_difference(float before, float here, float after) {
   if (before > 0 && after > 0) return (after - before) / 2;
   if (after > 0) return after - here;
@@ -14,12 +14,12 @@ inline float central_difference(float before, float here, float after) {
   return 0;
 }
 
-/// Change of z by pixel.
+/// of z, per pixel
 struct Gradient {
   float du, dv;
 };
 
-/// `difference(before, here, after)` of neighbors in u and in v.
+/// `difference(before, here, after)` in u and v.
 template <typename Difference>
 Gradient gradient(const DepthImage& depth, int u, int v, Difference difference) {
   const float z = depth(u, v);
@@ -30,9 +30,7 @@ Gradient gradient(const DepthImage& depth, int u, int v, Difference difference) 
   return {difference(left, z, right), difference(above, z, below)};
 }
 
-/// |grad z| in metres per pixel: central differences (z(u+1) - z(u-1)) / 2 in u and v and their Euclidean norm.
-/// Where one of the two neighbors has no value or lies outside the image, the one-sided difference to the other;
-/// where both are missing, 0. Pixels without a value (z = 0) have gradient 0.
+/// m per pixel; 0 where z = 0.
 inline Image<float> gradient_magnitude(const DepthImage& depth) {
   Image<float> magnitude(depth.width(), depth.height());
   for (int v = 0; v < depth.height(); ++v) {

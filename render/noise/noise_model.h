@@ -11,51 +11,46 @@
 
 namespace glovebench::render {
 
-/// The gain of the `gradient` model, m px: variance = kGradientGain * |grad z|. It is set by one condition and
-/// not tuned: on a plane that slants by 45 degrees, 0.7 m in front of the camera on its axis, the standard
-/// deviation is 1.4 mm (Nguyen et al. 2012: 0.0012 + 0.0019 (z - 0.4)^2). There |grad z| = z / f = 0.7 m / 575.816
-/// px.
+/// Variance per |grad z| of `gradient`, m px: 1.4 mm standard deviation at 45 degrees and 0.7 m (Nguyen et al.
+/// 2012). It is not tuned.
 inline constexpr double kGradientGain = 0.0014 * 0.0014 / (0.7 / 575.816);
 
-/// The `kinect` model.
 struct KinectNoiseConfig {
-  double lateral_sigma_px = 0.5;  ///< of the pixel that a value is taken from (Handa et al. 2014), px, >= 0
-  /// Before quantization, in steps of 1/8 px. With the rounding's 1/12 step^2 this makes the axial deviation that
-  /// Khoshelham and Elberink 2012 measured, 1.425e-6 z^2 mm = 0.49 steps. >= 0
+  double lateral_sigma_px = 0.5;  ///< of the sampled pixel (Handa et al. 2014), >= 0
+  /// before quantization, steps of 1/8 px, >= 0; both give the axial deviation of Khoshelham and Elberink 2012
   double disparity_sigma_steps = 0.40;
-  double grazing_from_deg = 70.0;     ///< incidence from which values drop out now and then, [0, 90)
-  double grazing_to_deg = 85.0;       ///< incidence from which every value drops out, (grazing_from_deg, 90]
-  double min_depth = 0.45;            ///< nearer surfaces give no value, m, >= 0
-  double projector_baseline = 0.075;  ///< the projector stands this far along the IR camera's +x, m; 0: no shadow
+  double grazing_from_deg = 70.0;     ///< incidence at which dropouts begin, [0, 90)
+  double grazing_to_deg = 85.0;       ///< incidence at which all drop out, (grazing_from_deg, 90]
+  double min_depth = 0.45;            ///< nearest value, m, >= 0
+  double projector_baseline = 0.075;  ///< projector along the IR camera's +x, m; 0: no shadow
 };
 
 struct NoiseConfig {
-  std::string depth = "gradient";  ///< name of a DepthNoise
-  double gain_factor = 1.0;  ///< multiplies kGradientGain, that is the variance; 0.5 and 2 are reported too, >= 0
-  double color_sigma_gray = kColorSigma_gray;  ///< of each 8-bit channel, gray levels, >= 0
+  std::string depth = "gradient";              ///< name of a DepthNoise
+  double gain_factor = 1.0;                    ///< on the variance of `gradient`, >= 0
+  double color_sigma_gray = kColorSigma_gray;  ///< of each 8-bit channel, >= 0
   KinectNoiseConfig kinect;
 
-  /// All problems, one per line; empty if there are none.
+  /// One problem per line.
   std::vector<std::string> problems() const;
 };
 
-/// How the depth camera errs, before the 11-bit quantization that always follows. A model is one file:
-/// render/noise/X_noise.cpp defines `DepthNoise X_noise()`.
+/// Depth errors before 11-bit quantization. render/noise/X_noise.cpp defines `DepthNoise X_noise()`.
 struct DepthNoise {
   std::string_view name;         ///< X
   std::string_view description;  ///< one line
-  /// The depth as the noisy sensor would measure it with unlimited resolution (m, 0 = no value). Pixels without a
-  /// value stay without. All random numbers come from `key`.
+  /// Depth at unlimited resolution, m; missing values (0) stay missing. `key` seeds all random numbers.
   DepthImage (*add)(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,
                     const FrameKey& key);
 };
 /// Sorted by name.
 std::span<const DepthNoise> depth_noises();
 std::vector<std::string> depth_noise_names();
-/// Throws Error listing the known ones.
+/// Throws: Error listing the known names.
 const DepthNoise& find_depth_noise(std::string_view name);
 
-/// By the model that the configuration names. Throws Error for an unknown one.
+/// Applies the configured model.
+/// Throws: Error if it is unknown.
 DepthImage add_depth_noise(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,
                            const FrameKey& key);
 
