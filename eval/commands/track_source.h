@@ -9,13 +9,12 @@
 
 namespace glovebench::eval {
 
-/// Where `track` takes its frames from.
 struct TrackSource {
   std::unique_ptr<Device> device;
-  int frame_count = 0;                    ///< 0: a live device, which ends when it ends
-  std::function<int()> dropped;           ///< images or frames so far that no frame holds
-  std::function<int64_t()> arrived_us;    ///< when the last frame was whole, microseconds since 1970
-  std::function<std::string()> ended_by;  ///< why a live device gives no more frames
+  int frame_count = 0;                    ///< 0: live, without a known end
+  std::function<int()> dropped;           ///< images or frames lost so far
+  std::function<int64_t()> arrived_us;    ///< when the last frame was whole, us since 1970
+  std::function<std::string()> ended_by;  ///< why a live device ended
 };
 
 struct SourceFlags {

@@ -9,11 +9,9 @@
 
 namespace glovebench::eval {
 
-/// The most changed frames of a comparison: what the camera saw, and over it the outlines of the true hand (white),
-/// of the baseline's (blue) and of the candidate's (orange). The estimates are read from the files of the two
-/// runs; where one has none (a baseline keeps the results only), its panel is left out. Frames of trajectories that
-/// are not the program's own, or have changed since, have no picture.
-/// Nor have those of a candidate whose cameras are not the synthetic Kinect's own.
+/// Pictures of the most changed frames: what the camera saw, with outlines of the true hand (white), the
+/// baseline's (blue) and the candidate's (orange). A panel is left out if its run kept no estimates. A frame has
+/// no picture unless its truth is the program's current one and the cameras are the synthetic Kinect's.
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
                                               const reports::RunResult& candidate, const FileSet& baseline_files,
                                               const FileSet& candidate_files);
