@@ -7,24 +7,23 @@
 
 namespace glovebench::reports {
 
-/// Was there any robot command in these experiments?
+/// Whether any experiment has robot commands.
 bool has_commands(const RunResult& result);
 
-/// What the tables of robot commands hold, in one paragraph of plain text.
+/// What the tables below hold, as one paragraph of plain text.
 std::string command_explanation();
-/// One row an experiment: how many commands, how often, in which state.
+/// One row per experiment: count, rate and states.
 Table command_stream_table(const RunResult& result);
-/// One row an experiment: how many commands were changed or refused, a column for each reason that there was. No
-/// rows where there was none.
+/// One row per experiment: changed or refused commands, one column per reason that occurred. No rows if none was.
 Table command_intervention_table(const RunResult& result);
-/// One row an experiment: how far the commands are from the truth's, and how smooth both are.
+/// One row per experiment: errors against the truth's commands, and smoothness of both.
 Table command_error_table(const RunResult& result);
-/// One row an experiment: the time from a frame to its command. No rows where no time was taken.
+/// One row per experiment: time from frame to command. No rows without times.
 Table command_latency_table(const RunResult& result, const Timings& timings);
 
-/// All of it but the times, one line an experiment: tables/commands.csv.
+/// tables/commands.csv: all of it except times, one line per experiment.
 std::string commands_csv(const RunResult& result);
-/// A section of summary.md; empty if there are no commands.
+/// Section of summary.md; empty without commands.
 std::string commands_markdown(const RunResult& result);
 
 }  // namespace glovebench::reports

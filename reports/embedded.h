@@ -4,7 +4,7 @@
 
 namespace glovebench::reports {
 
-// Files of this folder that are built into the program, so that it needs none beside it.
+// Files built into the program.
 
 std::string embedded_paper_numbers();  ///< data/paper_numbers.json
 std::string embedded_claims();         ///< data/claims.json

@@ -7,10 +7,10 @@
 
 namespace glovebench::reports {
 
-/// Rows of all experiments together and of each: what the family error is shared by.
+/// Rows of all experiments and of each; they share the family error.
 int row_count(size_t metrics, size_t experiments);
-/// The rows of compare_results: first those over all experiments, then experiment by experiment. `draws` are of
-/// config's seed and number of resamples; one object may serve many comparisons.
+/// Rows over all experiments first, then each. `draws` must have the seed and resamples of `config`; comparisons
+/// may share it.
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
                                            const CompareConfig& config, Draws& draws);
 
