@@ -39,7 +39,7 @@ struct CommandErrorInfo {
 };
 const std::array<CommandErrorInfo, 4>& command_error_infos();
 
-/// Robot commands of an experiment, over all seeds.
+/// Over all seeds.
 struct CommandResult {
   int frames = 0;
   std::array<int, kCountOf<CommandState>> sent{};  ///< per state

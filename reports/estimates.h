@@ -33,7 +33,6 @@ std::string estimates_file(const ExperimentKey& key);
 std::string estimates_csv(const ExperimentEstimates& estimates);
 /// Throws: Error naming file, line and column for anything that estimates_csv does not write.
 std::vector<Estimate> read_estimates(const std::string& path);
-/// `where` names the text in errors.
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);
 
 }  // namespace glovebench::reports

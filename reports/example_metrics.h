@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests: results of versions with other metrics.
+// For tests: results with other metrics.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

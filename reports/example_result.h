@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests and a look at the page: results made by hand and by seeded chance.
+// For tests and a look at the page.
 
 #include <cmath>
 
@@ -84,7 +84,7 @@ inline RunResult small_result() {
   return result;
 }
 
-/// Errors that wander around `level`, with two jumps of the posture that decay.
+/// Wander around `level`, with two jumps of the posture that decay.
 inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t seed, int count, double level) {
   std::vector<FrameRecord> frames;
   RandomStream random(seed, name, 0, "example");

@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests and a look at the page: studies with invented numbers.
+// For tests and a look at the page.
 
 #include <string>
 #include <vector>

@@ -17,7 +17,6 @@
 
 namespace glovebench::reports {
 
-/// One frame against the truth.
 struct FrameRecord {
   int frame = 0;
   int64_t timestamp_us = 0;
@@ -135,8 +134,7 @@ class Incomparable : public Error {
   using Error::Error;
 };
 
-/// Content hashes. They are not in the protocol, so that part of a run compares with the whole: an experiment
-/// needs only its own truth and database to be equal.
+/// Content hashes. They are not in the protocol, so that part of a run compares with the whole.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
   std::map<std::string, std::string> databases;  ///< Database::content_hash by name

@@ -13,8 +13,8 @@ namespace glovebench::reports {
 std::vector<std::string> frame_columns(std::span<const std::string> metric_keys);
 nlohmann::ordered_json frame_row(const FrameRecord& frame, std::span<const std::string> metric_keys);
 
-/// reports/schema/results.schema.json, with the protocol's metrics that this program knows. Values are rounded to
-/// 1e-6; equal results give equal bytes.
+/// By reports/schema/results.schema.json, with the protocol's metrics that this program knows. Values are rounded
+/// to 1e-6; equal results give equal bytes.
 std::string results_json(const RunResult& result);
 void write_results(const std::string& path, const RunResult& result);
 
@@ -22,7 +22,6 @@ void write_results(const std::string& path, const RunResult& result);
 /// Throws: Error for anything that write_results does not write: format, version, keys, kinds, or a protocol id or
 /// counts that do not fit.
 RunResult read_results(const std::string& path);
-/// `where` names the text in errors.
 RunResult parse_results(const std::string& text, const std::string& where);
 
 inline constexpr std::string_view kResultsFormat = "glovebench-results";

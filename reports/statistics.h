@@ -12,8 +12,8 @@
 
 namespace glovebench::reports {
 
-// Statistics of an empty set are an empty optional. A value that is not finite is a bug.
-// Throws: std::logic_error for such a value.
+// Of an empty set, statistics are an empty optional.
+// Throws: std::logic_error for a value that is not finite.
 
 std::optional<double> mean(std::span<const double> values);
 std::optional<double> rms(std::span<const double> values);
@@ -49,8 +49,8 @@ struct ConfidenceInterval {
   double low = 0;
   double high = 0;
   double level = 0;      ///< share of resampled means inside
-  int seeds = 0;         ///< resampled noise seeds
-  int blocks = 0;        ///< resampled blocks of consecutive frames
+  int seeds = 0;         ///< resampled
+  int blocks = 0;        ///< resampled, of consecutive frames
   int block_frames = 0;  ///< per block
   /// What was resampled, in words.
   std::string over;

@@ -13,13 +13,12 @@ nlohmann::ordered_json studies_json(const std::vector<StudyResult>& studies);
 /// "studies" in timings.json: tables with a time, reduced to times and naming columns.
 nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies);
 
-/// Reads "studies" of results.json.
 /// Throws: Error for anything that studies_json does not write, e.g. names not of [a-z0-9_] or repeated, rows
 /// without one cell per column.
 std::vector<StudyResult> read_studies(const JsonCursor& json);
 
-/// Checks what every writer needs, as a broken invariant: unique names of [a-z0-9_] that no other report's file
-/// has, one cell per column, a naming column that is no time, at most six digits.
+/// Broken invariants of writers: names must be unique, of [a-z0-9_] and no other report's file; rows need one cell
+/// per column; a column that is no time must name rows; at most six digits.
 void check_studies(const std::vector<StudyResult>& studies);
 
 }  // namespace glovebench::reports

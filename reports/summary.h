@@ -23,7 +23,7 @@ std::string quick_note(const RunResult& result);
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
 /// Title, explanation and rows of each table.
 std::string study_markdown(const StudyResult& study);
-/// What the tables hold, as one paragraph of plain text.
+/// What the tables hold, in plain text.
 std::string summary_explanation();
 
 }  // namespace glovebench::reports

@@ -6,7 +6,7 @@
 
 namespace glovebench::reports {
 
-// Escapes for report formats: escaped text from outside, e.g. a name, is only text.
+// After escaping, text from outside, e.g. a name, is only text.
 
 std::string escape_html(const std::string& text);  ///< also SVG
 /// XML 1.0; characters that it cannot hold become U+FFFD.

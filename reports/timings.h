@@ -35,7 +35,7 @@ struct Timings {
   std::vector<ExperimentTiming> experiments;
 };
 
-/// timings.json: statistics per stage, of robot commands also the 99th percentile, and times of studies.
+/// Statistics per stage, of robot commands also the 99th percentile, and times of studies.
 std::string timings_json(const Timings& timings, const std::vector<StudyResult>& studies = {});
 
 }  // namespace glovebench::reports

@@ -13,7 +13,6 @@
 
 namespace glovebench::eval {
 
-/// Flags that several commands share.
 struct CommonFlags {
   std::string output;
   std::string config_file;
@@ -22,7 +21,7 @@ struct CommonFlags {
   std::string method;  ///< empty: the configuration's
   std::string cascade;
   std::string calibration;          ///< file; empty: the synthetic Kinect's
-  nlohmann::json calibration_json;  ///< an earlier run's, instead of a file
+  nlohmann::json calibration_json;  ///< likewise
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -43,8 +42,8 @@ struct CommonFlags {
   /// `count` seeds from `seed` up.
   /// Throws: Error beyond the largest seed.
   std::vector<uint64_t> seeds(int count) const;
-  /// Makes the folder. Call before the work.
-  /// Throws: Error if no file can be written there.
+  /// Makes the folder, before the work.
+  /// Throws: Error if it cannot be written.
   void check_output_folder() const;
 };
 
@@ -71,10 +70,10 @@ struct FileFlag {
   std::string path;  ///< empty: none
 };
 /// For all files that a command writes, or reads and could overwrite.
-/// Throws: Error if two are the same file, or one is the unfinished form of another (core/base/line_file.h).
+/// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
 
-/// Throws: Error naming the field if this build has no solver.
+/// Throws: Error naming the field without a solver.
 std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const std::string& field);
 
 struct RobotFlags {
@@ -87,8 +86,7 @@ struct RobotFlags {
 
   /// Returns the option of `output`.
   Option add(Command command, const std::string& what);
-  /// For the workbench's hand.
-  /// Throws: Error if an arm is requested and this build has none.
+  /// Throws: Error if the arm is requested and this build has none.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };

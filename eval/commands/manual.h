@@ -8,10 +8,10 @@
 
 namespace glovebench::eval {
 
-/// For man(1): all commands and options.
+/// For man(1).
 std::string man_page(const CommandText& program, const std::string& version);
 
-/// What may follow `line` (words after the program's name), as lines `WORD<tab>DESCRIPTION`. Empty where the shell
+/// Lines `WORD<tab>DESCRIPTION` that may follow `line`, the words after the program's name. Empty where the shell
 /// completes file names.
 std::string completions(const CommandText& program, const std::vector<std::string>& line);
 

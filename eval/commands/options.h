@@ -21,7 +21,7 @@ class Option {
   Option in(double low, double high) const;
   Option not_negative() const;
   Option one_of(const std::vector<std::string>& words) const;
-  /// Rejects `-`, for commands that print something else to stdout.
+  /// Rejects `-`.
   Option named_file() const;
   Option existing_file() const;
   Option existing_folder() const;
@@ -36,7 +36,6 @@ class Option {
   CLI::Option* option_;
 };
 
-/// An option as declared.
 struct OptionText {
   std::vector<std::string> names;  ///< `-o`, `--output`; without dashes: an argument
   bool takes_value = true;
@@ -45,7 +44,7 @@ struct OptionText {
   std::vector<std::string> words;  ///< allowed values; empty: any
 };
 
-/// A command as declared, for man page and completion.
+/// For man page and completion.
 struct CommandText {
   std::string name;
   std::string description;
@@ -53,8 +52,7 @@ struct CommandText {
   std::vector<CommandText> subcommands;
 };
 
-/// A copyable handle to a command or the program. Values and actions given to it must live as long as the program
-/// runs.
+/// A copyable handle. Values and actions given to it must live as long as the program runs.
 class Command {
  public:
   using Action = std::function<int()>;
@@ -67,16 +65,14 @@ class Command {
   /// Adds an option that writes to `value`. `names`: `-o,--output`, or `file` for an argument. An empty value is
   /// an error. The help shows the default unless it is empty or the option required. Types: bool (a flag), int,
   /// uint64_t, double, std::string, optional numbers, vectors of strings and doubles, transform (X Y Z QW QX QY
-  /// QZ).
-  /// Units: m for X Y Z.
+  /// QZ, m).
   /// Throws: Error for a transform that is not finite or has no unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
-  /// Whether the user gave the option.
   bool given(const std::string& name) const;
-  /// All that is declared so far, with subcommands.
+  /// So far, with subcommands.
   CommandText text() const;
-  /// Sets the action, run after the whole command line is read. Its result is the exit code; void: 0.
+  /// Sets the action. Its result is the exit code; void: 0.
   template <typename Does>
   void runs(Does does) const {
     if constexpr (std::is_void_v<std::invoke_result_t<Does>>) {
@@ -96,8 +92,7 @@ class Command {
   Action* chosen_;
 };
 
-/// Reads the command line and runs the chosen command. Returns the exit code; for a wrong command line 2, with one
-/// line on stderr.
+/// Returns the exit code; for a wrong command line 2, with one line on stderr.
 /// Throws: what the command throws.
 int run_program(int argc, const char* const* argv, const std::function<void(Command program)>& add_commands);
 

@@ -13,7 +13,6 @@
 
 namespace glovebench::eval {
 
-/// Options of the robot's middleware.
 struct BusFlags {
   std::string middleware;  ///< "dds" (domain 0) or "dds:DOMAIN"; empty: none
   std::string interface;   ///< empty: loopback, or from CYCLONEDDS_URI

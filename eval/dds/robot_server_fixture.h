@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs robot servers as processes on their own bus and checks their logs.
+// Runs robot servers as processes and checks their logs.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@
 
 namespace glovebench::eval {
 
-/// A robot that is at once where a server tells it to be, and reports that.
+/// A robot that is at once where a server tells it to be.
 class SimulatedRobot {
  public:
   explicit SimulatedRobot(int domain)
@@ -122,7 +122,7 @@ class RobotServer : public DdsBus {
   static int64_t good(const std::string& log, const std::string& topic) {
     return received(log, topic, "accepted") + received(log, topic, "starting") + received(log, topic, "stale");
   }
-  /// A busy server misses ticks and then follows nothing until its sender starts anew.
+  /// A busy server misses ticks and then waits until its sender starts anew.
   static bool had_gaps(const ProgramRun& run) { return run.out.find("; gaps: ") != std::string::npos; }
   static double last_angle(const std::string& log, const std::string& joint) {
     return lines(log, "state").back().at("position_deg").at(joint).get<double>();
@@ -134,8 +134,8 @@ class RobotServer : public DdsBus {
       if (info.name == joint) return radians_from_degrees(info.max_speed_deg_s);
     return CommandLimits().hand_joint_speed;
   }
-  /// Checks that no joint exceeds its speed between states, and that each state lies in the last logged interval,
-  /// also across a restart.
+  /// Checks that no joint exceeds its speed, and that each state lies in the last logged interval, also across a
+  /// restart.
   static void expect_safe(const std::string& log) {
     constexpr double kRounded = 3e-6;      // degrees, of two logged angles
     constexpr double kLongestStepS = 0.1;  // longest step that the guard assumes

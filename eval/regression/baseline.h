@@ -39,7 +39,7 @@ struct Baseline {
 /// Throws: Incomparable if there is no baseline, or its results were changed by hand; Error.
 Baseline load_baseline(const std::string& folder);
 
-/// The part of provenance.json that is read back.
+/// The part that is read back.
 struct Provenance {
   std::string results_hash;  ///< of results.json
   reports::StageTimes times;

@@ -21,8 +21,7 @@ struct Ablation {
 /// Every other setting changes one thing of it.
 inline constexpr const char* kDefaultSetting = "default";
 std::vector<Setting> ablation_settings(const TrackerConfig& tracker);
-/// All changes of tracker, database or scene, except the choice of postures. Labels of default rows assume the
-/// profile `paper`.
+/// All but the choice of postures. Labels of default rows assume the profile `paper`.
 std::vector<Ablation> ablations();
 
 /// Runs each named setting once on source truths: DB_open_power on power grasps, other databases on all five.

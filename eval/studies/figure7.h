@@ -13,12 +13,12 @@ struct Figure7Setup {
   std::vector<int> sizes;  ///< of tiny images, px; rising, at least two
   int queries = 500;       ///< >= 2
 };
-/// The paper's 500 queries against about 8000 images: here 8,316, the first 11 postures of DB_20_postures.
-/// `quick`: 40 queries, 3 postures, four sizes.
+/// 500 queries against about 8000 images: here 8,316, the first 11 postures of DB_20_postures. `quick`: 40
+/// queries, 3 postures, four sizes.
 /// Paper: Figure 7.
 Figure7Setup figure7_setup(bool quick);
 
-/// Ranks all entries for each query and image size. Bootstrap intervals are over queries; ranks do not depend on
+/// Ranks all entries per query and image size. Bootstrap intervals are over queries; ranks do not depend on
 /// threads.
 reports::StudyResult measure_figure7(const StudyContext& context, const Figure7Setup& setup);
 

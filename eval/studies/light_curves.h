@@ -26,8 +26,7 @@ struct LightAxis {
 /// `quick`: two of each.
 std::vector<LightAxis> light_axes(bool quick);
 
-/// What a user would record under this light for calibration: Tr2, Tr3 and Tr5, which no curve measures, without
-/// truth.
+/// A user's recording for calibration under this light: Tr2, Tr3 and Tr5, which no curve measures, without truth.
 calibration::ColorSamples record_under(Workbench& workbench, int subject, const LightPoint& point, int frames);
 
 /// One way to label; empty where calibration failed.

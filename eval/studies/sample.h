@@ -24,7 +24,7 @@ struct Estimated {
 std::optional<double> mean(const Sample& sample);
 Estimated estimate_mean(const Sample& sample);
 
-/// `combine` of the samples' means. The samples have the same frames, which are resampled together.
+/// `combine` of the samples' means. All samples have the same frames, resampled together.
 Estimated estimate(std::span<const Sample> samples,
                    const std::function<std::optional<double>(std::span<const double> means)>& combine);
 

@@ -11,7 +11,6 @@
 
 namespace glovebench::eval {
 
-/// Options of a reproduction.
 struct StudyOptions {
   TrackerConfig tracker;
   std::vector<uint64_t> seeds = {1};
@@ -37,7 +36,6 @@ const std::vector<Study>& studies();
 /// Throws: Error listing the known ones.
 const Study& study(std::string_view name);
 
-/// One way to run a study's trajectories.
 struct Setting {
   std::string name;
   TrackerConfig tracker;
@@ -55,7 +53,6 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
                                  const std::vector<std::string>& databases, reports::TruthKind truth,
                                  const std::vector<std::string>& trajectories = {});
 
-/// Each run says its setting.
 using Runs = std::vector<MeasuredRun>;
 /// Runs `study_specs` for errors. Runs share the machine, so their times mean little.
 Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
@@ -66,7 +63,7 @@ Runs run_settings(const StudyContext& context, const std::vector<Setting>& setti
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
                    const std::vector<std::string>& databases, Implementation implementation,
                    const std::vector<std::string>& trajectories = {});
-/// Explains such times in a table.
+/// For tables.
 std::string times_explanation();
 
 /// Runs of one setting and database, by trajectory, then seed.
@@ -80,7 +77,7 @@ Sample sample_of(const Selection& runs,
 Sample sample_of(const Selection& runs, std::string_view metric);
 /// Jitter and latency: [trajectory][seed].
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs);
-/// Times of a stage (empty: whole frames) in all frames of all runs.
+/// Of a stage (empty: whole frames), all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
 

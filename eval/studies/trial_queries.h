@@ -24,8 +24,7 @@ inline constexpr std::array<double, 3> kTrialReach = {0.12, 0.07, 0.10};
 /// noise on each angle, a uniform rotation, an origin from the box.
 HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random);
 
-/// The synthetic Kinect with subject 1's scene, and the tracker's stages before the look-up. Not thread-safe;
-/// images do not depend on the thread.
+/// The synthetic Kinect with subject 1's scene, and the tracker's stages before the look-up. Not thread-safe.
 class TrialCamera {
  public:
   TrialCamera(Workbench& workbench, const TrackerConfig& config, const render::NoiseConfig& noise);

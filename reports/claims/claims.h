@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// The interval of values with which a claim holds; one end may be infinite.
+/// The values with which a claim holds; one end may be infinite.
 struct Rule {
   enum class Kind { below, at_most, above, at_least, within };
   Kind kind = Kind::below;
@@ -55,7 +55,7 @@ struct ClaimDefinition {
 /// The first change writes the claim.
 struct ClaimChange {
   std::string date;                     ///< "2026-11-21"
-  std::optional<std::string> commit;    ///< empty only for the newest change, which cannot name its own commit
+  std::optional<std::string> commit;    ///< empty only for the newest change, which cannot name itself
   ClaimDefinition definition;           ///< after this change
   std::vector<std::string> set;         ///< changed fields; none if only the measuring program changed
   std::optional<std::string> came_out;  ///< published measurements with their commits in brackets; empty if none
@@ -64,7 +64,7 @@ struct ClaimChange {
   friend bool operator==(const ClaimChange&, const ClaimChange&) = default;
 };
 
-/// The newest entry of the history is valid.
+/// The newest entry of the history holds.
 struct Claim {
   std::string id;                    ///< "position-error-source"
   std::vector<ClaimChange> history;  ///< oldest first, at least one
@@ -95,7 +95,7 @@ struct ClaimSet {
 /// A field of claims.json as text: "below 10", "true".
 /// Throws: std::logic_error if there is no such field.
 std::string field_text(const ClaimDefinition& definition, std::string_view field);
-/// Changes after the first entry that altered the claim.
+/// Changes after the first that altered the claim.
 int change_count(const Claim& claim);
 
 /// From reports/data/claims.json.

@@ -7,7 +7,7 @@
 
 namespace glovebench::reports {
 
-// Verdicts in every format. All depend on times, since some claims are about times.
+// All depend on times, since some claims are about times.
 
 /// "3.88 [3.50, 4.20] mm"; "-" for no value.
 std::string measured_text(const ClaimVerdict& verdict);

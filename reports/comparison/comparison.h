@@ -29,7 +29,6 @@ struct CompareConfig {
   uint64_t seed = 1;           ///< of the bootstrap
 };
 
-/// One metric of one experiment or of all.
 struct ComparisonRow {
   std::string experiment;          ///< name or kAllExperiments
   const Metric* metric = nullptr;  ///< gated
@@ -45,7 +44,6 @@ struct ComparisonRow {
   Verdict verdict = Verdict::not_enough_data;
 };
 
-/// A frame that got worse.
 struct ChangedFrame {
   ExperimentKey key;
   uint64_t baseline_seed = 0;
@@ -96,15 +94,15 @@ struct Comparison {
 };
 inline constexpr int kWorstFrames = 6;
 
-/// Compares two results frame by frame and seed by seed. Blocks of frames and seeds are resampled within each
-/// sequence (rescaled bootstrap of Rao and Wu: n - 1 of n are drawn); experiments on one trajectory share draws.
-/// An interval is the difference +- Student's t (blocks - 1 degrees of freedom) times the bootstrap's standard
-/// error, at the level that keeps the family error over all rows. `floor` gives minimum effects and may be null.
+/// Compares frame by frame and seed by seed. Blocks of frames and seeds are resampled within each sequence
+/// (rescaled bootstrap of Rao and Wu, n - 1 of n); experiments on one trajectory share draws. An interval is the
+/// difference +- Student's t (blocks - 1 degrees of freedom) times the bootstrap's standard error, at the level
+/// that keeps the family error over all rows. `floor` gives minimum effects and may be null.
 /// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});
 
-/// What intervals and verdicts mean, as one paragraph of plain text.
+/// What intervals and verdicts mean, in plain text.
 std::string comparison_explanation(const Comparison& comparison);
 
 }  // namespace glovebench::reports

@@ -15,7 +15,7 @@ struct ComparisonReport {
   std::vector<SpeedRow> speed;    ///< empty if not measured
   StageTimeChanges times;         ///< for information; empty if a run has none
   std::vector<Picture> pictures;  ///< of the worst frames
-  /// Vega, Vega-Lite and Vega-Embed, in this order. Without them the page has no charts.
+  /// Vega, Vega-Lite and Vega-Embed, in this order; without them no charts.
   std::vector<std::string> scripts;
 };
 
@@ -29,13 +29,13 @@ std::string comparison_latex(const ComparisonReport& report);  ///< booktabs tab
 /// JUnit XML: a suite per experiment, a case per metric and speed ratio. A case fails if it stops the change
 /// (gate_rule.h); it is skipped without enough data.
 std::string comparison_junit(const ComparisonReport& report);
-/// One case with an error, for results that could not be compared.
+/// For results that could not be compared: one case with an error.
 std::string incomparable_junit(const std::string& message);
 std::string incomparable_markdown(const std::string& message);
 std::string comparison_page(const ComparisonReport& report);
 
-/// Throws: Error if the folder holds a run or baseline, which also have an index.html. The three functions below
-/// check this.
+/// Also called by the three functions below.
+/// Throws: Error if the folder holds a run or baseline, which also have an index.html.
 void require_own_folder(const std::string& folder);
 
 /// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html as one set (core/base/file_set.h); returns

@@ -7,10 +7,9 @@
 
 namespace glovebench::reports {
 
-/// Rows of all experiments and of each; they share the family error.
+/// Rows that share the family error: all experiments and each.
 int row_count(size_t metrics, size_t experiments);
-/// Rows over all experiments first, then each. `draws` must have the seed and resamples of `config`; comparisons
-/// may share it.
+/// All experiments first, then each. `draws` must have the seed and resamples of `config`.
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
                                            const CompareConfig& config, Draws& draws);
 

@@ -9,8 +9,6 @@
 
 namespace glovebench::reports {
 
-// Shared by all formats of a comparison.
-
 /// "2 worse, 1 better, 33 same, 0 not enough data", then slower stages if speed was measured.
 std::string outcome_line(const ComparisonReport& report);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests and a look at the page: comparisons made by hand and by seeded chance.
+// For tests and a look at the page.
 
 #include <cmath>
 
@@ -27,8 +27,7 @@ inline ComparisonRow example_row(const std::string& experiment, std::string_view
   return row;
 }
 
-/// One experiment with each verdict once and a metric without value. Lost frames stop although the data say
-/// little.
+/// Each verdict once, and a metric without value. Lost frames stop although the data say little.
 inline ComparisonReport small_comparison() {
   const std::string experiment = "Tr4_DB_open_power_source_subject1_gradient_1";
   ComparisonReport report;

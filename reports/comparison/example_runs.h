@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests: results with chosen values.
+// For tests.
 
 #include <functional>
 

@@ -30,12 +30,12 @@ struct BlockSums {
   Eigen::MatrixXd counts;
 };
 /// Blocks have at least `block_frames` frames (if there are that many) and similar lengths. Blocks without a pair
-/// are left out: they would count as no variation.
+/// are left out, since they would count as no variation.
 BlockSums block_sums(const PairedDifferences& differences, int block_frames);
 
-/// How often each resample (row) has each block or seed. Of n, n - 1 are drawn, which makes the variance unbiased
-/// even for small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws, since the same moments are
-/// difficult in all.
+/// How often each resample (row) has each block or seed: n - 1 of n are drawn, which makes the variance unbiased
+/// even for small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws, since they share its
+/// difficult moments.
 class Draws {
  public:
   Draws(uint64_t seed, int resamples) : seed_(seed), resamples_(resamples) {}

@@ -5,7 +5,7 @@
 
 namespace glovebench::reports {
 
-/// Speed relative to the plain implementation in the same process, which compares between machines.
+/// Speed relative to the plain implementation in one process; comparable between machines.
 struct SpeedRatio {
   std::string name;  ///< without /plain and /fast
   double ratio = 0;  ///< plain / fast, medians of CPU time

@@ -9,7 +9,7 @@
 
 namespace glovebench::reports {
 
-/// Stage times of a run, for information: they depend on machine and load.
+/// For information: stage times depend on machine and load.
 struct StageTimes {
   std::string processor;
   int threads = 0;
@@ -23,7 +23,6 @@ struct StageTimes {
 /// Reads timings.json.
 /// Throws: Error.
 StageTimes read_stage_times(const std::string& timings_path);
-/// `where` names the text in errors.
 StageTimes parse_stage_times(const std::string& text, const std::string& where);
 
 /// For a baseline's provenance.

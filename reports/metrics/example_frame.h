@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests of metrics: a frame and its estimate without error.
+// For tests of metrics.
 
 #include "core/tracker/track_result.h"
 

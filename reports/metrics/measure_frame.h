@@ -16,7 +16,6 @@ inline constexpr double kCoveredRotation_deg = 30;
 /// An angle is observed if at least this many pixels that it moves are visible.
 inline constexpr int kObservedPixels = 30;
 
-/// Truth of a frame, and what the depth camera could see.
 struct FrameTruth {
   Posture posture = Posture::Zero();
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
@@ -25,7 +24,7 @@ struct FrameTruth {
   bool trackable = false;  ///< enough glove in the working volume, none cut by the image border
 };
 
-/// Input of metrics: a tracked frame and its truth, all finite.
+/// What metrics are computed from; all finite.
 struct MeasuredFrame {
   const TrackResult& estimate;
   const FrameTruth& truth;

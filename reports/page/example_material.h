@@ -1,6 +1,6 @@
 #pragma once
 
-// For tests and a look at the page: invented material.
+// For tests and a look at the page.
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>

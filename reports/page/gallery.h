@@ -7,7 +7,6 @@
 
 namespace glovebench::reports {
 
-/// A frame with a large error.
 struct WorstFrame {
   ExperimentKey key;
   uint64_t seed = 0;
@@ -15,12 +14,12 @@ struct WorstFrame {
   std::string metric;  ///< by which it was chosen
 };
 
-/// Half of `count` by position error, half by posture error (RMS); from subject 1 on source truth under the
-/// headline noise, or else all experiments. At most two per experiment, at least 0.5 s apart in a trajectory, none
+/// Half of `count` by position error, half by posture error (RMS), from subject 1 on source truth under the
+/// headline noise, or else all experiments. At most two per experiment, at least 0.5 s apart in one run, none
 /// twice, none lost.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
-/// Shows every stage of the frame; for the run's folder.
+/// Shows every stage of the frame, from the run's folder.
 std::string explain_command(const WorstFrame& worst);
 /// Experiment, frame, errors.
 std::string caption(const WorstFrame& worst);

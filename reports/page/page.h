@@ -25,7 +25,7 @@ struct FrameSheet {
 inline constexpr double kSheetDifferenceMm = 20;
 
 struct PageMaterial {
-  /// Text of Vega, Vega-Lite and Vega-Embed, in this order. Without them the page has no charts.
+  /// Vega, Vega-Lite and Vega-Embed, in this order; without them no charts.
   std::vector<std::string> scripts;
   std::vector<FrameSheet> sheets;     ///< of Figures 5 and 6
   std::vector<Picture> worst_frames;  ///< as chosen by `worst_frames`

@@ -6,8 +6,6 @@
 
 namespace glovebench::reports {
 
-// Shared by the pages of runs and comparisons.
-
 struct Picture {
   std::string caption;
   std::string image;         ///< PNG or JPEG file
@@ -23,8 +21,8 @@ std::string data_uri(const std::string& image);
 /// Place of a chart that data/page_charts.js draws from the page's tables. `chart`: its name there, numbered if
 /// several: "differences 3". `label` says what it shows.
 std::string chart_place(const std::string& chart, const std::string& label);
-/// End of a page with charts: `tables` (CSV texts by name) and the scripts Vega, Vega-Lite, Vega-Embed in this
-/// order. Empty without scripts.
+/// End of a page with charts: `tables` (CSV texts by name) and `scripts` (Vega, Vega-Lite, Vega-Embed). Empty
+/// without scripts.
 std::string chart_scripts(const nlohmann::ordered_json& tables, const std::vector<std::string>& scripts);
 
 /// A document in the project's style plus `style`: title, `body` (HTML), `end`.

@@ -7,7 +7,6 @@
 
 namespace glovebench::reports {
 
-/// A part of the page with an entry in its contents.
 struct Section {
   std::string id;
   std::string title;  ///< plain text
@@ -23,7 +22,7 @@ std::vector<Section> experiment_sections(const RunResult& result, const PaperNum
 /// One per study, with charts and tables.
 std::vector<Section> study_sections(const RunResult& result);
 
-/// Keyframes of a curve, and the place of one frame with slider for data/page_frames.js.
+/// Keyframes of a curve; the place of one frame with slider for data/page_frames.js.
 std::string keyframes_html(const FrameSheet& sheet);
 std::string frame_viewer_html(const FrameSheet& sheet);
 /// Holds each sheet once; tiles are windows on it.
