@@ -5,7 +5,7 @@
 namespace glovebench::eval {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program; SIGHUP
-/// does not, and stays ignored under nohup.
+/// never does. nohup keeps working.
 class Interruption {
  public:
   Interruption();

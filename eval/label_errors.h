@@ -12,7 +12,7 @@
 
 namespace glovebench::eval {
 
-/// For tests: strength 0.5 to 2, 3000 to 6500 K, no direction of a calibration lighting.
+/// For tests: strength 0.5 to 2, 3000 to 6500 K, new directions.
 std::vector<render::Lighting> held_out_lightings();
 
 /// Label errors of a color table, in IR pixels. Glove pixels without color are left out; labels count inside the
@@ -51,7 +51,7 @@ LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& fra
                          const RgbdCalibration& calibration, const ColorTable& table,
                          LabelFilter filter = LabelFilter::none);
 
-/// [lighting][table], over the same four frames of Tr1 and Tr4 with the paper's noise.
+/// [lighting][table], over the same four frames of Tr1 and Tr4, with the paper's noise.
 std::vector<std::vector<LabelErrors>> measure_label_errors(
     Workbench& workbench, int subject, std::span<const render::Lighting> lightings,
     std::span<const std::shared_ptr<const ColorTable>> tables);

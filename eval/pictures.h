@@ -11,7 +11,7 @@ namespace glovebench::eval {
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// Shows all tracker stages of one frame, which is tracked alone, without the filter.
+/// All tracker stages of one frame, tracked alone, so without the filter.
 /// Throws: Error if the frame does not exist or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
 

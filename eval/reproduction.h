@@ -34,8 +34,8 @@ struct Reproduction {
   reports::Timings timings;
 };
 using ShowResults = std::function<void(const reports::RunResult& so_far)>;
-/// Runs experiments and studies and writes the report into `folder`; resumes an interrupted run. Calls `show`
-/// after Figures 4 to 6 and after each study.
+/// Runs everything and writes the report into `folder`; resumes an interrupted run. Calls `show` after Figures 4
+/// to 6 and after each study.
 /// Throws: Error for an unknown part.
 Reproduction reproduce(
     Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot, const std::string& folder,

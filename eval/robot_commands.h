@@ -23,8 +23,8 @@ CommandStream make_commands(std::span<const TrackResult> results, const RobotSet
 /// What a perfect tracker answers.
 std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
-/// Compares commands with the truth's at equal time stamps. Errors and jerk use `following` commands only; jerk
-/// needs four in a row.
+/// Compares commands with the truth's at equal time stamps. Errors use `following` commands; jerk needs four in a
+/// row.
 class CommandMeasurement {
  public:
   /// `frames`: all of the pass, with or without commands.

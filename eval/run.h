@@ -65,8 +65,8 @@ struct RunOptions {
   int threads = 1;
   RunStore* store = nullptr;  ///< loads the runs that it holds; stores the others
 };
-/// Renders, adds noise and tracks; runs keep the order of `specs`. Trackers get device frames and calibration
-/// only. Only times depend on `threads`. Neighbors that share images are rendered once.
+/// Renders, adds noise and tracks; keeps the order of `specs`. Trackers get device frames and calibration only.
+/// Only times depend on `threads`. Neighbors that share images are rendered once.
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 

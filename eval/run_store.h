@@ -6,8 +6,8 @@
 
 namespace glovebench::eval {
 
-/// Folder of a run in progress: locked against other runs, marked unfinished for readers. It keeps finished parts,
-/// so the same command resumes after a crash and writes the same bytes.
+/// Folder of a run in progress: locked, marked as unfinished, with finished parts, so the same command resumes
+/// after a crash and writes the same bytes.
 ///
 /// FOLDER/.unfinished/ is the mark. It holds `lock` (flock) and one file per part: a line with program hash, key
 /// and checksum, then the content.

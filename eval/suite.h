@@ -37,8 +37,8 @@ std::vector<std::string> suite_names();
 /// Throws: Error if it cannot be read.
 Side side_of(const Suite& suite);
 
-/// Experiments that match `filter` (shell wildcards; empty: all); runs of the same frames are neighbors. Registers
-/// database files in the workbench; builds nothing.
+/// Experiments that match `filter` (shell wildcards; empty: all), same frames together. Registers database files
+/// in the workbench; builds nothing.
 /// Throws: Error for a repeated experiment, the other hand, or no match.
 Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter);
 

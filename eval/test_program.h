@@ -24,7 +24,7 @@
 
 namespace glovebench::eval {
 
-/// Shared by all tests. The version in its name avoids rebuild messages.
+/// Shared by all tests.
 inline std::string test_cache_folder() {
   return shared_folder(fmt::format("glovebench-test-cache-{}-{}", kDatabaseVersion, getuid()));
 }
@@ -88,7 +88,7 @@ inline ProgramRun finish_program(const StartedProgram& started) {
   int status = 0;
   waitpid(started.process, &status, 0);
   const std::filesystem::path out = started.out, err = started.err;
-  // A program that was killed at once has not opened them.
+  // A program killed at once has not opened them.
   const auto text = [](const std::filesystem::path& path) { return exists(path) ? read_file(path) : ""; };
   const ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
   std::filesystem::remove(out);
@@ -120,7 +120,7 @@ inline std::map<std::string, std::string> read_folder(const std::string& folder)
   return files;
 }
 
-/// A report's files without what differs between runs: timings.json, manifest, the page's command times.
+/// A report without what differs between runs: timings.json, manifest, the page's command times.
 inline std::map<std::string, std::string> read_timeless(const std::string& folder) {
   std::map<std::string, std::string> files = read_folder(folder);
   EXPECT_EQ(files.erase("timings.json") + files.erase("manifest.json"), 2U);

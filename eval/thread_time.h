@@ -6,7 +6,7 @@
 
 namespace glovebench::eval {
 
-/// Processor time of this thread, without other threads and programs.
+/// Processor time of this thread.
 inline double thread_time_ms() {
   timespec time{};
   check(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0, "a thread has a clock");

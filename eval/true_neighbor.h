@@ -17,9 +17,8 @@ struct TrueNeighbor {
 
 /// Finds the entry with the smallest mean vertex distance to a true hand; ties go to the smaller entry.
 ///
-/// Both hands are moved to one origin and one viewing ray, since a look-up sees neither. Each rotation is turned by
-/// the smallest rotation that takes the ray through the middle of the bounding square (an entry's `box_ray`) to the
-/// optical axis.
+/// Hands are compared at one origin and along one ray, which a look-up cannot see: the smallest rotation turns the
+/// ray through the middle of the bounding square (an entry's `box_ray`) to the optical axis.
 ///
 /// `model` is the database's hand; both must outlive the search. Immutable, shared between threads.
 class TrueNeighborSearch {

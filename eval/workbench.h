@@ -23,7 +23,7 @@ struct WorkbenchConfig {
   RgbdCalibration calibration = synthetic_calibration();
 };
 
-/// Hands, calibration, color tables and databases of all experiments, made or loaded on first use. Thread-safe.
+/// Shared by all experiments; made or loaded on first use. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);
@@ -34,7 +34,7 @@ class Workbench {
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
-  /// Of the synthetic Kinect, whatever `calibration` is: colors do not depend on geometry.
+  /// For the synthetic Kinect's cameras, whatever `calibration` is: colors do not depend on geometry.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   /// By the name of its posture set.
   std::shared_ptr<const Database> database(const std::string& name);

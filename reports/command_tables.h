@@ -10,7 +10,7 @@ namespace glovebench::reports {
 /// Whether any experiment has robot commands.
 bool has_commands(const RunResult& result);
 
-/// What the tables below hold, in plain text. Each has one row per experiment.
+/// What the tables below hold. Each has one row per experiment.
 std::string command_explanation();
 /// Count, rate and states.
 Table command_stream_table(const RunResult& result);

@@ -14,8 +14,8 @@
 
 namespace glovebench::reports {
 
-/// RMS jerk, the third derivative of position: smaller is smoother (Flash and Hogan 1985). Mostly noise in a
-/// tracked hand, so compare it with the truth's.
+/// RMS jerk: smaller is smoother (Flash and Hogan 1985). Mostly noise in a tracked hand, so compare it with the
+/// truth's.
 struct Jerk {
   std::optional<double> joints_deg_s3;  ///< robot hand's 24 joints
   std::optional<double> position_m_s3;  ///< of the hand's origin

@@ -55,8 +55,8 @@ inline CommandResult example_commands(int frames, double error) {
   return commands;
 }
 
-/// Four experiments: means 4 mm, 3 deg, 2 deg with one of four frames lost and robot commands; lost frames only;
-/// no frames; another noise.
+/// Four experiments: means 4 mm, 3 deg, 2 deg with one of four frames lost; lost frames only; no frames; another
+/// noise.
 inline RunResult small_result() {
   RunResult result;
   result.protocol = make_protocol("by time stamp, exact");
@@ -84,7 +84,7 @@ inline RunResult small_result() {
   return result;
 }
 
-/// Wander around `level`, with two jumps of the posture that decay.
+/// With two jumps of the posture that decay.
 inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t seed, int count, double level) {
   std::vector<FrameRecord> frames;
   RandomStream random(seed, name, 0, "example");

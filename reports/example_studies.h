@@ -89,7 +89,7 @@ inline StudyResult example_figure8() {
            {"figure8.tiny_time_share", "", 1.02, {}, true}}};
 }
 
-/// Figures 7 and 8, with some empty cells. One claim about them is inconclusive, one does not hold.
+/// Some cells are empty; one claim is inconclusive, one does not hold.
 inline std::vector<StudyResult> example_studies() {
   return {example_figure7(), example_figure8()};
 }

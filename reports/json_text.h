@@ -6,8 +6,8 @@
 
 namespace glovebench::reports {
 
-/// Spreads objects and arrays over lines; an array of plain values takes one, so a frame is one line. Equal values
-/// give equal bytes. Numbers must be finite.
+/// Spreads objects and arrays over lines; an array of plain values takes one. Equal values give equal bytes.
+/// Numbers must be finite.
 std::string format_json(const nlohmann::ordered_json& json);
 
 /// Rounds to 1e-6, without minus zero.
@@ -15,7 +15,7 @@ std::string format_json(const nlohmann::ordered_json& json);
 double rounded(double value);
 nlohmann::ordered_json rounded_or_null(const std::optional<double>& value);
 
-/// Replaces bytes that are not UTF-8 by U+FFFD; folder names may hold any.
+/// Replaces bytes that are not UTF-8 by U+FFFD.
 std::string valid_utf8(const std::string& text);
 
 }  // namespace glovebench::reports

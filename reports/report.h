@@ -16,11 +16,11 @@ namespace glovebench::reports {
 ///   summary.md     the tables
 ///   index.html     tables, charts, pictures in one file
 ///   timings.json   what differs from run to run
-///   claims.json    verdicts on the paper's claims, if any was run; also tables/claims.csv
-///   tables/        figure4.csv, .tex; figure5.csv, figure6.csv if run; frames_*.csv; commands.csv; of studies
-///   histories/     bencher.json and github_action_benchmark.json, for services that keep a history
+///   claims.json    verdicts on the paper's claims, if any was run
+///   tables/        CSV and LaTeX of figures, frames, commands, claims, studies
+///   histories/     for services that keep a history
 ///   estimates/     one file per experiment
-/// Only timings.json, the page's latencies, and studies' tables and claims depend on more than the results.
+/// Only timings.json, the page's latencies, studies' tables and claims depend on more than the results.
 /// The files are one set (core/base/file_set.h) that replaces an older report's as a whole.
 /// Throws: Error if the folder cannot be written; an older report then stays.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,

@@ -19,8 +19,7 @@ std::string results_json(const RunResult& result);
 void write_results(const std::string& path, const RunResult& result);
 
 /// Drops unknown metrics except their protocol keys; missing ones are empty.
-/// Throws: Error for anything that write_results does not write: format, version, keys, kinds, or a protocol id or
-/// counts that do not fit.
+/// Throws: Error for anything that write_results does not write, e.g. a protocol id or counts that do not fit.
 RunResult read_results(const std::string& path);
 RunResult parse_results(const std::string& text, const std::string& where);
 

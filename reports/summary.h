@@ -12,8 +12,7 @@ Table experiment_table(const std::vector<std::string>& measured);
 /// The cells of these four columns.
 Row experiment_names(const ExperimentKey& key);
 
-/// One row per experiment: mean position error with interval, metrics without joint convention, jitter, latency,
-/// lost and false frames.
+/// Position error with interval, metrics without joint convention, jitter, latency, lost and false frames.
 Table detail_summary(const RunResult& result);
 
 /// Warning for a quick run, as plain text; else empty.

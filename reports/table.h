@@ -76,7 +76,7 @@ std::string to_text(const Table& table, bool grouped = false);
 std::string to_csv(const Table& table);
 
 /// One CSV line of plain values (RFC 4180, but line feeds); null is empty. Text that a spreadsheet takes for a
-/// formula (starts with '=', '+', '-', '@', tab or line break and is no number) gets a leading apostrophe.
+/// formula gets a leading apostrophe.
 std::string csv_line(const nlohmann::ordered_json& cells);
 
 }  // namespace glovebench::reports

@@ -28,8 +28,8 @@ struct Figure4Row {
 /// In running order. Rows refer to both arguments.
 std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
-/// At most 120 columns: position, posture (RMS) and rotation errors with coverage per variant, beside the paper's
-/// means. "-" for no value.
+/// At most 120 columns: position, posture (RMS) and rotation errors with coverage per variant, beside the paper's.
+/// "-" for no value.
 std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
 /// One column per variant, one for the paper's means.
@@ -41,9 +41,9 @@ std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, cons
 
 /// Every frame: the seed, then frame_columns. Empty cells have no value.
 std::string frames_csv(const ExperimentResult& experiment);
-/// Errors of Figure 5 or 6 per frame, beside the paper's. The movements differ, so compare only the curves.
+/// Errors of Figure 5 or 6 per frame, beside the paper's, which are of another movement.
 std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& paper);
-/// Data of the page's charts as CSV texts: Figure 4, Figures 5 and 6 if run, studies' tables. "figure4" is
+/// Data of the page's charts as CSV: Figure 4, Figures 5 and 6 if run, studies' tables. "figure4" is
 /// tables/figure4.csv.
 nlohmann::ordered_json csv_tables(const RunResult& result, const PaperNumbers& paper);
 

@@ -63,9 +63,8 @@ class Command {
   /// Once a command has subcommands, the user must name one.
   Command subcommand(const std::string& name, const std::string& description) const;
   /// Adds an option that writes to `value`. `names`: `-o,--output`, or `file` for an argument. An empty value is
-  /// an error. The help shows the default unless it is empty or the option required. Types: bool (a flag), int,
-  /// uint64_t, double, std::string, optional numbers, vectors of strings and doubles, transform (X Y Z QW QX QY
-  /// QZ, m).
+  /// an error. The help shows the default unless it is empty or the option required. A bool is a flag; a transform
+  /// is X Y Z (m) QW QX QY QZ. The source lists all types.
   /// Throws: Error for a transform that is not finite or has no unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;

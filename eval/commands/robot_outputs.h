@@ -35,12 +35,12 @@ class RobotOutputs {
   bool any() const { return file_ || bus_; }
   /// The arm's joints at the start; empty without a controller.
   std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
-  /// Guards and sends a command. A robot's time is the first frame's stamp plus wall time since then. With a
-  /// controller each motion after a lost hand, and the first, starts at the measured joints.
+  /// Guards and sends a command. A robot's clock is the first frame's stamp plus wall time. With a controller
+  /// motion starts at the measured joints, also after a lost hand.
   /// Units: `arrived_us`, when the frame arrived, in us since 1970.
   /// Throws: Error, also if the robot is not measured.
   void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
-  /// Ends the commands. If `whole`, names the file; else its lines stay at `kept()`, and an older file remains.
+  /// If `whole`, names the file; else its lines stay at `kept()` and an older file remains.
   /// Throws: Error.
   void finish(bool whole = true);
   /// Where unfinished lines are; empty if there are none.

@@ -27,7 +27,7 @@ struct SourceFlags {
 /// Throws: Error for an unknown kind, a missing device or recording, or a build without libfreenect.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
-/// Names on stderr the files that changed since the recording, unless `quiet`.
+/// Names on stderr the changed files of a recording, unless `quiet`.
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);
 
 }  // namespace glovebench::eval

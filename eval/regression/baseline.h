@@ -24,12 +24,12 @@ std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files)
 /// Empty where the folder has no times.
 reports::StageTimes load_stage_times(const FileSet& files);
 
-/// The state that changes are gated against, in a committed folder:
+/// What changes are gated against, in a committed folder:
 ///   results.json      the run that became the baseline
 ///   noise_floor.json  effect of other seeds (glovebench calibrate noise); optional
 ///   speed.json        ratios to the plain implementations; optional
 ///   provenance.json   commit, date, compiler, processor, stage times, replaced baseline
-///   manifest.json     hashes of results, speed and provenance as one set (core/base/file_set.h); old ones lack it
+///   manifest.json     the set of results, speed and provenance (core/base/file_set.h); old ones lack it
 struct Baseline {
   StoredRun run;
   std::optional<reports::NoiseFloor> noise_floor;
@@ -50,7 +50,7 @@ Provenance parse_provenance(const std::string& text, const std::string& where);
 /// "ci/baselines/quick".
 std::string default_baseline_folder(const std::string& suite);
 
-/// The suite of a run, from the given name or file; empty: the program's own of that name.
+/// The suite of a run, from the given name or file, else the program's own.
 /// Throws: Error if the run has none or another.
 Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file);
 

@@ -9,9 +9,9 @@
 
 namespace glovebench::eval {
 
-/// The most changed frames: camera image with outlines of the true hand (white), the baseline's (blue) and the
-/// candidate's (orange). Leaves out panels without estimates, and frames unless their truth is the program's
-/// current one and the cameras are the synthetic Kinect's.
+/// The most changed frames: camera image with outlines of the true hand (white), baseline (blue) and candidate
+/// (orange). Needs stored estimates, the program's current truth and the synthetic Kinect's cameras; leaves out
+/// what it cannot draw.
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
                                               const reports::RunResult& candidate, const FileSet& baseline_files,
                                               const FileSet& candidate_files);

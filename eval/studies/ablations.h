@@ -33,17 +33,16 @@ reports::Table ablation_table(const Runs& runs, const std::vector<Ablation>& abl
 /// A look-up off by more is wrong: a quarter of the way from open hand to power grasp.
 inline constexpr double kWrongLookUp_deg = 15;
 
-/// lag.frames, lag.without_filter_frames, lag.filter_share: delay of the posture. Intervals resample movements.
+/// lag.*: delay of the posture. Intervals resample movements.
 std::vector<reports::Measure> lag_measures(const Runs& runs);
 
-/// Excess error of color-blind alignment in frames with a wrong look-up, over DB_20_postures and
-/// DB_open_pinch_power: color.blind_excess_position_mm, color.blind_excess_rotation_deg.
+/// color.*: excess error of color-blind alignment in frames with a wrong look-up, over DB_20_postures and
+/// DB_open_pinch_power.
 std::vector<reports::Measure> color_measures(const Runs& runs);
 /// Table "color_blind": the same per database.
 reports::Table color_table(const Runs& runs);
 
-/// interpolation.distinct_excess_deg: unfiltered posture error of 3 neighbors minus that of 1, in frames where the
-/// 3 differ in posture.
+/// Unfiltered posture error of 3 neighbors minus that of 1, in frames where the 3 differ in posture.
 reports::Measure interpolation_measure(const Runs& runs);
 
 /// Rows that these need beyond `ablations`.

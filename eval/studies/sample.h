@@ -10,8 +10,7 @@
 
 namespace glovebench::eval {
 
-/// One value per frame: [stratum][noise seed][frame]. A stratum is a trajectory and is not resampled. Empty for
-/// e.g. lost frames.
+/// [stratum][noise seed][frame]; empty e.g. for a lost frame. A stratum is a trajectory, which is not resampled.
 using Sample = std::vector<std::vector<std::vector<std::optional<double>>>>;
 
 /// Both are empty without values; the interval also with too little to resample.
@@ -31,8 +30,8 @@ Estimated estimate(std::span<const Sample> samples,
 /// Mean of a - b over frames with both values.
 Estimated estimate_difference(const Sample& a, const Sample& b);
 
-/// Bootstrap interval of a statistic of `count` things; `drawn` holds the drawn indices, with repetitions. `over`
-/// names the things. Empty if count < 2.
+/// Bootstrap interval of a statistic of `count` things, named `over`. `drawn`: their indices, with repetitions.
+/// Empty if count < 2.
 std::optional<reports::ConfidenceInterval> interval_over(
     int count, const std::string& over,
     const std::function<std::optional<double>(std::span<const int> drawn)>& statistic);

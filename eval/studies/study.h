@@ -58,8 +58,8 @@ using Runs = std::vector<MeasuredRun>;
 Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
                   const std::vector<std::string>& databases, reports::TruthKind truth,
                   const std::vector<std::string>& trajectories = {});
-/// Runs for times on source truths, with this implementation of look-up and closest points. One tracker runs at a
-/// time, over a stretch of each movement. Runs are not stored.
+/// Runs for times, on source truths with this implementation: one tracker at a time, a stretch of each movement.
+/// Not stored.
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
                    const std::vector<std::string>& databases, Implementation implementation,
                    const std::vector<std::string>& trajectories = {});
@@ -96,8 +96,7 @@ reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
 /// With these databases. monocular.depth_error_cm is of the first and of the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);
-/// Part of the ablations: tables "light" and "light_tracking", measures light.rgb_excess_percent and
-/// light.rgb_excess_own_percent.
+/// Tables "light" and "light_tracking" of the ablations, and measures light.*.
 reports::StudyResult run_light(const StudyContext& context);
 
 }  // namespace glovebench::eval

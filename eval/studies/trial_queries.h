@@ -15,13 +15,13 @@
 namespace glovebench::eval {
 
 inline constexpr double kTrialAngleNoise_deg = 3.0;  ///< standard deviation of each angle
-/// Center on the optical axis and half edges of the box of hand origins, m: nearly every hand in it is in view of
-/// both cameras and in the working volume.
+/// Center on the optical axis and half edges of the box of hand origins, m; nearly every hand in it is fully in
+/// view.
 inline constexpr double kTrialDistance = 0.70;
 inline constexpr std::array<double, 3> kTrialReach = {0.12, 0.07, 0.10};
 
-/// A hand between the database's postures and views: a blend of two postures (of one, if there are no more) with
-/// noise on each angle, a uniform rotation, an origin from the box.
+/// A blend of two postures (of one, if there are no more) with noise on each angle, a uniform rotation, an origin
+/// from the box.
 HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random);
 
 /// The synthetic Kinect with subject 1's scene, and the tracker's stages before the look-up. Not thread-safe.
@@ -45,7 +45,7 @@ struct TrialQuery {
   std::vector<LabelImage> images;  ///< tiny images, one per size
   int redraws = 0;                 ///< hands drawn before it that the tracker would not look up
 };
-/// Queries under the paper's noise. Uses the workbench's threads; the result does not depend on them.
+/// Queries under the paper's noise; independent of the number of threads.
 /// Throws: Error if hardly any hand can be looked up.
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,

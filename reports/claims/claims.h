@@ -30,7 +30,7 @@ bool meets(const Rule& rule, double low, double high);
 /// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);
 
-/// Reproduction: the paper's experiment. Consistency: only shows that what the paper cites is plausible.
+/// Reproduction: the paper's experiment. Consistency: what the paper cites is plausible.
 enum class ClaimKind { reproduction, consistency };
 constexpr auto names_of(ClaimKind) {
   return std::to_array<std::string_view>({"reproduction", "consistency"});
@@ -105,8 +105,8 @@ const std::vector<Claim>& claims();
 /// Throws: Error naming `where` and the field.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
-/// One sentence per way in which `later` alters `earlier`; empty if it only adds. A missing commit or `came_out`
-/// may be filled once.
+/// One sentence per change of `earlier`; empty if `later` only adds. A missing commit or `came_out` may be filled
+/// once.
 std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

@@ -38,10 +38,10 @@ bool are_claims_judged(const RunResult& result);
 std::vector<Measure> all_measures(const RunResult& result);
 
 /// One verdict per claim, in their order. A claim
-/// - does not hold if the number breaks the rule, or the whole interval does;
-/// - holds if number and whole interval, if any, satisfy the rule;
-/// - is inconclusive if only part of the interval does, if there is no number, or if the interval is invalid (ends
-/// not finite or in the wrong order).
+/// - does not hold if the number or the whole interval breaks the rule;
+/// - holds if number and whole interval, if any, satisfy it;
+/// - is inconclusive if only part of the interval does, or number or interval is missing or invalid (not finite,
+/// wrong order).
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
 /// Outcomes of required claims, without withdrawn ones.

@@ -95,14 +95,14 @@ struct Comparison {
 inline constexpr int kWorstFrames = 6;
 
 /// Compares frame by frame and seed by seed. Blocks of frames and seeds are resampled within each sequence
-/// (rescaled bootstrap of Rao and Wu, n - 1 of n); experiments on one trajectory share draws. An interval is the
-/// difference +- Student's t (blocks - 1 degrees of freedom) times the bootstrap's standard error, at the level
-/// that keeps the family error over all rows. `floor` gives minimum effects and may be null.
+/// (rescaled bootstrap of Rao and Wu, n - 1 of n); experiments on one trajectory share draws. Intervals are +-
+/// Student's t (blocks - 1 degrees of freedom) times the bootstrap's standard error, at the level that keeps the
+/// family error over all rows. `floor` gives minimum effects; may be null.
 /// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});
 
-/// What intervals and verdicts mean, in plain text.
+/// What intervals and verdicts mean.
 std::string comparison_explanation(const Comparison& comparison);
 
 }  // namespace glovebench::reports

@@ -34,15 +34,15 @@ std::string incomparable_junit(const std::string& message);
 std::string incomparable_markdown(const std::string& message);
 std::string comparison_page(const ComparisonReport& report);
 
-/// Also called by the three functions below.
-/// Throws: Error if the folder holds a run or baseline, which also have an index.html.
+/// Throws: Error if the folder holds a run or baseline, which also have an index.html. The three functions below
+/// check this.
 void require_own_folder(const std::string& folder);
 
 /// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html as one set (core/base/file_set.h); returns
 /// their names.
 /// Throws: Error if the folder cannot be written.
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report);
-/// Removes an earlier comparison's files, so that nobody takes them for a failed one's.
+/// Removes an earlier comparison's files.
 /// Throws: Error.
 void remove_comparison(const std::string& folder);
 /// Writes the message to comparison.md and junit.xml; removes an earlier comparison's other files.

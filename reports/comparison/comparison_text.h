@@ -18,8 +18,7 @@ bool is_worth_reading(const ComparisonRow& row);
 /// One group per experiment, in order.
 std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison);
 
-/// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1". Omits subject 1 and the
-/// paper's noise; keeps other forms.
+/// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1"; other forms stay.
 std::string readable_experiment(const std::string& experiment);
 
 /// At most nine characters; "-" for none. Signed numbers >= 0 have a plus.

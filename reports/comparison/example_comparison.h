@@ -27,7 +27,7 @@ inline ComparisonRow example_row(const std::string& experiment, std::string_view
   return row;
 }
 
-/// Each verdict once, and a metric without value. Lost frames stop although the data say little.
+/// Each verdict once, and a metric without value.
 inline ComparisonReport small_comparison() {
   const std::string experiment = "Tr4_DB_open_power_source_subject1_gradient_1";
   ComparisonReport report;
@@ -54,7 +54,7 @@ inline ComparisonReport small_comparison() {
   return report;
 }
 
-/// Per frame: noise, and a change after a third of the movement that fades.
+/// Noise, and a change after a third of the movement that fades.
 inline std::vector<std::optional<double>> example_differences(const std::string& name, size_t metric, double level,
                                                               bool loses_frames) {
   std::vector<std::optional<double>> values;
@@ -99,7 +99,7 @@ inline void append_example_experiment(Comparison& comparison, const ExperimentKe
   comparison.frames.push_back(std::move(frames));
 }
 
-/// The quick suite with experiments that are worse, better, unchanged and losing frames.
+/// Experiments that are worse, better, unchanged and losing frames.
 inline ComparisonReport full_comparison() {
   ComparisonReport report = small_comparison();
   Comparison& comparison = report.comparison;

@@ -29,13 +29,13 @@ struct BlockSums {
   Eigen::MatrixXd sums;
   Eigen::MatrixXd counts;
 };
-/// Blocks have at least `block_frames` frames (if there are that many) and similar lengths. Blocks without a pair
-/// are left out, since they would count as no variation.
+/// Blocks have at least `block_frames` frames, if there are that many, and similar lengths. Blocks without a pair
+/// are left out.
 BlockSums block_sums(const PairedDifferences& differences, int block_frames);
 
-/// How often each resample (row) has each block or seed: n - 1 of n are drawn, which makes the variance unbiased
-/// even for small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws, since they share its
-/// difficult moments.
+/// How often each resample (row) has each block or seed: n - 1 of n are drawn, so the variance is unbiased even
+/// for small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws, since they share its difficult
+/// moments.
 class Draws {
  public:
   Draws(uint64_t seed, int resamples) : seed_(seed), resamples_(resamples) {}

@@ -35,8 +35,7 @@ std::vector<const Metric*> shared_metrics(const Protocol& baseline, const Protoc
 std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, const Protocol& candidate);
 
 /// Throws: Incomparable naming the first difference: protocol (except metrics), hash of a shared truth or database
-/// (a missing one counts), repeated experiment, seeds, frame numbers, time stamps, missing experiment; or if
-/// nothing is left.
+/// (also if missing), repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 
 }  // namespace glovebench::reports

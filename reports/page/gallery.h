@@ -15,8 +15,8 @@ struct WorstFrame {
 };
 
 /// Half of `count` by position error, half by posture error (RMS), from subject 1 on source truth under the
-/// headline noise, or else all experiments. At most two per experiment, at least 0.5 s apart in one run, none
-/// twice, none lost.
+/// headline noise, or else all experiments. At most two per experiment, 0.5 s apart in one run, none twice, none
+/// lost.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
 /// Shows every stage of the frame, from the run's folder.

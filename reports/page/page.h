@@ -9,8 +9,8 @@
 
 namespace glovebench::reports {
 
-/// Pictures of all frames of a curve in one image. Each has two tiles, one above the other: true hand, and
-/// difference of estimated and true depth. Frame i is in column i % columns, tile row pair i / columns.
+/// All frames of a curve in one image, each as two tiles, one above the other: true hand, and difference of
+/// estimated and true depth. Frame i is in column i % columns, tile row pair i / columns.
 struct FrameSheet {
   std::string figure;  ///< "figure5"
   std::string image;   ///< JPEG or PNG file
@@ -32,7 +32,7 @@ struct PageMaterial {
 };
 
 /// index.html in one file: Figures 4 to 9 that were run, beside the paper's numbers. Tables and keyframes need no
-/// JavaScript. Of `timings` it shows robot commands and, with studies, the machine.
+/// JavaScript. `timings` gives robot commands and, with studies, the machine.
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
                       const PageMaterial& material = {});
 
