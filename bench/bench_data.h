@@ -15,48 +15,44 @@
 
 namespace glovebench::bench {
 
-/// Poses and postures that benchmarks render.
 struct Movement {
   std::string name;
-  std::vector<HandFrame> frames;  ///< some of its frames
+  std::vector<HandFrame> frames;
 };
 
-/// Every 19th frame of the five source trajectories: 37 frames of open hand, grasp and between. The width of the
-/// robust alignment was chosen on these.
+/// Every 19th frame of the five source trajectories, on which the robust alignment's width was chosen.
 std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
 
-/// The same of ten movements between random blends of two gestures, on random ways within the ranges of the five:
-/// 70 frames on which nothing is tuned. The same ones each time. The gestures are those that the five and the
-/// databases are made of, too.
+/// 70 fixed frames of ten random movements; nothing is tuned on them.
 std::vector<Movement> held_out_movements(const std::string& trajectory_folder);
 
-/// GLOVEBENCH_CACHE, else the user's cache folder, else a new folder in the temporary directory: none that somebody
-/// else could have filled. Throws Error.
+/// GLOVEBENCH_CACHE, else the user's cache folder, else a new temporary one.
+/// Throws: Error.
 std::string default_cache_folder();
-/// A new folder in the temporary directory, only for this user. Throws Error.
+/// Only this user can access it.
+/// Throws: Error.
 std::string new_temporary_folder();
 
 struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";
   std::string frames = "tuned";  ///< "tuned" or "held-out"
-  std::string colors = "same";   ///< the color table is made with true labels of the "same" poses, or of those of
-                                 ///< the "other" frames
+  /// Frames whose true labels make the color table: "same" or "other".
+  std::string colors = "same";
 };
 
-/// One frame of a movement and what each stage of the tracker made of it.
+/// A frame and each stage's result.
 struct BenchFrame {
   HandFrame hand;             ///< the truth
   render::RgbdImages images;  ///< without noise
   DeviceFrame device;
   FrameTrace trace;
-  Square square;    ///< around the glove's labels
-  TinyImages tiny;  ///< of the default cascade
+  Square square;
+  TinyImages tiny;
   PosedHand posed;  ///< in the looked-up posture
   TrackResult result;
 };
 
-/// What all benchmarks share.
 struct BenchData {
   Settings settings;
   RgbdCalibration calibration;
@@ -70,27 +66,26 @@ struct BenchData {
   DatabaseCache cache() const;
 };
 
-/// Renders the frames, tracks them and loads (or builds) the database, once, before any benchmark. Throws Error.
+/// Makes `data`, before any benchmark.
+/// Throws: Error.
 void prepare(const Settings& settings);
-/// What `prepare` made.
 const BenchData& data();
 
-/// The error of a benchmark whose library this build lacks. It is shown, and no failure.
+/// Shown if the build lacks a library; no failure.
 inline constexpr const char* kMissing = "missing";
 
-/// Says that each iteration did something with all `count` of these: adds the time for one as a counter.
+/// Adds a counter: time for one of `count` items.
 void set_time_each(benchmark::State& state, const std::string& name, size_t count);
 
-/// The bytes that one frame (or another item) makes a stage read and write at least.
+/// Least bytes touched for one item.
 struct BytesTouched {
-  double near = 0;  ///< in the core's own caches: what was touched a moment ago
+  double near = 0;  ///< in the core's caches
   double far = 0;   ///< behind them
 };
-/// The counters that say so.
 inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";
 void set_bytes_touched(benchmark::State& state, const BytesTouched& touched);
 
-/// The peak of the process's resident memory so far, bytes.
+/// Peak resident memory, bytes.
 double peak_memory();
 
 }  // namespace glovebench::bench

@@ -1,4 +1,4 @@
-// What nearly every translation unit includes, or takes long to read; compiled once for all modules.
+// Common or slow includes, compiled once.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a test includes besides; compiled once for the tests of all modules.
+// The same for tests.
 #pragma once
 
 #include <gmock/gmock.h>

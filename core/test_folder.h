@@ -1,6 +1,6 @@
 #pragma once
 
-// Folders for the tests of this module.
+// Folders for tests.
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@
 
 namespace glovebench {
 
-/// A folder of a known name that test processes share. Throws if it is somebody else's, who could put files in it.
+/// Throws: std::runtime_error unless the folder belongs to this user alone.
 inline std::string shared_folder(const std::string& name) {
   std::string path = testing::TempDir() + name;
   ::mkdir(path.c_str(), 0700);
@@ -27,7 +27,7 @@ inline std::string shared_folder(const std::string& name) {
   return path;
 }
 
-/// A folder of one test's own, for this user alone: empty at first, gone at the end.
+/// A private folder: empty at first, removed at the end.
 class TestFolder {
  public:
   TestFolder() {
@@ -48,18 +48,18 @@ class TestFolder {
   }
 
  private:
-  const pid_t owner_ = ::getpid();  ///< and no process that it forks
+  const pid_t owner_ = ::getpid();  ///< forks must not remove it
   std::string path_ = testing::TempDir() + "glovebench-test-XXXXXX";
 };
 
-/// The folder of the running test, or of its suite while that is set up. It is gone when the program ends.
+/// The folder of the running test or suite, until the program ends.
 inline const std::string& test_folder() {
   static std::map<const testing::TestInfo*, TestFolder> folders;
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// A folder that all test processes of this executable share, for what is expensive to make. Another build gets
-/// another one, so that no test is answered by the files of older code; those are removed.
+/// A folder for expensive files, which all processes of this build of the executable share. Removes those of other
+/// builds.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");

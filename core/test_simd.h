@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs a test once on each instruction set that this processor has and this build was made for.
+// Runs a test on each instruction set of the processor and the build.
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

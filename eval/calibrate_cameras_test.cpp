@@ -23,7 +23,7 @@ constexpr int kPictures = 12;
 
 class CalibrateCamerasLong : public CommandTest {
  protected:
-  /// Pictures of the synthetic Kinect, whose lenses distort nothing, as PNG files.
+  /// PNG pictures of the synthetic Kinect, without lens distortion.
   void write_pictures(const RgbdCalibration& truth) const {
     const auto poses = calibration::poses_before(truth, kBoard, kPictures, 3);
     const BoardCamera ir(truth.ir, truth.ir_lens), rgb(truth.rgb, truth.rgb_lens);
@@ -90,11 +90,11 @@ TEST_F(CalibrateCamerasLong, GivesACalibrationThatTrackTakes) {
   EXPECT_LT((nominal - calibrated).norm(), 6) << "half a percent of 700 mm, and what it does to the labels";
 }
 
-/// The same movement before cameras of another focal length: other pictures, much the same errors.
+/// The same movement with another focal length gives other pictures and similar errors.
 TEST_F(CalibrateCamerasLong, RunAndRenderTakeIt) {
   RgbdCalibration wide = synthetic_calibration();
   wide.ir.fx = wide.ir.fy = 500;
-  wide.ir_lens.k1 = 0.1;  // taken as corrected
+  wide.ir_lens.k1 = 0.1;  // the pictures are taken as corrected
   save_calibration(wide, path("wide.json"));
   const json own = run_trajectory("good.json", "own");
   const json results = run_trajectory("good.json", "wide", {"--calibration", path("wide.json")});

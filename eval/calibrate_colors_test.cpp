@@ -51,7 +51,7 @@ TEST_F(CalibrateColorsLong, makes_a_table_that_tracks) {
                   .out,
               HasSubstr("4 of 4 frames tracked"));
 
-  // The same again, from its own table and over RGB.
+  // Again, from its own table and over RGB.
   expect_fine(calibrate("dump", {"--seeds", path("own.table"), "--space", "rgb", "--frames", "2"}));
   EXPECT_EQ(ColorTable::load(path("own.table")).space(), ColorSpace::rgb);
 }
@@ -61,7 +61,7 @@ TEST_F(CalibrateColorsLong, refuses_what_shows_no_glove) {
   write_file(path("near.json"), R"({"volume": {"z_min_m": 0.41, "z_max_m": 0.45}})");
   EXPECT_THAT(refusal(calibrate("dump", {"--config", path("near.json")})),
               AllOf(HasSubstr("dump: pixels in the working volume: found 0"), HasSubstr("0.41 to 0.45 m")));
-  // Without its color (a gray picture) the hand has no glove on.
+  // In a gray picture the hand wears no glove.
   for (const auto& entry : fs::directory_iterator(path("dump"))) {
     if (entry.path().extension() != ".ppm") continue;
     std::string image = read_file(entry.path().string());
@@ -69,7 +69,7 @@ TEST_F(CalibrateColorsLong, refuses_what_shows_no_glove) {
     for (size_t i = header; i + 2 < image.size(); i += 3) image[i] = image[i + 2] = image[i + 1];
     write_file(entry.path().string(), image);
   }
-  fs::remove(path("dump/manifest.json"));  // it has the hashes of the images with color
+  fs::remove(path("dump/manifest.json"));  // contains the hashes of the color images
   EXPECT_THAT(refusal(calibrate("dump")), HasSubstr("dump: glove: found no 1 ("));
   EXPECT_FALSE(fs::exists(path("own.table")));
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kViewsPerLighting = 12;
 
-/// The hand somewhere in the working volume, seen from a random side.
+/// A random pose in the working volume.
 Eigen::Isometry3d random_pose(RandomStream& random) {
   const Eigen::Quaterniond q(random.normal(), random.normal(), random.normal(), random.normal());
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
@@ -70,8 +70,8 @@ ColorTableConfig one_lighting(ColorSpace space) {
 
 ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config) {
-  // Without the clutter on the table, some of which has nearly the glove's colors: it lies beyond the working
-  // volume, and learning it as background would cost the glove pixels of those colors.
+  // Some clutter on the table has nearly the glove's colors. It lies beyond the working volume, and learning it as
+  // background would cost glove pixels.
   render::SceneConfig scene;
   scene.clutter = false;
   render::RgbdRenderer renderer(calibration, model, scene);
@@ -99,7 +99,7 @@ ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const H
     try {
       return ColorTable::load(path);
     } catch (const Error&) {
-      // Damaged or of another version: it is made anew below, from the same inputs.
+      // Made anew below.
     }
   }
   const ColorTable table = calibrate_colors(std::move(model), calibration, postures,

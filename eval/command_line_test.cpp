@@ -1,4 +1,4 @@
-// Bad input, as a user would give it: one clear line on stderr, exit code 2, and earlier results untouched.
+// Bad input gives one clear line on stderr and exit code 2, and leaves earlier results untouched.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The one line of a refusal; a test failure if the program did anything else.
+/// Returns the one line of a refusal; fails the test if the program does anything else.
 std::string refusal(const std::vector<std::string>& arguments, const ProgramSetting& setting = {}) {
   const ProgramRun run = run_glovebench(arguments, setting);
   EXPECT_EQ(run.exit_code, 2) << run.err;
@@ -272,7 +272,7 @@ TEST_F(CommandLine, DesktopSettingsDoNotReachTheRenderer) {
 }
 
 TEST_F(CommandLine, NothingCountsTwice) {
-  // One run counted as two would narrow its interval.
+  // A run counted twice would narrow its interval.
   EXPECT_THAT(refusal(run_of(good_trajectory(), {"--trajectory", good_trajectory()})),
               HasSubstr("not yet in the run"));
   EXPECT_THAT(refusal(run_of(good_trajectory(), {"--database", "DB_open_power"})), HasSubstr("not yet in the run"));

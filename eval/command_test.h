@@ -1,7 +1,5 @@
 #pragma once
 
-// Runs commands on short trajectories, for the tests of this module.
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -16,10 +14,10 @@
 
 namespace glovebench::eval {
 
-/// A folder with the trajectories good.json and left.json, of a right and a left hand.
+/// A folder with good.json (right hand) and left.json.
 class CommandTest : public testing::Test {
  protected:
-  static constexpr int kFrames = 4;  ///< of each trajectory
+  static constexpr int kFrames = 4;  ///< per trajectory
 
   void SetUp() override {
     folder_ = test_folder();
@@ -40,7 +38,7 @@ class CommandTest : public testing::Test {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     return run.err;
   }
-  /// Runs a trajectory with open and power and gives back its results.
+  /// Tracks with DB_open_power; returns results.json.
   nlohmann::json run_trajectory(const std::string& trajectory, const std::string& output,
                                 const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"run",           "--trajectory", path(trajectory), "--database",

@@ -1,4 +1,4 @@
-// The commands at work on short trajectories, from the command line to the files.
+// Runs the commands on short trajectories and checks their files.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -75,7 +75,7 @@ TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
   expect_fine(info);
   EXPECT_THAT(info.out, AllOf(HasSubstr("mine, right hand, 756 entries"), HasSubstr("\n  ")));
 
-  // The same postures as a file and as a built database give the same results; other views are not what was built.
+  // Postures in a file and a built database give the same results. A database with other views is refused.
   const auto run_with = [&](const std::string& database, const std::vector<std::string>& more = {}) {
     std::vector<std::string> arguments = {"run",          "--trajectory", path("good.json"),      "--database",
                                           path(database), "-o",           path("own-" + database)};
@@ -89,7 +89,8 @@ TEST_F(CommandsLong, DatabaseOfOnesOwnPostures) {
   write_file(path("views.json"), R"({"database": {"view_distance_m": 1.5}})");
   EXPECT_THAT(refusal(run_with("mine.glovedb", {"--config", path("views.json")})), HasSubstr("mine.glovedb: hash"));
 
-  // A database with the same inputs and another content, as another builder makes it, is no other run of the same.
+  // A database with the same inputs and other content, as another builder makes it, gives results that do not
+  // compare.
   std::string other = read_file(path("mine.glovedb"));
   const DatabaseLayout layout = layout_of(other);
   char& label = other[layout.sizes().at(64).labels.offset + 1000];
@@ -148,7 +149,7 @@ TEST_F(CommandsLong, RendersPicturesAndLayers) {
     return std::count_if(labels.begin(), labels.end(), [](uint8_t label) { return label != 0; });
   };
   EXPECT_GT(glove(layers.label), 1000);
-  // The tracker's hand beside the true one, a few percent of pixels larger or smaller at most.
+  // The tracker's hand and the true one differ by a few percent of pixels.
   EXPECT_NEAR(glove(layers.tracker_label), glove(layers.label), 0.1 * glove(layers.label));
 }
 
@@ -162,7 +163,7 @@ TEST_F(CommandsLong, RecordedTruthRuns) {
 TEST_F(CommandsLong, FullDiskLeavesTheOldReportButMarked) {
   run_trajectory("good.json", "out");
   const std::map<std::string, std::string> before = read_folder(path("out"));
-  // Room for results.json and more, but not for the page with its pictures.
+  // Room for results.json and more, but not for the page.
   ProgramSetting full;
   full.max_file_bytes = before.at("index.html").size() / 2;
   ASSERT_LT(before.at("results.json").size(), full.max_file_bytes);
@@ -173,7 +174,7 @@ TEST_F(CommandsLong, FullDiskLeavesTheOldReportButMarked) {
   std::map<std::string, std::string> after = read_folder(path("out"));
   std::erase_if(after, [](const auto& file) { return file.first.starts_with(".unfinished/"); });
   EXPECT_EQ(after, before) << "and nothing beside it";
-  // It is the report of another run than the one that was asked for last.
+  // The folder's report is of another run than the last one requested.
   EXPECT_EQ(run_glovebench({"explain", path("out"), "2", "--trajectory", path("good.json")}).exit_code, 3);
   EXPECT_NE(run_trajectory("good.json", "out", {"--seed", "7"}), json::parse(before.at("results.json")));
 }

@@ -22,7 +22,7 @@ std::optional<double> mean_present(const std::vector<std::optional<double>>& val
   return reports::mean(present);
 }
 
-/// Each seed's sequence is measured by itself; the means over the seeds stand in the report.
+/// Measures each seed's sequence and averages over the seeds.
 reports::SequenceMetrics measure_sequences(const Experiment& experiment) {
   std::vector<std::optional<double>> position, rotation, latency;
   for (const MeasuredRun* each : experiment.runs) {

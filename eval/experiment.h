@@ -11,22 +11,20 @@
 
 namespace glovebench::eval {
 
-/// The runs of one experiment: one a seed.
+/// One run per seed.
 struct Experiment {
   reports::ExperimentKey key;
   std::vector<const MeasuredRun*> runs;
 };
-/// Runs by experiment, in the order of the first run of each. The runs must outlive it; no seed counts twice.
+/// In order of first appearance. `runs` must outlive the result; each seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
 
-/// What a plan's runs came to: the errors of each experiment, and all that they depend on. Robot commands and
-/// studies are added by others.
+/// Errors, protocol, input hashes and configuration; no robot commands, no studies.
 reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> runs, Workbench& workbench);
-/// The times of each experiment's stages, on this host.
+/// Stage times on this host.
 reports::Timings timings_of(std::span<const MeasuredRun> runs, int threads);
-/// What the trackers said, by experiment.
 std::vector<reports::ExperimentEstimates> estimates_of(std::span<const MeasuredRun> runs);
-/// Adds the time since the start, and the peak memory of the process.
+/// Adds the wall time since `start` and the peak memory.
 void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_point start);
 
 }  // namespace glovebench::eval

@@ -1,4 +1,4 @@
-// The same plan twice, and on one thread and two: every file that hangs on the results is equal byte for byte.
+// The same plan twice, on one thread and two: files that depend on the results are equal byte for byte.
 #include "eval/experiment.h"
 
 #include <gmock/gmock.h>

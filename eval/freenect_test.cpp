@@ -1,4 +1,4 @@
-// The live device through libfreenect's interface, with fakenect behind it, as a user would run it.
+// The live device through libfreenect's interface, with fakenect behind it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ using testing::HasSubstr;
 
 constexpr int kFrames = 24;
 
-/// A dump that plays in real time.
+/// A recording that plays in real time.
 class Freenect : public testing::Test {
  protected:
   void SetUp() override {
@@ -52,7 +52,7 @@ class Freenect : public testing::Test {
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
 
-  /// As if each color image had arrived that much later than it was taken.
+  /// Delays the arrival of each color image after it was taken.
   void delay_colors(int64_t delay_us) const {
     std::vector<std::pair<int64_t, std::string>> files;
     std::istringstream names(read_file(path("dump/INDEX.txt")));
@@ -86,7 +86,7 @@ class Freenect : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-  /// The message with which a dump is refused.
+  /// The message that refuses a recording.
   std::string refusal(const std::vector<std::string>& arguments) const {
     const ProgramRun run = run_glovebench(arguments, fakenect());
     EXPECT_EQ(run.exit_code, 2) << run.err;
@@ -104,8 +104,8 @@ class Freenect : public testing::Test {
 };
 
 TEST_F(Freenect, GivesTheEstimatesOfTheRecording) {
-  render_dump(kFrames, 71'300'000, 20'000);  // across the device's clock, which comes around after 71.58 s
-  delay_colors(12'000);                      // nearer to the next depth image, by the computer's clock
+  render_dump(kFrames, 71'300'000, 20'000);  // across the wrap of the device's clock, at 71.58 s
+  delay_colors(12'000);                      // by the computer's clock it is nearer to the next depth image
   const ProgramRun recorded = run_glovebench(track("fakenect:" + path("dump"), path("recorded.jsonl")));
   ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
   EXPECT_THAT(recorded.out, HasSubstr("24 of 24 frames tracked\n"));
@@ -125,7 +125,7 @@ TEST_F(Freenect, StopsAfterTheFramesThatWereAskedFor) {
   EXPECT_THAT(run.out, HasSubstr("4 of 4 frames tracked"));
 }
 
-/// The signals that a person, a supervisor and a terminal that is closed send.
+/// Signals from a user, a supervisor and a closed terminal.
 class FreenectSignal : public Freenect, public testing::WithParamInterface<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Signals, FreenectSignal, testing::Values(SIGINT, SIGHUP));
@@ -203,7 +203,7 @@ TEST_F(Freenect, RefusesADeviceThatIsNotThere) {
   std::vector<std::string> arguments = live();
   arguments[2] = "freenect:63";
   EXPECT_THAT(refusal(arguments), HasSubstr("Kinects that are plugged in: found 1, expected at least 64"));
-  // The real library, with what is plugged in, if it may look at all.
+  // The real library with the present hardware, if it can look at all.
   const ProgramRun run = run_glovebench(arguments);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("glovebench: libfreenect: "));

@@ -1,7 +1,7 @@
-// glovebench_fuzz --list: the names of all fuzz targets.
-// glovebench_fuzz NAME FILE|FOLDER...: feeds files to a target. Exit code 1: one broke it; 2: there is none.
-// With GLOVEBENCH_FUZZ this is a libFuzzer program for the target that the environment variable
-// GLOVEBENCH_FUZZ_TARGET names.
+// glovebench_fuzz --list: prints the names of all fuzz targets.
+// glovebench_fuzz NAME FILE|FOLDER...: feeds files to a target. Exit code 1: a file broke it; 2: no such target or
+// file. With GLOVEBENCH_FUZZ this is a libFuzzer program for the target in the environment variable
+// GLOVEBENCH_FUZZ_TARGET.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -50,7 +50,7 @@ void check_markers(const trajectories::MarkerSequence& sequence) {
   }
 }
 
-/// Of a format that we also write.
+/// For a format that we also write.
 void check_csv_returns(const trajectories::Format& csv, std::string_view bytes) {
   const auto text_of = [&](std::string_view text) {
     return trajectories::csv_markers(csv.markers(text, Side::right, "capture.csv"));
@@ -59,8 +59,8 @@ void check_csv_returns(const trajectories::Format& csv, std::string_view bytes) 
   without_error([&] { check(text_of(text) == text, "a capture returns"); });
 }
 
-/// Reads bytes in a format and checks what every format must keep to: what was read and written is read again as it
-/// was; points lie in reach or are gaps, one for each name, and times increase.
+/// Checks that what is read and written reads back equal; points lie in reach or are gaps, one per name; times
+/// increase.
 void fuzz_format(const trajectories::Format& format, std::string_view bytes) {
   const std::string where = "file" + std::string(format.ending);
   if (format.trajectory) check_trajectory(format.trajectory(bytes, where));
@@ -71,7 +71,7 @@ void fuzz_format(const trajectories::Format& format, std::string_view bytes) {
     expect_value_or_error([&] { check_markers(format.markers(bytes, side, where)); });
 }
 
-/// One for each file X_fuzz.cpp and each format of a file.
+/// One per file X_fuzz.cpp and per file format.
 std::vector<FuzzTarget> fuzz_targets() {
   std::vector<FuzzTarget> targets = fuzz_targets_of_files();
   for (const trajectories::Format& format : trajectories::formats())

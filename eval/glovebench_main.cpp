@@ -39,8 +39,8 @@ void add_commands(glovebench::eval::Command program) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit is an Error like a full disk
-  std::signal(SIGPIPE, SIG_IGN);  // whoever stops reading what is said ends no work
+  std::signal(SIGXFSZ, SIG_IGN);  // a file over the size limit throws Error, like a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe must not end the work
   try {
     const int exit_code = glovebench::eval::run_program(argc, argv, add_commands);
     if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to file");

@@ -1,4 +1,4 @@
-// `glovebench import markers`: what it writes, that the other commands take it, and what it refuses.
+// `glovebench import markers`: its files, their use by other commands, and what it refuses.
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"

@@ -6,8 +6,7 @@
 
 namespace glovebench::eval {
 
-/// Calls work(i) for each i of 0 to count - 1, each by itself, on that many threads. What `work` does in parallel
-/// itself has no more threads either.
+/// Calls work(i) for i = 0..count-1 on `threads` threads, which parallel code inside `work` shares.
 template <typename Work>
 void in_parallel(int threads, size_t count, const Work& work) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -11,7 +11,7 @@ void note_wish(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
-/// A terminal that is closed may say so several times: by the kernel, and by its shell.
+/// Stays installed, since the kernel and the shell may both report a closed terminal.
 void note_hang_up(int) {
   wish = 1;
 }
@@ -26,7 +26,7 @@ Interruption::Interruption() {
   sigaction(SIGINT, &once, &before_int_);
   sigaction(SIGTERM, &once, &before_term_);
   sigaction(SIGHUP, nullptr, &before_hup_);
-  if (before_hup_.sa_handler == SIG_IGN) return;  // nohup: it goes on without its terminal
+  if (before_hup_.sa_handler == SIG_IGN) return;  // nohup: goes on without a terminal
   struct sigaction always = once;
   always.sa_handler = note_hang_up;
   sigaction(SIGHUP, &always, nullptr);

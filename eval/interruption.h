@@ -4,8 +4,8 @@
 
 namespace glovebench::eval {
 
-/// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal was closed) are a wish that can be asked for.
-/// The second SIGINT or SIGTERM ends the program; SIGHUP never does, and where it was ignored (nohup) it still is.
+/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program; SIGHUP
+/// never does. nohup keeps working.
 class Interruption {
  public:
   Interruption();

@@ -8,7 +8,7 @@
 namespace glovebench::eval {
 namespace {
 
-/// Ends this process by the second signal, if the first one was taken as a wish.
+/// Ends this process by the second signal, if the first only set the flag.
 void raise_both(int first, int second) {
   const Interruption interruption;
   if (Interruption::wished()) std::exit(1);

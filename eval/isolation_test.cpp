@@ -1,5 +1,4 @@
-// "A test runs the tracker on dumped frames in a process that can read no trajectory, and gets identical
-// estimates."
+// The tracker gives identical estimates in a process that cannot read trajectories.
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"

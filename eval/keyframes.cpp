@@ -12,11 +12,11 @@ using reports::Estimate;
 using reports::FrameSheet;
 
 constexpr int kColumns = 16;
-// Multiples of 16: a JPEG shares its colors in blocks of 16 x 16 px, which no two tiles then have in common.
+// Multiples of 16, since a JPEG shares colors in blocks of 16 x 16 px and tiles must not share any.
 constexpr int kTileWidth = 240, kTileHeight = 192;
 constexpr int kKeyframeQuality = 80;
 
-/// Where the hand is in the image, and its margin.
+/// Bounding box of the hand in the image, with a margin.
 Eigen::AlignedBox2d box_of_hand(const PinholeCamera& camera, const HandModel& hand,
                                 std::span<const HandFrame> frames) {
   Eigen::AlignedBox2d box;
@@ -24,7 +24,7 @@ Eigen::AlignedBox2d box_of_hand(const PinholeCamera& camera, const HandModel& ha
     for (const Eigen::Vector3f& p_hand : hand.pose(frame.posture).vertices)
       box.extend(camera.project(frame.T_camera_hand * p_hand.cast<double>()));
   }
-  constexpr double kMargin = 0.08;  // of its size, so that an estimate beside the truth is seen as well
+  constexpr double kMargin = 0.08;  // of the box, so that an estimate beside the truth is visible
   const Eigen::Vector2d margin = kMargin * box.sizes();
   return {box.min() - margin, box.max() + margin};
 }
@@ -37,7 +37,6 @@ void paste(ColorImage& sheet, const ColorImage& tile, int column, int row) {
   }
 }
 
-/// Draws the tiles of one hand.
 class TilePainter {
  public:
   TilePainter(std::shared_ptr<const HandModel> hand, const PinholeCamera& camera)
@@ -72,7 +71,7 @@ PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std:
   check(!frames.empty(), "a window is around the hand of some frame");
   const Eigen::AlignedBox2d box = box_of_hand(ir, hand, frames);
   const double scale = std::min(tile_width / box.sizes().x(), tile_height / box.sizes().y());
-  // A pixel's center has integer coordinates: the middle of a tile is at (width - 1) / 2.
+  // Pixel centers have integer coordinates, so a tile's middle is at (width - 1) / 2.
   return {tile_width,
           tile_height,
           ir.fx * scale,
@@ -84,7 +83,7 @@ PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std:
 FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure, std::span<const HandFrame> frames,
                             std::span<const Estimate> estimates) {
   check(frames.size() == estimates.size(), "a sheet has an estimate for each frame");
-  // The recorded truth of the figures is of the first subject, whose hand is the tracker's.
+  // Recorded truths are of subject 1, whose hand is the tracker's.
   const std::shared_ptr<const HandModel> hand = workbench.model();
   TilePainter painter(hand, camera_around(workbench.calibration().ir, *hand, frames, kTileWidth, kTileHeight));
   const auto count = static_cast<int>(frames.size());

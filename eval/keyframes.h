@@ -10,15 +10,14 @@
 
 namespace glovebench::eval {
 
-/// The part of the depth camera's view that a sheet shows, the same in all frames: a camera whose image is a tile
-/// of that size (px) and holds the glove of every frame, with a margin. Frames are at least one.
+/// The IR camera, cropped and scaled to a tile that holds the glove of every frame. Needs a frame.
+/// Units: tile size in px.
 PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,
                             int tile_width, int tile_height);
 
-/// The pictures under Figures 5 and 6 of the paper, of every frame: the true hand as the depth camera would see it
-/// in color, and the depth of the estimated hand minus that of the true one, in the same pixels. `estimates` are
-/// those of one seed, one a frame; a lost frame's picture shows the true hand alone, in gray. Both hands are drawn
-/// without noise.
+/// Two tiles per frame, without noise: true hand in color, and estimated minus true depth. `estimates` are of one
+/// seed, one per frame; a lost frame shows the true hand in gray.
+/// Paper: pictures under Figures 5 and 6.
 reports::FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
                                      std::span<const HandFrame> frames,
                                      std::span<const reports::Estimate> estimates);

@@ -37,7 +37,7 @@ TEST(Keyframes, WindowHoldsTheHandOfEveryFrameAndSeesWhatTheCameraSees) {
   EXPECT_GT(std::max(seen.sizes().x() / 160, seen.sizes().y() / 128), 0.8) << "and is not mostly empty";
 }
 
-/// The pixel of a sheet in the middle of the glove of frame `i`, in its truth (row 0) or difference (row 1).
+/// The sheet's pixel in the middle of the glove in frame `i`, in its truth (row 0) or difference (row 1).
 cv::Vec3b pixel_at(const cv::Mat& sheet, const reports::FrameSheet& description, int i, int row,
                    Eigen::Vector2d uv) {
   const int left = i % description.columns * description.tile_width;

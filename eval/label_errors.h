@@ -12,48 +12,46 @@
 
 namespace glovebench::eval {
 
-/// Half to double strength, 3000 to 6500 K, from directions that no calibrated lighting has.
+/// For tests: strength 0.5 to 2, 3000 to 6500 K, new directions.
 std::vector<render::Lighting> held_out_lightings();
 
-/// How a color table does, over the pixels of the IR camera that have a color and lie in the working volume: what
-/// the tracker makes its cloud of. The bare forearm is there too.
+/// Label errors of a color table, in IR pixels. Glove pixels without color are left out; labels count inside the
+/// working volume only.
 struct LabelErrors {
-  int glove = 0;       ///< pixels that truly are
-  int missed = 0;      ///< of those, unlabeled
+  int glove = 0;       ///< true glove pixels
+  int missed = 0;      ///< glove pixels without a label
   int labeled = 0;     ///< pixels with a label
-  int wrong = 0;       ///< of those, with another than the true one
-  int mislabeled = 0;  ///< glove pixels with another label than theirs, or none
-  int interior = 0;    ///< glove pixels whose eight neighbors have the same true label: none is a mix of two colors
-  int interior_missed = 0;                                   ///< of those, unlabeled
-  int interior_mislabeled = 0;                               ///< of those, with another label than theirs, or none
-  std::array<int, kColorCount + 1> glove_of{}, missed_of{};  ///< the first two for each color
+  int wrong = 0;       ///< pixels with a false label
+  int mislabeled = 0;  ///< glove pixels without the true label
+  int interior = 0;    ///< glove pixels whose 8 neighbors have the same true label
+  int interior_missed = 0;
+  int interior_mislabeled = 0;
+  std::array<int, kColorCount + 1> glove_of{}, missed_of{};  ///< per color
 
-  /// Of the labeled pixels; 0..1. Nothing labeled is nothing wrong.
+  /// Of labeled pixels; 0 if there are none.
   double wrong_share() const;
-  /// Of the glove's pixels; 0..1. There must be some.
+  /// Of glove pixels; there must be some.
   double missed_share() const;
-  /// The same of what is missed or wrong.
   double mislabeled_share() const;
-  /// The same of the interior's pixels, and of all others, where labels meet. There must be some.
+  /// Of interior pixels, and of all other glove pixels; there must be some.
   double interior_mislabeled_share() const;
   double border_mislabeled_share() const;
-  /// 0 of a color that is not seen.
+  /// 0 if the color is not seen.
   double missed_share_of(int color) const;
-  /// The color with the largest missed share.
+  /// By missed share.
   int worst_color() const;
   LabelErrors& operator+=(const LabelErrors& other);
 };
 
-/// What is done to the labels of a table: nothing, as in the paper; majority_filter; surface_majority.
+/// After labeling: nothing (the paper), majority_filter or surface_majority.
 enum class LabelFilter { none, majority, surface };
 
-/// The errors in one frame, labeled as the paper's tracker does, or with a filter.
+/// Labels one frame as the paper does, then filters.
 LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& frame,
                          const RgbdCalibration& calibration, const ColorTable& table,
                          LabelFilter filter = LabelFilter::none);
 
-/// The errors of color tables under lightings, [lighting][table], over four hands of the source trajectories, open
-/// and closed, at four places. All tables see the same frames, with the paper's noise.
+/// [lighting][table], over the same four frames of Tr1 and Tr4, with the paper's noise.
 std::vector<std::vector<LabelErrors>> measure_label_errors(
     Workbench& workbench, int subject, std::span<const render::Lighting> lightings,
     std::span<const std::shared_ptr<const ColorTable>> tables);

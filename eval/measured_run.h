@@ -7,16 +7,15 @@
 
 namespace glovebench::eval {
 
-/// A run with its errors.
 struct MeasuredRun {
   Run run;
-  std::vector<reports::FrameErrors> errors;  ///< one a frame
+  std::vector<reports::FrameErrors> errors;  ///< one per frame
 };
 
-/// The errors of each frame of a run. `subject` is the hand that was rendered.
+/// `subject`: the rendered hand.
 std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& tracker_hand,
                                           const render::Subject& subject);
-/// Measures runs on the workbench's threads: output i of run i.
+/// On the workbench's threads, in the order of `runs`.
 std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs);
 
 }  // namespace glovebench::eval

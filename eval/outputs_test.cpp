@@ -1,4 +1,4 @@
-// What the commands write where: names that come from files, and folders of files that belong together.
+// Outputs of the commands: names that come from files, and sets of files.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 class OutputsLong : public CommandTest {
  protected:
-  /// A whole database, right in all but its set's name.
+  /// Valid except for the name of its set.
   void build_database(const std::string& set_name, const std::string& file) const {
     Workbench workbench(test_workbench());
     const PostureSet postures{set_name, {"open"}, {Posture::Zero()}};
@@ -68,7 +68,7 @@ TEST_F(OutputsLong, ARunThatIsNotWhatItsManifestSaysIsIncomplete) {
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_THAT(run.err, AllOf(HasSubstr("out/results.json: content"), HasSubstr("manifest.json says")));
   }
-  // As after a kill between the manifest and the last of its files.
+  // As after a kill between the manifest and the last file.
   write_file(path("out/.staged/results.json"), results);
   EXPECT_EQ(compare().exit_code, 0);
   fs::remove(path("out/manifest.json"));
@@ -90,7 +90,7 @@ TEST_F(OutputsLong, AFolderOfAnotherKindKeepsItsFiles) {
   EXPECT_THAT(refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
                                       path("baseline")})),
               HasSubstr("which holds a baseline"));
-  // A recording has no file of a name of the run's.
+  // A recording has no file with the name of a run's file.
   render_recording("good.json", "out");
   expect_fine(run_glovebench({"compare", path("out"), path("out")}));
   expect_fine(track("out", "DB_open_power", "x.jsonl"));

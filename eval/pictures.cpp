@@ -22,7 +22,7 @@ using reports::ExperimentKey;
 
 constexpr int kJpegQuality = 80;
 
-/// The run of an experiment's seed. The plan must have it.
+/// The plan must contain the run.
 const RunSpec& find_spec(const Plan& plan, const ExperimentKey& key, uint64_t seed) {
   const auto found = std::ranges::find_if(
       plan.specs, [&](const RunSpec& spec) { return spec.seed == seed && key_of(spec) == key; });
@@ -30,7 +30,7 @@ const RunSpec& find_spec(const Plan& plan, const ExperimentKey& key, uint64_t se
   return *found;
 }
 
-/// Of the experiment's first seed.
+/// Estimates of the experiment's first seed.
 std::vector<Estimate> first_seed(const std::vector<reports::ExperimentEstimates>& all, const ExperimentKey& key) {
   std::vector<Estimate> estimates;
   const auto found = std::ranges::find(all, key, &reports::ExperimentEstimates::key);
@@ -56,7 +56,7 @@ std::vector<reports::FrameSheet> make_sheets(Workbench& workbench, const Plan& p
   return sheets;
 }
 
-/// With what the user of a trajectory or a database of their own has to add.
+/// Adds the flags that a user's own trajectory or database needs.
 std::string complete_command(const reports::WorstFrame& worst) {
   std::string command = explain_command(worst);
   if (!find_truth(worst.key)) command += " --trajectory FILE_OF_THE_TRUTH";
@@ -89,7 +89,7 @@ OneFrame take_frame(Workbench& workbench, RunSpec spec, int frame) {
   return {*taken, kinect.truth()};
 }
 
-/// Outline of the estimated hand over M.
+/// Outlines the estimated hand on M.
 ColorImage overlay(const HandModel& model, const TrackResult& result, const Eigen::Isometry3d& T_camera_hand,
                    const FrameTrace& trace, const PinholeCamera& camera) {
   render::LabelRenderer renderer;
@@ -154,7 +154,7 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates) {
   reports::PageMaterial material{page_scripts(), make_sheets(workbench, plan, result, estimates), {}};
-  // Only the paper's method has stages that can be shown.
+  // Only the paper's method can show its stages.
   if (plan.tracker.method == kPaperMethod) material.worst_frames = picture_worst_frames(workbench, plan, result);
   return material;
 }

@@ -7,29 +7,28 @@
 
 namespace glovebench::eval {
 
-/// What is run, and how.
 struct Plan {
-  TrackerConfig tracker;       ///< of all runs
-  std::vector<RunSpec> specs;  ///< runs that show the same frames are neighbors
-  std::string suite = {};      ///< the name of the suite that this is; empty if it is none
-  bool quick = false;          ///< a few frames, to see that everything runs: nothing is concluded from them
+  TrackerConfig tracker;       ///< for all runs
+  std::vector<RunSpec> specs;  ///< runs of the same frames are neighbors
+  std::string suite = {};      ///< the suite's name; empty if none
+  bool quick = false;          ///< few frames; no conclusions
 };
 
 struct Figure4Options {
   std::vector<std::string> trajectories;  ///< empty: all five
   std::vector<uint64_t> seeds = {1};
   std::vector<reports::NoiseSetting> noises = {{}};
-  FrameRange frames;  ///< of each trajectory
+  FrameRange frames;  ///< per trajectory
 };
-/// The experiments of Figure 4: each ground truth with the databases that contain its grasp, against the recorded
-/// and the source truth, and the latter with the second subject.
+/// Each ground truth with the databases that contain its grasp: recorded truth, source truth, source truth with
+/// subject 2.
+/// Paper: Figure 4.
 Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options);
 
-/// The experiments of a plan, one a line: name, frames x seeds.
+/// One line per experiment.
 std::string list_experiments(const Plan& plan);
 
-/// What running the plan comes to: its experiments, seeds and frames, and which databases are there already. Builds
-/// nothing.
+/// Experiments, seeds, frames, and which databases exist. Builds nothing.
 std::string describe_plan(Workbench& workbench, const Plan& plan);
 
 }  // namespace glovebench::eval

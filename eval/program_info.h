@@ -6,14 +6,13 @@
 
 namespace glovebench::eval {
 
-/// Of the running program.
 struct ProgramInfo {
   std::string version;
-  std::string commit;  ///< "unknown" where it was not built from a checkout; "-dirty" after changes
+  std::string commit;  ///< "unknown" if not built from a checkout; "-dirty" after changes
 };
 const ProgramInfo& program_info();
 
-/// Host, compiler, commit and date, without any times yet.
+/// No times yet.
 reports::Timings host_timings(int threads);
 
 }  // namespace glovebench::eval

@@ -1,5 +1,4 @@
-// What readers ask of the heap for inputs that are made to need much: at most 16 MB and 20 bytes for each byte of
-// them.
+// Memory that readers need for inputs made to need much: at most 16 MB plus 20 bytes per byte of input.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -32,7 +31,7 @@
 #include "trajectories/posture_file.h"
 #include "trajectories/trajectory.h"
 
-// The sanitizers put functions of their own in the place of these.
+// Sanitizers replace the same functions.
 #if !defined(GLOVEBENCH_ADDRESS_SANITIZER) && !defined(GLOVEBENCH_THREAD_SANITIZER)
 
 #include "eval/test_counted_heap.h"
@@ -48,10 +47,10 @@ constexpr size_t kHostileBytes = 1'000'000;
 struct Reader {
   std::string name;
   std::function<void(const std::string&)> read;
-  std::string valid;  ///< what it reads
+  std::string valid;  ///< accepted text
 };
 
-/// The most memory that a reader had at a time, beside its input; whether it took the input.
+/// Peak memory of a reader beside its input, and whether it accepted the input.
 struct Reading {
   int64_t bytes = 0;
   std::string error;
@@ -81,7 +80,7 @@ std::string repeated(const std::string& part, size_t bytes = kHostileBytes) {
   while (text.size() < bytes) text += part;
   return text;
 }
-/// An array of one value again and again.
+/// An array that repeats one value.
 std::string array_of(const std::string& value) {
   std::string text = "[" + repeated(value + ",");
   text.back() = ']';
@@ -111,7 +110,7 @@ const std::vector<std::pair<std::string, std::string>>& hostile_values() {
   return values;
 }
 
-/// The places in a document: of an array that of the first item only.
+/// Adds the places in a document; of an array only the first item's.
 void add_places(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& places) {
   places.push_back(at);
   if (value.is_array() && !value.empty()) add_places(value[0], at / 0, places);
@@ -202,7 +201,7 @@ TEST(ReaderMemoryLong, of_json_is_bounded_at_each_place) {
   }
 }
 
-/// A document with as many values in one of its arrays as `row` makes, up to some megabytes.
+/// Fills one array of a document with values of `row`, up to some megabytes.
 std::string with_rows(const json& document, const json::json_pointer& place,
                       const std::function<std::string(int)>& row) {
   std::string rows = "[";
@@ -215,7 +214,7 @@ const Reader& named(const std::vector<Reader>& readers, const std::string& name)
   return *std::ranges::find(readers, name, &Reader::name);
 }
 
-// The shortest values that are taken, many of them: what they become is larger than they are.
+// Many of the shortest accepted values, which are larger in memory than as text.
 TEST(ReaderMemoryLong, of_long_documents_of_small_values_is_bounded) {
   const std::vector<Reader> readers = json_readers();
   const auto check = [&](const std::string& name, const std::string& place, const auto& row, const char* refused) {
@@ -326,7 +325,7 @@ TEST(ReaderMemory, of_long_texts_of_short_lines_is_bounded) {
         lines_from(angles, [](int i) { return fmt::format("{}{}", i, repeated(",0", 2 * kAngleCount)); }), "");
 }
 
-/// A header that claims an image of that size, with nothing behind it.
+/// A header that claims an image of this size, without content.
 std::vector<std::string> claiming_pictures() {
   const std::string png(
       "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x75\x30\0\0\x75\x30\x10\0\0\0\0"

@@ -5,9 +5,9 @@
 
 namespace glovebench::eval {
 
-/// The paper's ground truth (section IV): the source is rendered with the first subject's hand and `gradient`
-/// noise, tracked, and the tracker's output, smoothed as always, becomes the truth. Throws Error if a frame is
-/// lost.
+/// Renders with subject 1 and `kinect` noise, tracks, and returns the smoothed estimates.
+/// Throws: Error if a frame is lost.
+/// Paper: section IV.
 trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::Trajectory& source,
                                       const std::string& database, const TrackerConfig& config, uint64_t seed);
 

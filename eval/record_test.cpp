@@ -1,4 +1,4 @@
-// The recorded truths are frozen: their hashes are part of the protocol, and recording one again gives it again.
+// Recorded truths are frozen: their hashes are part of the protocol, and recording again gives the same.
 #include <gmock/gmock.h>
 
 #include <sstream>
@@ -51,11 +51,11 @@ TEST(RecordTruthLong, RecordsTr4Again) {
   Workbench workbench(test_workbench());
   const Trajectory again = record_truth(workbench, source, frozen.provenance->database, profile("paper"), 1);
 
-  // The profile's hash also changes with a new field that changes no estimate: the frames tell whether one did.
+  // A new field changes the profile's hash even if it changes no estimate; the frames tell.
   EXPECT_EQ(again.provenance->source_hash, frozen.provenance->source_hash);
   EXPECT_EQ(again.provenance->database_hash, frozen.provenance->database_hash);
   ASSERT_EQ(again.frames.size(), frozen.frames.size());
-  double position_mm = 0, rotation_deg = 0, angle_deg = 0;  // the worst of any frame
+  double position_mm = 0, rotation_deg = 0, angle_deg = 0;  // largest over all frames
   for (size_t f = 0; f < frozen.frames.size(); ++f) {
     const auto &a = again.frames[f], &b = frozen.frames[f];
     ASSERT_EQ(a.timestamp_us, b.timestamp_us);
@@ -65,7 +65,7 @@ TEST(RecordTruthLong, RecordsTr4Again) {
         std::max(rotation_deg, reports::rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()));
     angle_deg = std::max(angle_deg, degrees_from_radians((a.posture - b.posture).cwiseAbs().maxCoeff()));
   }
-  // What the project promises between machines; the file itself is rounded to a tenth of it.
+  // The bound that the project promises between machines; the file is rounded to a tenth of it.
   EXPECT_LT(position_mm, 0.01);
   EXPECT_LT(rotation_deg, 0.01);
   EXPECT_LT(angle_deg, 0.01);

@@ -38,7 +38,7 @@ void refuse_unknown_parts(const std::vector<std::string>& only) {
   }
 }
 
-/// Figures 5 and 6 without the rest of Figure 4: an experiment each.
+/// The single experiment of Figure 5 or 6.
 void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve& curve) {
   const auto truth = std::make_shared<const trajectories::Trajectory>(
       trajectories::recorded_trajectory(trajectory_folder(), curve.trajectory));
@@ -53,7 +53,7 @@ void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve&
   }
 }
 
-/// Names a study by all that its outcome hangs on beside the program.
+/// Hash of all inputs of a study except the program.
 std::string study_key(Workbench& workbench, const Study& study, const StudyOptions& options) {
   nlohmann::json inputs;
   const std::string folder = trajectory_folder();

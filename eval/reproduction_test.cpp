@@ -95,7 +95,7 @@ TEST(StoredStudy, HalfOfOneIsNone) {
     EXPECT_FALSE(study_from_bytes(bytes.substr(0, at)).has_value()) << at;
 }
 
-/// Figure 7 and the tracker without depth, quick, in processes of their own.
+/// Quick Figure 7 and tracker without depth, in their own processes.
 class KilledReproductionLong : public testing::Test {
  protected:
   std::vector<std::string> reproduce_into(const std::string& name) const {

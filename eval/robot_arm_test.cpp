@@ -11,9 +11,9 @@ namespace {
 
 struct ArmMotion {
   int frames = 0, unreachable = 0;
-  int too_fast = 0;         ///< wishes that are farther from the one before than a joint may move
-  int slowed = 0;           ///< commands in which the guard slowed the arm down, also where it had to catch up
-  double largest_wish = 0;  ///< of a joint from frame to frame, rad, before the guard
+  int too_fast = 0;         ///< targets farther from the last one than a joint may move
+  int slowed = 0;           ///< commands that the guard slowed down, also while catching up
+  double largest_wish = 0;  ///< largest step of a joint's target between frames, rad
 };
 
 bool is_too_fast(const RobotCommand& from, const RobotCommand& to) {
@@ -33,7 +33,7 @@ void expect_within_speed(const RobotCommand& from, const RobotCommand& to) {
         << arm_joint_infos()[j].name << " at " << to.timestamp_us << " us";
 }
 
-/// There and back again, so that no frame is far from the one before it.
+/// Forth and back, so that successive frames are close.
 std::vector<HandFrame> to_and_fro(const std::string& name, int times) {
   const auto frames = trajectories::source_trajectory(trajectory_folder(), name).frames;
   std::vector<HandFrame> path;
@@ -45,7 +45,7 @@ std::vector<HandFrame> to_and_fro(const std::string& name, int times) {
   return path;
 }
 
-/// The truth as if it was tracked, through commander and guard.
+/// Sends the truth through commander and guard.
 ArmMotion arm_motion(const std::vector<HandFrame>& path) {
   RobotSetup setup;
   setup.arm = make_arm_solver();

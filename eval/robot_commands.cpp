@@ -28,7 +28,7 @@ double seconds_between(const RobotCommand& before, const RobotCommand& after) {
   return static_cast<double>(after.timestamp_us - before.timestamp_us) * 1e-6;
 }
 
-/// The third derivative at the middle of four commands, by divided differences: exact for a cubic at any steps.
+/// Third derivative in the middle of four commands by divided differences; exact for cubics at any steps.
 template <typename Value>
 auto third_derivative(std::span<const RobotCommand* const, 4> commands, const Value& value) {
   std::array<std::decay_t<decltype(value(*commands[0]))>, 4> d;
@@ -39,7 +39,7 @@ auto third_derivative(std::span<const RobotCommand* const, 4> commands, const Va
   return (6 * d[0]).eval();
 }
 
-/// The command of that time, if there is one; `from` goes on to it.
+/// The command of that time, or null; moves `from` up to it.
 const RobotCommand* command_at(int64_t timestamp_us, std::span<const RobotCommand> commands, size_t& from) {
   while (from < commands.size() && commands[from].timestamp_us < timestamp_us) ++from;
   return from < commands.size() && commands[from].timestamp_us == timestamp_us ? &commands[from] : nullptr;
@@ -51,7 +51,7 @@ std::string json_lines(const CommandStream& stream) {
   return lines;
 }
 
-/// The commands that truths give. Databases, noises and seeds share one.
+/// Commands from truths, shared by databases, noises and seeds.
 class TrueCommands {
  public:
   explicit TrueCommands(const RobotOutput& robot) : robot_(robot) {}
@@ -126,7 +126,8 @@ reports::Jerk CommandMeasurement::JerkSums::rms() const {
 void CommandMeasurement::add(const CommandStream& stream, const CommandStream& of_truth, int frames) {
   counts_.frames += frames;
   counts_.interventions.add(stream.interventions);
-  std::vector<const RobotCommand*> following, of_truths;  // those in a row, and the truth's at their times
+  std::vector<const RobotCommand*> following,
+      of_truths;  // successive `following` commands, and the truth's at their times
   size_t at = 0;
   for (size_t i = 0; i < stream.commands.size(); ++i) {
     const RobotCommand& command = stream.commands[i];

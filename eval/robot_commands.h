@@ -12,30 +12,29 @@
 
 namespace glovebench::eval {
 
-/// The commands that hand and arm get for what a tracker said: as `track` sends them.
+/// Robot commands for tracker results, as `track` sends them.
 struct CommandStream {
-  std::vector<RobotCommand> commands;  ///< in time order; one a result, less those that the guard drops
-  std::vector<double> command_ms;      ///< processor time of mapping, arm and guard; one a result
-  Interventions interventions;         ///< of the guard and the arm
+  std::vector<RobotCommand> commands;  ///< in time order, at most one per result
+  std::vector<double> command_ms;      ///< processor time, one per result
+  Interventions interventions;
 };
 CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
                             const CommandLimits& limits);
-/// What a tracker would say that is never wrong.
+/// What a perfect tracker answers.
 std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
-/// Measures the commands of several passes over one movement against those that its truth gives. Commands belong
-/// together by their time stamps. Errors are of commands that follow. Jerk is by four commands in a row that do,
-/// and by those of the truth at the same times.
+/// Compares commands with the truth's at equal time stamps. Errors use `following` commands; jerk needs four in a
+/// row.
 class CommandMeasurement {
  public:
-  /// `frames`: of the pass, whether they have a command or not.
+  /// `frames`: all of the pass, with or without commands.
   void add(const CommandStream& stream, const CommandStream& of_truth, int frames);
   reports::CommandResult result() const;
 
  private:
   struct JerkSums {
-    double joints = 0, position = 0;  ///< of squares
-    int count = 0;                    ///< of third derivatives
+    double joints = 0, position = 0;  ///< sums of squares
+    int count = 0;                    ///< third derivatives
     void add(std::span<const RobotCommand* const, 4> commands);
     reports::Jerk rms() const;
   };
@@ -50,15 +49,14 @@ class CommandMeasurement {
   JerkSums jerk_, truth_jerk_;
 };
 
-/// How the robot commands of a run are made, and where they are written.
 struct RobotOutput {
-  std::string folder = {};  ///< JSON Lines, a file a run; empty: nowhere
+  std::string folder = {};  ///< JSON Lines, one file per run; empty: none
   RobotSetup setup = {};
   CommandLimits limits = {};
-  nlohmann::json configuration = {};  ///< all of that, for the results'; null: nothing is said of it
+  nlohmann::json configuration = {};  ///< for the results; null: none
 };
-/// Makes and measures the commands of each experiment, and writes them as one set of files: adds what they came to
-/// to the experiment's result, and the time from frame to command to its times. Both are of these runs.
+/// Makes the commands of `runs` and writes them as one set of files. Adds errors to `result` and latencies to
+/// `timings`, both of these runs.
 void add_commands(reports::RunResult& result, reports::Timings& timings, std::span<const MeasuredRun> runs,
                   const RobotOutput& robot);
 

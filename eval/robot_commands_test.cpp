@@ -101,7 +101,7 @@ TEST(RobotCommands, DroppedOnesMissAndTheOthersKeepTheirTruth) {
 
 TEST(RobotCommands, JerkOfACubicIsItsThirdDerivative) {
   std::vector<HandFrame> truth;
-  for (const int i : {0, 1, 2, 3, 5, 6, 8, 9, 10}) {  // steps that differ
+  for (const int i : {0, 1, 2, 3, 5, 6, 8, 9, 10}) {  // unequal steps
     const double t = i * kStep;
     truth.push_back(frame_at(i, 0.5 * t * t * t, 0.25 * t * t * t));
     truth.back().timestamp_us = std::llround(t * 1e6);

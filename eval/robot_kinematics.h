@@ -8,22 +8,22 @@
 
 namespace glovebench::eval {
 
-/// How far the robot's fingertips are from the human ones, in the hand frame, over some postures in their order.
+/// Fingertip errors of a mapping, in the hand frame.
+/// Units: m; `largest_step` rad.
 struct MappingErrors {
   int postures = 0;
-  std::array<double, 5> tip_mean{}, tip_max{};  ///< of each fingertip, thumb to little, m
-  int pinches = 0;                              ///< pairs of thumb and finger closer than `kPinch`
-  double gap_mean = 0, gap_max = 0;  ///< of pinches, |robot's distance - human's|, m; 0 if there are none
-  double largest_step = 0;           ///< of a joint from one posture to the next, rad
+  std::array<double, 5> tip_mean{}, tip_max{};  ///< thumb to little
+  int pinches = 0;                              ///< thumb and finger closer than `kPinch`
+  double gap_mean = 0, gap_max = 0;             ///< |robot's gap - human's|; 0 without pinches
+  double largest_step = 0;                      ///< of a joint between successive postures
 };
-inline constexpr double kPinch = 0.02;  ///< fingertips closer than this touch: they are ends of bones, m
+inline constexpr double kPinch = 0.02;  ///< m; fingertips (ends of bones) this close touch
 
 using Mapping = std::function<ShadowHandTargets(const Posture&)>;
-/// Of a right hand. At least one posture.
+/// For a right hand and at least one posture.
 MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture>& postures, const Mapping& map);
 
-/// For every posture set and source trajectory of the program, by the direct mapping and by fingertips, for a robot
-/// with that coupling: the table of `glovebench list mapping`.
+/// Printed by `glovebench list mapping`: all posture sets and source trajectories, both mappings.
 std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling);
 
 }  // namespace glovebench::eval

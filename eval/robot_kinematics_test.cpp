@@ -60,14 +60,14 @@ TEST(MappingErrors, CountsByHand) {
 }
 
 TEST(MappingErrors, EqualAnglesLeaveAPinchOpen) {
-  // The kinematic difference that the README states: nobody pinches with the direct mapping.
+  // The README states this difference: with the direct mapping no finger pinches.
   const MappingErrors errors = direct_errors({gesture("pinch")});
   EXPECT_GT(errors.gap_max, 0.04);
   EXPECT_GT(errors.tip_max[0], 0.06);
 }
 
 TEST(FingertipMapping, APinchStaysClosed) {
-  // Between the pinches of one finger, and at the end of the ways to them. The requirement is 3 mm.
+  // Between the pinches of one finger, and at the end of the paths to them. The requirement is 3 mm.
   for (const char* name : {"pinch", "ok"}) {
     for (const char* other : {"pinch", "ok", "open", "relaxed", "spread", "four", "ball", "cylinder", "hook"}) {
       const MappingErrors errors = fingertip_errors(between(gesture(other), gesture(name), 200));
@@ -83,7 +83,7 @@ TEST(FingertipMapping, APinchStaysClosed) {
 }
 
 TEST(FingertipMapping, DoesNotJump) {
-  // A jump is as large however small the steps between postures are; a slope is not.
+  // A jump keeps its size with smaller steps between postures; a slope does not.
   for (const ShadowCoupling coupling : {ShadowCoupling::series, ShadowCoupling::even}) {
     for (const std::string& name : trajectories::ground_truth_names()) {
       const MappingErrors fit = fingertip_errors(postures_of(name, 16), coupling),

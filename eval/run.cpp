@@ -18,8 +18,7 @@
 namespace glovebench::eval {
 namespace {
 
-/// Collects the processor times of a method's frames and of their stages. A stage that begins twice in a frame has
-/// the sum.
+/// Processor times of frames and stages. Adds up a stage that begins twice in a frame.
 class StageTimer {
  public:
   void begin_frame() {
@@ -65,8 +64,8 @@ class StageTimer {
   double start_ = 0, frame_start_ = 0;
 };
 
-/// Could a tracker be asked for this frame? Most of the visible glove lies within the working volume, is enough to
-/// be a hand, and does not reach the image border.
+/// Whether a tracker could track this frame: most of the visible glove is in the working volume, has enough pixels
+/// and does not touch the image border.
 bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config) {
   int within = 0, beyond = 0;
   for (int v = 0; v < images.label.height(); ++v) {
@@ -93,12 +92,12 @@ render::SyntheticKinectConfig kinect_config(const RunSpec& spec) {
   return config;
 }
 
-/// Of specs that share their images: do they share their device frames, too?
+/// Whether specs that share images also share device frames.
 bool share_noise(const RunSpec& a, const RunSpec& b) {
   return a.noise == b.noise && a.seed == b.seed;
 }
 
-/// A run while its frames are tracked one by one.
+/// A run in progress, frame by frame.
 class Tracking {
  public:
   Tracking(Workbench& workbench, const RunSpec& spec)
@@ -107,7 +106,7 @@ class Tracking {
   }
 
   const RunSpec& spec() const { return run_.spec; }
-  /// The device frame of these images, under this run's noise.
+  /// Device frame of these images with this run's noise.
   DeviceFrame frame_of(const render::RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                        int number) const {
     return render::make_device_frame(images, calibration, timestamp_us, kinect_.noise,
@@ -132,7 +131,7 @@ class Tracking {
   StageTimer timer_;
 };
 
-/// Runs specs that share their images, each frame rendered once. `frame_done` is called after each frame of each.
+/// Runs specs that share images; renders each frame once. Calls `frame_done` after each frame of each spec.
 std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> specs,
                                 const std::function<void()>& frame_done) {
   const RunSpec& first = specs.front();
@@ -162,7 +161,7 @@ std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> s
   return runs;
 }
 
-/// The runs of specs that share their images: those that the store has, and the others made.
+/// Loads runs from the store and makes the missing ones. The specs share images.
 std::vector<Run> run_group(Workbench& workbench, std::span<const RunSpec> group, const RunStore* store,
                            const std::function<void()>& frame_done) {
   if (!store) return track_together(workbench, group, frame_done);
@@ -191,10 +190,10 @@ std::vector<Run> run_group(Workbench& workbench, std::span<const RunSpec> group,
   return runs;
 }
 
-/// Where each group of specs that are rendered once begins, and the end. Larger groups save rendering, but there
-/// must be enough of them for all threads.
+/// Beginnings of groups of specs that are rendered once, and the end. Larger groups save rendering, but every
+/// thread needs some.
 std::vector<size_t> group_begins(std::span<const RunSpec> specs, int threads) {
-  constexpr size_t kLargest = 24;  // each run of a group has a tracker of its own in memory
+  constexpr size_t kLargest = 24;  // each run of a group keeps a tracker in memory
   const size_t size = std::clamp<size_t>(specs.size() / (2 * static_cast<size_t>(threads)), 1, kLargest);
   std::vector<size_t> begins;
   for (size_t s = 0; s < specs.size(); ++s) {
@@ -205,8 +204,8 @@ std::vector<size_t> group_begins(std::span<const RunSpec> specs, int threads) {
   return begins;
 }
 
-/// Makes or loads the hands, databases and color tables before the threads start: building a database uses all of
-/// them itself.
+/// Makes or loads hands, databases and color tables before the threads start, since building a database uses all
+/// threads.
 void prepare(Workbench& workbench, std::span<const RunSpec> specs) {
   for (const RunSpec& spec : specs) {
     frames_of(spec);

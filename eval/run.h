@@ -17,7 +17,6 @@
 
 namespace glovebench::eval {
 
-/// Consecutive frames of a trajectory.
 struct FrameRange {
   int first = 0;             ///< >= 0
   std::optional<int> count;  ///< >= 1; empty: all that follow
@@ -25,60 +24,57 @@ struct FrameRange {
   friend bool operator==(const FrameRange&, const FrameRange&) = default;
 };
 
-/// One tracker on one trajectory with one noise seed: what is asked for.
+/// One tracker, one trajectory, one noise seed.
 struct RunSpec {
   std::shared_ptr<const trajectories::Trajectory> trajectory;  ///< the truth
   FrameRange frames = {};
-  int subject = 1;  ///< the hand in front of the camera
+  int subject = 1;  ///< in front of the camera
   reports::NoiseSetting noise = {};
   uint64_t seed = 1;
   std::string database = {};
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
-  bool clutter_in_volume = false;  ///< as render::SceneConfig's
-  std::string setting = {};        ///< of a study: its name for this way to run; nothing depends on it
+  bool clutter_in_volume = false;
+  std::string setting = {};  ///< a study's name for it; no effect
 };
 
-/// What the true images of one frame showed.
+/// From the true images.
 struct Sight {
-  std::array<int, kPatchCount> visible_pixels{};  ///< of each patch, in the IR camera
-  bool trackable = false;  ///< enough of the glove is visible within the working volume, and no border cuts it
+  std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
+  bool trackable = false;  ///< enough glove in the working volume, none cut by the image border
 };
 
-/// What a tracker made of a run. Errors are computed from it afterwards (measured_run.h).
+/// A tracker's answers, one per frame. measured_run.h computes the errors.
 struct Run {
   RunSpec spec;
-  std::vector<TrackResult> answers;  ///< one a frame
-  std::vector<Sight> seen;           ///< one a frame
+  std::vector<TrackResult> answers;
+  std::vector<Sight> seen;
   std::vector<reports::StageTiming> stages;
-  std::vector<double> frame_ms;  ///< one a frame: all stages
+  std::vector<double> frame_ms;  ///< all stages
 };
 
-/// The frames that are run. Throws Error if the trajectory does not have them.
+/// Throws: Error if the trajectory lacks them.
 std::span<const HandFrame> frames_of(const RunSpec& spec);
-/// The experiment that a run belongs to: runs that differ in their seed alone.
+/// Equal for runs that differ only in the seed.
 reports::ExperimentKey key_of(const RunSpec& spec);
-/// The Kinect whose frames the tracker is given.
 render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec);
-/// Do both show the same hand in the same frames, light and scene, so that they differ in noise, database and
-/// configuration alone?
+/// Same hand, frames, light and scene.
 bool share_images(const RunSpec& a, const RunSpec& b);
 
 struct RunOptions {
   int threads = 1;
-  RunStore* store = nullptr;  ///< runs that it holds are not done again; each that is done is stored
+  RunStore* store = nullptr;  ///< loads the runs that it holds; stores the others
 };
-/// Render -> device frame -> track, for each frame of each spec: output i of spec i. The trackers see device frames
-/// and calibration only. Runs in any order on that many threads: times depend on their number, since threads share
-/// the machine, and nothing else does. Neighbors that share their images are rendered once.
-/// Throws Error for a mistake in a spec, before anything is run or stored.
+/// Renders, adds noise and tracks; keeps the order of `specs`. Trackers get device frames and calibration only.
+/// Only times depend on `threads`. Neighbors that share images are rendered once.
+/// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
-/// The key of a run in the store: a hash of all that its outcome depends on beside the program.
+/// Hash of all inputs but the program.
 std::string run_key(Workbench& workbench, const RunSpec& spec);
-/// A run as bytes (CBOR), without its spec; it returns equal to the last bit.
+/// Lossless CBOR, without the spec.
 std::string to_bytes(const Run& run);
-/// Empty if the bytes are not those of a run.
+/// Empty if `bytes` are no run.
 std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec);
 
 }  // namespace glovebench::eval

@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t kLargestContent = uint64_t{256} << 20;  // bytes: a million frames
 constexpr const char* kMark = "/.unfinished";
-constexpr const char* kDone = ".finished-";  // a mark that no longer is one, on its way out
+constexpr const char* kDone = ".finished-";  // prefix of a mark that is being removed
 
-/// Does the path still lead to the open file?
+/// Whether the path still leads to the open file.
 bool is_still_there(int descriptor, const std::string& path) {
   struct stat opened {
   }, present{};
@@ -35,7 +35,7 @@ bool is_still_there(int descriptor, const std::string& path) {
          opened.st_ino == present.st_ino && opened.st_dev == present.st_dev;
 }
 
-/// Marks that a kill kept from being removed after they were put aside.
+/// Removes marks that were put aside before a kill.
 void remove_done_marks(const std::string& folder) {
   std::vector<fs::path> done;
   std::error_code ignored;
@@ -65,8 +65,7 @@ RunStore::RunStore(const std::string& folder) : folder_(folder), mark_(folder + 
   remove_done_marks(folder_);
 }
 
-/// A run that just finishes takes the lock's file away with the mark: then the lock is one of nothing, and another
-/// has to be taken.
+/// A finishing run removes the lock file with its mark. A lock on such a file is useless, so another is taken.
 void RunStore::lock() {
   const std::string path = mark_ + "/lock";
   while (lock_ < 0) {
@@ -107,7 +106,7 @@ std::optional<std::string> RunStore::load(const std::string& key) const {
   std::string bytes;
   try {
     if (fs::is_regular_file(path)) bytes = read_regular_file(path, kLargestContent);
-  } catch (const Error&) {  // what cannot be read is made anew, like what is damaged
+  } catch (const Error&) {  // an unreadable file is made anew, like a damaged one
   }
   const size_t content = bytes.find('\n') + 1;
   if (bytes.substr(0, content) == heading(key, std::string_view(bytes).substr(content)))
@@ -124,11 +123,11 @@ void RunStore::save(const std::string& key, const std::string& content) const {
 }
 
 bool RunStore::put_mark_away() {
-  // In one step: nobody can come in between and lock what is about to go.
+  // One step, so that nobody can lock the mark while it is removed.
   const std::string done = fmt::format("{}/{}{}", folder_, kDone, getpid());
   if (::rename(mark_.c_str(), done.c_str()) != 0) return false;
   sync_folder(folder_);
-  std::error_code ignored;  // the next run removes what stays
+  std::error_code ignored;  // the next run removes leftovers
   fs::remove_all(done, ignored);
   return true;
 }

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Two frames, one lost, with numbers that no short decimal is.
+/// Two frames, one lost, with numbers that have no short decimal form.
 Run example_run() {
   RandomStream random(1, "run_store_test", 0, "example");
   const auto pose = [&] {
@@ -100,7 +100,7 @@ TEST(RunBytes, HalfOfThemAreNone) {
 }
 
 TEST(RunBytes, OfDeepNestingAreNone) {
-  const std::string nested(10'000'000, '\x81');  // each an array of one
+  const std::string nested(10'000'000, '\x81');  // each is an array of one item
   EXPECT_FALSE(run_from_bytes(nested, {}).has_value());
   EXPECT_FALSE(run_from_bytes("\x41x", {}).has_value()) << "bytes without a meaning";
 }
@@ -238,7 +238,7 @@ TEST_F(RunStoreTest, RemovesAMarkThatWasPutAside) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-/// `run` of six frames against two databases, four seeds, with robot commands.
+/// `run` of six frames, two databases, four seeds, with robot commands.
 class KilledRunLong : public RunStoreTest {
  protected:
   std::vector<std::string> run_into(const std::string& name) const {
@@ -259,7 +259,7 @@ class KilledRunLong : public RunStoreTest {
             "--robot-out",
             folder + "/" + name + "/robot"};
   }
-  /// What `explain` of the folder ends with: a reader.
+  /// Reads as `explain` does at the end.
   int read(const std::string& name) const {
     const std::string folder = fs::path(folder_).parent_path().string();
     return run_glovebench({"explain", folder + "/" + name, "3", "--trajectory", folder + "/six.json", "--output",

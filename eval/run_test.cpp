@@ -17,7 +17,7 @@ RunSpec spec_of_tr4(const FrameRange& frames) {
 }
 
 TEST(Run, a_capsule_hand_has_joints_of_its_own) {
-  // An estimate without any error of posture or pose: the tracker's fingertips are not the person's.
+  // An estimate without error of posture or pose, but the tracker's fingertips are not the subject's.
   Workbench workbench(test_workbench());
   const HandFrame frame = trajectories::source_trajectory(trajectory_folder(), "Tr4").frames[40];
   reports::FrameTruth truth;
@@ -31,7 +31,7 @@ TEST(Run, a_capsule_hand_has_joints_of_its_own) {
   const reports::FrameErrors errors = reports::measure_frame(40, estimate, truth, *workbench.model());
   EXPECT_GT(errors.record["fingertip_error_mm"].value(), 2);
   EXPECT_GT(errors.record["joint_error_mm"].value(), 2);
-  // The tracker's mesh is posed twice: no vertex is compared with one of the other hand.
+  // Poses the tracker's mesh twice, so vertices of the subject's hand are not compared.
   EXPECT_NEAR(errors.record["vertex_error_mm"].value(), 0, 1e-6);
 }
 

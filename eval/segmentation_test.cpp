@@ -1,4 +1,4 @@
-// The color table under lightings that it was not calibrated under.
+// The tracker's color table under lightings that it was not calibrated with.
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@
 namespace glovebench::eval {
 namespace {
 
-/// One a lighting, with the tracker's own table.
+/// One per lighting, with the tracker's own table.
 std::vector<LabelErrors> errors_of_subject(int subject) {
   Workbench workbench(test_workbench());
   const std::shared_ptr<const ColorTable> table = workbench.color_table();
@@ -61,10 +61,9 @@ Summary summarize(int subject, const std::vector<LabelErrors>& errors) {
   return s;
 }
 
-/// A wrong label pulls the alignment to a wrong place; two in a hundred cost millimetres (README), so that is the
-/// mean's bound, and the worst case stays near it. A missed pixel costs only a point, of which there are ten times
-/// as many as the alignment takes; most are the edges between patches. Light as weak and warm as the worst case's
-/// may take a third.
+/// Bounds. Wrong labels: 2% cost the alignment millimeters (README), so this bounds the mean, and the worst case
+/// is near it. Missed pixels only cost points, of which there are ten times as many as the alignment uses; most
+/// are at edges between patches. The weakest and warmest light may cost a third.
 void expect_usable(const Summary& s) {
   EXPECT_LT(s.mean_wrong, 0.02);
   EXPECT_LT(s.worst_wrong, 0.03);

@@ -9,8 +9,8 @@ namespace {
 
 using reports::rotation_error_deg;
 
-constexpr double kRestPosition = 0.001;                   // m a frame
-constexpr double kRestAngle = radians_from_degrees(0.5);  // a frame
+constexpr double kRestPosition = 0.001;                   // m per frame
+constexpr double kRestAngle = radians_from_degrees(0.5);  // per frame
 constexpr int kMinRestSteps = 10;
 constexpr int kMaxLatency = 10;  // frames
 constexpr double kMovingPosture = radians_from_degrees(10);
@@ -21,11 +21,11 @@ bool at_rest(const HandFrame& a, const HandFrame& b) {
          turn < kRestAngle && posture_distance(a.posture, b.posture) < kRestAngle;
 }
 
-/// Sum over the tracked frames of the distance of the estimated posture from the truth `delay` frames earlier.
+/// Sum over tracked frames of the distance between estimated posture and the truth `delay` frames earlier.
 double delayed_distance(std::span<const TrackResult> estimates, std::span<const HandFrame> truth, int delay) {
   double sum = 0;
   for (size_t i = kMaxLatency; i < truth.size(); ++i) {
-    if (estimates[i].status != TrackStatus::tracked) continue;  // its posture is an older frame's
+    if (estimates[i].status != TrackStatus::tracked) continue;  // a lost frame repeats an older posture
     sum += posture_distance(estimates[i].posture, truth[i - delay].posture);
   }
   return sum;

@@ -8,10 +8,9 @@
 
 namespace glovebench::eval {
 
-/// Jitter: root mean square change of the position and rotation error between frames, while the truth is at rest
-/// (under 1 mm, 0.5 degrees and 0.5 degrees of posture a frame). Latency: the delay of the posture (0..10 frames,
-/// parabola through the best three) that agrees best with the truth; only if the truth's posture moves, over at
-/// least 30 frames. Both skip lost frames.
+/// Jitter: RMS change of the pose error between frames while the truth rests (under 1 mm, 0.5 deg, and 0.5 deg of
+/// posture per frame; at least 10 steps). Latency: the delay, 0..10 frames, at which the posture fits a moving
+/// truth best (parabola through three; at least 30 frames). Lost frames are skipped.
 reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates, std::span<const HandFrame> truth);
 
 }  // namespace glovebench::eval

@@ -15,7 +15,7 @@ using reports::make_estimate;
 using reports::some_pose;
 using reports::some_posture;
 
-/// Of a value computed in doubles from metres and radians.
+/// Of a value computed in doubles from meters and radians.
 constexpr double kRounding = 1e-6;
 
 struct Sequence {
@@ -34,7 +34,7 @@ Sequence resting(int count) {
   return s;
 }
 
-/// The index finger bends to and fro by 40 degrees; the estimate is the truth `delay` frames before.
+/// The index finger bends back and forth by 40 degrees; the estimate is the truth `delay` frames earlier.
 Sequence bending(int count, int delay) {
   Sequence s = resting(count);
   const auto posture_at = [](int i) {
@@ -109,8 +109,8 @@ TEST(MeasureSequence, LatencyOfTheRecursiveFilterIsItsPhaseDelay) {
   for (size_t i = 1; i < s.truth.size(); ++i) {
     s.estimates[i].posture = 0.75 * s.estimates[i - 1].posture + 0.25 * s.truth[i].posture;
   }
-  // x = 0.75 x + 0.25 new delays a slow movement by 3 frames, and a sine of 0.2 rad a frame by this. The distance
-  // is no parabola (the filter also flattens the sine), and the filter starts at rest.
+  // x = 0.75 x + 0.25 new delays a slow movement by 3 frames, and a sine of 0.2 rad per frame by this. The
+  // distance is no parabola, since the filter also flattens the sine and starts at rest.
   const double delay = std::atan(0.75 * std::sin(0.2) / (1 - 0.75 * std::cos(0.2))) / 0.2;
   EXPECT_NEAR(*s.measure().latency_frames, delay, 0.05);
 }

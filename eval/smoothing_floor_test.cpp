@@ -8,8 +8,8 @@
 namespace glovebench::eval {
 namespace {
 
-/// Mean posture error (RMS over 22 angles, degrees) of the paper's filter on a recorded truth if the look-up
-/// answered with the true posture in every frame.
+/// Mean posture error (RMS over 22 angles, degrees) of the paper's filter on a recorded truth with perfect
+/// look-ups.
 double filter_only_error_deg(const std::string& name) {
   const trajectories::Trajectory truth = trajectories::recorded_trajectory(trajectory_folder(), name);
   std::vector<TrackResult> results;
@@ -25,8 +25,8 @@ double filter_only_error_deg(const std::string& name) {
 }
 
 TEST(SmoothingFloor, the_filter_alone_costs_tr4_more_than_the_papers_posture_error) {
-  // Two full transitions of 57 degrees, seen three frames late, are 2 * 57 * 3 / 117 = 2.9 degrees a frame: the
-  // README quotes it beside the paper's 2.60 on a movement of its own.
+  // Two full transitions of 57 degrees, seen three frames late, are 2 * 57 * 3 / 117 = 2.9 degrees per frame. The
+  // README quotes this beside the paper's 2.60, which is for another movement.
   const double error = filter_only_error_deg("Tr4");
   RecordProperty("filter_only_error_deg", std::to_string(error));
   EXPECT_THAT(error, testing::AllOf(testing::Gt(2.6), testing::Lt(3.1)));

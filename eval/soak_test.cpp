@@ -1,4 +1,4 @@
-// The whole way from a device's frames to the server of the robot, for a few seconds; ci/soak does it for minutes.
+// From device frames to the robot's server, for a few seconds; ci/soak does it for minutes.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kMissed = 4, kLate = 3;
 
-/// Logs as ci/soak leaves them: 200 frames, of which the first and another are lost.
+/// Logs as ci/soak writes them: 200 frames; the first and one other are lost.
 class SoakJudge : public testing::Test {
  protected:
-  /// `latency_us(i)`: of the command of a frame; none: it was missed.
+  /// `latency_us(i)`: latency of frame i's command; empty: missed.
   template <typename Latency>
   std::string received(const std::vector<std::string>& topics, const Latency& latency_us) {
     std::string log = "{\"event\":\"state\"}\n";
@@ -55,8 +55,8 @@ class SoakJudge : public testing::Test {
   std::string seconds_ = "6";
   int64_t step_us_ = 33'000;
   std::string refuses_ = "fingers wrist pose";  ///< topics
-  std::string receipt_ = "starting";            ///< of the first commands
-  int refused_ = 7;  ///< how many; a server checks a stream for 0.2 s before it follows it
+  std::string receipt_ = "starting";            ///< receipt of the first commands
+  int refused_ = 7;  ///< number of such commands; a server checks a stream for 0.2 s before it follows
 };
 
 TEST_F(SoakJudge, IsContentWithAllInTime) {
@@ -116,7 +116,7 @@ TEST(SoakLong, NoCommandIsMissed) {
   EXPECT_THAT(run.out, testing::StartsWith("soak: 4 s, 120 frames at 30.0 Hz, 120 tracked; commands expected 120, "
                                            "received fingers 120, wrist 120, pose 120, missed 0, stale "))
       << run.err;
-  // How late they come depends on what else the machine does, too.
+  // Latency also depends on the machine's other work.
   EXPECT_THAT(run.exit_code, testing::AnyOf(0, kLate)) << run.err;
 }
 

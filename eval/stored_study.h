@@ -7,9 +7,9 @@
 
 namespace glovebench::eval {
 
-/// A finished study as bytes (CBOR) from which it comes back equal to the last bit.
+/// Lossless CBOR.
 std::string to_bytes(const reports::StudyResult& study);
-/// Empty if the bytes are those of something else.
+/// Empty if `bytes` are no study.
 std::optional<reports::StudyResult> study_from_bytes(const std::string& bytes);
 
 }  // namespace glovebench::eval

@@ -76,7 +76,7 @@ std::vector<uint64_t> seeds_from(const JsonCursor& field) {
   return seeds;
 }
 
-/// An experiment counted twice would weigh double.
+/// A repeated experiment would weigh double.
 void expect_each_once(const JsonItems& experiments, const std::vector<SuiteEntry>& entries) {
   std::vector<ExperimentKey> seen;
   for (size_t i = 0; i < entries.size(); ++i) {
@@ -91,7 +91,7 @@ void expect_each_once(const JsonItems& experiments, const std::vector<SuiteEntry
   }
 }
 
-/// The trajectories of a plan, each loaded once.
+/// Loads each trajectory of a plan once.
 class Truths {
  public:
   explicit Truths(Side side) : side_(side) {}
@@ -138,7 +138,7 @@ class Truths {
   std::map<std::pair<std::string, std::optional<TruthKind>>, std::shared_ptr<const Trajectory>> truths_;
 };
 
-/// The names of databases, each file opened once.
+/// Opens each database file once.
 class DatabaseNames {
  public:
   explicit DatabaseNames(Workbench& workbench) : workbench_(workbench) {}
@@ -158,10 +158,10 @@ bool matches(const std::string& filter, const std::string& name) {
   return filter.empty() || fnmatch(filter.c_str(), name.c_str(), 0) == 0;
 }
 
-/// Runs of the first seed in which the cameras see the same, one a database.
+/// Runs of the first seed that share images and noise, one per database.
 using SameFrames = std::vector<RunSpec>;
 
-/// The experiments that the filter leaves.
+/// The experiments that match the filter.
 std::vector<SameFrames> experiments_of(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite,
                                        const std::string& filter) {
   Truths truths(workbench.config().side);
@@ -171,7 +171,7 @@ std::vector<SameFrames> experiments_of(Workbench& workbench, const TrackerConfig
   for (const SuiteEntry& entry : suite.entries) {
     RunSpec wanted{truths.get(entry), entry.frames, entry.subject, entry.noise, suite.seeds.front()};
     wanted.tracker = tracker;
-    frames_of(wanted);  // the trajectory has them
+    frames_of(wanted);  // throws if the trajectory lacks them
     for (const std::string& database : entry.databases) {
       wanted.database = names.get(database);
       const std::string experiment = to_string(key_of(wanted));

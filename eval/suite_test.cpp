@@ -145,7 +145,7 @@ TEST(Suite, DamagedFilesAreRefusedOrValid) {
     }
   }
   EXPECT_GT(refused, 0);
-  EXPECT_GT(accepted, 0);  // a changed letter of the description: the damage reaches the values
+  EXPECT_GT(accepted, 0);  // changed letters of the description are accepted, so the damage reaches the values
 }
 
 TEST_F(SuitePlan, RendersAFrameOnceForAllItsDatabases) {

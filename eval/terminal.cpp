@@ -17,10 +17,10 @@ double seconds_left(double share, double elapsed) {
   return share > 0 ? elapsed * (1 - share) / share : 0;
 }
 
-/// When the program last said to a log how far it is.
+/// When and how often progress goes to a log.
 struct ProgressLog {
   std::mutex mutex;
-  std::optional<double> interval;  ///< s; empty: it says nothing
+  std::optional<double> interval;  ///< s; empty: never
   std::chrono::steady_clock::time_point last;
 
   bool is_due() {

@@ -13,12 +13,11 @@
 
 #include "core/tracker/track_result.h"
 
-// What the program says to a person, on stderr.
+// Messages to a person, on stderr.
 
 namespace glovebench::eval {
 
-/// Writes text to stderr. If nobody can read it (a pipe that was closed or is full, a terminal that is gone),
-/// nothing happens: no work ends or waits for that. fmt::print would throw.
+/// Drops text that nobody can read (full or closed pipe, lost terminal), so work never stops.
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
@@ -27,11 +26,11 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// From now on every `Progress` speaks to a log, too: where stderr is no terminal, a line for each `interval`, s.
+/// Lets every `Progress` also log a line per `interval` where stderr is no terminal.
+/// Units: s.
 void log_progress(double interval);
 
-/// A bar for what takes over two seconds; silent unless stderr is a terminal or `log_progress` was called.
-/// Thread-safe.
+/// A bar for work over two seconds. Silent unless stderr is a terminal or `log_progress` was called. Thread-safe.
 class Progress {
  public:
   Progress(std::string title, bool quiet);
@@ -39,7 +38,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `share` done, 0..1.
+  /// 0..1.
   void show(double share);
 
  private:
@@ -47,20 +46,20 @@ class Progress {
 
   std::string title_;
   bool quiet_;
-  bool has_bar_;  ///< standard error is a terminal
+  bool has_bar_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   int last_percent_ = -1;
 };
 
-/// How tracking goes just now, in one line. The caller brings the clock.
+/// Tracking status; the caller provides the clock.
 class LiveStatus {
  public:
-  static constexpr size_t kFrames = 60;  ///< of which it speaks: two seconds
+  static constexpr size_t kFrames = 60;  ///< two seconds
 
-  /// `time` (s, of any origin) is when the answer was there; it does not decrease.
+  /// `time` of the result: s, never decreasing.
   void add(double time, const TrackResult& result);
-  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped"; what is not known yet is a dash.
+  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped"; unknown values are dashes.
   std::string line(int dropped) const;
 
  private:
@@ -72,7 +71,7 @@ class LiveStatus {
   std::deque<Moment> moments_;
 };
 
-/// The status of a live device, twice a second; silent unless stderr is a terminal.
+/// Twice a second; silent unless stderr is a terminal.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
@@ -85,7 +84,7 @@ class StatusLine {
  private:
   bool enabled_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double last_ = 0;  ///< s after the start
+  double last_ = 0;  ///< s
   LiveStatus status_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Counts what is asked of the heap. It replaces the C library's functions: for one source of a test program.
+// Counts a thread's heap memory by replacing C library functions. Include it in one source of a test program.
 
 #include <malloc.h>
 
@@ -23,12 +23,12 @@ inline void given_back(void* memory) {
   if (counting && memory) now_bytes -= static_cast<int64_t>(malloc_usable_size(memory));
 }
 
-/// Counts from now on, on this thread.
+/// On this thread.
 inline void begin() {
   now_bytes = most_bytes = 0;
   counting = true;
 }
-/// The most bytes at a time since `begin`.
+/// Peak since `begin`.
 inline int64_t end() {
   counting = false;
   return most_bytes;
@@ -36,7 +36,7 @@ inline int64_t end() {
 
 }  // namespace counted_heap
 
-// The C library's functions, in front of its own: they count, and pass on.
+// Forward to the C library and count.
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);

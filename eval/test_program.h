@@ -1,7 +1,5 @@
 #pragma once
 
-// Runs programs as a user would, for the tests of this module.
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -26,13 +24,11 @@
 
 namespace glovebench::eval {
 
-/// Databases and color tables, kept from test to test: their names hold the hashes of what they are made of. Those
-/// of another version would be rebuilt with a message.
+/// Shared by all tests.
 inline std::string test_cache_folder() {
   return shared_folder(fmt::format("glovebench-test-cache-{}-{}", kDatabaseVersion, getuid()));
 }
 
-/// For a workbench of this process.
 inline WorkbenchConfig test_workbench(int threads = 2) {
   WorkbenchConfig config;
   config.cache_folder = test_cache_folder();
@@ -41,16 +37,15 @@ inline WorkbenchConfig test_workbench(int threads = 2) {
   return config;
 }
 
-/// What a program said.
 struct ProgramRun {
   int exit_code = -1;  ///< -1: ended by a signal
   std::string out;
   std::string err;
 };
 struct ProgramSetting {
-  std::map<std::string, std::string> environment = {};  ///< beside what there is
-  rlim_t max_file_bytes = RLIM_INFINITY;                ///< what a full disk is like
-  bool unheard = false;                                 ///< stdout and stderr are pipes that nobody reads any more
+  std::map<std::string, std::string> environment = {};  ///< additional
+  rlim_t max_file_bytes = RLIM_INFINITY;                ///< acts like a full disk
+  bool unheard = false;                                 ///< output pipes have no reader
 };
 
 /// In the child: becomes the program, or ends with 127.
@@ -74,7 +69,7 @@ struct ProgramSetting {
   _exit(127);
 }
 
-/// A program that was started, with the files that hold what it says.
+/// With the files of its output.
 struct StartedProgram {
   pid_t process = -1;
   std::string out;
@@ -89,12 +84,11 @@ inline StartedProgram start_program(const std::vector<std::string>& command, con
   if (started.process == 0) become(command, setting, started.out, started.err);
   return started;
 }
-/// Waits for its end.
 inline ProgramRun finish_program(const StartedProgram& started) {
   int status = 0;
   waitpid(started.process, &status, 0);
   const std::filesystem::path out = started.out, err = started.err;
-  // A program that was killed at once has not even opened them.
+  // A program killed at once has not opened them.
   const auto text = [](const std::filesystem::path& path) { return exists(path) ? read_file(path) : ""; };
   const ProgramRun run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, text(out), text(err)};
   std::filesystem::remove(out);
@@ -102,23 +96,21 @@ inline ProgramRun finish_program(const StartedProgram& started) {
   return run;
 }
 
-/// Runs a program to its end.
 inline ProgramRun run_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
   return finish_program(start_program(command, setting));
 }
 
-/// Starts the glovebench command with the tests' cache.
+/// With the tests' cache.
 inline StartedProgram start_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
   arguments.insert(arguments.begin(), build_paths::program("glovebench"));
   setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());
   return start_program(arguments, setting);
 }
-/// Runs the glovebench command with the tests' cache.
 inline ProgramRun run_glovebench(const std::vector<std::string>& arguments, const ProgramSetting& setting = {}) {
   return finish_program(start_glovebench(arguments, setting));
 }
 
-/// The content of each file under a folder, by its path in there.
+/// Contents by relative path.
 inline std::map<std::string, std::string> read_folder(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -128,8 +120,7 @@ inline std::map<std::string, std::string> read_folder(const std::string& folder)
   return files;
 }
 
-/// The same for a report's, without what differs from run to run: timings.json, its hash in the manifest and, on
-/// the page, the time from frame to command.
+/// A report without what differs between runs: timings.json, manifest, the page's command times.
 inline std::map<std::string, std::string> read_timeless(const std::string& folder) {
   std::map<std::string, std::string> files = read_folder(folder);
   EXPECT_EQ(files.erase("timings.json") + files.erase("manifest.json"), 2U);
@@ -140,7 +131,7 @@ inline std::map<std::string, std::string> read_timeless(const std::string& folde
   return files;
 }
 
-/// A trajectory as one writes it by hand: an open hand that moves and begins to close.
+/// A moving right hand that begins to close.
 inline nlohmann::json make_trajectory_json(const std::string& name, int frame_count) {
   nlohmann::json names = nlohmann::json::array(), frames = nlohmann::json::array();
   for (const AngleInfo& info : angle_infos()) names.push_back(info.name);

@@ -6,9 +6,7 @@
 
 namespace glovebench::eval {
 
-/// Processor time of the calling thread, milliseconds: unlike the time on the wall it does not count what other
-/// threads and programs do meanwhile. The tracker works on one thread: on a machine that does nothing else both are
-/// the same.
+/// Processor time of this thread.
 inline double thread_time_ms() {
   timespec time{};
   check(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0, "a thread has a clock");

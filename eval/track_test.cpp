@@ -1,4 +1,4 @@
-// Tracking of recordings, from the command line to the files.
+// Tracks recordings and checks the files.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
@@ -169,7 +169,7 @@ TEST_F(TrackLong, TheFirstSignalEndsAReadOfAPipe) {
   const std::string pipe = path("colors");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const int signal : {SIGTERM, SIGHUP, SIGINT}) {
-    std::signal(signal, SIG_DFL);  // a shell ignores some for what it starts in the background
+    std::signal(signal, SIG_DFL);  // a shell may ignore some in background programs
     const StartedProgram started = start_glovebench({"track", "--source", "fakenect:" + path("dump"), "--database",
                                                      "DB_open_power", "--colors", pipe, "-o", path("x.jsonl")});
     const int writer = ::open(pipe.c_str(), O_WRONLY);  // waits for the program to read
@@ -178,7 +178,7 @@ TEST_F(TrackLong, TheFirstSignalEndsAReadOfAPipe) {
     for (int i = 0; i < 1000 && ::waitpid(started.process, &status, WNOHANG) == 0; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal;
-    ::close(writer);  // ends a read that goes on
+    ::close(writer);  // ends the open read
   }
 }
 
@@ -187,7 +187,7 @@ TEST_F(TrackLong, TakesACalibrationOfItsOwn) {
   json calibration = json::parse(read_file(path("dump/calibration.json")));
   fs::remove(path("dump/calibration.json"));  // as fakenect records
   EXPECT_THAT(refusal(track("dump", "DB_open_power", "x.jsonl")), HasSubstr("calibration.json"));
-  // The driver's formula once more, 2% farther away.
+  // The driver's formula with 2% larger distances.
   calibration["disparity"] = {{"a_per_m", -1 / 345.489 / 1.02}, {"b_per_m", 1089.41 / 345.489 / 1.02}};
   write_file(path("own.json"), calibration.dump());
   expect_fine(track("dump", "DB_open_power", "far.jsonl", {"--calibration", path("own.json")}));

@@ -1,9 +1,9 @@
-// Shows that the tracker needs no truth: this program links the core alone, in which there is no reader of
-// trajectories, loads a recording, forbids itself to open any more files, and tracks.
+// Shows that the tracker needs no truth. This program links only the core, which cannot read trajectories. It
+// loads a recording, forbids itself to open more files, and tracks.
 //
 //     tracker_isolation MESH DATABASE COLOR_TABLE RECORDING
 //
-// Prints one line an estimate (`estimate_line`).
+// Prints one line per estimate (`estimate_line`).
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -22,7 +22,7 @@ namespace {
 
 using namespace glovebench;
 
-/// From here on no file can be opened, and nothing can lift that.
+/// From here on no file can be opened; this cannot be undone.
 void forbid_files(const char* some_file) {
   const rlimit none{0, 0};
   if (setrlimit(RLIMIT_NOFILE, &none) != 0) throw std::runtime_error("files cannot be forbidden");

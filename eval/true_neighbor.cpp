@@ -13,12 +13,12 @@ using Eigen::Vector3d;
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Rotations that take a ray to the optical axis, by the smallest angle.
+/// Smallest rotation from a ray to the optical axis.
 Matrix3d R_axis_ray(const Vector3d& ray) {
   return Eigen::Quaterniond::FromTwoVectors(ray, Vector3d::UnitZ()).toRotationMatrix();
 }
 
-/// Through the middle of the square around the projections.
+/// Ray through the middle of the square around the projections.
 Vector3d box_ray(const Matrix3Xd& vertices_camera, const PinholeCamera& camera) {
   check(vertices_camera.row(2).minCoeff() > 0, "the true hand lies in front of the camera");
   Eigen::AlignedBox2d box;
@@ -27,8 +27,8 @@ Vector3d box_ray(const Matrix3Xd& vertices_camera, const PinholeCamera& camera) 
   return camera.back_project(middle_px.x(), middle_px.y(), 1.0).normalized();
 }
 
-/// Weighted mean distance between the points of a and R times those of b. Stops early, with some value above
-/// `limit`, when it would be above.
+/// Weighted mean distance between the points of `a` and R times those of `b`. May stop early with any value above
+/// `limit`.
 double mean_distance(const Matrix3Xd& a, const Matrix3Xd& b, const Matrix3d& R, const Eigen::VectorXd& weights,
                      double limit) {
   double sum = 0;
@@ -45,7 +45,7 @@ TrueNeighborSearch::TrueNeighborSearch(const HandModel& model, const Database& d
   check(model.side() == database.side(), "the true hand is of the database's side");
   const auto count = static_cast<double>(model.vertex_count());
   vertex_weights_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(model.vertex_count()), 1 / count);
-  // A vertex on a border may count for either patch.
+  // A vertex on a border counts for one of its patches.
   for (const Triangle& triangle : model.triangles()) {
     for (const uint32_t vertex : triangle.vertices) patch_of_vertex_[vertex] = triangle.patch;
   }
@@ -77,7 +77,8 @@ Matrix3Xd TrueNeighborSearch::patch_centers(const Matrix3Xd& vertices) const {
 Matrix3Xd TrueNeighborSearch::seen_along_ray(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                                              const PinholeCamera& camera) const {
   const PosedHand hand = model_.pose(posture);
-  Matrix3Xd turned(3, static_cast<Eigen::Index>(hand.vertices.size()));  // as the camera sees it, at its origin
+  Matrix3Xd turned(
+      3, static_cast<Eigen::Index>(hand.vertices.size()));  // in the camera's orientation, origin at the hand's
   for (size_t v = 0; v < hand.vertices.size(); ++v) {
     turned.col(static_cast<Eigen::Index>(v)) = T_camera_hand.linear() * hand.vertices[v].cast<double>();
   }
@@ -101,7 +102,7 @@ TrueNeighbor TrueNeighborSearch::nearest(const Posture& posture, const Eigen::Is
                                          const PinholeCamera& camera) const {
   const Matrix3Xd query = seen_along_ray(posture, T_camera_hand, camera);
   const Matrix3Xd centers = patch_centers(query);
-  // The mean of the distances of a patch's vertices is at least the distance of their centers of gravity.
+  // Lower bound: a patch's mean vertex distance is at least the distance of its centroids.
   std::vector<double> bounds(R_ray_hand_.size());
   for (size_t entry = 0; entry < bounds.size(); ++entry) {
     bounds[entry] = mean_distance(centers, centers_hand_[posture_of(static_cast<int>(entry))], R_ray_hand_[entry],
@@ -110,10 +111,10 @@ TrueNeighbor TrueNeighborSearch::nearest(const Posture& posture, const Eigen::Is
   const auto distance_of = [&](int entry, double limit) {
     return mean_distance(query, vertices_hand_[posture_of(entry)], R_ray_hand_[entry], vertex_weights_, limit);
   };
-  // The most promising entry first: it rules out nearly all others.
+  // The most promising entry first, since it rules out nearly all others.
   const int promising = static_cast<int>(std::ranges::min_element(bounds) - bounds.begin());
   TrueNeighbor best{promising, distance_of(promising, kNoLimit)};
-  constexpr double kRounding = 1e-9;  // m; sums of doubles under 1 m err by less
+  constexpr double kRounding = 1e-9;  // m; larger than the rounding of sums under 1 m
   for (int entry = 0; entry < static_cast<int>(bounds.size()); ++entry) {
     if (bounds[entry] > best.distance + kRounding) continue;
     const double distance = distance_of(entry, best.distance);

@@ -9,48 +9,44 @@
 
 namespace glovebench::eval {
 
-/// The entry of a database that a look-up should find.
+/// The entry that a look-up should find.
 struct TrueNeighbor {
   int entry = 0;
-  double distance = 0;  ///< mean over all vertices of the distance between the two hands, m
+  double distance = 0;  ///< mean between equal vertices, m
 };
 
-/// Finds the entry whose hand lies nearest to a true one: the one with the smallest mean distance between equal
-/// vertices of the two posed meshes. Of equal entries it is the smaller one.
+/// Finds the entry with the smallest mean vertex distance to a true hand; ties go to the smaller entry.
 ///
-/// Both hands have their origins at the same place and are seen along the ray through the middle of their bounding
-/// square, which a look-up does not see: the true hand's rotation is turned by the smallest rotation that takes
-/// this ray to the optical axis, the entry's by the one that takes its `box_ray` there, as core/pose/interpolate.h
-/// does from one to the other.
+/// Hands are compared at one origin and along one ray, which a look-up cannot see: the smallest rotation turns the
+/// ray through the middle of the bounding square (an entry's `box_ray`) to the optical axis.
 ///
-/// Model and database must outlive the search. Immutable, shared between threads.
+/// `model` is the database's hand; both must outlive the search. Immutable, shared between threads.
 class TrueNeighborSearch {
  public:
-  /// `model` is the hand that the database was made of.
   TrueNeighborSearch(const HandModel& model, const Database& database);
 
-  /// The whole hand must lie in front of the camera.
+  /// The whole hand must be in front of the camera.
   TrueNeighbor nearest(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                        const PinholeCamera& camera) const;
-  /// The same, vertex after vertex of every entry.
+  /// Plain: every vertex of every entry.
   TrueNeighbor nearest_plain(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                              const PinholeCamera& camera) const;
 
  private:
-  /// The posed hand in the frame of a camera that looks along the ray to it, origin at the hand's.
+  /// Vertices, turned so that the hand's ray is the optical axis; origin at the hand's.
   Eigen::Matrix3Xd seen_along_ray(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                                   const PinholeCamera& camera) const;
-  /// One point a patch: the center of gravity of its vertices.
+  /// Centroids of the patches' vertices.
   Eigen::Matrix3Xd patch_centers(const Eigen::Matrix3Xd& vertices) const;
   int posture_of(int entry) const { return entry / kViewCount; }
 
   const HandModel& model_;
-  std::vector<Eigen::Matrix3d> R_ray_hand_;      ///< of each entry
-  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< of each posture, m
-  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< of each posture: those of the patches, m
+  std::vector<Eigen::Matrix3d> R_ray_hand_;      ///< per entry
+  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< per posture, m
+  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< per posture, m
   std::vector<int> patch_of_vertex_;
-  Eigen::VectorXd vertex_weights_;  ///< all equal, sum 1
-  Eigen::VectorXd patch_weights_;   ///< share of the vertices, sum 1
+  Eigen::VectorXd vertex_weights_;  ///< equal, sum 1
+  Eigen::VectorXd patch_weights_;   ///< vertex shares, sum 1
 };
 
 }  // namespace glovebench::eval

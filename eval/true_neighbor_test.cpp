@@ -21,7 +21,7 @@ const TrueNeighborSearch& search() {
 
 const PinholeCamera kKinect = synthetic_calibration().ir;
 
-/// The hand as an entry's view sees it, at the distance of the views.
+/// The hand as in an entry's view, at the views' distance.
 Isometry3d pose_of_entry(int entry) {
   Isometry3d T_camera_hand = Isometry3d::Identity();
   T_camera_hand.linear() = view_rotations()[Database::view(entry)];
@@ -33,27 +33,27 @@ TEST(TrueNeighbor, of_a_view_is_its_entry) {
   for (const int entry : {0, 17, 400, 755, 756, 1200, 1511}) {
     const TrueNeighbor found = search().nearest(test_database().posture(entry), pose_of_entry(entry), kKinect);
     EXPECT_EQ(found.entry, entry);
-    // The square of the view has whole pixels: its ray is off by up to half a pixel, 1 / 900 of 0.1 m.
+    // The view's square has whole pixels, so its ray is off by up to half a pixel: 1 / 900 of 0.1 m.
     EXPECT_LT(found.distance, 0.2e-3) << entry;
   }
 }
 
 TEST(TrueNeighbor, does_not_change_when_the_hand_is_carried_around_the_camera) {
-  // What a look-up sees of the hand stays the same but for the rotation about the ray.
+  // A look-up sees the same hand, except for the rotation about the ray.
   for (const int entry : {30, 900, 1300}) {
     const Posture& posture = test_database().posture(entry);
     for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(1, -1, 0)}) {
       const Isometry3d carried = AngleAxisd(radians_from_degrees(15), axis.normalized()) * pose_of_entry(entry);
       const TrueNeighbor found = search().nearest(posture, carried, kKinect);
       EXPECT_EQ(found.entry, entry);
-      // Bounding squares are not quite the same ones when seen aslant, so that the rays differ by a degree or so.
+      // Bounding squares differ a little when seen at an angle, so the rays differ by about a degree.
       EXPECT_LT(found.distance, 2e-3);
     }
   }
 }
 
 TEST(TrueNeighbor, the_distance_is_the_mean_over_the_vertices) {
-  // Turned by an angle about the optical axis, each vertex moves along a chord around it.
+  // A turn about the optical axis moves each vertex along a chord.
   const int entry = 100;
   const Posture& posture = test_database().posture(entry);
   const double angle = radians_from_degrees(5);
@@ -66,7 +66,7 @@ TEST(TrueNeighbor, the_distance_is_the_mean_over_the_vertices) {
   }
   const TrueNeighbor found = search().nearest(posture, turned, kKinect);
   EXPECT_EQ(found.entry, entry) << "the next views are 20 degrees away";
-  // The hand's middle is off the axis: the ray turns with it, and its square is another one.
+  // The hand's middle is off the axis, so its ray and its bounding square change with the turn.
   EXPECT_NEAR(found.distance, sum / static_cast<double>(hand.vertices.size()), 0.5e-3);
 }
 
@@ -86,7 +86,7 @@ TEST(TrueNeighbor, fast_equals_plain) {
 }
 
 TEST(TrueNeighbor, of_equal_entries_is_the_smaller) {
-  // The second posture is the first once more: every entry has a twin 756 later.
+  // Both postures are equal, so every entry has a twin 756 later.
   const PostureSet twins{"DB_twins", {"power", "again"}, {power_posture(), power_posture()}};
   const Database database = Database::build(twins, render::test_hand(), ViewConfig{},
                                             render::label_renderer_factory(), 2, {}, std::array{8});

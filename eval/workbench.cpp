@@ -68,7 +68,7 @@ std::string Workbench::add_database(const std::string& name_or_file) {
   if (is_built) {
     built = std::make_shared<const Database>(Database::load(name_or_file));
     postures = built->posture_set();
-    // A database of the other side is for the tracker to refuse.
+    // The tracker itself refuses a database of the other side.
     const std::string expected = Database::input_hash(postures, *model(), config_.views);
     if (built->side() == config_.side && built->input_hash() != expected) {
       throw Error(name_or_file, "hash of its inputs", built->input_hash(),

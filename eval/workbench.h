@@ -17,47 +17,44 @@ struct WorkbenchConfig {
   std::string cache_folder;
   Side side = Side::right;
   int threads = 1;
-  DatabaseMemory memory = DatabaseMemory::normal;  ///< of databases that are built
+  DatabaseMemory memory = DatabaseMemory::normal;  ///< of new databases
   bool quiet = false;
   ViewConfig views;
-  RgbdCalibration calibration = synthetic_calibration();  ///< of the synthetic Kinect; no lens distorts
+  RgbdCalibration calibration = synthetic_calibration();
 };
 
-/// What all experiments share and none changes: the hands, the calibration, the color table, the databases.
-/// Everything is made or loaded when it is first asked for. Thread-safe.
+/// Shared by all experiments; made or loaded on first use. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);
 
   const WorkbenchConfig& config() const { return config_; }
-  /// The tracker's hand, which is also the first subject's.
+  /// The tracker's; also subject 1's.
   std::shared_ptr<const HandModel> model();
-  /// The hand in front of the camera (render::make_subject).
+  /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
-  /// Calibrated on pictures of the synthetic Kinect's own cameras, whatever the calibration: colors have no place.
+  /// For the synthetic Kinect's cameras, whatever `calibration` is: colors do not depend on geometry.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
-  /// A database by the name of its posture set, with the tiny-image sizes of the cascade.
+  /// By the name of its posture set.
   std::shared_ptr<const Database> database(const std::string& name);
-  /// A database of these postures.
   std::shared_ptr<const Database> database(const PostureSet& postures);
-  /// Makes a database of a file known under its name, which is returned: a built one (*.glovedb) or postures
-  /// (*.csv, *.json). Any other text is the name of a posture set and is returned as it is. Throws Error if a built
-  /// one was made for another hand or with other views, or if the name is taken.
+  /// Registers a database (*.glovedb) or postures (*.csv, *.json) and returns its name; returns other text
+  /// unchanged.
+  /// Throws: Error for another hand, other views or a taken name.
   std::string add_database(const std::string& name_or_file);
-  /// Whether `database` of this name will have nothing to build.
+  /// Whether `database(name)` builds nothing.
   bool has_database(const std::string& name);
 
-  /// The configuration's method for a database.
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// The paper's tracker, whose stages can be looked into. Throws Error if the configuration asks for another
-  /// method.
+  /// For the inspection of stages.
+  /// Throws: Error if another method is configured.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 
  private:
   WorkbenchConfig config_;
   DatabaseCache database_cache() const;
-  /// The postures of a name: of the program's data or of a file that was added.
+  /// From the program's data or an added file.
   PostureSet postures_of(const std::string& name) const;
 
   std::recursive_mutex mutex_;

@@ -16,8 +16,7 @@ struct FrameLayers {
   LabelImage tracker_label;  ///< tracker.label
 };
 
-/// Encodes OpenEXR.
-/// Throws: Error naming `where` if sizes differ or all are empty.
+/// Throws: Error naming `where` if sizes differ or all images are empty.
 std::string encode_exr(const FrameLayers& layers, const std::string& where);
 /// Throws: Error.
 void write_exr(const std::string& path, const FrameLayers& layers);

@@ -18,8 +18,8 @@ namespace glovebench::render::gl {
 inline constexpr double kNear = 0.05;
 inline constexpr double kFar = 10.0;
 
-/// From camera to clip coordinates, with the image's top row first and pixel centers at +0.5. The mirrored y makes
-/// front faces clockwise (glFrontFace(GL_CW)).
+/// From camera to clip coordinates, with the image's top row first and pixel centers at +0.5. Front faces become
+/// clockwise (glFrontFace(GL_CW)).
 Eigen::Matrix4f projection(const PinholeCamera& camera);
 
 /// A compiler error is a broken invariant.
@@ -68,7 +68,6 @@ class Framebuffer {
   int height_ = 0;
 };
 
-/// An indexed triangle mesh.
 class VertexArray {
  public:
   VertexArray();

@@ -12,8 +12,8 @@ enum class Shader {
   second_subject,  ///< slightly other dyes, more gloss, a fine weave
 };
 
-/// Linear RGB albedos of the labels; index 0 is unused. Simulated annealing maximized the smallest UV distance
-/// between colors and to skin, table and floor from 3000 to 6500 K: 18.2 gray levels.
+/// Linear RGB albedos of the labels, chosen for the largest UV distance to each other, skin, table and floor under
+/// lights of 3000 to 6500 K. Index 0 is unused.
 const std::array<Eigen::Vector3f, kColorCount + 1>& glove_albedos(Shader shader);
 
 /// For pictures of label images; black for 0.

@@ -15,7 +15,7 @@ struct HandImages {
   DepthImage depth;      ///< z, m
 };
 
-/// Draws labels with OpenGL from 0.05 to 10 m, without back faces. Serves one thread at a time.
+/// Draws from 0.05 to 10 m, without back faces. Serves one thread at a time.
 class LabelRenderer : public ViewRenderer {
  public:
   /// Throws: Error if OpenGL is missing.

@@ -15,13 +15,12 @@ struct Lighting {
   double temperature_k = 5000;                               ///< 2000..10000; the camera is balanced for 5000 K
   double ambient_share = 0.35;                               ///< of the strength, [0, 1]
 
-  /// One problem a line; empty without any.
+  /// One problem per line.
   std::vector<std::string> problems() const;
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
-/// Linear sRGB of black-body light at luminance 1, balanced for 5000 K (Kim et al.'s spline of the Planckian
-/// locus).
+/// Linear sRGB of black-body light at luminance 1, balanced for 5000 K (Kim et al.'s spline).
 Eigen::Vector3d rgb_of_temperature(double temperature_k);
 
 /// Linear 0..1 to sRGB-coded 0..1.

@@ -18,9 +18,8 @@ struct RgbdImages {
   Image<uint8_t> patch;  ///< IR camera; patch + 1, else 0
 };
 
-/// Draws a hand in a scene from a Kinect's two cameras: Lambert and Blinn-Phong light in linear RGB without
-/// shadows, averaged over 2x2 samples, clipped and sRGB-coded; depth and truth have one sample. Serves one thread
-/// at a time.
+/// Draws a hand in a scene from a Kinect's two cameras, without shadows. Color is the mean of 2x2 samples, depth
+/// and truth are one. Serves one thread at a time.
 class RgbdRenderer {
  public:
   /// Throws: Error if OpenGL is missing.

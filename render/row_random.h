@@ -43,7 +43,6 @@ class RowRandom {
   int left_ = 0;
 };
 
-/// One seed for each row.
 std::vector<uint64_t> row_seeds(const FrameKey& key, std::string_view purpose, int rows);
 
 }  // namespace glovebench::render

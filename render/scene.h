@@ -33,10 +33,10 @@ enum SceneMaterial : uint8_t {
 
 /// Triangles, counter-clockwise from outside.
 struct SurfaceMesh {
-  std::vector<Eigen::Vector3f> vertices;  ///< m
-  std::vector<Eigen::Vector3f> normals;   ///< unit length
-  std::vector<uint8_t> materials;         ///< of each vertex
-  std::vector<uint32_t> indices;          ///< three a triangle
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<Eigen::Vector3f> normals;  ///< unit length
+  std::vector<uint8_t> materials;        ///< of each vertex
+  std::vector<uint32_t> indices;         ///< three a triangle
 };
 
 struct SceneConfig {
@@ -45,10 +45,9 @@ struct SceneConfig {
   bool clutter_in_volume = false;  ///< one more box, in the working volume (z 0.90 m)
 };
 
-/// Surroundings in the IR camera's frame: table top, 1.0 m x 0.74 m at 1.06 m, and floor at 1.78 m. All but
-/// `clutter_in_volume` is beyond 1.0 m.
+/// Surroundings in the IR camera's frame: table top, 1.0 m x 0.74 m at 1.06 m, and floor at 1.78 m.
 struct Scene {
-  SurfaceMesh surroundings;         ///< IR camera frame
+  SurfaceMesh surroundings;
   std::vector<Material> materials;  ///< kMaterialCount
 };
 Scene make_scene(const SceneConfig& config);

@@ -14,7 +14,7 @@ struct SyntheticKinectConfig {
   SceneConfig scene;
   Lighting lighting;
   NoiseConfig noise;
-  uint64_t seed = 1;     ///< of all noise
+  uint64_t seed = 1;
   std::string sequence;  ///< names the noise streams
   int first_frame = 0;   ///< number in the sequence, which selects its noise
 };

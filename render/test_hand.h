@@ -1,7 +1,5 @@
 #pragma once
 
-// The hand of the tests.
-
 #include "ci/build_paths.h"
 #include "core/hand/hand_model.h"
 

@@ -21,7 +21,7 @@ int count_sent(const CommandResult& commands) {
   return count;
 }
 
-/// The kinds that happened in any of the experiments.
+/// The kinds that occurred in any experiment.
 std::vector<Intervention> interventions_of(const RunResult& result) {
   std::vector<Intervention> kinds;
   for (const Intervention kind : all_values<Intervention>()) {

@@ -7,24 +7,23 @@
 
 namespace glovebench::reports {
 
-/// Was there any robot command in these experiments?
+/// Whether any experiment has robot commands.
 bool has_commands(const RunResult& result);
 
-/// What the tables of robot commands hold, in one paragraph of plain text.
+/// What the tables below hold. Each has one row per experiment.
 std::string command_explanation();
-/// One row an experiment: how many commands, how often, in which state.
+/// Count, rate and states.
 Table command_stream_table(const RunResult& result);
-/// One row an experiment: how many commands were changed or refused, a column for each reason that there was. No
-/// rows where there was none.
+/// Changed or refused commands, by reason. No rows if there are none.
 Table command_intervention_table(const RunResult& result);
-/// One row an experiment: how far the commands are from the truth's, and how smooth both are.
+/// Errors against the truth's commands, and smoothness.
 Table command_error_table(const RunResult& result);
-/// One row an experiment: the time from a frame to its command. No rows where no time was taken.
+/// Time from frame to command. No rows without times.
 Table command_latency_table(const RunResult& result, const Timings& timings);
 
-/// All of it but the times, one line an experiment: tables/commands.csv.
+/// tables/commands.csv, without times.
 std::string commands_csv(const RunResult& result);
-/// A section of summary.md; empty if there are no commands.
+/// Section of summary.md; empty without commands.
 std::string commands_markdown(const RunResult& result);
 
 }  // namespace glovebench::reports

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Derivatives by time and gaps between commands are far larger than errors.
+/// Jerk and gaps are far larger than errors.
 constexpr double kLargest = 1e30;
 
 Json jerk_json(const Jerk& jerk) {

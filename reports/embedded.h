@@ -4,8 +4,6 @@
 
 namespace glovebench::reports {
 
-// Files of this folder that are built into the program, so that it needs none beside it.
-
 std::string embedded_paper_numbers();  ///< data/paper_numbers.json
 std::string embedded_claims();         ///< data/claims.json
 std::string embedded_page_style();     ///< data/page.css

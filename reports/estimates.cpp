@@ -46,7 +46,7 @@ std::string line_of(const Estimate& estimate) {
   if (estimate.status != TrackStatus::tracked) return line + std::string(kColumnCount - kFirstNumber, ',') + "\n";
   const Eigen::Vector3d position_mm = estimate.T_camera_hand.translation() * 1000;
   Eigen::Quaterniond q(estimate.T_camera_hand.linear());
-  if (q.w() < 0) q.coeffs() = -q.coeffs();  // of the two that are this rotation, always the same
+  if (q.w() < 0) q.coeffs() = -q.coeffs();  // q and -q are the same rotation; always writes the one with w >= 0
   for (const double value : position_mm) line += number_cell(value);
   for (const double value : {q.w(), q.x(), q.y(), q.z()}) line += number_cell(value);
   for (const double angle : estimate.posture) line += number_cell(degrees_from_radians(angle));
@@ -82,7 +82,7 @@ class Line {
     return value;
   }
 
-  /// As estimates_csv writes it, and no larger than `largest`.
+  /// Accepts numbers as estimates_csv writes them, up to `largest`.
   double number(size_t column, double largest) const {
     const std::string_view cell = cells_[column];
     double value = 0;
@@ -95,7 +95,7 @@ class Line {
   }
 
   [[noreturn]] void fail(size_t column, const std::string& expected) const {
-    // A damaged cell may be long and may hold anything; the message is one line of text.
+    // A damaged cell may be long and contain anything, but the message must be one short line.
     const std::string found =
         nlohmann::json(cells_[column].substr(0, 40)).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
     throw Error(where_, fmt::format("line {}, column {}", number_, columns()[column]), found, expected);
@@ -138,7 +138,7 @@ Estimate read_line(const Line& line) {
   return estimate;
 }
 
-/// The frames of a seed follow each other, and no seed comes twice.
+/// Checks that a seed's frames are consecutive and that no seed occurs twice.
 void check_order(const Line& line, const std::vector<Estimate>& before, const Estimate& estimate,
                  std::set<uint64_t>& seeds) {
   if (estimate.frame < 0) line.fail(1, "0 or more");
@@ -170,7 +170,7 @@ std::vector<Estimate> read_estimates(const std::string& path) {
 
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where) {
   std::vector<Estimate> estimates;
-  // An estimate is larger than its line may be: no more room than lines that could be read.
+  // An estimate is larger than its line may be, so this reserves no more than the lines that could be valid.
   const auto lines = static_cast<size_t>(std::ranges::count(text, '\n'));
   estimates.reserve(std::min(lines, text.size() / kColumnCount));
   std::set<uint64_t> seeds;

@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// What the tracker said about one frame, smoothed as always.
+/// A smoothed answer of the tracker.
 struct Estimate {
   uint64_t seed = 0;
   int frame = 0;
@@ -20,20 +20,19 @@ struct Estimate {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m
 };
 
-/// Of one experiment: every frame, seed after seed.
+/// Every frame of an experiment, seed after seed.
 struct ExperimentEstimates {
   ExperimentKey key;
   std::vector<Estimate> estimates;
 };
 
-/// "estimates/EXPERIMENT.csv" in a run's folder.
+/// "estimates/EXPERIMENT.csv".
 std::string estimates_file(const ExperimentKey& key);
-/// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, the 22 angles (deg);
-/// numbers rounded to 1e-6. Empty cells for a lost frame.
+/// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, the 22 angles (deg).
+/// Numbers are rounded to 1e-6; a lost frame has empty cells.
 std::string estimates_csv(const ExperimentEstimates& estimates);
-/// Throws Error naming file, line and column for whatever estimates_csv does not write.
+/// Throws: Error naming file, line and column for anything that estimates_csv does not write.
 std::vector<Estimate> read_estimates(const std::string& path);
-/// The same for the file's text; `where` names it in errors.
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);
 
 }  // namespace glovebench::reports

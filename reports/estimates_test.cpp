@@ -41,7 +41,7 @@ std::string estimates_error(const std::string& text) {
   return "no error";
 }
 
-/// The text with the first of these replaced.
+/// Replaces the first occurrence.
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
   const size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;

@@ -1,4 +1,4 @@
-// Writes the reports of an invented run and of an invented comparison, to try the schemas and to look at the pages:
+// Writes the reports of an invented run and an invented comparison, to test the schemas and look at the pages:
 // reports_example FOLDER
 
 #include <cstdio>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Results of versions with other metrics, for tests. Not part of the library.
+// For tests: results with other metrics.
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ inline void renew_protocol_id(nlohmann::json& protocol) {
   protocol["id"] = read.id();
 }
 
-/// Adds a metric that no program knows: 7.5 in each frame.
+/// An unknown metric: 7.5 in each frame.
 inline void add_metric(nlohmann::json& results, const std::string& key) {
   results["protocol"]["metric_keys"].push_back(key);
   renew_protocol_id(results["protocol"]);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Results made by hand and by seeded chance, for the tests and for looking at the page. Not part of the library.
+// For tests and a look at the page.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// A tracked frame whose errors are the given ones and plain multiples of them.
+/// Other errors are plain multiples of the given ones.
 inline FrameRecord example_frame(int index, double position_mm, double posture_deg, double rotation_deg) {
   FrameRecord frame;
   frame.frame = index;
@@ -30,7 +30,6 @@ inline FrameRecord example_frame(int index, double position_mm, double posture_d
   return frame;
 }
 
-/// A lost frame has no errors.
 inline FrameRecord example_lost_frame(int index) {
   FrameRecord frame;
   frame.frame = index;
@@ -40,7 +39,7 @@ inline FrameRecord example_lost_frame(int index) {
   return frame;
 }
 
-/// Commands of frames of which the last two were lost, at 30 Hz.
+/// At 30 Hz; the last two frames were lost.
 inline CommandResult example_commands(int frames, double error) {
   CommandResult commands;
   commands.frames = frames;
@@ -56,8 +55,8 @@ inline CommandResult example_commands(int frames, double error) {
   return commands;
 }
 
-/// Four experiments: one whose means are 4 mm / 3 deg / 2 deg with one lost frame of four and robot commands, one
-/// of lost frames only, one without frames, and one of another noise.
+/// Four experiments: means 4 mm, 3 deg, 2 deg with one of four frames lost; lost frames only; no frames; another
+/// noise.
 inline RunResult small_result() {
   RunResult result;
   result.protocol = make_protocol("by time stamp, exact");
@@ -85,7 +84,7 @@ inline RunResult small_result() {
   return result;
 }
 
-/// Errors that wander around a level, with two jumps of the posture that decay as a filter does.
+/// With two jumps of the posture that decay.
 inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t seed, int count, double level) {
   std::vector<FrameRecord> frames;
   RandomStream random(seed, name, 0, "example");
@@ -101,7 +100,7 @@ inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t
   return frames;
 }
 
-/// All of Figure 4 with invented errors, two seeds, and two studies.
+/// All of Figure 4 with two seeds, and two studies.
 inline RunResult full_result() {
   RunResult result = small_result();
   result.experiments.clear();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Studies with invented numbers, for the tests and for looking at the page. Not part of the library.
+// For tests and a look at the page.
 
 #include <string>
 #include <vector>
@@ -89,7 +89,7 @@ inline StudyResult example_figure8() {
            {"figure8.tiny_time_share", "", 1.02, {}, true}}};
 }
 
-/// Two studies, of figures 7 and 8. Some cells are empty; one claim about them is inconclusive, one does not hold.
+/// Some cells are empty; one claim is inconclusive, one does not hold.
 inline std::vector<StudyResult> example_studies() {
   return {example_figure7(), example_figure8()};
 }

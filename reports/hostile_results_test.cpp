@@ -1,4 +1,4 @@
-// results.json as no run writes it: one line that says what is wrong, whatever was done to the file.
+// Results that no run writes: whatever the damage, one line says what is wrong.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -111,7 +111,7 @@ TEST(HostileResults, MeansThatTheFramesDoNotHave) {
   EXPECT_THAT(hostile_error_of_change([&](json& r) { mean(r) = nullptr; }), HasSubstr("position_error_mm.mean"));
   EXPECT_THAT(hostile_error_of_change([](json& r) { first_frame(r)[9] = 3.5; }),
               HasSubstr("position_error_mm.mean"));
-  const size_t residual = 9 + metric_index("icp_residual_mm");  // which a tracked frame may lack
+  const size_t residual = 9 + metric_index("icp_residual_mm");  // a tracked frame may lack it
   EXPECT_THAT(hostile_error_of_change([&](json& r) { first_frame(r)[residual] = nullptr; }),
               HasSubstr("icp_residual_mm.count"));
 }
@@ -172,15 +172,15 @@ TEST(HostileResults, FilesThatCannotBeRead) {
 
   const std::string large = folder + "/large.json";
   write_file(large, example_text());
-  fs::resize_file(large, 2'000'000'000);  // mostly a hole
+  fs::resize_file(large, 2'000'000'000);  // a sparse file
   EXPECT_THAT(error_of_reading(large),
               AllOf(HasSubstr("large.json: size: found more than"), HasSubstr("256000000")));
 
-  fs::permissions(folder, fs::perms::others_exec, fs::perm_options::add);  // or the folder would be what is refused
+  fs::permissions(folder, fs::perms::others_exec, fs::perm_options::add);  // else the folder would be refused
   const std::string secret = folder + "/secret.json";
   write_file(secret, example_text());
   fs::permissions(secret, fs::perms::none);
-  // Permissions do not bind the superuser, as whom some machines test.
+  // Permissions do not bind the superuser, as which some machines run tests.
   const uid_t self = geteuid();
   ASSERT_TRUE(self != 0 || seteuid(65534) == 0);
   EXPECT_THAT(error_of_reading(secret), HasSubstr("Permission denied"));
@@ -197,7 +197,7 @@ TEST(HostileResults, TruncatedAnywhere) {
     EXPECT_THAT(hostile_error(full.substr(0, length)), HasSubstr("expected JSON")) << length;
 }
 
-/// One of the document's values, all the way down.
+/// Picks a value at any depth.
 json& random_value(json& document, RandomStream& random) {
   json* value = &document;
   while (value->is_structured() && !value->empty() && random.index(8) != 0)
@@ -205,7 +205,7 @@ json& random_value(json& document, RandomStream& random) {
   return *value;
 }
 
-/// Replaces, removes, doubles or exchanges values; the syntax stays right.
+/// Replaces, removes, doubles or exchanges values; keeps the syntax valid.
 std::string damaged(RandomStream& random) {
   static const std::vector<json> strangers = {nullptr,
                                               true,
@@ -256,7 +256,7 @@ TEST(HostileResults, ExchangedValuesGiveAnErrorOrAResultThatCanBeWrittenAgain) {
       const RunResult read = parse_results(text, "results.json");
       ++accepted;
       EXPECT_FALSE(results_json(read).empty());
-      // What reports do with the frames stays finite.
+      // Reports compute with the frames, so results must be finite.
       for (const ExperimentResult& e : read.experiments)
         summarize(e.key, e.runs, e.pck, e.sequence, {.resamples = 10});
     } catch (const Error& error) {

@@ -8,14 +8,14 @@
 
 namespace glovebench::reports {
 
-/// The three errors that the paper prints.
 struct PaperErrors {
   double position_mm = 0;
   double posture_deg = 0;
   double rotation_deg = 0;
 };
 
-/// A per-frame curve of the paper (figures 5 and 6) and its mean, which is a row of Figure 4.
+/// A per-frame curve and its mean.
+/// Paper: Figures 5 and 6.
 struct PaperCurve {
   std::string trajectory;
   std::string database;
@@ -23,7 +23,8 @@ struct PaperCurve {
   std::vector<PaperErrors> frames;
 };
 
-/// A row of Figure 8: one cascade with one database.
+/// One cascade with one database.
+/// Paper: Figure 8.
 struct PaperCascade {
   std::string database;
   Cascade cascade;
@@ -31,7 +32,7 @@ struct PaperCascade {
   double time_ms = 0;
 };
 
-/// What the paper prints, as data.
+/// Numbers that the paper prints.
 struct PaperNumbers {
   std::string source;
   PaperCurve figure_5;
@@ -41,13 +42,13 @@ struct PaperNumbers {
   std::string rate_hardware;
   double mean_position_error_below_mm = 0;
 
-  /// The printed mean errors of an experiment; null where the paper shows a bar only.
+  /// Printed means of an experiment; null where the paper has only a bar.
   const PaperErrors* mean_of(const std::string& trajectory, const std::string& database) const;
 };
 
-/// The numbers that this program carries (reports/data/paper_numbers.json).
+/// From reports/data/paper_numbers.json.
 const PaperNumbers& paper_numbers();
-/// Strict; throws Error naming `where` and the field.
+/// Throws: Error naming `where` and the field.
 PaperNumbers parse_paper_numbers(const std::string& text, const std::string& where);
 
 }  // namespace glovebench::reports

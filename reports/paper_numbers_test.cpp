@@ -32,7 +32,7 @@ TEST(PaperNumbers, CurvesHaveThePrintedMeans) {
 }
 
 TEST(PaperNumbers, PostureErrorOfFigure5DecaysAsARecursiveFilter) {
-  // The number that the smoothing of this program rests on: 0.75 a frame while the truth holds still.
+  // The program's smoothing uses this number: 0.75 per frame while the truth rests.
   const auto& frames = paper_numbers().figure_5.frames;
   for (size_t i = 61; i < 80; ++i)
     EXPECT_NEAR(frames[i].posture_deg / frames[i - 1].posture_deg, 0.75, 0.003) << i;  // printed with 5 digits

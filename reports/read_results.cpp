@@ -64,7 +64,7 @@ InputHashes read_inputs(const JsonCursor& json) {
 
 constexpr size_t kFirstMetric = 9;
 
-/// The metrics of the file, in its order: the key, and the index in frame_metrics(), if the program knows it.
+/// A metric of the file, in the file's order, with its index in frame_metrics() if the program knows it.
 struct FileMetric {
   std::string key;
   std::optional<size_t> index;
@@ -79,8 +79,7 @@ FileMetrics read_metrics(const JsonCursor& columns, const std::vector<std::strin
   return metrics;
 }
 
-/// Rows that are as long as a frame's, so that there can be room for as many frames: they are larger than what a
-/// row must hold.
+/// Checks that rows are as long as a frame's, before memory for as many frames is reserved.
 JsonItems read_rows(const JsonCursor& json, const FileMetrics& metrics) {
   JsonItems rows = json.items();
   for (const JsonCursor& row : rows)
@@ -88,9 +87,9 @@ JsonItems read_rows(const JsonCursor& json, const FileMetrics& metrics) {
   return rows;
 }
 
-/// What a frame says of itself follows from its errors: whoever drops or changes some is found.
+/// A frame's flags follow from its errors, so dropped or changed errors are found.
 void check_errors(const JsonItems& row, const FileMetrics& metrics, const FrameRecord& frame) {
-  constexpr double kRounding = 1e-6;  // as errors are written: one at the bound may be rounded over it
+  constexpr double kRounding = 1e-6;  // errors are rounded, so one at the bound may exceed it
   const bool is_tracked = frame.status == TrackStatus::tracked;
   for (size_t m = 0; m < metrics.size(); ++m) {
     if (!metrics[m].index) continue;
@@ -134,8 +133,8 @@ FrameRecord read_frame(const JsonCursor& json, const FileMetrics& metrics) {
   return frame;
 }
 
-/// The frames of a run come in their order, and are those of the first run. Whether one is missing is for those to
-/// say who know what belongs there (comparison/pairing.h).
+/// Checks that frames are in order and equal those of the first run. Whether a frame is missing is checked in
+/// comparison/pairing.h.
 void check_frame(const JsonCursor& json, const std::vector<FrameRecord>& before, const FrameRecord& frame,
                  const std::vector<SeedRun>& runs) {
   if (!before.empty() && frame.frame <= before.back().frame)
@@ -177,7 +176,7 @@ Coverage read_coverage(const JsonCursor& json) {
           json["false_lost"].count()};
 }
 
-/// A mean that its frames do not have was changed by hand, or the frames were.
+/// A mean that does not follow from its frames was changed by hand, or the frames were.
 void check_aggregate(const JsonCursor& json, const Aggregate& aggregate, size_t metric,
                      const std::vector<SeedRun>& runs) {
   constexpr double kRounding = 2e-6;  // frames and mean are written to 1e-6
@@ -220,7 +219,7 @@ ExperimentKey read_experiment_key(const JsonCursor& json) {
 
 ExperimentResult read_experiment(const JsonCursor& json, const FileMetrics& metrics) {
   const bool has_commands = json.has("commands");
-  // A key of the others in its place where there is none.
+  // Without commands, "runs" fills their place.
   json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
                     "sequence", "runs", has_commands ? "commands" : "runs"});
   json["joint_pck"].expect_keys({"thresholds_mm", "shares", "area"});
@@ -276,7 +275,7 @@ RunResult parse_results(const std::string& text, const std::string& where) {
     result.experiments.push_back(std::move(experiment));
   }
   if (has_studies) result.studies = read_studies(json["studies"]);
-  result.configuration = std::move(document["configuration"]);  // anything may be in it: not twice
+  result.configuration = std::move(document["configuration"]);  // may be large, so it is moved
   return result;
 }
 

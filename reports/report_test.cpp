@@ -148,7 +148,7 @@ TEST(Report, RemovesWhatAnOlderReportLeftAndNothingElse) {
                                                 "estimates/filtered.csv",
                                                 experiment};
   for (const std::string& name : of_the_user) write_file(folder + "/" + name, "the user's");
-  write_file(folder + "/.staged/tables/frames_" + experiment, "half");  // of a writer that was killed
+  write_file(folder + "/.staged/tables/frames_" + experiment, "half");  // left by a killed writer
 
   RunResult fewer = all;
   fewer.experiments.erase(fewer.experiments.begin() + 1, fewer.experiments.end());

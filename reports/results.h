@@ -17,19 +17,18 @@
 
 namespace glovebench::reports {
 
-/// One frame of a replay against the truth.
 struct FrameRecord {
   int frame = 0;
   int64_t timestamp_us = 0;
   TrackStatus status = TrackStatus::no_hand;
-  bool covered = false;        ///< tracked, and the error is under 50 mm and 30 degrees
-  bool false_tracked = false;  ///< says tracked, and is not covered
-  bool false_lost = false;     ///< says lost, though the hand was there to be tracked
-  bool ambiguous = false;      ///< the matches' rotations spread over more than 60 degrees
+  bool covered = false;        ///< tracked, errors under 50 mm and 30 degrees
+  bool false_tracked = false;  ///< reported as tracked, but not covered
+  bool false_lost = false;     ///< reported as lost, but the hand could be tracked
+  bool ambiguous = false;      ///< matches' rotations spread over more than 60 degrees
   bool converged = false;      ///< of the alignment
   int icp_iterations = 0;
 
-  /// One for each of frame_metrics(); empty where it cannot be told.
+  /// In the order of frame_metrics(); empty where unknown.
   std::vector<std::optional<double>> values = std::vector<std::optional<double>>(frame_metrics().size());
   std::optional<double>& operator[](std::string_view metric) { return values[metric_index(metric)]; }
   const std::optional<double>& operator[](std::string_view metric) const { return values[metric_index(metric)]; }
@@ -44,18 +43,18 @@ constexpr auto names_of(TruthKind) {
 using glovebench::to_string;
 
 struct NoiseSetting {
-  std::string model = "gradient";  ///< name of a depth noise (`glovebench list noises`); "gradient" is the paper's
+  std::string model = "gradient";  ///< name in `glovebench list noises`; "gradient" is the paper's
   double factor = 1;               ///< of the noise's gain
 
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
 };
 
-/// What makes one experiment: one trajectory replayed against one database.
+/// One trajectory tracked with one database.
 struct ExperimentKey {
   std::string trajectory;  ///< "Tr4"
   std::string database;    ///< "DB_open_power"
   TruthKind truth = TruthKind::recorded;
-  int subject = 1;  ///< the hand in front of the camera: 1 is the tracker's own
+  int subject = 1;  ///< hand in front of the camera; 1 is the tracker's
   NoiseSetting noise;
 
   friend bool operator==(const ExperimentKey&, const ExperimentKey&) = default;
@@ -63,7 +62,7 @@ struct ExperimentKey {
 /// Names files: "Tr4_DB_open_power_recorded_subject1_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
-/// The frames of one noise seed, consecutive ones of the trajectory.
+/// Consecutive frames with one noise seed.
 struct SeedRun {
   uint64_t seed = 0;
   std::vector<FrameRecord> frames;
@@ -71,7 +70,7 @@ struct SeedRun {
   friend bool operator==(const SeedRun&, const SeedRun&) = default;
 };
 
-/// How often the tracker had the hand; lost frames stay in the denominator.
+/// Lost frames stay in the denominator.
 struct Coverage {
   int frames = 0;
   int covered = 0;
@@ -83,7 +82,7 @@ struct Coverage {
   friend bool operator==(const Coverage&, const Coverage&) = default;
 };
 
-/// Of a whole sequence; empty where the trajectory has no hold or no movement to measure it on.
+/// Of a sequence; empty where the trajectory never rests or moves.
 struct SequenceMetrics {
   std::optional<double> jitter_position_mm;
   std::optional<double> jitter_rotation_deg;
@@ -97,15 +96,15 @@ Coverage count_coverage(const std::vector<SeedRun>& runs);
 struct ExperimentResult {
   ExperimentKey key;
   std::vector<SeedRun> runs;
-  // From here on: computed from the runs by `summarize`, but for what is handed to it.
+  // Computed by `summarize`, or passed through it.
   Coverage coverage;
-  /// Both: one for each of frame_metrics(), over all frames and seeds that have the value.
+  /// Both in the order of frame_metrics(), over all frames and seeds with a value.
   std::vector<Aggregate> aggregates = std::vector<Aggregate>(frame_metrics().size());
   std::vector<std::optional<ConfidenceInterval>> intervals =
       std::vector<std::optional<ConfidenceInterval>>(frame_metrics().size());  ///< of the means
-  PckCurve pck;                                                                ///< of the joints' position errors
+  PckCurve pck;                                                                ///< of joint position errors
   SequenceMetrics sequence;
-  std::optional<CommandResult> commands = {};  ///< empty in results from before they were measured
+  std::optional<CommandResult> commands = {};  ///< empty in older results
 
   const Aggregate& aggregate_of(std::string_view metric) const { return aggregates[metric_index(metric)]; }
   const std::optional<ConfidenceInterval>& interval_of(std::string_view metric) const {
@@ -113,61 +112,56 @@ struct ExperimentResult {
   }
   friend bool operator==(const ExperimentResult&, const ExperimentResult&) = default;
 };
-/// Coverage, aggregates and intervals of the runs; the curve and the sequence's metrics are passed through.
+/// Computes coverage, aggregates and intervals; passes `pck` and `sequence` through.
 ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
                            const BootstrapConfig& bootstrap = {});
 
-/// How the numbers of a result are to be understood. Results are compared in the metrics that both have; all else
-/// must be the same.
+/// What a result's numbers mean. Results are comparable in shared metrics; all else must be equal.
 struct Protocol {
-  int metric_definitions = 1;            ///< raised whenever a metric changes its meaning
+  int metric_definitions = 1;            ///< raised when a metric changes its meaning
   std::vector<std::string> joint_order;  ///< the 22 angles
-  std::vector<std::string> metric_keys;  ///< of the frames; a file of another version may have others
-  std::string association;               ///< how estimates meet truths, e.g. "by time stamp, exact"
+  std::vector<std::string> metric_keys;  ///< of frames; other versions may have others
+  std::string association;               ///< of estimates and truths: "by time stamp, exact"
 
-  std::string id() const;  ///< hash of all of the above
+  std::string id() const;  ///< hash of the above
   friend bool operator==(const Protocol&, const Protocol&) = default;
 };
-/// The protocol of this program.
 Protocol make_protocol(std::string association);
 
-/// Two results that say nothing about each other: of another protocol, truth, database, or other frames. The
-/// message is that of an Error. The command line ends with exit code 3.
+/// Two results of different protocol, truth, database or frames. Leads to exit code 3.
 class Incomparable : public Error {
  public:
   using Error::Error;
 };
 
-/// Content hashes of what the experiments were made of. They stand beside the protocol, not in it, so that a part
-/// of a run can be compared with the whole: experiments are comparable when their own truth and database are the
-/// same.
+/// Content hashes. They are not in the protocol, so that part of a run compares with the whole.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
-  std::map<std::string, std::string> databases;  ///< Database::content_hash, by the database's name
+  std::map<std::string, std::string> databases;  ///< Database::content_hash by name
   std::string hand_model;                        ///< the tracker's
   std::string color_table;
 
   friend bool operator==(const InputHashes&, const InputHashes&) = default;
 };
-/// Names a truth among the inputs: "source/Tr4".
+/// "source/Tr4".
 std::string truth_name(const ExperimentKey& key);
 
-/// All that a run found, and nothing that differs when the same commit runs again.
+/// All that a run found; equal whenever the same commit runs again.
 struct RunResult {
   Protocol protocol;
   InputHashes inputs;
-  std::string suite;  ///< the suite's name; empty if the run was of none
+  std::string suite;  ///< name; empty if none
   std::string program_version;
   std::string commit;
   nlohmann::json configuration = nlohmann::json::object();  ///< effective
   std::vector<ExperimentResult> experiments;
-  std::vector<StudyResult> studies;  ///< of a reproduction; empty for other runs
+  std::vector<StudyResult> studies;  ///< of a reproduction
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };
-/// The noise whose rows are Figure 4: the paper's (gradient x 1) if any experiment has it, else the first one's.
+/// The paper's noise (gradient x 1) if any experiment has it, else the first one's.
 NoiseSetting headline_noise(const RunResult& result);
-/// Null if there is no such experiment.
+/// Null if there is none.
 const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key);
 
 }  // namespace glovebench::reports

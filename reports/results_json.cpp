@@ -62,7 +62,7 @@ Json experiment_json(const ExperimentResult& experiment, std::span<const std::st
                  {"jitter_rotation_deg", rounded_or_null(sequence.jitter_rotation_deg)},
                  {"latency_frames", rounded_or_null(sequence.latency_frames)}}},
                {"runs", runs_json(experiment.runs, metric_keys)}};
-  // Results from before there were any are the same bytes.
+  // Left out if empty, so older results keep their bytes.
   if (experiment.commands) json["commands"] = commands_json(*experiment.commands);
   return json;
 }
@@ -108,7 +108,7 @@ std::string results_json(const RunResult& result) {
                {"configuration", result.configuration},
                {"frame_columns", frame_columns(protocol.metric_keys)},
                {"experiments", std::move(experiments)}};
-  // Results without studies stay the bytes that they were before there were any.
+  // Left out if empty, so results without studies keep their bytes.
   if (!result.studies.empty()) json["studies"] = studies_json(result.studies);
   return format_json(json);
 }

@@ -21,7 +21,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The message of the Error that reading gives.
+/// The message of the Error.
 std::string error_of(const std::string& text) {
   try {
     parse_results(text, "results.json");
@@ -45,7 +45,7 @@ TEST(ResultsJson, RoundTrip) {
   EXPECT_EQ(results_json(read), results_json(result));
   EXPECT_EQ(read.protocol, result.protocol);
   EXPECT_EQ(read.configuration, result.configuration);
-  // These hold short decimals only, which no rounding changes.
+  // The example has only short decimals, which rounding keeps.
   EXPECT_EQ(read.experiments[0].runs, result.experiments[0].runs);
   EXPECT_EQ(read.experiments[0].sequence, result.experiments[0].sequence);
   EXPECT_EQ(read.experiments[1], result.experiments[1]);
@@ -230,7 +230,7 @@ TEST(ResultsJson, DamageGivesAnErrorOrAReadableResultButNothingElse) {
   for (int trial = 0; trial < 500; ++trial) {
     RandomStream random(20, "results_json_test", trial, "damage");
     try {
-      // What is accepted (another digit in an error, say) is a whole result: it can be written again.
+      // An accepted change, e.g. another digit, gives valid results that can be written again.
       EXPECT_FALSE(results_json(parse_results(damaged_text(text, random), "results.json")).empty());
     } catch (const Error&) {
       ++refused;

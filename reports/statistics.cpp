@@ -40,7 +40,7 @@ std::vector<BlockSum> block_sums(const std::vector<std::optional<double>>& value
   return sums;
 }
 
-/// The mean of one draw of seeds and blocks; empty if it drew nothing but lost frames.
+/// Mean of one draw of seeds and blocks; empty if it drew only lost frames.
 std::optional<double> resampled_mean(const std::vector<std::vector<BlockSum>>& sums, RandomStream& random) {
   const size_t block_count = sums.front().size();
   std::vector<size_t> seeds(sums.size()), blocks(block_count);
@@ -57,7 +57,7 @@ std::optional<double> resampled_mean(const std::vector<std::vector<BlockSum>>& s
   return total.sum / total.count;
 }
 
-/// Blocks of consecutive frames, all about as long and none shorter than asked for, unless there are too few
+/// Number of blocks of consecutive frames with similar lengths, none below `block_frames` unless there are too few
 /// frames.
 int block_count(const StratumShape& stratum, int block_frames) {
   return stratum.frames == 0 ? 0 : std::max(1, stratum.frames / block_frames);
@@ -166,7 +166,7 @@ std::optional<ConfidenceInterval> stratified_interval(
     interval.seeds = std::max(interval.seeds, stratum.seeds);
     interval.blocks += block_count(stratum, config.block_frames);
   }
-  constexpr int kFewestBlocks = 5;  // of fewer there are too few different draws
+  constexpr int kFewestBlocks = 5;  // fewer blocks give too few different draws
   if (interval.blocks < kFewestBlocks) return std::nullopt;
 
   RandomStream random(config.seed, "stratified_interval", 0, "bootstrap");

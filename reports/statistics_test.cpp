@@ -80,7 +80,7 @@ TEST(Statistics, IntervalHoldsTheTrueMeanAboutAsOftenAsItsLevelSays) {
     const auto interval = confidence_interval(noisy_values(trial, 1, 300), {.block_frames = 10, .resamples = 300});
     held += interval->low <= 5 && 5 <= interval->high;
   }
-  // Binomial, sd 0.015 at 0.95; a percentile bootstrap of 30 blocks falls a little short of its level.
+  // Binomial with deviation 0.015 at 0.95; a percentile bootstrap of 30 blocks stays a little below its level.
   EXPECT_GE(held, 0.88 * kTrials);
   EXPECT_LE(held, 0.995 * kTrials);
 }
@@ -109,7 +109,7 @@ TEST(Statistics, ConstantValuesHaveAnIntervalOfNoWidth) {
   EXPECT_EQ(interval->high, 2);
 }
 
-/// The mean over everything that was drawn of one table a stratum.
+/// Mean over all drawn values; one table per stratum.
 auto mean_of(const std::vector<std::vector<Values>>& strata) {
   return [&strata](std::span<const Draw> draws) -> std::optional<double> {
     Values drawn;
@@ -121,7 +121,7 @@ auto mean_of(const std::vector<std::vector<Values>>& strata) {
 }
 
 TEST(Statistics, StrataAreNotMixed) {
-  // Two strata that differ, each constant: however it is drawn, the mean stays.
+  // Two different constant strata: any draw has the same mean.
   const std::vector<std::vector<Values>> strata = {{Values(40, 1.0)}, {Values(20, 7.0)}};
   const auto interval =
       stratified_interval(std::vector<StratumShape>{{1, 40}, {1, 20}}, mean_of(strata), {.block_frames = 10});
@@ -143,7 +143,7 @@ TEST(Statistics, AStratifiedIntervalHoldsTheTrueMeanAboutAsOftenAsItsLevelSays) 
                                               {.block_frames = 4, .resamples = 400});
     held += interval->low <= 0 && 0 <= interval->high;
   }
-  // 95% of 200 are 190; a percentile interval over 50 blocks holds a little less, and chance takes up to 11.
+  // 95% of 200 are 190; a percentile interval over 50 blocks covers a little less, and chance costs up to 11.
   EXPECT_GE(held, 175);
   EXPECT_LE(held, 199);
 }

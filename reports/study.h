@@ -13,15 +13,15 @@ namespace glovebench::reports {
 /// A number that a claim may be about.
 struct Measure {
   std::string name;  ///< "figure9.position_rise_share"
-  std::string unit;  ///< "mm", "deg", "" for a ratio or a count
+  std::string unit;  ///< "mm", "deg"; "" for a ratio or count
   std::optional<double> value;
   std::optional<ConfidenceInterval> interval;
-  bool is_time = false;  ///< as of a column
+  bool is_time = false;  ///< see Column
 
   friend bool operator==(const Measure&, const Measure&) = default;
 };
 
-/// What one study of a reproduction found: a figure of the paper, or a question about it.
+/// Result of one study: a figure of the paper, or a question about it.
 struct StudyResult {
   std::string name;   ///< "fig8"
   std::string title;  ///< "Figure 8: matching cascades"
@@ -31,7 +31,7 @@ struct StudyResult {
   friend bool operator==(const StudyResult&, const StudyResult&) = default;
 };
 
-/// Null if there is none of that name.
+/// Null if there is none.
 const Table* find_table(const std::vector<StudyResult>& studies, std::string_view name);
 const Measure* find_measure(const std::vector<StudyResult>& studies, std::string_view name);
 

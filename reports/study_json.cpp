@@ -14,9 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Cells hold counts and times beside errors, and changes that may be negative: far from where a sum overflows.
+/// Cells hold counts, times, errors and changes, which may be negative; sums stay far from overflow.
 constexpr double kLargestCell = 1e12;
-constexpr size_t kMostCells = 250'000;  // a cell is larger than its text may be
+constexpr size_t kMostCells = 250'000;  // a cell in memory is larger than its text
 constexpr int64_t kLargestCount = 1'000'000'000'000;
 /// Numbers are written to 1e-6.
 constexpr int kMostDigits = 6;
@@ -28,7 +28,7 @@ bool is_name(const std::string& name, bool is_measure = false) {
   });
 }
 
-/// Of a table whose file would be another report's.
+/// Whether a table's file would be another report's.
 bool is_taken(const std::string& name) {
   return name == "figure4" || name == "figure5" || name == "figure6" || name == "claims" || name == "commands" ||
          name.starts_with("frames_");
@@ -115,7 +115,7 @@ size_t cell_count(const std::vector<StudyResult>& studies) {
   return cells;
 }
 
-/// `studies`: those before, and the one that the table belongs to.
+/// `studies`: earlier ones and the table's own.
 Table read_table(const JsonCursor& json, const std::vector<StudyResult>& studies) {
   json.expect_keys({"name", "title", "explanation", "columns", "name_columns", "rows"});
   Table table;

@@ -8,20 +8,16 @@
 
 namespace glovebench::reports {
 
-/// What depends on the results alone: "studies" of results.json. Columns and measures that are times are left out.
+/// "studies" in results.json, without times.
 nlohmann::ordered_json studies_json(const std::vector<StudyResult>& studies);
-/// What differs from run to run: "studies" of timings.json. Tables without a time and studies without any are left
-/// out; a table that has one keeps the columns that name its rows.
+/// "studies" in timings.json: tables with a time, reduced to times and naming columns.
 nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies);
 
-/// Reads "studies" of results.json back. Throws Error for what studies_json does not write: names that are not
-/// lower-case letters, digits and underscores (a table's names a file), or that come twice, rows that do not have
-/// one cell a column, cells that are neither text, number nor null.
+/// Throws: Error for anything that studies_json does not write.
 std::vector<StudyResult> read_studies(const JsonCursor& json);
 
-/// What every writer relies on; anything else is a broken invariant: names as above, each of a table or a measure
-/// once in all studies and no other report's file, one cell a column in each row, at least one column that names a
-/// row, none of those a time, at most six digits.
+/// Checks writers' invariants: unique names that no other report's file has, one cell per column, at least one
+/// naming column and none of them a time, at most six digits.
 void check_studies(const std::vector<StudyResult>& studies);
 
 }  // namespace glovebench::reports

@@ -34,7 +34,7 @@ bool is_name_column(const Table& table, size_t column) {
   return std::cmp_less(column, table.name_columns);
 }
 
-/// "0.00" for "-0.00": what rounds to zero has no sign.
+/// "0.00" for "-0.00".
 std::string without_minus_zero(std::string text) {
   if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
   return text;
@@ -54,7 +54,7 @@ std::string html_cell(const Cell& cell, const Column& column) {
                   : text;
 }
 
-/// A row whose cells are HTML. The plot's cell stands behind the names, if there is one.
+/// A row of HTML cells, with the plot's cell after the names if there is one.
 std::string html_row(const Table& table, const char* tag, const Texts& cells, const std::string* plot) {
   std::string html = "<tr>";
   for (size_t c = 0; c < cells.size(); ++c) {
@@ -64,13 +64,13 @@ std::string html_row(const Table& table, const char* tag, const Texts& cells, co
   return html + "</tr>";
 }
 
-/// A number with a minus sign instead of a hyphen; a dash where there is none.
+/// Replaces a hyphen by a minus sign, and no value by a dash.
 std::string latex_number(const std::string& text) {
   if (text == "-") return "--";
   return text.starts_with('-') ? "$-$" + escape_latex(text.substr(1)) : escape_latex(text);
 }
 
-/// How wide the columns of a terminal's lines are from the first on, as their texts need.
+/// Column widths that the texts need on a terminal.
 std::vector<size_t> widths_of(const std::vector<Texts>& lines, size_t first) {
   std::vector<size_t> widths(lines.front().size());
   for (const Texts& line : lines)
@@ -78,8 +78,8 @@ std::vector<size_t> widths_of(const std::vector<Texts>& lines, size_t first) {
   return widths;
 }
 
-/// A spreadsheet takes a text for a formula that begins like one. An apostrophe, which it does not show, makes it a
-/// text again. A number stays a number.
+/// A spreadsheet takes text for a formula if it begins like one. An apostrophe, which it hides, prevents that.
+/// Numbers stay numbers.
 std::string without_formula(const std::string& text) {
   const bool looks_like_one = !text.empty() && std::string_view("=+-@\t\r\n").find(text[0]) != std::string::npos;
   double number = 0;

@@ -29,7 +29,7 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
   return parts;
 }
 
-/// Cells of a line of CSV; quotes around a cell may hold commas.
+/// Cells of a CSV line; quoted cells may contain commas.
 std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> cells = {""};
   bool is_quoted = false;
@@ -44,7 +44,7 @@ std::vector<std::string> csv_cells(const std::string& line) {
   return cells;
 }
 
-/// What was written of a study, read without the code that wrote it.
+/// A written study, read without the code that wrote it.
 struct Written {
   std::vector<std::vector<std::string>> csv;       ///< with the heading
   std::vector<std::vector<std::string>> markdown;  ///< without it
@@ -64,7 +64,7 @@ Written read_written(const std::string& folder, const Table& table, const std::s
   return written;
 }
 
-/// The table in results.json or timings.json; null if it has none of that name.
+/// The table in results.json or timings.json; null if there is none.
 json find_table(const json& document, const std::string& name) {
   for (const json& study : document["studies"])
     for (const json& table : study["tables"])
@@ -72,14 +72,14 @@ json find_table(const json& document, const std::string& name) {
   return nullptr;
 }
 
-/// The cell of a JSON file in that row, and column of that key.
+/// Cell of a JSON file by row and column key.
 json find_cell(const json& table, size_t row, const std::string& key) {
   for (size_t c = 0; c < table["columns"].size(); ++c)
     if (table["columns"][c]["key"] == key) return table["rows"][row][c];
   return "no such column";
 }
 
-/// The CSV's cell as a table to read shows it.
+/// A CSV cell as a table for people shows it.
 std::string as_shown(const std::string& csv, const Column& column, const Cell& cell) {
   if (csv.empty()) return "-";
   if (!std::holds_alternative<double>(cell)) return csv;

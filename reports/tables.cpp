@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The errors of Figure 4 and where the paper's are.
+/// The errors of Figure 4, with the paper's members.
 struct Headline {
   std::string_view metric;
   double PaperErrors::*paper;
@@ -32,7 +32,7 @@ std::optional<double> covered_percent(const ExperimentResult& experiment) {
   return percent;
 }
 
-/// At most six columns wide, up to an error of a kilometre.
+/// At most six columns wide, for errors up to a kilometer.
 std::string narrow(const std::optional<double>& value) {
   return fixed(value, !value || *value < 99.995 ? 2 : *value < 9999.95 ? 1 : 0);
 }
@@ -75,7 +75,7 @@ std::string figure4_csv_line(const ExperimentResult& experiment, const PaperErro
   return csv_line(cells);
 }
 
-/// All errors of a variant, or of the paper, in one cell.
+/// All errors of one variant or of the paper in one cell.
 std::string errors_cell(const ExperimentResult* experiment) {
   if (!experiment || experiment->coverage.frames == 0) return "-";
   return fmt::format("{} / {} / {}, {}%", fixed(experiment->aggregate_of("position_error_mm").mean, 2),
@@ -89,7 +89,7 @@ std::string errors_cell(const PaperErrors* paper) {
   return fmt::format("{:.2f} / {:.2f} / {:.2f}", paper->position_mm, paper->posture_deg, paper->rotation_deg);
 }
 
-/// A row of LaTeX that spans each variant's columns with its title.
+/// A LaTeX row whose titles span each variant's columns.
 std::string variant_heading() {
   std::string titles = " & ", rules;
   int column = 3;

@@ -37,7 +37,7 @@ std::string escape_xml(const std::string& text) {
   for (const char c : escape_html(valid_utf8(text))) {
     const auto code = static_cast<unsigned char>(c);
     if (c == '\t' || c == '\n' || c == '\r')
-      escaped += fmt::format("&#{};", code);  // else an attribute would turn them into spaces
+      escaped += fmt::format("&#{};", code);  // an attribute would turn them into spaces
     else if (code < 0x20)
       escaped += kReplacement;
     else
@@ -73,7 +73,7 @@ std::string escape_latex(const std::string& text) {
     if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) {
       escaped.append("\\") += c;
     } else if (std::string_view("[]*").find(c) != std::string_view::npos) {
-      escaped.append("{").append(1, c) += "}";  // else an option of the \\ before it
+      escaped.append("{").append(1, c) += "}";  // else LaTeX takes it for an option of the \\ before it
     } else if (c == '\\') {
       escaped += "\\textbackslash{}";
     } else if (c == '~') {

@@ -6,12 +6,10 @@
 
 namespace glovebench::bench {
 
-/// Where the search for a point's closest point starts: at its last face; at first, at that of the point of its
-/// color before it.
+/// Starts a search at the point's last face, or at that of the previous point of its color.
 class WarmStart {
  public:
-  /// The closest point of that face; face -1 if there is none yet. `last` is the point's last answer, or has face
-  /// -1.
+  /// The point on that face; face -1 if there is none. `last`: the point's last answer, or face -1.
   ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
     const int face = last.face >= 0 ? last.face : faces_[point.label];
     if (face < 0) return {};

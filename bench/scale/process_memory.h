@@ -5,23 +5,23 @@
 
 namespace glovebench::bench {
 
-/// Resident memory of this process, bytes.
+/// Resident memory, bytes.
 struct ResidentMemory {
-  int64_t anonymous = 0;  ///< its own
-  int64_t file = 0;       ///< pages of files, which the system can take back
-  int64_t peak = 0;       ///< of both together, since the last `reset_peak`
+  int64_t anonymous = 0;
+  int64_t file = 0;  ///< pages that the system can take back
+  int64_t peak = 0;  ///< of their sum, since `reset_peak`
 };
 ResidentMemory resident_memory();
 void reset_peak();
 
-/// Page faults of this process since it began: what was read from a disk, and what was in memory already.
+/// Page faults read from disk (major) and memory (minor).
 struct PageFaults {
   int64_t major = 0, minor = 0;
 };
 PageFaults page_faults();
 
-/// Takes all pages of a file out of this process's memory and out of the system's cache, unless another process has
-/// them mapped. What was written must have been flushed. Throws Error if there is no such file.
+/// Removes a flushed file's pages from process and system cache, unless another process maps them.
+/// Throws: Error if it is missing.
 void drop_from_memory(const std::string& path);
 
 }  // namespace glovebench::bench

@@ -1,6 +1,6 @@
 #pragma once
 
-// Damage for the tests of parsers. Not part of the library.
+// For tests of parsers.
 
 #include <array>
 #include <string>
@@ -9,8 +9,7 @@
 
 namespace glovebench {
 
-/// The text with a few bytes overwritten, removed, doubled, or a digit more, cut short, or, after one of its
-/// colons, a hostile JSON value.
+/// The text with one random damage: changed, lost or repeated bytes, a cut, or a hostile JSON value.
 inline std::string damaged_text(std::string text, RandomStream& random) {
   static const std::array<std::string, 7> kHostile = {"null", "-1", "1e999", "[[[[", "NaN", "18446744073709551615",
                                                       "{}"};

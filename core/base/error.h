@@ -5,8 +5,7 @@
 
 namespace glovebench {
 
-/// Bad input at an edge of the program: a file, a configuration, a command line, a device.
-/// The message is one line that names where it was, which field, what was found and what was expected.
+/// Bad input from outside the program. The message is one line.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
@@ -15,7 +14,7 @@ class Error : public std::runtime_error {
       : std::runtime_error(where + ": " + field + ": found " + found + ", expected " + expected) {}
 };
 
-/// A broken invariant of the program itself; stays on in release builds.
+/// Throws: std::logic_error, also in release builds, if an invariant of the program is broken.
 inline void check(bool condition, const char* what) {
   if (!condition) throw std::logic_error(std::string("broken invariant: ") + what);
 }

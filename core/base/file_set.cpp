@@ -50,7 +50,7 @@ std::pair<std::string, ManifestEntry> entry_from(const nlohmann::json& json, con
   return {std::move(name), std::move(entry)};
 }
 
-/// The content of a file, if it is what the manifest says.
+/// The content of a file if it matches the manifest.
 std::optional<std::string> content_of(const std::string& path, const ManifestEntry& entry, uint64_t max_bytes) {
   std::error_code error;
   if (fs::file_size(path, error) != entry.bytes || error) return std::nullopt;
@@ -70,7 +70,7 @@ bool is_file(const std::string& path) {
   return fs::is_regular_file(fs::symlink_status(path, ignored));
 }
 
-/// Throws Error if something is in the place of a new file that the file could not replace.
+/// Throws: Error if the place holds something that a new file cannot replace.
 std::optional<struct stat> file_in_place(const std::string& path) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return std::nullopt;
@@ -84,7 +84,7 @@ std::optional<struct stat> file_in_place(const std::string& path) {
   return found;
 }
 
-/// Writes a new file, of which messages speak as `place`.
+/// Writes a new file, which messages call `place`.
 void write_new_file(const std::string& path, std::string_view content, const std::optional<struct stat>& older,
                     mode_t mode, const std::string& place) {
   make_folders(folder_above(path));
@@ -95,7 +95,8 @@ void write_new_file(const std::string& path, std::string_view content, const std
   if (error != 0) throw Error(place, "file", std::strerror(error), "room to write it whole");
 }
 
-/// None if there is none. Throws Error if it is no regular file or cannot be read.
+/// Nothing if there is no manifest.
+/// Throws: Error if it is not a regular file or is unreadable.
 std::optional<Manifest> own_manifest(const std::string& folder) {
   file_in_place(folder + "/" + kManifest);
   return read_manifest(folder);
@@ -127,7 +128,7 @@ void place_files(const std::string& folder, const std::vector<std::string>& adde
   if (error) throw Error(staged, "folder", error.message(), "one that can be removed");
 }
 
-/// Finishes a write that was interrupted after its manifest. What else is staged goes.
+/// Finishes a write that was interrupted after step 2, and removes all other staged files.
 void finish_write(const std::string& folder, const std::optional<Manifest>& manifest) {
   const std::string staged = staged_folder(folder);
   std::error_code error;
@@ -142,7 +143,7 @@ void finish_write(const std::string& folder, const std::optional<Manifest>& mani
   if (const std::string path = staged + "/" + kRemoved; manifest && is_file(path)) {
     std::istringstream lines(read_regular_file(path, kLargestManifest));
     std::string line;
-    // A list with the hash of another manifest is void: that manifest never came into its place.
+    // A list with the hash of another manifest is void: that manifest was never put in place.
     if (std::getline(lines, line) && line == hash_file(folder + "/" + kManifest))
       while (std::getline(lines, line))
         if (!manifest->contains(line)) removed.push_back(line);
@@ -194,13 +195,13 @@ const ManifestEntry* FileSet::entry(const std::string& name) const {
 }
 
 bool FileSet::has(const std::string& name) const {
-  std::error_code ignored;  // what cannot be looked for cannot be read
+  std::error_code ignored;  // a file that cannot be looked for cannot be read
   return manifest_ ? entry(name) != nullptr : fs::exists(path(name), ignored);
 }
 
 std::optional<std::string> FileSet::as_written(const std::string& name, const ManifestEntry& entry,
                                                uint64_t max_bytes) const {
-  // The place once more: the writer may have moved the file there since.
+  // Looks at the place twice: meanwhile a writer may have moved the file there.
   for (const std::string& at : {path(name), staged_folder(folder_) + "/" + name, path(name)})
     if (std::optional<std::string> content = content_of(at, entry, max_bytes)) return content;
   return std::nullopt;
@@ -279,7 +280,7 @@ void WholeFiles::remove(const std::string& name) {
 
 void WholeFiles::commit() {
   const std::string staged = staged_folder(folder_), manifest = folder_ + "/" + kManifest;
-  // Before the manifest: afterwards an error could only be reported.
+  // Before the manifest, since afterwards an error could only be reported.
   for (const std::string& needed : folders_of(folder_, added_)) make_folders(needed);
   const std::string text = manifest_json(manifest_);
   std::string lines = hash_text(text) + "\n";
@@ -289,7 +290,7 @@ void WholeFiles::commit() {
   for (const std::string& changed : folders_of(staged, added_)) sync_folder(changed);
   if (std::rename((staged + "/" + kManifest).c_str(), manifest.c_str()) != 0)
     throw Error(manifest, "file", std::strerror(errno), "a file that can be replaced");
-  is_committed_ = true;  // whatever fails from here on, the staged files are the set
+  is_committed_ = true;  // from here on the staged files are the set, even if a step fails
   sync_folder(folder_);
   place_files(folder_, added_, removed_);
 }

@@ -14,25 +14,19 @@
 
 namespace glovebench {
 
-// Files of one folder that change together: a run's report, a comparison, a baseline, a recording. `manifest.json`
-// in the folder names each of them, its size and its hash. A write has three steps:
+// Sets: files of one folder that change together (core/base/README.md). A write
 //
-//   1. The new files are written and synced in FOLDER/.staged/. The manifest is still the older one.
-//   2. The new manifest replaces the older one, by a rename.
-//   3. The files move from .staged to their places; the files that the write removes go.
+//   1. writes and syncs the new files in FOLDER/.staged/,
+//   2. replaces manifest.json by a rename,
+//   3. moves the staged files to their places and removes others.
 //
-// A reader takes a file from its place if its hash is the manifest's, else from .staged. So it reads the state
-// before the write or the one after it, wherever a kill or a power failure ended the writer; the next writer first
-// finishes step 3. A folder without a manifest is older than manifests or was made by hand: its files are read as
-// they are.
-//
-// A write replaces and removes the files that it names. All other files, and their entries of the manifest, stay.
+// After a crash the next writer finishes step 3.
 
 inline constexpr const char* kManifest = "manifest.json";
-/// Bytes, for readers and writers: 1.7 million files of a recording, more than 7 hours.
+/// Bytes; enough for 1.7 million files.
 inline constexpr uint64_t kLargestManifest = uint64_t{256} << 20;
 
-/// A file is missing or has another content than the manifest says: it was changed, or it is damaged.
+/// A missing, changed or damaged file.
 class BrokenSet : public Error {
  public:
   using Error::Error;
@@ -45,35 +39,35 @@ struct ManifestEntry {
 /// By the file's path in the folder.
 using Manifest = std::map<std::string, ManifestEntry>;
 
-/// Throws Error if it is larger.
+/// Throws: Error beyond `max_bytes`.
 std::string manifest_json(const Manifest& manifest, uint64_t max_bytes = kLargestManifest);
-/// Throws Error. A name that leads out of the folder is one.
+/// Throws: Error, also if a name leads out of the folder.
 Manifest parse_manifest(const std::string& text, const std::string& where);
-/// None if the folder has no manifest. Throws Error if it cannot be read.
+/// Nothing if the folder has none.
+/// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
 
-/// A folder's files to read. All reads through one object are of one state of the folder.
+/// Reads files of one state of the folder.
 class FileSet {
  public:
-  /// Throws Error if there is a manifest that cannot be read.
+  /// Throws: Error if the manifest is unreadable.
   explicit FileSet(std::string folder) : folder_(std::move(folder)), manifest_(read_manifest(folder_)) {}
 
   const std::string& folder() const { return folder_; }
-  /// What messages call the file.
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// The manifest names the file; without a manifest: it is there.
+  /// Whether the manifest names the file or, without a manifest, it exists.
   bool has(const std::string& name) const;
-  /// Throws BrokenSet if the manifest does not name the file or the file is not what the manifest says; Error if it
-  /// cannot be read or is larger.
+  /// Throws: BrokenSet if it differs from the manifest; Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
 
   struct Found {
     std::string content;
-    bool is_changed = false;  ///< the manifest says that the content is another
+    bool is_changed = false;  ///< the content differs from the manifest
   };
-  /// The same of a file that a user may change or add by hand: then it is read as it is. Throws Error.
+  /// Reads a file that may differ from the manifest, or not be in it.
+  /// Throws: Error.
   Found find(const std::string& name, uint64_t max_bytes) const;
-  /// Throws BrokenSet about a file that was changed.
+  /// Throws: BrokenSet.
   [[noreturn]] void refuse(const std::string& name) const;
 
  private:
@@ -85,8 +79,8 @@ class FileSet {
   std::optional<Manifest> manifest_;
 };
 
-/// Held while a folder is written. Throws Error if another holder keeps it for more than ten seconds. A file system
-/// that cannot lock folders does without.
+/// Locks a folder for one writer, if the file system can.
+/// Throws: Error if another process holds it for over 10 s.
 class FolderLock {
  public:
   explicit FolderLock(const std::string& folder);
@@ -98,9 +92,8 @@ class FolderLock {
   int descriptor_;
 };
 
-/// A write of files that change together. Creates the folder, and waits for ten seconds if another process writes
-/// into it. A manifest that cannot be read is an error and stays as it is. A full disk, an error or a missing
-/// `commit` leaves the older files. Every function throws Error.
+/// Writes a set; holds a FolderLock. Unnamed files stay, and without `commit` all files stay.
+/// Throws: Error, from every function.
 class WholeFiles {
  public:
   explicit WholeFiles(const std::string& folder);
@@ -108,15 +101,12 @@ class WholeFiles {
   WholeFiles(const WholeFiles&) = delete;
   WholeFiles& operator=(const WholeFiles&) = delete;
 
-  /// The manifest after `commit`.
   const Manifest& manifest() const { return manifest_; }
-  /// `name` may have folders of its own, but stays in the folder (core/base/text.h). In its place may be a regular
-  /// file, whose mode the new one takes, or nothing; a link is an error. A new manifest is as private as the most
-  /// private of the files.
+  /// `name` may contain folders. A replaced file keeps its mode; a link is an error. A new manifest gets the
+  /// permissions that all files share.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
-  /// The file goes, if it is there.
   void remove(const std::string& name);
-  /// What `add` was given, in its order.
+  /// The added files, in order.
   const std::vector<std::string>& names() const { return added_; }
   void commit();
 

@@ -11,14 +11,13 @@
 
 namespace glovebench {
 
-/// A reader, or a state machine, that is tried with any bytes. `run` may return or throw Error of one line; the
-/// driver (eval/fuzz_main.cpp) counts everything else as a finding.
+/// Code that eval/fuzz_main.cpp runs on any bytes. Only Error of one line may be thrown.
 struct FuzzTarget {
-  std::string name;  ///< of the folder ci/corpora/NAME; X of a file X_fuzz.cpp, whose function X_fuzz is `run`
+  std::string name;  ///< as in NAME_fuzz.cpp and ci/corpora/NAME
   std::function<void(std::string_view bytes)> run;
 };
 
-/// Runs a reader that may throw Error of one line.
+/// For readers, which may throw Error.
 template <typename Reader>
 void expect_value_or_error(const Reader& reader) {
   try {
@@ -28,7 +27,7 @@ void expect_value_or_error(const Reader& reader) {
   }
 }
 
-/// Runs a state machine, which must not throw Error: that is a finding.
+/// For state machines, which must not throw Error.
 template <typename Run>
 void without_error(const Run& run) {
   try {
@@ -38,7 +37,7 @@ void without_error(const Run& run) {
   }
 }
 
-/// The input as values; zeros when it has ended.
+/// The input as values; zeros after its end.
 class FuzzInput {
  public:
   explicit FuzzInput(std::string_view bytes) : left_(bytes) {}

@@ -10,7 +10,7 @@
 
 namespace glovebench {
 
-/// A row-major image that owns its pixels; row 0 is the top row. Copying copies the pixels.
+/// Row-major pixels; row 0 is the top.
 template <typename T>
 class Image {
  public:
@@ -28,7 +28,7 @@ class Image {
   const T& operator()(int u, int v) const { return pixels_[static_cast<size_t>(v) * width_ + u]; }
   T& operator[](size_t i) { return pixels_[i]; }
   const T& operator[](size_t i) const { return pixels_[i]; }
-  /// The pixels of a row. Hardened builds check the row once and no column: for loops over all pixels.
+  /// For loops over rows; hardened builds check the row only.
   T* row(int v) { return &pixels_[static_cast<size_t>(v) * width_]; }
   const T* row(int v) const { return &pixels_[static_cast<size_t>(v) * width_]; }
   T* data() { return pixels_.data(); }
@@ -49,16 +49,16 @@ class Image {
 /// Red, green, blue, each 0..255.
 using Rgb = std::array<uint8_t, 3>;
 using ColorImage = Image<Rgb>;
-/// Distance along the optical axis (z, not ray length) in metres; 0 where there is no value.
+/// Depth z along the optical axis, not the length of the ray; 0: no value.
+/// Units: m.
 using DepthImage = Image<float>;
-/// 0 where there is no glove, 1..kColorCount otherwise.
+/// 1..kColorCount; 0 where there is no glove.
 using LabelImage = Image<uint8_t>;
 
-/// The glove has ten colors, labeled 1..10 (section III-A).
+/// Paper: section III-A.
 inline constexpr int kColorCount = 10;
 
-/// Calls `visit` with the column of each pixel of a row that is not zero, from left to right. Where few are, it
-/// takes little more than a look at eight at a time.
+/// Calls `visit(u)` for the nonzero pixels of row v, from left to right.
 template <typename Visit>
 void for_each_nonzero(const Image<uint8_t>& image, int v, const Visit& visit) {
   const uint8_t* const row = image.data() + static_cast<size_t>(v) * image.width();

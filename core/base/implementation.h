@@ -4,8 +4,7 @@
 
 namespace glovebench {
 
-/// Which of two implementations of the same stage, whose answers are equal: the one that follows the paper line by
-/// line, or the one to use.
+/// Two implementations with equal results: `plain` follows the paper line by line, `fast` is for use.
 enum class Implementation { plain, fast };
 constexpr auto names_of(Implementation) {
   return std::to_array<std::string_view>({"plain", "fast"});

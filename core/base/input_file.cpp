@@ -24,8 +24,7 @@ const char* kind_name(mode_t mode) {
   return S_ISSOCK(mode) ? "a socket" : "no file";
 }
 
-/// Lets reads of a pipe wait, as they do unless it was opened otherwise, and waits for its first writer: a pipe
-/// without one reads like an empty file.
+/// Lets reads of a pipe wait, and waits for its first writer: a pipe without a writer reads like an empty file.
 void wait_for_writer(int descriptor) {
   const int flags = ::fcntl(descriptor, F_GETFL);
   ::fcntl(descriptor, F_SETFL, flags & ~O_NONBLOCK);
@@ -46,7 +45,7 @@ std::string read_all(const std::string& path, InputFile::Kind kind, uint64_t max
   std::vector<char> chunk(1 << 16);
   while (const size_t bytes = file.read(chunk)) {
     content.append(chunk.data(), bytes);
-    check_size(content.size());  // a pipe has no size of its own, and a file may grow
+    check_size(content.size());  // a pipe has no size, and a file may grow
   }
   return content;
 }
@@ -54,7 +53,7 @@ std::string read_all(const std::string& path, InputFile::Kind kind, uint64_t max
 }  // namespace
 
 InputFile::InputFile(const std::string& path, Kind kind) : path_(path) {
-  // Without waiting: a device may do so for as long as it likes before it can be refused.
+  // O_NONBLOCK, since opening a device may block before it can be refused.
   descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), kInputExpected);
   struct stat status = {};

@@ -9,25 +9,25 @@
 
 namespace glovebench {
 
-/// A file that is open for reading: a regular file or a pipe. Devices, sockets and folders are refused, since they
-/// may never end. What is read is what was checked, even if the name means another file meanwhile.
+/// An open file; its name may go to another file meanwhile.
 class InputFile {
  public:
   enum class Kind { regular, regular_or_pipe };
 
-  /// Waits for the writer of a named pipe. Throws Error.
+  /// Waits for the writer of a pipe.
+  /// Throws: Error, also for devices, sockets and folders.
   explicit InputFile(const std::string& path, Kind kind = Kind::regular_or_pipe);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// Bytes of a regular file; none for a pipe. The files of /proc say 0.
+  /// Bytes (0 in /proc); empty for a pipe.
   std::optional<uint64_t> size() const { return size_; }
   int descriptor() const { return descriptor_; }
-  /// Throws Error if the file was written to since it was opened, as far as its size and time tell. A file that
-  /// took its name is another one.
+  /// Throws: Error if size or time of change are not those at opening.
   void require_unchanged() const;
-  /// Reads bytes into the front of `room`; 0 at the end of the file. Throws Error.
+  /// Returns the number of bytes, 0 at the end.
+  /// Throws: Error.
   size_t read(std::span<char> room);
 
  private:
@@ -37,21 +37,19 @@ class InputFile {
   struct timespec modified_ = {};
 };
 
-// Larger files are refused before they take memory (core/README.md), bytes.
+// Largest files that are read (core/README.md), bytes.
 /// Trajectories and posture sets.
 inline constexpr uint64_t kLargestMovement = uint64_t{64} << 20;
-/// Results and estimates: the report of some million frames.
+/// Results and estimates of some million frames.
 inline constexpr uint64_t kLargestResults = 256'000'000;
-/// Files that do not grow with the frames: times, ratios, noise floors.
+/// Times, ratios, noise floors.
 inline constexpr uint64_t kLargestSmallFile = 16'000'000;
-/// All others, where nobody says what they may hold.
+/// All others.
 inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
-/// The whole content of a regular file or a pipe. Throws Error if it is missing, cannot be read or is larger than
-/// `max_bytes`, of which a reader says how many its files may have (core/README.md).
+/// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// The same of a file that a folder brings along, which nobody named: a pipe is refused, since its reader would
-/// wait for a writer that may never come.
+/// As `read_file`, but refuses pipes: their writer may never come.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

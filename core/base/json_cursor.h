@@ -18,9 +18,9 @@ namespace glovebench {
 class JsonItems;
 class JsonMembers;
 
-/// A value in a JSON document and the way to it, for strict reading. A missing or superfluous key, or a value of
-/// another kind or range, throws Error(where, "frames[17].angles_deg[3]", found, expected). Refers to the document
-/// and to `where`, which must outlive it.
+/// Reads a JSON value strictly. The document and `where` must outlive the cursor.
+/// Throws: Error(where, "frames[17].angles_deg[3]", found, expected) for missing or unknown keys and for wrong
+/// kinds or ranges.
 class JsonCursor {
  public:
   JsonCursor(const nlohmann::json& value, const std::string& where, std::string path = "")
@@ -28,15 +28,13 @@ class JsonCursor {
   JsonCursor(const nlohmann::json& value, std::string&& where, std::string path = "") = delete;
   JsonCursor(nlohmann::json&& value, const std::string& where, std::string path = "") = delete;
 
-  /// An object with all required keys, and no others but optional ones.
+  /// Requires all `required` keys and no others but `optional` ones.
   void expect_keys(std::initializer_list<std::string_view> required,
                    std::initializer_list<std::string_view> optional = {}) const {
     expect_keys({required.begin(), required.end()}, {optional.begin(), optional.end()});
   }
   void expect_keys(std::span<const std::string_view> required, std::span<const std::string_view> optional) const;
-  /// An object with this "format" and "version".
   void expect_format(std::string_view format, int64_t version) const;
-  /// An object with this key.
   bool has(std::string_view key) const { return object().contains(key); }
   JsonCursor operator[](std::string_view key) const;
   JsonMembers members() const;
@@ -44,7 +42,6 @@ class JsonCursor {
   JsonItems items() const;
   /// At least one.
   JsonItems some_items() const;
-  /// Exactly that many.
   JsonItems items(size_t count) const;
 
   bool is_null() const { return value_->is_null(); }
@@ -52,7 +49,7 @@ class JsonCursor {
   bool is_integer() const { return value_->is_number_integer(); }
   std::string text() const;
   void expect_text(std::string_view expected) const;
-  /// Fit for a file or a table cell (core/base/text.h).
+  /// A text that passes `is_name`.
   std::string name() const;
   template <Named Enum>
   Enum one_of() const {
@@ -61,7 +58,6 @@ class JsonCursor {
     return *value;
   }
   bool boolean() const;
-  /// Finite, as every number of a parsed text is.
   double number() const;
   double number(double min, double max) const;
   std::optional<double> number_or_null(double min, double max) const;
@@ -72,7 +68,7 @@ class JsonCursor {
   Eigen::Vector3d vector3(std::optional<double> most = {}) const;
 
   const nlohmann::json& value() const { return *value_; }
-  /// "FILE: frames[17].angles_deg[3]"
+  /// "FILE: frames[17].angles_deg[3]".
   std::string place() const;
   [[noreturn]] void fail(const std::string& expected) const;
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
@@ -88,7 +84,7 @@ class JsonCursor {
   friend class JsonMembers;
 };
 
-/// The values of an array. A cursor is made when it is looked at, since it takes more memory than a value.
+/// An array. It makes a cursor only on access, which saves memory.
 class JsonItems {
  public:
   explicit JsonItems(const JsonCursor& array) : array_(array) {}
@@ -117,7 +113,6 @@ class JsonItems {
   JsonCursor array_;
 };
 
-/// The names and values of an object.
 class JsonMembers {
  public:
   explicit JsonMembers(const JsonCursor& object) : object_(object) {}

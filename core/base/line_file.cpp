@@ -35,7 +35,7 @@ void LineFile::append(std::string_view line) {
   if (error_ != 0) fail(error_);
   const std::string text = fmt::format("{}\n", line);
   if (const int error = write_all(descriptor_, text).error) {
-    // What was written of this line goes again.
+    // Removes the part of this line that was written.
     if (!partial_.empty() && ::ftruncate(descriptor_, bytes_) != 0) fail(errno);
     fail(error);
   }

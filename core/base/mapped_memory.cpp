@@ -18,7 +18,7 @@ MappedMemory MappedMemory::zeros(size_t bytes) {
   if (bytes == 0) return {};
   void* const data = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (data == MAP_FAILED) throw std::bad_alloc();
-  ::madvise(data, bytes, MADV_HUGEPAGE);  // a wish: small pages do, too
+  ::madvise(data, bytes, MADV_HUGEPAGE);  // optional: small pages work, too
   return {data, bytes, false};
 }
 
@@ -56,7 +56,7 @@ void MappedMemory::advise(size_t offset, size_t bytes, int advice) const {
   if (!is_file_) return;  // private memory would be lost
   const auto page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
   const size_t begin = (offset + page - 1) / page * page, end = std::min(offset + bytes, size_) / page * page;
-  if (begin < end) ::madvise(data_ + begin, end - begin, advice);  // a wish
+  if (begin < end) ::madvise(data_ + begin, end - begin, advice);  // optional
 }
 
 MappedMemory::~MappedMemory() {

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Where byte number `byte`, counted from 1, lies; in a text of one line that needs no number.
+/// The place of byte number `byte`, counted from 1. A text of one line needs no line number.
 std::string place_of(std::string_view text, size_t byte) {
   while (text.ends_with('\n')) text.remove_suffix(1);
   const std::string_view before = text.substr(0, byte > 0 ? byte - 1 : 0);
@@ -24,10 +24,9 @@ std::string place_of(std::string_view text, size_t byte) {
   return fmt::format("line {}, {}", std::ranges::count(before, '\n') + 1, column);
 }
 
-/// Memory that the parts of a document take from the heap, with what the heap adds to each.
+/// Heap memory of the parts of a document, with the heap's overhead.
 constexpr uint64_t kArrayBytes = 32, kObjectBytes = 64, kMemberBytes = 96, kTextBytes = 48;
-/// While a document is thrown away, the library keeps a list of values that still are to be. It doubles when it is
-/// full.
+/// To destroy a document the library keeps a list of values, which doubles when it is full.
 constexpr uint64_t kWaitingBytes = 3 * sizeof(json);
 
 uint64_t text_bytes(const std::string& text) {
@@ -35,9 +34,9 @@ uint64_t text_bytes(const std::string& text) {
   return text.size() > kWithin ? text.size() + 24 : 0;
 }
 
-/// Builds the document of a text and throws Error for what is no JSON, for a key that comes twice (the library
-/// would keep the last: who wrote the file by hand deserves to hear of it), and for more memory than the text may
-/// take.
+/// Builds a document.
+/// Throws: Error if the text is no JSON, takes too much memory, or repeats a key (the library would keep the last
+/// one).
 class StrictDocument : public json::json_sax_t {
  public:
   StrictDocument(std::string_view text, const std::string& where, uint64_t bytes_per_byte)
@@ -79,7 +78,7 @@ class StrictDocument : public json::json_sax_t {
   /// An array or object that is not closed yet.
   struct Level {
     json* container = nullptr;
-    const std::string* key = nullptr;  ///< of an object: of its last member
+    const std::string* key = nullptr;  ///< of an object's last member
     json* member = nullptr;            ///< that member's value
   };
 
@@ -100,7 +99,7 @@ class StrictDocument : public json::json_sax_t {
   }
   void grow(json::array_t& items) {
     const uint64_t before = items.capacity() * sizeof(json), after = std::max<uint64_t>(2 * before, sizeof(json));
-    charge(after);  // both are there while the values move
+    charge(after);  // both arrays exist while the values move
     items.reserve(after / sizeof(json));
     bytes_ -= before;
   }
@@ -142,13 +141,13 @@ class StrictDocument : public json::json_sax_t {
   json document_;
   std::vector<Level> levels_;
   uint64_t bytes_ = 0;
-  uint64_t waiting_ = 0, most_waiting_ = 0;  ///< values that may wait when the document is thrown away
+  uint64_t waiting_ = 0, most_waiting_ = 0;  ///< values that may be listed when the document is destroyed
 };
 
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& where) {
-  // The library would take it for the end.
+  // The library would take a zero byte for the end.
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
     throw Error(where, place_of(text, zero + 1), "a zero byte", "JSON");
   StrictDocument document(text, where, kJsonBytesPerByte);

@@ -6,8 +6,7 @@
 
 namespace glovebench {
 
-/// Every random number comes from a named stream: the hash of (seed, sequence, frame, purpose). So neither
-/// the number of threads nor the order of frames changes a result, and nothing is seeded from a clock.
+/// A random stream, seeded by a hash of the arguments: results do not depend on threads or order.
 class RandomStream {
  public:
   RandomStream(uint64_t seed, std::string_view sequence, int64_t frame, std::string_view purpose);
@@ -17,7 +16,7 @@ class RandomStream {
   double uniform();
   /// Uniform in [low, high).
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Standard normal by Box-Muller: the same on every platform, unlike std::normal_distribution.
+  /// Standard normal by Box-Muller: equal on every platform.
   double normal();
   /// Uniform in 0..count-1.
   uint64_t index(uint64_t count);

@@ -19,7 +19,7 @@ constexpr size_t kMostKept = size_t{64} << 20;  // bytes
 constexpr int kSmallest = 6;  // 64 bytes
 constexpr int kClasses = 27 - kSmallest;
 
-/// Which blocks serve so many bytes: 0 for the smallest; kClasses or more for what is not kept.
+/// The class of blocks for so many bytes: 0 for the smallest; kClasses or more are not kept.
 int class_of(size_t bytes) {
   return std::max<int>(0, std::bit_width(std::max<size_t>(bytes, 1) - 1) - kSmallest);
 }
@@ -28,10 +28,10 @@ size_t block_bytes(int block_class) {
   return size_t{1} << (block_class + kSmallest);
 }
 
-/// The destructors of a thread run in an order that nobody knows.
+/// Set when `waiting` is destroyed: other destructors of the thread may run later and give memory back.
 thread_local bool thread_ends = false;
 
-/// Blocks that wait, in a list for each size; a block that waits holds the address of the next.
+/// Lists of free blocks, one for each size. A free block holds the address of the next.
 class Waiting {
  public:
   ~Waiting() {
@@ -40,7 +40,7 @@ class Waiting {
       while (block != nullptr) std::free(std::exchange(block, block->next));
   }
 
-  /// Null if there is none.
+  /// Null if no block is free.
   void* take(int block_class) {
     Block* const block = first_[block_class];
     if (block == nullptr) return nullptr;
@@ -71,7 +71,7 @@ void* from_heap(size_t bytes) {
   return memory;
 }
 
-/// The sanitizer does not see what is used after it was given back, or beyond the size that was asked for.
+/// With recycling the address sanitizer would miss use after release and access beyond the requested size.
 #ifdef GLOVEBENCH_ADDRESS_SANITIZER
 constexpr bool kRecycles = false;
 #else

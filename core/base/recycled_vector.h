@@ -6,11 +6,11 @@
 
 namespace glovebench {
 
-/// Memory of at least that size, aligned to 64 bytes, from what this thread gave back or, if there is nothing of
-/// about that size, from the heap. Throws std::bad_alloc.
+/// Memory of at least `bytes`, aligned to 64 bytes, from this thread's store or the heap.
+/// Throws: std::bad_alloc.
 void* take_memory(size_t bytes);
-/// Gives back what `take_memory` gave for that size, on any thread: this thread keeps it for its next request, up
-/// to 64 MiB a thread. With the address sanitizer nothing is kept, and blocks end where they should.
+/// Gives memory from `take_memory(bytes)` to this thread's store of up to 64 MiB, which is off with the address
+/// sanitizer.
 void give_memory(void* memory, size_t bytes) noexcept;
 
 template <typename T>
@@ -31,8 +31,7 @@ struct RecyclingAllocator {
   friend bool operator==(const RecyclingAllocator&, const RecyclingAllocator&) { return true; }
 };
 
-/// A vector for what is made and thrown away with each frame on one thread: its memory comes from a frame before
-/// that was as large, without a request to the heap and without pages that the system has to clear.
+/// A vector for data of one frame. It reuses the memory of earlier frames.
 template <typename T>
 using RecycledVector = std::vector<T, RecyclingAllocator<T>>;
 

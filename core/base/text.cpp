@@ -29,7 +29,7 @@ std::string printable(std::string_view text) {
 }
 
 std::string quoted_excerpt(std::string_view text) {
-  // Replacing instead of throwing: the text may be no UTF-8, and is not once it is cut within a character.
+  // Replaces invalid UTF-8: the text may hold any bytes, or be cut within a character.
   std::string quoted =
       nlohmann::json(text.substr(0, kLongest)).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   if (text.size() > kLongest) quoted += "...";
@@ -72,7 +72,7 @@ std::string place_within(const std::string& folder, std::string_view name) {
   const std::string path = path_within(folder, name);
   for (size_t end = name.find('/'); end != std::string_view::npos; end = name.find('/', end + 1)) {
     const std::string above = folder + "/" + std::string(name.substr(0, end));
-    std::error_code ignored;  // what cannot be looked at cannot be followed either
+    std::error_code ignored;  // a folder that cannot be looked at cannot be followed either
     if (std::filesystem::is_symlink(std::filesystem::symlink_status(above, ignored)))
       throw Error(above, "folder", "a link", "a folder, or nothing");
   }

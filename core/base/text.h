@@ -1,6 +1,6 @@
 #pragma once
 
-// Text that comes from files: as an error of one line shows it, and as a name that may become part of a path.
+// Excerpts for error messages, and names for paths.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -8,32 +8,32 @@
 
 namespace glovebench {
 
-// Excerpts are short and in plain ASCII, whatever the file holds.
+// Excerpts are beginnings in ASCII.
 
-/// The beginning of a text, with a question mark for each byte that cannot be shown.
+/// "?" stands for unprintable bytes.
 std::string printable(std::string_view text);
 
-/// The beginning of a text in quotes, escaped as in JSON: what a name was can be told from it.
+/// In quotes, escaped as in JSON.
 std::string quoted_excerpt(std::string_view text);
 
-/// A value; of an array or an object what it is, for what lies in it may be deep.
+/// A value; of an array or object only the kind.
 std::string excerpt(const nlohmann::json& value);
 
-/// The rule for every name that comes from a file and may become part of a path: 1 to 64 letters, digits, '_', '-',
-/// '.' or spaces, beginning with a letter or digit. Such a name leads out of no folder and is not hidden in it.
+/// Whether a name may be part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces, starting with a letter
+/// or digit.
 bool is_name(std::string_view text);
 inline constexpr const char* kNameExpected =
     "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
 
-/// The name itself. Throws Error naming `where` and `field` unless it is one.
+/// Returns `name`.
+/// Throws: Error unless `is_name`.
 std::string checked_name(std::string name, const std::string& where, const std::string& field);
 
-/// "FOLDER/NAME", for writers: whatever a name is made of, the path stays in the folder. The name may have folders
-/// of its own ("tables/figure4.csv"). Throws Error if it is absolute, or a part of it is empty, begins with a dot
-/// or holds a control character.
+/// "FOLDER/NAME"; the name may contain folders ("tables/figure4.csv").
+/// Throws: Error for an absolute name, or a part that is empty, begins with a dot or has control characters.
 std::string path_within(const std::string& folder, std::string_view name);
-/// The same path, for what is created, replaced or removed there. Throws Error also if a folder of the name's own
-/// is a symbolic link, which may lead anywhere. What the name itself is does not matter here.
+/// As `path_within`, for writing or removing.
+/// Throws: Error also if a folder in the name is a symbolic link.
 std::string place_within(const std::string& folder, std::string_view name);
 
 }  // namespace glovebench

@@ -78,12 +78,12 @@ int open_stream(const OutputTarget& target, const std::string& path) {
 }
 
 int create_like(const std::optional<struct stat>& older, const std::string& new_path, mode_t mode) {
-  // Nobody reads meanwhile what the older file kept from them.
+  // 0600 first: nobody may read in between what the older file's mode hides.
   const int created = ::open(new_path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, older ? 0600 : mode);
   if (created < 0 || !older) return created;
   struct stat own {};
   const bool differs = ::fstat(created, &own) == 0 && (own.st_uid != older->st_uid || own.st_gid != older->st_gid);
-  // Only root may give files away; to others the file is their own from now on.
+  // Only root may change the owner; otherwise the file belongs to this process's user.
   if (differs && ::fchown(created, older->st_uid, older->st_gid) != 0) errno = 0;
   constexpr mode_t kPermissions = 0777;
   ::fchmod(created, older->st_mode & kPermissions);
@@ -121,7 +121,7 @@ void make_folders(const std::string& folder) {
 
 void sync_folder(const std::string& folder) {
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (opened < 0) return;  // a folder that may be written, not read
+  if (opened < 0) return;  // a folder that may be written but not read
   const int reason = ::fsync(opened) == 0 ? 0 : errno;
   ::close(opened);
   if (reason == EIO || reason == ENOSPC || reason == EDQUOT)
@@ -131,13 +131,13 @@ void sync_folder(const std::string& folder) {
 WholeFile::WholeFile(const std::string& path, mode_t mode) : path_(path), target_(find_output(path)) {
   if (target_.is_stream) return;
   make_folders(folder_above(target_.path));
-  // A killed process of the same number may have left one.
+  // A killed process with the same id may have left a file of this name.
   do {
     temporary_ = temporary_name(target_.path);
     descriptor_ = create_like(target_.older, temporary_, mode);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) throw Error(path, "file", std::strerror(errno), "a file that can be written");
-  ::flock(descriptor_, LOCK_EX | LOCK_NB);  // a wish: remove_leftovers leaves it alone
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);  // optional: shows remove_leftovers that the file is in use
 }
 
 WholeFile::~WholeFile() {

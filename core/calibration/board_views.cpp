@@ -50,7 +50,7 @@ std::vector<Picture> pictures_in_folder(const std::string& folder) {
   return pictures;
 }
 
-/// Of the color images, `most` evenly over the recording.
+/// At most `most` color images, evenly spaced.
 std::vector<Picture> pictures_of_recording(const std::string& folder, size_t most,
                                            std::vector<std::string>& changed) {
   const FileSet::Found index = FileSet(folder).find(kRecordingIndex, kLargestIndex);
@@ -66,7 +66,7 @@ std::vector<Picture> pictures_of_recording(const std::string& folder, size_t mos
   return pictures;
 }
 
-/// Sixteen bits, of which a sensor uses a part, are stretched to eight.
+/// Stretches 16 bits to 8, because a sensor uses only a part of the 16.
 cv::Mat to_eight_bits(const cv::Mat& image) {
   if (image.depth() == CV_8U) return image;
   cv::Mat stretched;
@@ -74,8 +74,8 @@ cv::Mat to_eight_bits(const cv::Mat& image) {
   return stretched;
 }
 
-/// Gives OpenCV no room for an image that is too large: the header of a small file may claim one. As OpenCV has one
-/// allocator for a whole program, it looks at its own thread only.
+/// Refuses memory for images that are too large, since the header of a small file may claim any size. OpenCV has
+/// one allocator for the whole program, so this one checks its own thread only.
 class SmallImages : public cv::MatAllocator {
  public:
   SmallImages() { cv::Mat::setDefaultAllocator(this); }
@@ -103,7 +103,7 @@ Image<uint8_t> read_gray(const std::string& path) {
   return decode_gray(read_regular_file(path, kLargestFile), path);
 }
 
-/// The first picture that can be read says the size of all.
+/// The first readable picture sets the size of all.
 void require_size(BoardViews& views, const Image<uint8_t>& gray, const std::string& path) {
   if (views.width_px == 0) {
     views.width_px = gray.width();
@@ -125,7 +125,7 @@ Image<uint8_t> decode_gray(std::string_view content, const std::string& path) {
   } catch (const Error& error) {
     throw Error(path, "size", error.what(), fmt::format("at most {} pixels", kMostPixels));
   } catch (const cv::Exception&) {
-    // Larger than OpenCV takes: no picture of a camera.
+    // OpenCV's own limit; no camera's picture is so large.
   }
   if (image.empty()) throw Error(path, "content", "no image", "an image");
   image = to_eight_bits(image);

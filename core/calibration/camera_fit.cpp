@@ -17,7 +17,7 @@ constexpr int kFewestTilted = 3;
 constexpr double kTilted_deg = 10;
 constexpr double kLargestDeviation = 0.05;  // of the focal length
 
-/// Says why there are too few, of the first pictures that are left out.
+/// Throws with the reasons for the first pictures that are left out.
 void require_views(size_t count, const std::vector<LeftOut>& left_out, const std::string& where) {
   constexpr size_t kMostNamed = 3;
   if (count >= kFewestViews) return;
@@ -30,14 +30,14 @@ void require_views(size_t count, const std::vector<LeftOut>& left_out, const std
               fmt::format("at least {}, tilted in different ways", kFewestViews));
 }
 
-/// Of a board's pose, between its normal and the optical axis.
+/// Whether the board's normal is tilted against the optical axis.
 bool is_tilted(const cv::Mat& rotation_vector) {
   cv::Mat R;
   cv::Rodrigues(rotation_vector, R);
   return std::abs(R.at<double>(2, 2)) < std::cos(radians_from_degrees(kTilted_deg));
 }
 
-/// Fits the views, whatever they are worth.
+/// Fits all views, also bad ones.
 CameraFit fit_all(std::vector<BoardView> views, const Chessboard& board, LensModel lens, cv::Size size) {
   const std::vector<std::vector<cv::Point3f>> on_board(views.size(), board_points(board));
   std::vector<std::vector<cv::Point2f>> seen;
@@ -57,7 +57,7 @@ CameraFit fit_all(std::vector<BoardView> views, const Chessboard& board, LensMod
   return fit;
 }
 
-/// Moves views that do not fit out of `views`; whether there were any.
+/// Keeps in `views` only those that fit. Returns whether others were left out.
 bool leave_out_misfits(const CameraFit& fit, std::vector<BoardView>& views, std::vector<LeftOut>& left_out) {
   const double limit = misfit_limit(fit.view_errors_px);
   views.clear();

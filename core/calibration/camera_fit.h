@@ -20,7 +20,7 @@ constexpr auto names_of(LensModel) {
   return std::to_array<std::string_view>({"none", "radial", "full"});
 }
 
-/// Errors are RMS distances between observed and fitted corners.
+/// Errors are RMS distances of observed and fitted corners.
 struct CameraFit {
   PinholeCamera camera;
   LensDistortion lens;

@@ -28,7 +28,7 @@ inline Eigen::Array3d array_of(const Rgb& rgb) {
   return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
 }
 
-/// A clipped channel hides the color.
+/// Whether a channel may be clipped, which hides the color.
 inline bool is_overexposed(const Rgb& rgb) {
   constexpr uint8_t kWhite = 251;
   return rgb[0] >= kWhite || rgb[1] >= kWhite || rgb[2] >= kWhite;
@@ -59,7 +59,6 @@ class ChromaDensity {
   static bool is_inside(const Eigen::Vector2i& place);
   static size_t index(const Eigen::Vector2i& place);
   void blur(double width);
-  /// Whether no valley separates `place` from a higher known peak.
   bool is_flank(const Chroma& place, const KnownChroma& known) const;
 
   std::vector<double> cells_;

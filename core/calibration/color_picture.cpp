@@ -18,7 +18,7 @@ constexpr int kViewWidth = 230, kViewHeight = kPlane, kMargin = 14, kTitle = 26;
 constexpr int kPair = 2 * kViewWidth + 2 * kMargin;
 const cv::Scalar kPaper(28, 28, 30), kInk(225, 225, 225);
 
-/// Each color as bright as a screen shows it; gray of 0.
+/// Each color at screen brightness; gray for 0.
 std::array<Rgb, kColorCount + 1> palette_of(const GloveColorFit& fit) {
   std::array<Rgb, kColorCount + 1> palette;
   palette[0] = {70, 70, 70};
@@ -30,7 +30,7 @@ std::array<Rgb, kColorCount + 1> palette_of(const GloveColorFit& fit) {
   return palette;
 }
 
-/// The rectangle of what is labeled, with a margin; the whole image if nothing is.
+/// The rectangle of labeled pixels with a margin; the whole image without any.
 cv::Rect box_of(const VolumeView& view, const ColorTable& table) {
   int left = view.inside.width(), right = -1, top = view.inside.height(), bottom = -1;
   for (int v = 0; v < view.inside.height(); ++v)
@@ -61,7 +61,7 @@ void write(cv::Mat& picture, const std::string& text, int left, int bottom, doub
   cv::putText(picture, text, {left, bottom}, cv::FONT_HERSHEY_SIMPLEX, size, kInk, 1, cv::LINE_AA);
 }
 
-/// The view, and its labels, of the pixels in the volume.
+/// Draws the view beside the labels of its pixels in the volume.
 void draw_view(cv::Mat& picture, const VolumeView& view, const ColorTable& table,
                const std::array<Rgb, kColorCount + 1>& palette, int left, int top) {
   const cv::Rect box = box_of(view, table);

@@ -6,8 +6,8 @@
 
 namespace glovebench::calibration {
 
-/// Draws a picture for checking a table by eye: up to four views beside their labels (gray: none), and the (U, V)
-/// plane at Y = 60 and 130 with the table's regions, similar pixels and the fitted Gaussians at two deviations.
+/// Draws a picture for checking a color table by eye: views beside their labels, and the (U, V) plane with the
+/// table's regions, the pixels and the fitted Gaussians.
 ColorImage color_picture(std::span<const VolumeView> views, const ColorSamples& samples, const GloveColorFit& fit,
                          const ColorTable& table);
 

@@ -26,7 +26,7 @@ Rgb rgb_of(const Chroma& chroma, double luma) {
   return {static_cast<uint8_t>(rgb[0]), static_cast<uint8_t>(rgb[1]), static_cast<uint8_t>(rgb[2])};
 }
 
-/// What the table says of a color: a grid over its bell, three deviations each way.
+/// The table's labels on a grid over a color's Gaussian, three deviations each way.
 Row row_of_color(const GloveColor& color, double noise_gray, const ColorTable& table) {
   constexpr int kSteps = 12;  // each way
   Row row{};

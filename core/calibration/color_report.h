@@ -12,12 +12,12 @@ namespace glovebench::calibration {
 
 /// How well a table separates a recording's colors. Index 0 is "not glove" or "no label".
 struct ColorSeparation {
-  /// [true color][table's label], shares of a row; empty without pixels. A color's pixels are drawn from its
-  /// Gaussian with camera noise; those of row 0 are the recording's own.
+  /// [true color][table's label], as shares of a row; empty without pixels. Pixels of a color are drawn from its
+  /// Gaussian with camera noise.
   std::array<std::optional<std::array<double, kColorCount + 1>>, kColorCount + 1> confusion;
   std::array<int, kColorCount + 1> nearest{};              ///< label
   std::array<double, kColorCount + 1> nearest_distance{};  ///< chroma
-  /// Distance of the centers over the sum of both deviations along it, camera noise included.
+  /// Distance of the centers over the sum of both deviations along it.
   std::array<double, kColorCount + 1> nearest_deviations{};
   double unlabeled_share = 0;        ///< of glove and mixed pixels
   double mixed_unlabeled_share = 0;  ///< 0 without mixed pixels

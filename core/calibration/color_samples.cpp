@@ -36,8 +36,8 @@ PlacedColors place_colors(const DeviceFrame& frame, const RgbdCalibration& calib
   return placed;
 }
 
-/// The standard deviation of the green channel, by second differences along rows, which do not see shade; nothing
-/// of too few pixels.
+/// The standard deviation of the green channel, by second differences along rows, which cancel shade. Empty for too
+/// few pixels.
 std::optional<double> noise_of(const PlacedColors& placed) {
   constexpr size_t kFewest = 100;
   std::vector<double> bends;
@@ -59,7 +59,7 @@ bool look_alike(const Rgb& a, const Rgb& b, double noise_gray) {
   const Eigen::Array3d first = array_of(a), second = array_of(b);
   const double sum = std::min(first.sum(), second.sum());
   if (sum <= 0) return false;
-  // Of shares of the sum, whose noise is that of a channel by the sum; of two pixels, hence the root of two.
+  // The noise of a share is that of a channel divided by the sum; two pixels add the root of two.
   const double limit = 0.012 + 4 * std::sqrt(2.0) * noise_gray / sum;
   return (first / first.sum() - second / second.sum()).abs().maxCoeff() < limit;
 }
@@ -84,13 +84,13 @@ Image<uint8_t> even_pixels(const PlacedColors& placed, double surface_step, doub
   return even;
 }
 
-/// How much two colors differ, brightness aside: of shares of the sum.
+/// Distance of two colors without brightness, as shares of the sum.
 double difference(const Rgb& a, const Rgb& b) {
   const Eigen::Array3d first = array_of(a) + 1, second = array_of(b) + 1;
   return (first / first.sum() - second / second.sum()).matrix().norm();
 }
 
-/// What pixel (u, v), which is not even, lies between; nothing if there are no two colors about it.
+/// The two even colors around the uneven pixel (u, v). Empty if there is only one.
 std::optional<MixedSample> mixed_at(const PlacedColors& placed, const Image<uint8_t>& even, int u, int v) {
   constexpr int kReach = 3;
   constexpr double kDifferent = 0.04;  // of shares: the glove's colors are farther apart

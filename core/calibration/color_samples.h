@@ -10,7 +10,7 @@
 namespace glovebench::calibration {
 
 struct SampleConfig {
-  WorkingVolume volume;  ///< where the hand is
+  WorkingVolume volume;
   RegistrationConfig registration;
   double surface_step = 0.02;  ///< depth step that separates surfaces, m, > 0
   int beyond_stride = 16;      ///< keep every nth pixel, >= 1
@@ -36,7 +36,7 @@ struct VolumeView {
 };
 VolumeView view_volume(const DeviceFrame& frame, const RgbdCalibration& calibration, const SampleConfig& config);
 
-/// Collects pixels of an unlabeled recording. Even pixels have the surface and color of their four neighbors.
+/// Collects pixels of an unlabeled recording. Even pixels share surface and color with their four neighbors.
 class ColorSamples {
  public:
   explicit ColorSamples(SampleConfig config = {}) : config_(config) {}
@@ -61,7 +61,7 @@ class ColorSamples {
   int64_t beyond_pixels_ = 0;
   std::vector<ColorSample> inside_, beyond_;
   std::vector<MixedSample> mixed_;
-  std::vector<double> noise_;  ///< for each frame
+  std::vector<double> noise_;
 };
 
 }  // namespace glovebench::calibration

@@ -6,12 +6,12 @@
 namespace glovebench::calibration {
 namespace {
 
-/// sRGB's curve, near enough: what mixes is light.
+/// Approximates sRGB's curve. Colors mix in linear light.
 Eigen::Array3d linear(const Rgb& rgb) {
   return (array_of(rgb) / 255).pow(2.2);
 }
 
-/// The share of `near` in a mixed pixel; nothing if it is no mix of the two.
+/// The share of `near` in a mixed pixel. Empty if the pixel is no mix of the two.
 std::optional<double> share_of_near(const MixedSample& mixed) {
   constexpr double kOff = 0.15;  // of the two colors' distance
   const Eigen::Vector3d near = linear(mixed.near), other = linear(mixed.other), pixel = linear(mixed.rgb);
@@ -53,7 +53,7 @@ ColorTable build_color_table(const ColorSamples& samples, const GloveColorFit& f
     if (label != kUnsure) calibration.add_pixel(sample.rgb, label);
   }
   if (fit.config.mixed_pixels) add_mixed(samples, fit, calibration);
-  // What lies beyond counts as much as what else is in the volume, and never nothing.
+  // Takes about as many pixels beyond the volume as there are in it without glove, and some in any case.
   const int64_t wanted = std::max<int64_t>(fit.other, fit.glove / 20);
   const size_t stride = static_cast<size_t>(std::max<int64_t>(1, fit.beyond / std::max<int64_t>(1, wanted)));
   for (size_t i = 0; i < samples.beyond().size(); i += stride) {

@@ -17,7 +17,7 @@
 namespace glovebench::calibration {
 namespace {
 
-constexpr size_t kFitSamples = 60'000;  ///< as many are enough for ten bells
+constexpr size_t kFitSamples = 60'000;  ///< enough for ten Gaussians
 
 /// A sample as the fit sees it.
 struct ChromaSample {
@@ -26,7 +26,7 @@ struct ChromaSample {
 };
 
 double noise_variance(double luma, double noise_gray) {
-  // Y, and the difference to it, are of channels with this deviation; a tenth of a level is what rounding leaves.
+  // Rounding adds a variance of about 0.1.
   return (noise_gray * noise_gray + 0.1) / (luma * luma);
 }
 
@@ -58,7 +58,7 @@ Nearness nearness(const GloveColor& color, const ChromaSample& sample) {
   return {std::exp(-0.5 * squared) / (2 * std::numbers::pi * std::sqrt(determinant)), squared};
 }
 
-/// The matrix with deviations between these along its axes.
+/// The covariance with its deviations clamped along its axes.
 Eigen::Matrix2d within_deviations(const Eigen::Matrix2d& covariance, double least, double most) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
   const Eigen::Vector2d variances = axes.eigenvalues().cwiseMax(least * least).cwiseMin(most * most);
@@ -66,10 +66,10 @@ Eigen::Matrix2d within_deviations(const Eigen::Matrix2d& covariance, double leas
 }
 
 constexpr double kLeastDeviation = 0.008, kMostDeviation = 0.05, kFirstDeviation = 0.025;
-constexpr double kNear = 0.05, kNearShare = 0.09;  ///< from the seed, chroma: what is more saturated moves farther
+constexpr double kNear = 0.05, kNearShare = 0.09;  ///< from the seed, chroma; saturated colors move farther
 constexpr double kFarthest = 0.07;                 ///< of the others from where they were found
-constexpr double kOtherDensity = 0.5;  ///< of what is no glove, per unit of chroma area: spread over two units
-constexpr double kGate = 4.0;          ///< deviations beyond which a sample says nothing about a color
+constexpr double kOtherDensity = 0.5;              ///< of other colors, uniform over a chroma area of two units
+constexpr double kGate = 4.0;                      ///< deviations beyond which a sample does not count for a color
 
 /// The ten colors from index 1 on, then the others.
 using Colors = std::vector<GloveColor>;
@@ -94,7 +94,7 @@ GloveColor first_color(const Chroma& seed, double reach) {
   return color;
 }
 
-/// The seeds, and what else there is much of: such as skin, which must not pull a color that lies next to it.
+/// The seeds, and other frequent colors. Without its own Gaussian, skin would pull a color beside it.
 Colors first_colors(const ColorSeeds& seeds, const ColorSamples& samples, double min_luma) {
   constexpr double kWidth = 0.03, kShare = 0.03;
   constexpr size_t kMost = 4;
@@ -109,14 +109,14 @@ Colors first_colors(const ColorSeeds& seeds, const ColorSamples& samples, double
   return colors;
 }
 
-/// Sums of one color over all samples, each by how far it is that color's.
+/// Sums of one color over all samples, weighted by the probability of the color.
 struct Sums {
   double weight = 0, precision = 0;
   Chroma chroma = Chroma::Zero();
-  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();  ///< about the center of before, without noise
+  Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();  ///< about the previous center, without noise
 };
 
-/// One step of expectation maximization. `is_first`: the bells keep their width.
+/// One step of expectation maximization. `is_first`: the covariances stay.
 Colors improved(const Colors& colors, const std::vector<ChromaSample>& samples, bool is_first) {
   std::vector<Sums> sums(colors.size());
   std::vector<double> likely(colors.size());
@@ -218,13 +218,13 @@ uint8_t GloveColorFit::classify(const Rgb& rgb) const {
   for (int k = 1; k <= kColorCount; ++k) {
     const Nearness near = nearness(colors[k], sample);
     nearest = std::min(nearest, near.squared_distance);
-    // Every color counts alike, however much of it was seen.
+    // All colors have equal priors, however much of them was seen.
     if (best != 0 && near.density <= likely) continue;
     best = static_cast<uint8_t>(k);
     likely = near.density;
     of_best = near.squared_distance;
   }
-  // What an overexposed pixel would be without the cut is not known.
+  // Clipping hides the true color of an overexposed pixel.
   const uint8_t other_label = is_overexposed(rgb) ? kUnsure : kNotGlove;
   for (const GloveColor& bell : others)
     if (nearness(bell, sample).density > likely) return other_label;

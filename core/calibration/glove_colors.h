@@ -11,13 +11,13 @@
 
 namespace glovebench::calibration {
 
-/// The default model. It relights little, since a recording shows its light.
+/// The default model, which relights little because a recording shows its light.
 ColorModel recorded_color_model();
 
 struct GloveColorConfig {
   double min_luma = 16;                       ///< darker pixels are unsure, 0..255
   double glove_distance = 3.5;                ///< deviations within which a pixel has the color, > 0
-  double other_distance = 6.0;                ///< deviations beyond which it is not glove; between: unsure
+  double other_distance = 6.0;                ///< beyond this distance it is not glove, between both it is unsure
   int64_t min_pixels = 200;                   ///< even pixels of a color; fewer are an error
   int64_t few_pixels = 2000;                  ///< fewer give a warning
   int few_frames = 3;                         ///< fewer give a warning
@@ -40,7 +40,6 @@ struct GloveColor {
 /// Results of classify that are no color.
 inline constexpr uint8_t kNotGlove = 0, kUnsure = 255;
 
-/// Index 0 of `colors` is unused.
 struct GloveColorFit {
   RecordedLight light;  ///< from the seeds to the recording
   double noise_gray = 0;
@@ -51,19 +50,17 @@ struct GloveColorFit {
   int64_t beyond = 0, beyond_like_glove = 0;           ///< pixels beyond the volume
   std::array<int64_t, kColorCount + 1> beyond_like{};  ///< by color
 
-  /// The most probable color if within `glove_distance`, else kNotGlove or kUnsure. Dark pixels are unsure, as are
-  /// overexposed ones of no color of the glove.
+  /// The most probable color if within `glove_distance`, else kNotGlove or kUnsure. Dark pixels are unsure.
   uint8_t classify(const Rgb& rgb) const;
 };
 
-/// Estimates the light, then fits a Gaussian to each color of the glove and each other frequent color by
-/// expectation maximization, with a uniform rest. A center stays nearer to its own seed than to any other.
+/// Fits the light, the glove's colors and other frequent colors by expectation maximization. A center stays nearer
+/// to its own seed than to any other.
 /// Throws: Error naming `where` if frames, the hand or colors are missing.
 GloveColorFit fit_glove_colors(const ColorSamples& samples, const ColorSeeds& seeds, const std::string& where,
                                const GloveColorConfig& config = {});
 
-/// Builds the table by ColorCalibration from classified pixels in the volume and those beyond it that are not
-/// glove.
+/// Builds the table from classified pixels, without clutter in the glove's colors beyond the volume.
 ColorTable build_color_table(const ColorSamples& samples, const GloveColorFit& fit,
                              ColorSpace space = ColorSpace::yuv);
 

@@ -10,10 +10,9 @@ namespace {
 constexpr double kGamma = 2.2;
 
 double score(const ColorSeeds& seeds, const RecordedLight& light, const ChromaDensity& density) {
-  // About a color that is not there: what stray samples make.
+  // Density of stray samples around an absent color.
   constexpr double kStray = 0.002;
-  // Lights far from the seeds' are rare: a channel of e times as much costs as much as a color at a seventh of its
-  // pixels, as does a saturation of a fifth more.
+  // Weights of squared logarithms of gain and saturation: lights far from the seeds' are rare.
   constexpr double kRareGain = 2.0, kRareSaturation = 60.0;
   const ColorSeeds seen = relit(seeds, light);
   const double off = std::log(light.saturation);

@@ -7,7 +7,7 @@
 
 namespace glovebench::calibration {
 
-/// The change from the seeds' light and camera to the recording's.
+/// The change of light and camera between seeds and recording.
 struct RecordedLight {
   Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< on linear R, G, B; G = 1
   /// Factor on the chroma: > 1 in weak light, < 1 with haze or reflections.
@@ -16,8 +16,7 @@ struct RecordedLight {
 
 ColorSeeds relit(const ColorSeeds& seeds, const RecordedLight& light);
 
-/// Maximizes the sum over the ten colors of the log sample density at the relit seed. Hence neither a missing color
-/// nor a large patch dominates. Without samples the light is unchanged.
+/// Estimates the light that places the seeds where samples are dense. Without samples it is the seeds' own.
 RecordedLight estimate_light(const ColorSeeds& seeds, std::span<const ColorSample> samples, double min_luma);
 
 }  // namespace glovebench::calibration

@@ -16,7 +16,7 @@ namespace glovebench::calibration {
 namespace {
 
 constexpr size_t kFewestPairs = 5;
-/// Of any sensor that is one device; what lies beyond was paired wrongly.
+/// Limits for two cameras of one device. A larger transform means wrong pairs.
 constexpr double kFarthestApart = 0.5;  // m
 constexpr double kMostTurned_deg = 45;
 
@@ -49,7 +49,7 @@ Eigen::Isometry3d isometry_of(const cv::Mat& R, const cv::Mat& t) {
     for (int column = 0; column < 3; ++column) T.linear()(row, column) = R.at<double>(row, column);
     T.translation()[row] = t.at<double>(row);
   }
-  // OpenCV's comes from a rotation vector: what is left of rounding goes.
+  // Removes rounding errors of OpenCV's rotation.
   T.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
   return T;
 }
@@ -90,7 +90,7 @@ void fit_pairs(StereoFit& fit, const std::vector<Pair>& pairs, const Chessboard&
                      .rgb_lens = lens_of(lens_rgb)};
 }
 
-/// Takes pairs that do not fit out; whether there were any.
+/// Removes pairs that do not fit. Returns whether there were any.
 bool leave_out_misfits(StereoFit& fit, std::vector<Pair>& pairs) {
   const double limit = misfit_limit(fit.pair_errors_px);
   std::vector<Pair> fitting;
@@ -105,7 +105,7 @@ bool leave_out_misfits(StereoFit& fit, std::vector<Pair>& pairs) {
   return some;
 }
 
-/// How much the pairs, each alone, disagree with the transform of all.
+/// Standard errors of the transform, from the transforms of single pairs.
 void add_standard_errors(StereoFit& fit, const std::vector<Pair>& pairs, const Chessboard& board) {
   const RgbdCalibration& c = fit.calibration;
   double translation = 0, rotation = 0;

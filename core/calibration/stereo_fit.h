@@ -11,7 +11,7 @@ struct StereoFit {
   CameraFit ir, rgb;               ///< each camera alone
   RgbdCalibration calibration;     ///< fitted to the pairs
   double error_px = 0;             ///< RMS over all corners of all pairs
-  std::vector<std::string> pairs;  ///< names of views of both cameras
+  std::vector<std::string> pairs;  ///< view names
   std::vector<double> pair_errors_px;
   std::vector<LeftOut> left_out;  ///< pairs above misfit_limit
   /// Standard errors of T_rgb_ir over the pairs.
@@ -19,8 +19,7 @@ struct StereoFit {
   double rotation_error = 0;     ///< rad
 };
 
-/// Fits each camera alone, then both and T_rgb_ir to views of the same name, which must show the board in the same
-/// place.
+/// Fits each camera alone, then both to views of the same name, which must show the board in the same place.
 /// Throws: Error as fit_camera does, or if too few pairs fit or T_rgb_ir is too large for one device.
 StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board, LensModel lens);
 

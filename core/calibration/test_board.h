@@ -19,7 +19,7 @@ inline Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector
   return guess;
 }
 
-/// A widely used calibration, with cameras rotated by 1.5 degrees so that a rotation and its inverse differ.
+/// A widely used calibration, with cameras rotated by 1.5 degrees.
 inline RgbdCalibration kinect_with_lenses() {
   RgbdCalibration truth;
   truth.ir = {.width = 640, .height = 480, .fx = 594.21, .fy = 591.04, .cx = 339.31, .cy = 242.74};
@@ -44,7 +44,6 @@ inline Corners true_corners(const PinholeCamera& camera, const LensDistortion& l
   return corners;
 }
 
-/// The board has a white rim and a gray wall behind it.
 inline double gray_at(const Eigen::Vector2d& p, const Chessboard& board) {
   const double column = std::floor(p.x() / board.square) + 1, row = std::floor(p.y() / board.square) + 1;
   if (column < -1 || row < -1 || column > board.columns + 1 || row > board.rows + 1) return 90;
@@ -85,8 +84,8 @@ class BoardCamera {
 
  private:
   static constexpr int kSide = 3;
-  static constexpr size_t kRays = kSide * kSide;  ///< for each pixel
-  static constexpr double kNoise = 2;             ///< gray levels
+  static constexpr size_t kRays = kSide * kSide;
+  static constexpr double kNoise = 2;  ///< gray levels
 
   PinholeCamera camera_;
   std::vector<Eigen::Vector2d> rays_;

@@ -25,7 +25,6 @@ struct TestScene {
 inline constexpr int kTestWidth = 160, kTestHeight = 200, kStripe = 16, kTestMargin = 12;
 inline constexpr int kSkinStripe = kColorCount + 1;
 
-/// IR and RGB are one camera.
 inline RgbdCalibration test_calibration() {
   const PinholeCamera camera{kTestWidth, kTestHeight, 570, 570, kTestWidth / 2.0, kTestHeight / 2.0};
   return {camera, camera, Eigen::Isometry3d::Identity()};
@@ -39,7 +38,6 @@ inline int stripe_at(int u, int v, const TestScene& scene) {
   return scene.glove ? stripe : kSkinStripe;
 }
 
-/// Linear light, brighter towards the right.
 inline Eigen::Array3d light_at(int u, int v, const TestScene& scene) {
   const int stripe = stripe_at(u, v, scene);
   Eigen::Array3d albedo(0.42, 0.38, 0.33);
@@ -74,7 +72,6 @@ inline ColorSamples test_samples(const TestScene& scene, int frames = 3) {
   return samples;
 }
 
-/// The glove's colors in half the default light.
 inline ColorSeeds test_seeds() {
   ColorSeeds seeds;
   seeds[0] = Chroma::Zero();

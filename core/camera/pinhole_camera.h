@@ -4,12 +4,12 @@
 
 namespace glovebench {
 
-/// Images of larger cameras are not read: what a small file says of them would take memory.
+/// The largest images that are read: a small file cannot claim much memory.
 inline constexpr int kMostSide_px = 4096;
 inline constexpr int kMostPixels = 1 << 21;  // 1920x1080 and a little more
 
-/// A camera without distortion. Axes: x right, y down, z forward. A pixel's center has integer coordinates
-/// (OpenCV's convention), so the image spans [-0.5, width - 0.5).
+/// A camera without distortion. Axes: x right, y down, z forward. Pixel centers are integers, as in OpenCV: the
+/// image spans [-0.5, width - 0.5).
 struct PinholeCamera {
   int width = 640;
   int height = 480;
@@ -18,11 +18,12 @@ struct PinholeCamera {
   double cx = 0;  ///< px
   double cy = 0;  ///< px
 
-  /// uv_px of a point in front of the camera (z > 0).
+  /// Pixel of a point with z > 0.
   Eigen::Vector2d project(const Eigen::Vector3d& p_camera) const {
     return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
   }
-  /// The point at depth z (m, along the optical axis) that is seen at uv_px.
+  /// Point at a pixel and depth z.
+  /// Units: m.
   Eigen::Vector3d back_project(double u_px, double v_px, double z) const {
     return {(u_px - cx) / fx * z, (v_px - cy) / fy * z, z};
   }
@@ -30,14 +31,14 @@ struct PinholeCamera {
   friend bool operator==(const PinholeCamera&, const PinholeCamera&) = default;
 };
 
-/// How a lens departs from a pinhole (Brown's model with OpenCV's names and order).
+/// Distortion of a lens: Brown's model in OpenCV's order.
 struct LensDistortion {
   double k1 = 0, k2 = 0;  ///< radial
   double p1 = 0, p2 = 0;  ///< tangential
   double k3 = 0;          ///< radial
 
   bool is_none() const { return *this == LensDistortion{}; }
-  /// The distorted image, in the plane z = 1, of a point that a pinhole sees at xy = (x / z, y / z).
+  /// Maps a point of the plane z = 1 from pinhole to lens.
   Eigen::Vector2d distort(const Eigen::Vector2d& xy) const {
     const double x = xy.x(), y = xy.y(), r2 = xy.squaredNorm();
     const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));

@@ -32,10 +32,10 @@ struct Extent {
   float least, largest;
 };
 
-/// Ranges are empty where there are no values.
+/// Rows without values have empty ranges.
 Extent extent_of(const DepthImage& depth) {
   Extent extent{RecycledVector<Span>(depth.height()), depth.width(), 0, depth.height(), 0, kInfinitelyFar, 0};
-  // Of positive numbers the order is that of their bits, which compilers know to compare side by side.
+  // Positive floats sort like their bit patterns, so integer comparison vectorizes.
   int32_t largest = 0;
   uint32_t least = std::bit_cast<uint32_t>(kInfinitelyFar);
   for (int v = 0; v < depth.height(); ++v) {
@@ -43,10 +43,9 @@ Extent extent_of(const DepthImage& depth) {
     int32_t row_largest = 0;
     for (int u = 0; u < depth.width(); ++u) {
       const auto of_value = std::bit_cast<int32_t>(row[u]);
-      const int32_t bits =
-          of_value <= std::bit_cast<int32_t>(kInfinitelyFar) ? of_value : 0;  // 0 for what is no number
+      const int32_t bits = of_value <= std::bit_cast<int32_t>(kInfinitelyFar) ? of_value : 0;  // 0 for NaN
       row_largest = std::max(row_largest, bits);
-      least = std::min(least, static_cast<uint32_t>(bits) - 1);  // neither zero nor what is negative
+      least = std::min(least, static_cast<uint32_t>(bits) - 1);  // zero and negative values become large
     }
     if (row_largest == 0) continue;
     largest = std::max(largest, row_largest);

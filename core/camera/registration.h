@@ -6,19 +6,19 @@
 namespace glovebench {
 
 struct RegistrationConfig {
-  /// A depth pixel gets no color when another surface lies this much nearer (m, > 0) on the same ray of the
-  /// RGB camera.
+  /// A pixel gets no color if another surface is this much nearer on its RGB ray, m, > 0.
   double occlusion_tolerance = 0.015;
 };
 
-/// The mapped image M (section III-A): the color of each depth pixel.
+/// The mapped image M: the color of each depth pixel.
+/// Paper: section III-A.
 struct RegisteredImage {
-  ColorImage color;          ///< IR camera's pixels
-  Image<uint8_t> has_color;  ///< 1 where the RGB camera sees the depth pixel, else 0
+  ColorImage color;          ///< in IR pixels
+  Image<uint8_t> has_color;  ///< 1 if the RGB camera sees the depth pixel, else 0
 };
 
-/// Maps color to the pixel coordinates of the depth image. Depth pixels without a value, outside the RGB
-/// image, or hidden from the RGB camera behind a nearer surface get no color. Images and calibration are rectified.
+/// Maps colors to the depth image; inputs are rectified. Pixels without depth, outside the RGB image or hidden from
+/// the RGB camera get no color.
 RegisteredImage register_color(const DepthImage& depth, const ColorImage& color, const RgbdCalibration& calibration,
                                const RegistrationConfig& config);
 

@@ -10,26 +10,26 @@
 
 namespace glovebench {
 
-/// A Kinect's own depth, as calibrations give it: z = 1 / (a * raw + b), metres, of raw 11-bit disparity. With f
-/// (px), baseline B (m), steps of 1/8 px and the disparity d at infinity, a = -1 / (8 f B) and b = d / (8 f B).
+/// A Kinect's calibrated depth: z = 1 / (a * raw + b), with raw 11-bit disparity. With baseline B, focal length f
+/// (px) and disparity d at infinity, a = -1 / (8 f B) and b = d / (8 f B).
 struct DisparityLine {
-  double a_per_m = 0;  ///< below 0: the larger the disparity, the farther
+  double a_per_m = 0;  ///< below 0
   double b_per_m = 0;  ///< above 0
 
   friend bool operator==(const DisparityLine&, const DisparityLine&) = default;
 };
 
-/// What a stereo calibration of a Kinect gives (section III-A). The frame called "camera" everywhere else
-/// is the IR (depth) camera.
+/// A Kinect's stereo calibration. The frame "camera" is that of the IR (depth) camera.
+/// Paper: section III-A.
 struct RgbdCalibration {
   PinholeCamera ir;
   PinholeCamera rgb;
-  Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< p_rgb = T_rgb_ir * p_ir, metres
-  std::optional<DisparityLine> disparity = std::nullopt;       ///< none: the driver's formula (kinect/disparity.h)
-  LensDistortion ir_lens = {}, rgb_lens = {};                  ///< of the images as the device gives them
+  Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< p_rgb = T_rgb_ir * p_ir, m
+  std::optional<DisparityLine> disparity = std::nullopt;       ///< none: as in kinect/disparity.h
+  LensDistortion ir_lens = {}, rgb_lens = {};                  ///< of the device's images
 
   bool has_lens() const { return !(ir_lens.is_none() && rgb_lens.is_none()); }
-  /// Of rectified images (kinect/rectified_device.h), which are what a tracker takes.
+  /// For rectified images, which trackers take.
   RgbdCalibration rectified() const {
     RgbdCalibration calibration = *this;
     calibration.ir_lens = calibration.rgb_lens = {};
@@ -37,31 +37,27 @@ struct RgbdCalibration {
   }
 };
 
-/// The one self-consistent calibration of the synthetic Kinect: IR f 575.816 px, RGB f 525 px, principal points
-/// near the center, baseline 24 mm, a rotation of under one degree.
+/// The calibration of the synthetic Kinect.
 RgbdCalibration synthetic_calibration();
 
-/// A Kinect as it is built: IR f 575.816 px (the driver's formula), RGB f 525 px, principal points in the center,
-/// the RGB camera 25 mm to the right of the IR camera, no rotation. Of one device colors are off by some pixels;
-/// what tracks well has a calibration of its own.
+/// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right. Real colors are some
+/// pixels off.
 RgbdCalibration nominal_kinect_calibration();
 
-/// Reads {"version": 1, "ir": CAMERA, "rgb": CAMERA, "T_rgb_ir": {"rotation": 3 rows of 3, "translation_m": 3}}
-/// with CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}, and where there is one
-/// "disparity": {"a_per_m", "b_per_m"} and in a CAMERA "distortion": {"k1", "k2", "p1", "p2", "k3"}. Every other
-/// key is required and no more are allowed. Throws Error naming `where` and the field; numbers must be finite,
-/// focal lengths positive, images no larger than kMostSide_px and kMostPixels, the rotation orthonormal (1e-6) and
-/// right-handed, a below and b above 0.
+/// Reads {"version": 1, "ir": CAMERA, "rgb": CAMERA, "T_rgb_ir": {"rotation": 3 rows of 3, "translation_m": 3}},
+/// CAMERA = {"width_px", "height_px", "fx_px", "fy_px", "cx_px", "cy_px"}. Optional: "disparity": {"a_per_m",
+/// "b_per_m"}, and in CAMERA "distortion": {"k1", "k2", "p1", "p2", "k3"}.
+/// Throws: Error unless numbers are finite, focal lengths positive, sizes within kMostSide_px and kMostPixels, the
+/// rotation right-handed and orthonormal (1e-6), a < 0 and b > 0.
 RgbdCalibration calibration_from_json(const nlohmann::json& json, const std::string& where);
-/// The same from what a file holds.
 RgbdCalibration calibration_from_text(std::string_view text, const std::string& where);
 nlohmann::json to_json(const RgbdCalibration& calibration);
 
-inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes: fifty times ours
+inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes
 
-/// The content of a calibration file. It is read again bit for bit.
+/// The content of a file, which gives the same calibration bit for bit.
 std::string calibration_text(const RgbdCalibration& calibration);
-/// A calibration file. Both throw Error.
+/// Throws: Error.
 RgbdCalibration load_calibration(const std::string& path);
 void save_calibration(const RgbdCalibration& calibration, const std::string& path);
 

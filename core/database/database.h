@@ -33,8 +33,8 @@ uint8_t field_cap(double cap_share, int size);
 /// Paper: section III.
 class Database {
  public:
-  /// Renders all views, equal for any number of threads. Each thread calls `renderers` once; `progress` gets the
-  /// share done.
+  /// Renders all views, with equal results for any `threads`. Each thread calls `renderers` once; `progress` gets
+  /// the share done.
   /// Throws: Error for a size outside 4..64 px or repeated, or no postures.
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
@@ -73,7 +73,6 @@ class Database {
   const std::string& content_hash() const { return content_hash_; }
   DatabaseMemory memory() const { return header_.memory; }
 
-  /// Labels of one entry.
   /// Throws: Error if the size is not loaded.
   LabelImage labels(int size, int entry) const;
   /// Chamfer fields of one entry, kColorCount * size * size values in 1/kFieldScale px.
@@ -87,7 +86,7 @@ class Database {
 
  private:
   struct SizeData {
-    const uint8_t* labels = nullptr;  ///< [entry][packed_bytes(pixels)]
+    const uint8_t* labels = nullptr;
     const uint8_t* fields = nullptr;  ///< [entry][color][pixel]; null in low memory
     const FieldRows* rows = nullptr;
   };

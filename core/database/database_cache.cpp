@@ -40,7 +40,7 @@ std::string stem(const DatabaseCache& cache, const PostureSet& postures, const s
                      cache.memory == DatabaseMemory::low ? "-low" : "");
 }
 
-/// Removes what other code built of the same inputs: each change of the code would leave another large file.
+/// Removes files of the same inputs by other code, since each change of the code leaves another large file.
 void remove_outdated(const DatabaseCache& cache, const std::string& stem, const std::string& file) {
   constexpr size_t kSourceHash = 17;  // with its hyphen
   std::error_code ignored;

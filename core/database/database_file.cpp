@@ -56,8 +56,7 @@ Posture posture_from_json(const json& angles_rad, const std::string& path) {
   return posture;
 }
 
-/// Throws json::exception for what has another shape, Error naming `path` for what no database has. What else
-/// `seal` does not write is for the caller to find.
+/// Throws json::exception for a wrong type, Error naming `path` for an invalid value. The caller checks the rest.
 DatabaseHeader header_from_json(const json& text, const std::string& path) {
   DatabaseHeader header;
   header.postures.name = checked_name(text.at("name"), path, "name");

@@ -12,7 +12,7 @@ namespace {
 constexpr int kStraight = 3;
 constexpr int kDiagonal = 4;
 
-/// min(x + step, 255) in bytes, as operations that SSE2 has.
+/// min(x + step, 255) by byte operations of SSE2.
 inline uint8_t plus(uint8_t x, uint8_t step) {
   return static_cast<uint8_t>(std::min<uint8_t>(x, static_cast<uint8_t>(255 - step)) + step);
 }
@@ -35,7 +35,7 @@ class PaddedRows {
   std::vector<uint8_t> bytes_;
 };
 
-/// Takes over what is nearer by way of the row above (or below).
+/// Takes smaller distances from the row above (or below).
 void relax_vertically(uint8_t* __restrict row, const uint8_t* __restrict neighbor, int width) {
   for (int u = 0; u < width; ++u) {
     const uint8_t diagonal = plus(std::min(neighbor[u - 1], neighbor[u + 1]), kDiagonal);
@@ -43,7 +43,7 @@ void relax_vertically(uint8_t* __restrict row, const uint8_t* __restrict neighbo
   }
 }
 
-/// Takes over what is nearer `step` pixels to the left or right.
+/// Takes smaller distances from `step` pixels to the left or right.
 void relax_horizontally(uint8_t* __restrict result, const uint8_t* __restrict row, int width, int step) {
   const auto cost = static_cast<uint8_t>(kStraight * step);
   for (int u = 0; u < width; ++u) result[u] = std::min(row[u], plus(std::min(row[u - step], row[u + step]), cost));
@@ -116,7 +116,7 @@ void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::sp
   for (int v = 1; v < wanted.last; ++v) relax_vertically(rows[v], rows[v - 1], w);
   for (int v = h - 2; v >= wanted.first; --v) relax_vertically(rows[v], rows[v + 1], w);
 
-  // Steps of 1, 2, 4, ... pixels add up to every distance. None needs to cost as much as the cap.
+  // Steps of 1, 2, 4, ... pixels add up to every distance below the cap.
   PaddedRows spare(w, 1, cap);
   for (int v = wanted.first; v < wanted.last; ++v) {
     uint8_t* row = rows[v];

@@ -14,8 +14,7 @@ int pool_of(int size, DatabaseMemory memory) {
 
 constexpr int kRow = kWidest + kLargestPool;  // bytes
 
-// Loops over bytes are vectorized only without what std::array checks of an index, and without std::min's
-// references.
+// The index checks of std::array and the references of std::min prevent vectorization.
 
 uint8_t lesser(uint8_t a, uint8_t b) {
   return a < b ? a : b;
@@ -67,7 +66,7 @@ void FieldRows::put(int first, std::span<const uint8_t> fields) {
   const auto place_of = [&](int entry) {
     return values_.writable().data() + entry / kBlock * block_bytes() + entry % kBlock;
   };
-  // A few rows of all entries at a time, which stay in the nearest cache.
+  // A few rows of all entries at a time stay in the first cache.
   for (size_t begin = 0; begin < rows; begin += kBlock) {
     const size_t end = std::min(begin + kBlock, rows);
     for (size_t i = 0; i < count; ++i) {

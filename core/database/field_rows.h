@@ -29,8 +29,8 @@ struct WeightedRow {
 class FieldRows {
  public:
   static constexpr int kBlock = 64;            ///< entries; a row is a cache line
-  static constexpr int kLargestExact = 24;     ///< px
-  static constexpr int kLargestFinePool = 32;  ///< px
+  static constexpr int kLargestExact = 24;     ///< px; larger sizes hold cell minima
+  static constexpr int kLargestFinePool = 32;  ///< px; larger sizes have 8 x 8 cells in low memory
 
   /// Rows are 0 until `put`.
   FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value);
@@ -49,15 +49,14 @@ class FieldRows {
 
   /// Counts the query's pixels in each color and cell.
   RecycledVector<WeightedRow> rows_of(const LabelImage& query) const;
-  /// The weighted sum of these rows for one entry.
   uint32_t sum(int entry, std::span<const WeightedRow> rows) const;
 
  private:
-  int size_;  ///< px
+  int size_;
   int entry_count_;
   int pool_;  ///< px
   int cells_;
-  std::array<uint8_t, 64> cell_of_pixel_{};  ///< along a side
+  std::array<uint8_t, 64> cell_of_pixel_{};
   size_t block_count_;
   uint8_t largest_value_;
   MappedMemory values_;

@@ -22,7 +22,7 @@ struct FieldChunk {
   uint8_t color;
 };
 
-// Inner loops of the look-up for the processor's best instruction set (Highway), with equal results.
+// Inner loops of the look-up by Highway; all instruction sets give equal results.
 
 /// Weighted sums of rows for each entry, at most 65535, and the minimum of each block. `sums` has room for whole
 /// blocks.

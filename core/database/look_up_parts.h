@@ -38,7 +38,7 @@ inline RecycledVector<Match> matches_of(const RecycledVector<Candidate>& candida
   return matches;
 }
 
-/// Fields of single entries: stored ones, or made from labels in low memory.
+/// Fields of single entries, stored or made from labels.
 class EntryFields {
  public:
   /// Throws: Error if the query's size is not loaded.
@@ -49,8 +49,8 @@ class EntryFields {
  private:
   const Database& database_;
   int size_;
-  std::vector<uint8_t> colors_;  ///< in the query
-  std::vector<uint8_t> made_;    ///< empty if fields are stored
+  std::vector<uint8_t> colors_;
+  std::vector<uint8_t> made_;
 };
 
 }  // namespace glovebench

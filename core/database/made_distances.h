@@ -7,8 +7,7 @@
 
 namespace glovebench {
 
-/// Distances of low-memory entries to one query. Fields are made color by color until the entry is too far; the
-/// rest counts with lower bounds.
+/// Distances of low-memory entries to one query. Fields are made color by color, only until the entry is too far.
 class MadeDistances {
  public:
   /// Throws: Error if the query's size is not loaded.
@@ -32,7 +31,7 @@ class MadeDistances {
   int size_;
   uint8_t cap_;
   QueryLabels labels_;
-  RecycledVector<Part> parts_;  ///< most pixels first
+  RecycledVector<Part> parts_;
 };
 
 }  // namespace glovebench

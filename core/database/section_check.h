@@ -20,7 +20,7 @@ struct SectionContent {
 
 struct DatabaseContent {
   std::vector<SectionContent> sections;
-  std::map<int, FieldRows> rows;  ///< by size
+  std::map<int, FieldRows> rows;
 };
 
 /// Hashes sections and checks their values; makes and hashes fields that are not stored. `load` also makes rows of

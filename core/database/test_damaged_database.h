@@ -49,7 +49,6 @@ inline std::vector<Section> stored_sections(const DatabaseLayout& layout) {
   return sections;
 }
 
-/// Corrects the header's checksum.
 inline std::string with_right_header(std::string file) {
   constexpr size_t kLength = 22, kHash = 30, kHeader = 62;
   uint64_t length = 0;
@@ -58,7 +57,7 @@ inline std::string with_right_header(std::string file) {
   return file.replace(kHash, hash.size(), hash);
 }
 
-/// Corrects all hashes. `layout` is that of the undamaged file.
+/// `layout` is that of the undamaged file.
 inline std::string with_right_hashes(std::string file, const DatabaseLayout& layout) {
   MappedMemory bytes = MappedMemory::zeros(file.size());
   std::ranges::copy(file, bytes.writable().begin());

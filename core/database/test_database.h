@@ -44,7 +44,6 @@ inline const Database& test_database(DatabaseMemory memory = DatabaseMemory::nor
   return normal;
 }
 
-/// Labels of an entry, as a query.
 inline LabelImage entry_image(const Database& database, int size, int entry) {
   return database.labels(size, entry);
 }

@@ -17,7 +17,7 @@ constexpr double kWeightRamp = 0.015;     // m over which the weights change fro
 
 /// Joint whose weight makes a vertex part of the patch; finger segments and thenar only.
 constexpr std::array<int, 15> kSegmentJoint = {2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23, 1};
-/// Segments from the palm; shifted borders shrink the farther ones.
+/// Number of segments from the palm. Shifted borders shrink the outer ones.
 constexpr std::array<int, 15> kSegmentLevel = {2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1};
 
 std::vector<Eigen::Vector3d> vertex_normals(const RiggedMesh& mesh) {

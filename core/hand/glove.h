@@ -50,11 +50,11 @@ struct GlovedMesh {
 
 /// Patches of one color lie far apart, also in a fist; front and back of the palm differ.
 const std::array<uint8_t, kPatchCount>& patch_labels();
-/// Bit p = patch p.
+/// The patches that each angle moves; bit p is patch p.
 const std::array<uint32_t, kAngleCount>& patches_moved();
 
 using PatchScores = std::array<double, kPatchCount>;
-/// How strongly each vertex of a hand with forearm, in the hand frame, belongs to each patch. `border_shift`:
+/// How strongly each vertex belongs to each patch. `mesh` is in the hand frame, with forearm; `border_shift` is
 /// towards the fingertips, m.
 std::vector<PatchScores> patch_scores(const RiggedMesh& mesh, double border_shift);
 

@@ -16,7 +16,7 @@ namespace glovebench {
 
 /// Differences from the package's mesh.
 struct HandShape {
-  double scale = 1.0;  ///< of the whole hand
+  double scale = 1.0;
   /// relative lengths: thumb metacarpal, proximal, distal; then proximal, intermediate, distal of index to little
   std::array<double, 15> segment_scale = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   double patch_border_shift = 0.0;  ///< towards the fingertips, m
@@ -27,7 +27,7 @@ struct HandShape {
 /// 5% larger, segments +-8%, borders shifted by 2 mm.
 HandShape second_subject();
 
-/// A hand with forearm, in the hand frame and bind pose, with another shape.
+/// Applies a shape to a mesh with forearm, in the hand frame and bind pose.
 RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
 /// The hand in the hand frame, m: origin midway between the wrist joint and the middle MCP, -z to the fingertips,
@@ -37,7 +37,7 @@ struct PosedHand {
   JointPoses T_hand_joint;
 };
 
-/// The gloved hand: kinematics, linear blend skinning, and a closed mesh cut along the patch borders.
+/// The gloved hand: kinematics, linear blend skinning and a closed mesh.
 class HandModel {
  public:
   /// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20.
@@ -61,7 +61,7 @@ class HandModel {
   Skeleton skeleton_;
   std::vector<Eigen::Vector3d> bind_vertices_;
   std::vector<Influence> influences_;
-  JointPoses T_joint_bind_;  ///< from bind-pose hand coordinates
+  JointPoses T_joint_bind_;
   std::vector<Triangle> triangles_;
   std::string hash_;
 };

@@ -20,10 +20,9 @@ inline constexpr int kBodyCount = 17;
 uint32_t angles_of_body(int body);
 /// Each body's share in a surface point; the sum is 1.
 using BodyShares = std::array<float, kBodyCount>;
-/// For each vertex.
 std::vector<BodyShares> body_shares(const HandModel& model);
 
-/// How much a surface point follows each angle, 0..1: the summed shares of the bodies that it moves.
+/// How much a surface point follows each angle, 0..1: the summed shares of the bodies that the angle moves.
 using AngleShares = Eigen::Matrix<float, kAngleCount, 1>;
 AngleShares angle_shares(const BodyShares& shares);
 

@@ -16,7 +16,7 @@ struct Influence {
   float weight_of(int j) const;
 };
 
-/// A closed triangle mesh in bind pose, one frame, m.
+/// A closed triangle mesh in bind pose, m.
 struct RiggedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Influence> influences;               ///< one for each vertex
@@ -28,8 +28,7 @@ struct RiggedMesh {
 /// Throws: Error as HandModel::load does.
 RiggedMesh load_rigged_mesh(const std::string& path);
 
-/// Replaces the cap at the wrist by a forearm of `length` m, blended in over +-12 mm. The mesh is in the hand
-/// frame.
+/// Replaces the cap at the wrist of a mesh in the hand frame by a forearm of `length` m, blended in over +-12 mm.
 RiggedMesh with_forearm(const RiggedMesh& hand, double length);
 
 }  // namespace glovebench

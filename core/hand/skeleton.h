@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// The 25 joints of the WebXR hand, then the forearm.
+/// WebXR's 25 joints, then the forearm.
 inline constexpr int kJointCount = 26;
 inline constexpr int kWristJoint = 0;
 inline constexpr int kForearmJoint = 25;
@@ -28,8 +28,8 @@ const std::array<int, 5>& fingertip_joints();
 using JointPoses = std::array<Eigen::Isometry3d, kJointCount>;
 
 /// The kinematic tree of the right hand. A joint's rotation in its parent is R_zero_before * R_y(abduction) *
-/// R_x(-flexion) * R_zero_after. At zero, fingers point to -z of the hand frame; the thumb's base keeps its bind
-/// orientation.
+/// R_x(-flexion) * R_zero_after. At zero, fingers point to -z of the hand frame, and the thumb's base keeps its
+/// bind orientation.
 class Skeleton {
  public:
   Skeleton() = default;
@@ -49,7 +49,7 @@ class Skeleton {
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     Eigen::Matrix3d before = Eigen::Matrix3d::Identity();
     Eigen::Matrix3d after = Eigen::Matrix3d::Identity();
-    int abduction = -1;  ///< index of the angle, or -1
+    int abduction = -1;
     int flexion = -1;
   };
 

@@ -6,16 +6,17 @@
 
 namespace glovebench {
 
-/// A Kinect v1 color image as its sensor takes it: one color a pixel, in squares of
+/// Interpolates colors from a Kinect's mosaic, in squares of
 ///
 ///     green red
 ///     blue  green
 ///
-/// The two colors that a pixel lacks are the means of its neighbors (bilinear, rounded to the nearest); at the
-/// border of those that there are. Sides are even and at least 2 px: throws Error otherwise.
+/// A missing color is the mean of its neighbors in the image, rounded.
+/// Throws: Error unless the sides are even and at least 2 px.
 ColorImage color_from_bayer(const Image<uint8_t>& mosaic);
 
-/// What the sensor would have taken: of each pixel the one color. Throws Error as above.
+/// The mosaic of a color image.
+/// Throws: Error, as `color_from_bayer`.
 Image<uint8_t> bayer_from_color(const ColorImage& color);
 
 }  // namespace glovebench

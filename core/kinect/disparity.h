@@ -9,24 +9,23 @@
 
 namespace glovebench {
 
-/// Kinect v1 depth as the device reports it: z_mm = 345489 / (1089.41 - raw), from f 575.816 px, baseline
-/// 75 mm, 1/8 px steps. raw 0 is 317 mm, 398 is 500 mm, 744 is 1000 mm.
+/// The formula of Kinect v1: z_mm = 345489 / (1089.41 - raw), from f 575.816 px, baseline 75 mm and steps of 1/8
+/// px.
 inline constexpr uint16_t kNoDisparity = 2047;
-inline constexpr uint16_t kMaxDisparity = 1083;  ///< from 1084 on the formula has no useful value
+inline constexpr uint16_t kMaxDisparity = 1083;  ///< beyond, the formula is useless
 
-/// Depth in metres, or 0 for 2047 and for anything from 1084 on.
+/// Depth in m; 0 above kMaxDisparity.
 float depth_from_disparity(uint16_t raw);
-/// The nearest 11-bit step, or kNoDisparity if z (metres) is not positive, not finite or out of range.
+/// The nearest step; kNoDisparity if z (m) is not finite, not positive or out of range.
 uint16_t disparity_from_depth(double z);
 
-/// The same by a calibration of one's own, or by the formula above if there is none. Then, too, 2047 has no depth,
-/// nor has what the line puts behind the camera or farther away than the formula reaches (54 m).
+/// The same by a calibration, or by the formula without one. Depth outside 0..54 m, the formula's range, is none.
 using OptionalLine = std::optional<DisparityLine>;
 float depth_from_disparity(uint16_t raw, const OptionalLine& line);
 uint16_t disparity_from_depth(double z, const OptionalLine& line);
 
 DepthImage depth_from_disparity(const Image<uint16_t>& raw);
-/// Of a whole image, 0 also for what is farther than `z_max` (m).
+/// Depth beyond `z_max` (m) becomes 0.
 DepthImage depth_from_disparity(const Image<uint16_t>& raw, const OptionalLine& line,
                                 double z_max = std::numeric_limits<double>::infinity());
 

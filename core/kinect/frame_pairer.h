@@ -10,16 +10,15 @@
 
 namespace glovebench {
 
-/// The Kinect's own clock as libfreenect hands it out: 32 bits of 60 MHz, which come around every 71.6 s.
+/// The Kinect's 60 MHz clock, whose 32 bits wrap around every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
-/// Turns ticks into microseconds that do not come around. One clock serves both streams of a device: of any two
-/// stamps in a row the later is less than 35.8 s after the earlier, in arrival either way around. The first stamp
-/// is taken as it is, or, where its time is known by half a round, so many rounds later.
+/// Turns ticks into microseconds without wraps. Successive stamps, of one or both streams, must be less than 35.8 s
+/// apart.
 class TickClock {
  public:
   TickClock() = default;
-  /// `first_us`: about when the first stamp is; of a size below 1.5e17.
+  /// `first_us`: the first stamp's time, within half a round; magnitude below 1.5e17.
   explicit TickClock(int64_t first_us) : first_us_(first_us) {}
 
   int64_t microseconds(uint32_t ticks) {
@@ -28,7 +27,7 @@ class TickClock {
     started_ = true;
     first_us_.reset();
     ticks_ += static_cast<int32_t>(ticks - static_cast<uint32_t>(ticks_));
-    const bool rounds_up = ticks_ % kTicksPerMicrosecond < 0;  // down, also before zero
+    const bool rounds_up = ticks_ % kTicksPerMicrosecond < 0;  // rounds down, also below zero
     return ticks_ / kTicksPerMicrosecond - rounds_up;
   }
 
@@ -39,20 +38,17 @@ class TickClock {
 };
 
 struct PairingRules {
-  int64_t max_gap_us = 50'000;     ///< farther apart they are no pair
-  int64_t restart_us = 1'000'000;  ///< a clock that went back by more than this was started again
-  size_t max_waiting = std::numeric_limits<size_t>::max();  ///< depth images and color images that are kept, each
+  int64_t max_gap_us = 50'000;                              ///< largest in a pair
+  int64_t restart_us = 1'000'000;                           ///< a step back by more is a restart of the clock
+  size_t max_waiting = std::numeric_limits<size_t>::max();  ///< of each kind
 };
 
-/// Pairs depth images with color images by time stamp while they arrive, each kind in its own order in time: each
-/// depth image goes with the color image nearest in time, the earlier of two that are equally near. So a depth
-/// image waits for the first color image that is not before it, but no longer than until depth is ahead by
-/// `max_gap_us`, too many wait, or the stream has ended. A color image may go with several depth images.
+/// Pairs each depth image with the color image nearest in time, the earlier of two equally near. A depth image
+/// waits for the first color image not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait,
+/// or `finish`. Color images are copied.
 ///
-/// Out come the depth images that have a partner, in order of time; all others are counted. What is not later than
-/// the one before of its kind is dropped, unless the clock was started again: then what waits is dropped, and the
-/// time of the pairs goes back, too. Reads no clock. `Depth` and `Color` are what the images are carried in;
-/// `Color` is copied.
+/// Pairs come in order of time. An image that is not later than its kind's last one is dropped. At a restart of the
+/// clock, waiting images are dropped instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:
@@ -78,12 +74,11 @@ class FramePairer {
     pair_up();
     if (colors_.size() > rules_.max_waiting) colors_.pop_front();
   }
-  /// Nothing more will arrive: what waits is paired with what there is.
+  /// Pairs what waits; no more images follow.
   void finish() {
     finished_ = true;
     pair_up();
   }
-  /// The next pair, if there is one now.
   std::optional<Pair> pop() {
     if (pairs_.empty()) return std::nullopt;
     Pair pair = std::move(pairs_.front());
@@ -91,9 +86,8 @@ class FramePairer {
     return pair;
   }
 
-  /// Depth images without a partner.
   int unpaired() const { return unpaired_; }
-  /// Images whose time stamp was not later than that of the one before.
+  /// Dropped images that were not later.
   int went_back() const { return went_back_; }
 
  private:
@@ -120,7 +114,7 @@ class FramePairer {
   void pair_up() {
     while (!depths_.empty()) {
       const int64_t time_us = depths_.front().first;
-      // Of the color images the first is the only one that may be before all depth images that are still to come.
+      // Earlier color images are farther from this depth image and from all later ones.
       while (colors_.size() > 1 && colors_[1].first <= time_us) colors_.pop_front();
       const bool decided = !colors_.empty() && colors_.back().first >= time_us;
       if (!decided && may_wait()) return;

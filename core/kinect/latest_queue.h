@@ -7,15 +7,14 @@
 
 namespace glovebench {
 
-/// What came last and was not taken yet, the oldest first. Beyond `capacity` the oldest is dropped, which counts as
-/// late once something was asked for: what came before anybody was there is nobody's loss. Not thread-safe.
+/// The newest values, oldest first. Dropped values count as late only after the first `pop`. Not thread-safe.
 template <typename T>
 class LatestQueue {
  public:
   explicit LatestQueue(size_t capacity) : capacity_(capacity) {}
 
   void push(T value) { values_.push_back(std::move(value)); }
-  /// To be called after each push unless the sender waits until there is room.
+  /// Call after each push, unless the sender waits for room.
   void drop_oldest() {
     for (; is_overfull(); late_ += asked_) values_.pop_front();
   }

@@ -21,7 +21,7 @@ void require_size(int width, int height, const PinholeCamera& camera, const std:
                 std::to_string(camera.width) + "x" + std::to_string(camera.height) + " as calibrated");
 }
 
-/// The most that the file of such an image holds, and a little: decoding tells of that, and no more is read.
+/// More bytes than a valid file of such an image has: a larger file is read no further, and decoding refuses it.
 uint64_t largest_image(const PinholeCamera& camera) {
   constexpr uint64_t kBytesPerPixel = 4, kOthers = 4096;
   return kBytesPerPixel * static_cast<uint64_t>(camera.width * camera.height) + kOthers;

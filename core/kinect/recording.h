@@ -10,44 +10,39 @@
 
 namespace glovebench {
 
-/// A recording is a folder in the format of libfreenect's fakenect, with `calibration.json` beside the frames:
+/// A recording is a folder in the format of libfreenect's fakenect, with two more files:
 ///
-///     INDEX.txt                         one file name a line, in the order of arrival
+///     INDEX.txt                         file names, one a line, in order of arrival
 ///     d-SECONDS.MICROS-TICKS.pgm        "P5 640 480 65535", raw disparity, 16-bit little-endian
 ///     r-SECONDS.MICROS-TICKS.ppm        "P6 640 480 255", RGB
 ///     a-SECONDS.MICROS-TICKS.dump       accelerometer, ignored
-///     calibration.json                  see rgbd_calibration.h
-///     manifest.json                     the hash of each file (core/base/file_set.h), if glovebench recorded it
+///     calibration.json                  rgbd_calibration.h
+///     manifest.json                     core/base/file_set.h; optional
 ///
-/// SECONDS.MICROS is when an image arrived, by the computer's clock, with six digits of microseconds. TICKS is when
-/// it was taken, by the device's own clock (60 MHz, 32 bits), which comes around every 71.6 s. The time stamp of an
-/// image is that of its ticks, in the round that fits its arrival best, so recordings may pause for as long as they
-/// like. Written are both from one time stamp, so it returns exactly.
+/// SECONDS.MICROS is the arrival by the computer's clock. TICKS is the time of the image by the device's clock
+/// (TickClock). Its time stamp is that of its ticks, in the round that fits the arrival best.
 
-/// Plays a recording, paired as FramePairer does. Depth images with no color image near them are left out and
-/// counted, and so are images with the time stamp of the one before.
+/// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
  public:
-  /// Throws Error if the index or the calibration is missing or malformed, a file is listed twice or nothing can
-  /// be paired. Images are read and checked in next_frame. With `calibration` that of the folder is not read: a
-  /// recording of fakenect's own has none.
+  /// `calibration` replaces the folder's, which fakenect's recordings lack.
+  /// Throws: Error if index or calibration is missing or malformed, a file is listed twice, or there is no pair.
   explicit RecordingDevice(const std::string& folder,
                            const std::optional<RgbdCalibration>& calibration = std::nullopt);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
-  /// Throws FrameError naming the image file and what is wrong with it: also if the manifest has another hash for
-  /// it. An image that the manifest does not name was added by hand, and is read as it is.
+  /// Throws: FrameError for an image that is malformed or differs from the manifest.
   std::optional<DeviceFrame> next_frame() override;
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
-  /// Images with the time stamp of the one before of their kind.
+  /// Dropped images with the time stamp of the one before.
   int repeated_count() const { return repeated_count_; }
-  /// The calibration and the index, if somebody changed them since they were recorded.
+  /// Calibration and index, if they differ from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }
 
  private:
-  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of names of files
+  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file names
 
   std::string read_text(const std::string& name, uint64_t max_bytes);
 
@@ -60,25 +55,24 @@ class RecordingDevice : public Device {
   int repeated_count_ = 0;
 };
 
-/// Writes device frames as a recording, a set of files (core/base/file_set.h). What is written is played back equal
-/// if each color image is the one nearest in time to its depth image.
+/// Writes frames as a recording, which plays back equal if each color image is the nearest to its depth image.
 class RecordingWriter {
  public:
-  /// Throws Error if the folder already holds a recording, or cannot be written.
+  /// Throws: Error if the folder has a recording or cannot be written.
   RecordingWriter(const std::string& folder, const RgbdCalibration& calibration);
 
-  /// Depth time stamps increase; a color time stamp equal to the one before means the same image again. Throws
-  /// Error on time stamps that go back or are negative, and on images that no Kinect could give.
+  /// Depth time stamps must rise; an equal color time stamp means the same image.
+  /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
-  /// Until then the folder is no recording: an error, a full disk or a kill leaves none of its frames. So this is
-  /// for frames that can be made again, not for a live camera. Throws Error if no frame was written.
+  /// Makes the folder a recording. Without it all frames are lost: not for live cameras.
+  /// Throws: Error if there are no frames.
   void finish();
 
  private:
   WholeFiles files_;
   std::string folder_;
   RgbdCalibration calibration_;
-  std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp and file name
+  std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp, name
   int64_t last_depth_us_ = -1;
   int64_t last_color_us_ = -1;
 };

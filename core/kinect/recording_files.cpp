@@ -21,7 +21,7 @@ std::string_view extension(RecordedKind kind) {
   return kind == RecordedKind::color ? "ppm" : "dump";
 }
 
-/// Reads a name from left to right; every step fails on anything but what it expects.
+/// Reads a name from left to right; each step fails on unexpected text.
 class NameReader {
  public:
   NameReader(std::string_view name, const std::string& where) : name_(name), rest_(name), where_(where) {}
@@ -60,8 +60,8 @@ std::string netpbm_header(std::string_view magic, int width, int height, int max
   return fmt::format("{} {} {} {}\n", magic, width, height, max_value);
 }
 
-/// The pixels behind a header that is exactly the expected one but for the kind of white space. So only what is
-/// there is ever given room, however large the images are said to be.
+/// The pixels behind the expected header, in which white space may differ. Checked before any image is allocated,
+/// whatever size the file claims.
 std::string_view payload(std::string_view content, const std::string& header, size_t bytes,
                          const std::string& path) {
   const auto is_space = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
@@ -105,7 +105,7 @@ RecordedName parse_recorded_name(std::string_view name, const std::string& where
 }
 
 std::string encode_pgm(const Image<uint16_t>& raw_disparity) {
-  // Little-endian as fakenect writes it, against the format's rule.
+  // Little-endian as fakenect writes it, although the format says big-endian.
   std::string content = netpbm_header("P5", raw_disparity.width(), raw_disparity.height(), 65535);
   content.reserve(content.size() + 2 * raw_disparity.size());
   for (uint16_t raw : raw_disparity) {

@@ -17,8 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// When images were taken: of all times that the ticks of one may mean, the one nearest to its arrival, for which
-/// the first image says by how much the two clocks differ. So a pause may be longer than a round of the ticks.
+/// The times at which images were taken. Of all times that an image's ticks may mean, this is the nearest to its
+/// arrival, corrected by the difference of the two clocks at the first image. So pauses may be longer than a round
+/// of the ticks.
 class TakenTimes {
  public:
   int64_t microseconds(const RecordedName& name) {
@@ -28,7 +29,7 @@ class TakenTimes {
   }
 
  private:
-  std::optional<int64_t> ahead_us_;  ///< the device's clock before the computer's
+  std::optional<int64_t> ahead_us_;  ///< device's clock minus computer's
 };
 
 /// The size of a file, 0 if there is none.
@@ -38,7 +39,7 @@ uintmax_t size_of(const std::string& path) {
   return error ? 0 : size;
 }
 
-/// Throws Error unless a file begins and ends where fakenect looks for pixels.
+/// Throws: Error unless the file begins and ends where fakenect expects it.
 void require_image(const std::string& path, const std::string& header, size_t bytes) {
   if (size_of(path) != header.size() + bytes)
     throw Error(path, "size", std::to_string(size_of(path)) + " bytes",
@@ -59,7 +60,7 @@ std::vector<RecordingEntry> parse_recording_index(std::string_view content, cons
   const std::string index = path_in_recording(folder, kRecordingIndex);
   std::vector<RecordingEntry> entries;
   std::vector<std::string_view> listed;
-  // An entry is larger than its line: no more room than lines that could be read.
+  // Reserves room for no more lines than the content can hold, since an entry is larger than its line.
   constexpr size_t kShortestLine = std::string_view("d-0.000000-0.pgm\n").size();
   entries.reserve(content.size() / kShortestLine + 1);
   listed.reserve(entries.capacity());

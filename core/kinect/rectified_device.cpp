@@ -43,7 +43,7 @@ Rectification::Rectification(const PinholeCamera& camera, const LensDistortion& 
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       const Eigen::Vector2d xy = lens.distort({(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy});
-      // The map below has sixteen bits: a pixel far outside of the image would wrap around.
+      // The map has 16 bits, in which a pixel far outside the image would wrap around.
       const Eigen::Vector2d uv_px(std::clamp(camera.fx * xy.x() + camera.cx, -2.0, camera.width + 1.0),
                                   std::clamp(camera.fy * xy.y() + camera.cy, -2.0, camera.height + 1.0));
       at.at<cv::Vec2f>(v, u) = {static_cast<float>(uv_px.x()), static_cast<float>(uv_px.y())};
@@ -84,7 +84,7 @@ RectifiedDevice::RectifiedDevice(std::unique_ptr<Device> device)
 std::optional<DeviceFrame> RectifiedDevice::next_frame() {
   std::optional<DeviceFrame> frame = device_->next_frame();
   if (!frame) return frame;
-  // Only now: the maps are as large as the images, which a calibration may claim without any.
+  // Made with the first frame, not before: a calibration may claim large images without having any.
   if (!ir_) ir_.emplace(calibration_.ir, device_->calibration().ir_lens);
   if (!rgb_) rgb_.emplace(calibration_.rgb, device_->calibration().rgb_lens);
   frame->raw_disparity = (*ir_)(frame->raw_disparity);

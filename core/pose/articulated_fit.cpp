@@ -11,13 +11,13 @@
 namespace glovebench {
 namespace {
 
-constexpr double kPointsOfWeights = 1000;  ///< the weights are those of so many points
-constexpr double kInside = 1e-3;           ///< barycentric coordinates above it: not on an edge
-constexpr double kApart = 1e-5;            ///< m: nearer points have no direction
-/// The information of the points, per mm^2 of the equations' rows for 1,000 points. It was chosen on generated
-/// movements so that errors lie within one and two deviations as often as they should.
+constexpr double kPointsOfWeights = 1000;  ///< to which weights are normalized
+constexpr double kInside = 1e-3;           ///< smallest barycentric coordinate off an edge
+constexpr double kApart = 1e-5;            ///< m; nearer points define no direction
+/// Information of 1,000 points, per mm^2 of the equations' rows. It is chosen on generated movements so that the
+/// deviations match the errors.
 constexpr double kInformation = 4;
-constexpr double kUnseenDeviation_deg = 15;  ///< of an angle that no point shows; chosen likewise
+constexpr double kUnseenDeviation_deg = 15;  ///< of an angle without points; chosen in the same way
 constexpr double kOutlineSlack_px = 1;       ///< a vertex on the outline may lie this far from the nearest pixel
 
 double between(const double (&ends)[2], int step, int steps) {
@@ -81,7 +81,7 @@ BodyList bodies_at(const BodyShares& shares) {
   return list;
 }
 
-/// One start on its way, against the points of a stage.
+/// Fits one start to the points of a stage.
 class Run {
  public:
   Run(const HandModel& model, std::span<const BodyShares> shares, std::span<const FaceBodies> faces,
@@ -167,8 +167,7 @@ class Run {
     return sum / std::max(1, matched_points());
   }
 
-  /// How badly the pose that was matched fits: mean squared distances of points, and of vertices to the mask, each
-  /// cut off; mm^2.
+  /// The cost of the matched pose: mean squared truncated distances of points, and of vertices to the mask, mm^2.
   double score(const ArticulatedPose& pose) const {
     const auto cost = [&](double distance_mm) {
       const double cut = std::min(distance_mm, schedule_.score_cut_mm);
@@ -230,7 +229,7 @@ class Run {
   StepMatrix H_points_ = StepMatrix::Zero();
 };
 
-/// Holds the posture near those of the start and of the frame before.
+/// Adds a prior that draws the posture to `held`.
 void hold(NormalEquations& equations, const Posture& posture, const Posture& held, double weight) {
   for (int a = 0; a < kAngleCount; ++a) equations.hold(a, degrees_from_radians(held[a] - posture[a]), weight);
 }
@@ -254,7 +253,7 @@ ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std:
     ArticulatedPose pose;
     double score = 0;  ///< before its last step
   };
-  // Takes the steps of a stage; `converged`, or why it cannot.
+  // Takes the steps of a stage. Returns `converged` or the reason why not.
   const auto run_stage = [&](Run& run, const FitStage& stage, Candidate& candidate) {
     ArticulatedPose& pose = candidate.pose;
     for (int i = 0; i < stage.steps; ++i) {
@@ -273,7 +272,7 @@ ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std:
     }
     return AlignmentStatus::converged;
   };
-  // Those that can take the steps of a stage, best first, at most so many.
+  // The candidates that complete a stage, best first, at most `most`.
   const auto best_of = [&](const FitStage& stage, const RecycledVector<Candidate>& from, int most) {
     Run run(*model_, shares_, faces_, schedule_, seen, search_, stage.max_points);
     RecycledVector<Candidate> to;

@@ -27,7 +27,7 @@ struct FitStage {
   double tangential[2];     ///< relative weight of a distance along the surface
   bool outline_moves_pose;  ///< false: it moves the angles only
 };
-/// Each start runs `trial`, the best `rough`, the best of those `fine`. Point weights are normalized to 1,000
+/// Each start runs `trial`, the best of them `rough`, the best of those `fine`. Weights are normalized to 1,000
 /// points.
 struct FitSchedule {
   FitStage trial{4, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
@@ -62,9 +62,8 @@ struct FaceBodies {
   std::array<std::array<float, kMost>, 3> share{};
 };
 
-/// Refines pose and posture by iterative closest points of equal color: point-to-plane inside faces, point-to-point
-/// on edges. It uses narrowing Tukey weights, a fading prior, joint limits and the mask; vertices seen outside the
-/// mask are drawn into it.
+/// Refines pose and posture by iterative closest points of equal color and by the outline of the mask, with a
+/// posture prior and joint limits.
 class ArticulatedFit {
  public:
   /// `implementation`: of the closest-point search.
@@ -77,8 +76,8 @@ class ArticulatedFit {
 
  private:
   std::shared_ptr<const HandModel> model_;
-  std::vector<BodyShares> shares_;  ///< for each vertex
-  std::vector<FaceBodies> faces_;   ///< for each triangle
+  std::vector<BodyShares> shares_;
+  std::vector<FaceBodies> faces_;
   FitSchedule schedule_;
   IcpConfig search_;
 };

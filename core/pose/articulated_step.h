@@ -51,14 +51,12 @@ class PlainPullSums {
   NormalEquations equations_;
 };
 
-/// The bodies that move a point.
 struct BodyList {
   int count = 0;
   std::array<uint8_t, 12> body{};
   std::array<double, 12> share{};
 };
 
-/// Sums over pulls at one point.
 struct RowSums {
   Eigen::Matrix<double, 21, 1> products = Eigen::Matrix<double, 21, 1>::Zero();  ///< upper triangle by rows
   Vector6d sum = Vector6d::Zero();
@@ -68,7 +66,7 @@ struct RowSums {
   void add_along_axes(const Eigen::Vector3d& q, const Eigen::Vector3d& apart_mm, double weight);
 };
 
-/// The same, faster: sums 6 x 6 products for each pair of bodies that share points; angles enter at the end.
+/// The same equations, faster: sums for each pair of bodies that share points.
 class PullSums {
  public:
   explicit PullSums(const std::array<Screw, kAngleCount>& screws);
@@ -78,11 +76,11 @@ class PullSums {
  private:
   static constexpr int kPairs = kBodyCount * (kBodyCount + 1) / 2;
   struct Pair {
-    Eigen::Matrix<double, 21, 1> products = Eigen::Matrix<double, 21, 1>::Zero();  ///< lower triangle by columns
+    Eigen::Matrix<double, 21, 1> products = Eigen::Matrix<double, 21, 1>::Zero();
     bool is_used = false;
   };
 
-  std::array<Vector6d, kAngleCount> screws_;  ///< in the units of `row_of`
+  std::array<Vector6d, kAngleCount> screws_;
   std::array<Pair, kPairs> pairs_;
   std::array<Vector6d, kBodyCount> sums_;
 };

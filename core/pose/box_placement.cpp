@@ -7,7 +7,7 @@ namespace glovebench {
 namespace {
 
 constexpr int kMaxPlacements = 20;
-constexpr double kTolerance_px = 0.01;  // at arm's length 0.05 mm of depth: far below what a pixel tells
+constexpr double kTolerance_px = 0.01;  // 0.05 mm of depth at arm's length, far below a pixel's resolution
 constexpr double kFirstGuess_m = 0.7;   // the middle of the working volume; three steps reach its ends
 constexpr double kNearest_m = 1e-3;     // nearer points have no useful projection
 

@@ -24,8 +24,8 @@ struct BoxPlacement {
   int iterations = 0;
   bool converged = false;  ///< to 0.01 px
 };
-/// The position at which the points project into `observed`, by at most 20 fixed-point iterations. Empty if the
-/// square is empty, or so large that points fall behind the camera.
+/// The position at which the points project into `observed`. Empty if the square is empty, or so large that points
+/// fall behind the camera.
 std::optional<BoxPlacement> place_in_square(std::span<const Eigen::Vector3f> points_hand,
                                             const Eigen::Matrix3d& R_camera_hand, const ImageSquare& observed,
                                             const PinholeCamera& camera);

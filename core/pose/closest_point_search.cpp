@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-// This file is compiled once for each instruction set, but not for those whose vectors have no size in a program.
+// This file is compiled once for each instruction set whose vectors have a fixed size.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/pose/closest_point_search.cpp"
@@ -21,7 +21,7 @@ constexpr hn::CappedTag<float, FacePackets::kFaces> kFaceFloats;
 constexpr hn::CappedTag<float, FacePackets::kPackets> kPacketFloats;
 constexpr size_t kLanes = hn::MaxLanes(kFloats);
 
-/// What the roundings of a distance and of a bound may be, as a share of them: several times 2^-24.
+/// Relative rounding error of a distance or a bound: several times 2^-24.
 constexpr float kShare = 1e-6f;
 
 /// Around the points of a group.
@@ -43,12 +43,11 @@ HWY_INLINE GroupBox box_of(const Vectors& p) {
   return box;
 }
 
-/// Some of the boxes as a group sees them.
+/// Distances of some boxes from a group.
 template <typename D>
 struct BoxesSeen {
-  hn::VFromD<D> bound;  ///< how near to any point of the group they are
-  hn::VFromD<D>
-      doubt;  ///< what rounding leaves in doubt of the distance of any face in them from any of the points
+  hn::VFromD<D> bound;  ///< smallest distance from the group
+  hn::VFromD<D> doubt;  ///< rounding error of the distances between their faces and the points
 
   template <int kCount>
   HWY_INLINE BoxesSeen(D d, const Boxes<kCount>& boxes, size_t first, const GroupBox& group, float slack) {
@@ -89,13 +88,13 @@ class GroupSearch {
     is_measured_[face] = 1;
     ++measured_count_;
   }
-  /// Measures all faces that may be nearer to a point than the nearest so far. Adds to what was done.
+  /// Measures all faces that may be nearer to a point than the nearest so far.
   HWY_INLINE void measure_near(SearchWork& work) {
     const Floats so_far =
         hn::MulAdd(hn::Sqrt(nearest_.squared), hn::Set(kFloats, 1 + kShare), hn::Set(kFloats, color_.slack));
     const int listed = list_near(hn::GetLane(hn::MaxOfLanes(kFloats, so_far)));
     int count = 0;
-    for (int i = 0; i < listed; ++i) {  // no branch: which are near cannot be foretold
+    for (int i = 0; i < listed; ++i) {  // no branch, because it could not be predicted
       const int32_t face = candidates_[i];
       candidates_[count] = face;
       count += is_near(face, hn::Add(so_far, hn::Set(kFloats, doubts_[i])));
@@ -107,7 +106,7 @@ class GroupSearch {
   const Nearest& nearest() const { return nearest_; }
 
  private:
-  /// Lists the faces whose box is not farther than that from the box of the group; returns how many.
+  /// Lists the faces whose box is within `limit` of the group's box. Returns their number.
   HWY_INLINE int list_near(float limit) {
     const GroupBox box = box_of(p_);
     int listed = 0;
@@ -137,7 +136,7 @@ class GroupSearch {
     }
     return listed;
   }
-  /// A face that was not measured, whose box is not farther than that from each point.
+  /// Whether the face was not measured and its box is within `limit` of any point.
   HWY_INLINE int is_near(int32_t face, Floats limit) const {
     const Boxes<FacePackets::kFaces>& boxes = color_.face_boxes[face / FacePackets::kFaces];
     const int i = face % FacePackets::kFaces;
@@ -168,7 +167,7 @@ HWY_INLINE Vectors gather(std::span<const LabeledPoint> points, const PointGroup
   return {hn::Load(kFloats, p[0]), hn::Load(kFloats, p[1]), hn::Load(kFloats, p[2])};
 }
 
-/// To their places; and notes which faces they are.
+/// Writes the results, and the group's nearest faces for the next call.
 HWY_INLINE void scatter(const Nearest& nearest, uint8_t* noted, PointGroup& group, ClosestPoint* results) {
   alignas(64) float p[3][kLanes], distance[kLanes];
   alignas(64) int32_t face[kLanes];
@@ -200,7 +199,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
     }
     const Vectors p = gather(points, group);
     GroupSearch search(color, p, scratch);
-    // At first the group before is a neighbor; if there is none, a face of each packet will do.
+    // The first call starts at the faces of the previous group, a neighbor, or else at a face of each packet.
     const bool has_neighbor = before != nullptr && before->label == group.label;
     const PointGroup& start = group.nearest_count > 0 || !has_neighbor ? group : *before;
     for (int i = 0; i < start.nearest_count; ++i) search.measure(start.nearest[i]);

@@ -20,7 +20,6 @@ struct PointGroup {
   uint8_t label = 0;
 };
 
-/// Buffers for one group.
 struct GroupScratch {
   RecycledVector<uint8_t> is_measured;  ///< for each face; 0 between groups
   RecycledVector<int32_t> candidates;   ///< in FacePackets::faces
@@ -35,35 +34,32 @@ struct SearchWork {
   int64_t boxes = 0;     ///< face boxes tested
 };
 
-/// Gives the results of `closest_points_plain` bit for bit (for very thin faces within `rounding_blur`), faster:
-/// each group measures the faces nearest in the last call, then those whose boxes may be nearer. One object serves
-/// one set of points that moves little between calls; later calls do not allocate.
+/// Gives the results of `closest_points_plain` bit for bit (for very thin faces within `rounding_blur`), faster.
+/// One object serves one set of points that moves little between calls; later calls do not allocate.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;
   explicit ClosestPointSearch(const Surface& surface) { start(surface); }
-  /// Copies a surface; the groups' nearest faces that it still has are measured first.
+  /// Copies another surface. Points start at their last faces, if these are left.
   void start(const Surface& surface);
   /// Valid until the next call.
   const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);
   const SearchWork& work() const { return work_; }
 
  private:
-  /// Convert nearest faces to triangles of the model and back.
   void keep_nearest_as_triangles();
   void find_nearest_of_triangles(const Surface& surface);
-  /// Does nothing if labels are unchanged.
   void group(std::span<const LabeledPoint> points_hand);
 
   std::array<FacePackets, kColorCount + 1> colors_;
-  std::array<RecycledVector<int32_t>, kColorCount + 1> triangles_;  ///< for each face
+  std::array<RecycledVector<int32_t>, kColorCount + 1> triangles_;
   struct Place {
-    int32_t face = -1;  ///< in Surface::faces; -1: not there
+    int32_t face = -1;
     uint8_t label = 0;
   };
-  RecycledVector<Place> places_;  ///< of the triangles
+  RecycledVector<Place> places_;
   PlaceOrder order_;
-  RecycledVector<uint8_t> labels_;  ///< of the grouped points
+  RecycledVector<uint8_t> labels_;
   RecycledVector<PointGroup> groups_;
   GroupScratch scratch_;
   RecycledVector<ClosestPoint> closest_;

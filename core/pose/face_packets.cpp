@@ -9,7 +9,7 @@ namespace glovebench {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// Where the boxes of nothing are, m: farther than anything whose distance can be squared.
+/// Place of padding boxes, m: very far, with a finite square.
 constexpr float kFar = 1e18f;
 
 float longest_edge2(const Surface::Face& face) {
@@ -40,7 +40,7 @@ Boxes<kCount> boxes_of_nothing() {
   return boxes;
 }
 
-/// A face that rounding may put anywhere (or that is not finite) is looked at from everywhere.
+/// A face that is not finite, or has an infinite blur, gets an infinite box.
 void set_box(Boxes<FacePackets::kFaces>& boxes, int i, const Surface::Face& face) {
   boxes.blur[i] = rounding_blur(face);
   const bool boundless = !(boxes.blur[i] < kInfinity);
@@ -67,10 +67,10 @@ void set_box(Boxes<FacePackets::kPackets>& boxes, int i, const Boxes<FacePackets
 float rounding_blur(const Surface::Face& face) {
   const float length2 = longest_edge2(face);
   const float height2 = (face.b - face.a).cross(face.c - face.a).squaredNorm() / length2;
-  // Below this share the height itself is rounding.
+  // A smaller height is only rounding error.
   if (!(height2 > 1e-10f * length2) || length2 == kInfinity) return kInfinity;
-  // The areas are wrong by a share of 8 * 2^-24 (D / height)^2, which puts the closest point outside by at most
-  // four times that share of the length.
+  // Areas have a relative error of 8 * 2^-24 (D / height)^2: not the worst case, but several times the sum of
+  // independent roundings. It moves the closest point by at most four times this share of the length; doubled.
   constexpr float kAreas = 8 * 0x1p-24f;
   return 2 * 4 * kAreas * std::sqrt(length2) / height2;
 }

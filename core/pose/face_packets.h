@@ -16,7 +16,7 @@ struct alignas(64) Boxes {
   float blur[kCount];                     ///< `rounding_blur`, 1/m
 };
 
-/// The faces of one color in packets of consecutive ones, mostly neighbors.
+/// The faces of one color in packets of consecutive ones.
 struct FacePackets {
   static constexpr int kFaces = 8;     ///< per packet
   static constexpr int kPackets = 16;  ///< per group, for the widest vectors
@@ -36,8 +36,8 @@ struct FacePackets {
   void assign(std::span<const Surface::Face> surface_faces);
 };
 
-/// In single precision, the closest point to a point at distance D may lie outside a thin face by blur * D^2. Blur
-/// doubles the effect of area errors of 8 * 2^-24 (length * D)^2; it is infinite for a face without area.
+/// By rounding, the closest point of a thin face may lie outside it by blur * D^2, where D is the point's distance.
+/// Infinite for a face without area.
 float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench

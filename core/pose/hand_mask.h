@@ -36,7 +36,7 @@ class HandMask {
   PixelBox box_;
   int width_ = 0, height_ = 0;
   bool is_empty_ = true;
-  RecycledVector<Offset> offsets_;  ///< to the nearest mask pixel
+  RecycledVector<Offset> offsets_;
 };
 
 }  // namespace glovebench

@@ -32,7 +32,6 @@ struct Alignment {
   double residual = 0;  ///< final mean point-to-triangle distance, m
 };
 
-/// The points 0, n, 2n, ...; n >= 1.
 RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
 /// With the smallest n that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);

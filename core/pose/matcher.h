@@ -23,7 +23,6 @@ class Matcher {
 
   const RecycledVector<LabeledPoint>& cloud() const { return cloud_; }
   const Surface& surface() const { return surface_; }
-  /// Of the last `match`, for each point.
   const RecycledVector<LabeledPoint>& points_hand() const { return points_hand_; }
   std::span<const ClosestPoint> closest() const { return closest_; }
 

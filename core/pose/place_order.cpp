@@ -11,7 +11,7 @@ namespace {
 constexpr int kBits = 6;         ///< of a cell along an axis
 constexpr int kSortedBits = 11;  ///< in one pass: two passes are 3 * kBits and four bits of a label
 
-/// Two zeros between any two bits.
+/// Inserts two zeros between the bits.
 uint32_t spread(uint32_t cell) {
   cell = (cell | cell << 8) & 0x300f;
   cell = (cell | cell << 4) & 0x30c3;
@@ -26,7 +26,7 @@ uint32_t cell_of(float offset, float cells_per_m) {
 
 }  // namespace
 
-/// Those with equal bits stay in their order.
+/// A stable sort.
 void PlaceOrder::sort_by_bits(int first_bit) {
   constexpr uint32_t kMask = (1 << kSortedBits) - 1;
   std::array<uint32_t, kMask + 1> place{};  // first counts, then where the next item goes

@@ -17,7 +17,7 @@ class PlaceOrder {
 
  private:
   struct Item {
-    uint32_t key;  ///< label above the cell's 3 * kBits
+    uint32_t key;
     uint32_t index;
   };
   void sort_by_bits(int first_bit);

@@ -19,7 +19,6 @@ inline PosedHand posed() {
   return test_hand().pose(render::test_posture());
 }
 
-/// As an ideal camera sees the hand.
 inline RecycledVector<LabeledPoint> true_cloud(const Eigen::Isometry3d& T_camera_hand) {
   render::LabelRenderer renderer;
   const render::HandImages images = renderer.render_ids(test_hand(), posed(), kKinect, T_camera_hand);
@@ -37,7 +36,7 @@ inline Eigen::Vector3d random_direction(RandomStream& random) {
   return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
 }
 
-/// Rotated about its origin by up to 20 degrees, moved by up to 30 mm.
+/// Rotated about the hand origin by up to 20 degrees, moved by up to 30 mm.
 inline Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T_camera_hand, int number) {
   RandomStream random(1, "icp", number, "start");
   const Eigen::AngleAxisd turn(radians_from_degrees(random.uniform(0, 20)), random_direction(random));
@@ -47,7 +46,7 @@ inline Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T_camera_hand, int n
   return start;
 }
 
-/// Rotated about its origin and moved, in random directions.
+/// Rotated about the hand origin and moved, in random directions.
 inline Eigen::Isometry3d perturbed_by(const Eigen::Isometry3d& T_camera_hand, double angle_deg, double distance,
                                       int number) {
   RandomStream random(1, "icp", number, "far start");

@@ -12,7 +12,7 @@
 namespace glovebench {
 namespace {
 
-/// Of times that may lie anywhere; 0 if `now` is not after `then`.
+/// For any two times; 0 if `now` is not after `then`.
 double seconds_between(int64_t then_us, int64_t now_us) {
   if (now_us <= then_us) return 0;
   return static_cast<double>(static_cast<uint64_t>(now_us) - static_cast<uint64_t>(then_us)) * 1e-6;
@@ -23,7 +23,7 @@ bool is_lost(const RobotCommand& command) {
          command.state != CommandState::following;
 }
 
-/// The workspace of a wrist whose fingertips cannot leave that of the limits.
+/// Shrinks the workspace to where a wrist keeps all fingertips inside.
 void shrink_workspace(CommandLimits& limits) {
   limits.workspace_min.array() += kShadowWristReach;
   limits.workspace_max.array() -= kShadowWristReach;
@@ -34,7 +34,7 @@ void shrink_workspace(CommandLimits& limits) {
                   2 * kShadowWristReach));
 }
 
-/// The kinds that keep targets from being a start.
+/// Why targets cannot be a start.
 std::vector<std::string_view> problems_of_start(Interventions needed) {
   std::vector<std::string_view> problems;
   for (const Intervention kind : all_values<Intervention>())

@@ -9,35 +9,35 @@
 
 namespace glovebench {
 
-/// What the robot shall do with a command.
+/// What the robot shall do.
 enum class CommandState {
   following,  ///< go to the targets
-  holding,    ///< the hand is not seen: stay at the targets, those of the last line that was sent
-  stopped,    ///< it has not been seen for too long: stay, and expect a slow start
+  holding,    ///< hand not seen: stay at the last targets
+  stopped,    ///< not seen for long: stay, then start slowly
 };
 constexpr auto names_of(CommandState) {
   return std::to_array<std::string_view>({"following", "holding", "stopped"});
 }
 static_assert(kCountOf<CommandState> == static_cast<int>(CommandState::stopped) + 1, "each value has a name");
 
-/// Why a command is not what was asked for.
+/// How a command was changed.
 enum class Intervention {
-  stale,              ///< dropped: its time stamp, or its frame's, is not after the last one
-  not_finite,         ///< refused: a value is not finite
-  not_rigid,          ///< refused: the pose's rotation is none
-  joint_limit,        ///< a joint of the hand was moved into its limits, or J1 under J2
-  coupling,           ///< J1 and J2 of a finger were not as their motor moves them, and were made anew
-  actuator_mismatch,  ///< the targets of the motors were not those of the joints, and were made anew
-  joint_speed,        ///< a joint of the hand was slowed down
-  workspace,          ///< the hand was moved into the workspace, with its fingertips
-  hand_speed,         ///< the hand's motion was slowed down
-  hand_turn_speed,    ///< the hand's turning was slowed down
-  fingertip_speed,    ///< a fingertip was slowed down
-  arm_limit,          ///< a joint of the arm was moved into its limits
-  arm_speed,          ///< a joint of the arm was slowed down
-  arm_unreachable,    ///< the arm has no joint angles for the pose, or none near the last ones: they are kept
-  hold,               ///< the targets were held
-  stop,               ///< the stream came to a stop
+  stale,              ///< dropped: its time stamp is not later, or its frame's goes back
+  not_finite,         ///< refused
+  not_rigid,          ///< refused: invalid rotation
+  joint_limit,        ///< a joint was moved into its limits, or J1 under J2
+  coupling,           ///< J1 and J2 did not follow ShadowCoupling
+  actuator_mismatch,  ///< motors did not fit their joints
+  joint_speed,        ///< slowed down
+  workspace,          ///< hand or fingertips were moved into it
+  hand_speed,         ///< slowed down
+  hand_turn_speed,    ///< slowed down
+  fingertip_speed,    ///< slowed down
+  arm_limit,          ///< a joint was moved into its limits
+  arm_speed,          ///< slowed down
+  arm_unreachable,    ///< no joint angles near the last ones, which are kept
+  hold,
+  stop,
 };
 constexpr auto names_of(Intervention) {
   return std::to_array<std::string_view>({"stale", "not_finite", "not_rigid", "joint_limit", "coupling",
@@ -47,11 +47,11 @@ constexpr auto names_of(Intervention) {
 }
 static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1, "each value has a name");
 
-/// How often each kind happened. A kind counts once a command, however many joints it concerns.
+/// How often each kind happened, at most once a command.
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }
-  /// Saturates at INT64_MAX; less than one adds nothing.
+  /// Saturates at INT64_MAX; ignores counts below 1.
   void add(Intervention kind, int64_t count = 1) {
     int64_t& sum = counts_[static_cast<size_t>(kind)];
     if (count > 0) sum += std::min(count, std::numeric_limits<int64_t>::max() - sum);

@@ -6,8 +6,7 @@
 namespace glovebench {
 namespace {
 
-/// A motor's target may differ by what rounding to 1e-6 degrees of two joints and of itself makes, and no more. J1
-/// and J2 may be as far from their model.
+/// How far motors may differ from their joints, and J1 and J2 from their model, by rounding to 1e-6 degrees.
 constexpr double kActuatorTolerance = 1e-6;  // rad
 /// As `RobotCommander` admits it of a transform.
 constexpr double kRotationTolerance = 1e-6;
@@ -17,7 +16,7 @@ bool all_finite(const Range& values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// Makes J1 and J2 what their motor makes of them. Whether that moves any by more than rounding.
+/// Splits J1 and J2 by the coupling. Returns whether any moved by more than rounding.
 bool couple(std::array<double, kShadowJointCount>& joints, ShadowCoupling coupling) {
   bool moved = false;
   for (const ShadowActuatorInfo& info : shadow_actuator_infos()) {
@@ -79,10 +78,10 @@ double target_of(const ShadowActuatorInfo& info, const std::array<double, kShado
 
 constexpr double kWayTolerance = 1e-10;    // relative, of a way
 constexpr double kPrecision = 1e-3;        // of the largest share
-constexpr int kMostAttempts = 60;          // each halves what is left at least every other time
+constexpr int kMostAttempts = 60;          // at least every other one halves the range
 constexpr double kSlightlyOutside = 5e-5;  // m: five times the tolerance of inverse kinematics
 
-/// Ways as multiples of the farthest that they may be: above 1 is too fast.
+/// Ways divided by the farthest that they may be: above 1 is too fast.
 struct Excess {
   std::array<double, kCountOf<Intervention>> by_kind{};
 
@@ -93,7 +92,7 @@ struct Excess {
   double largest() const { return std::ranges::max(by_kind); }
 };
 
-/// Both ends are met to the last bit, and nothing is beyond them.
+/// Exact at both ends, and never beyond them.
 double between(double from, double to, double share) {
   const auto [lowest, highest] = std::minmax(from, to);
   return share < 1 ? std::clamp(from + share * (to - from), lowest, highest) : to;
@@ -106,7 +105,7 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to, d
   return q_from.slerp(share, q_to).normalized().toRotationMatrix();
 }
 
-/// The fingertips in a frame in which they may not be too fast: the base's, or for the hand alone the forearm's.
+/// The fingertips in the frame of their speed limit: the base's, or for the hand alone the forearm's.
 Fingertips guarded_fingertips(const RobotTargets& targets, GuardedPart part) {
   const std::array<double, kShadowJointCount>& joints = targets.hand.joints;
   return (part == GuardedPart::hand ? shadow_T_wrist_hand(joints) : targets.T_base_hand) *
@@ -142,7 +141,7 @@ class Way {
     return targets;
   }
 
-  /// Of what lies on the way, from its beginning.
+  /// How far `next` exceeds each limit.
   Excess excess(const RobotTargets& next) const {
     Excess excess;
     const double joint = limits_.hand_joint_speed * seconds_;
@@ -183,7 +182,7 @@ class Way {
     return joints;
   }
 
-  /// The longest of any fingertip; where the fingers are not known, of any place that a fingertip could be at.
+  /// The longest way of a fingertip; for an arm alone, of any place that a fingertip may have.
   double fingertip_way(const RobotTargets& next, double way, double turn) const {
     if (part_ == GuardedPart::arm) return way + kShadowWristReach * turn;
     return (guarded_fingertips(next, part_) - fingertips_).colwise().norm().maxCoeff();
@@ -199,8 +198,8 @@ class Way {
   Fingertips fingertips_ = Fingertips::Zero();
 };
 
-/// The largest share of a way at which nothing is too fast. Ways are nearly proportional to the share, and none is
-/// too long at a small one: a secant finds it in a few steps, and halving is there for the rest.
+/// The largest share of a way at which nothing is too fast. Ways are nearly proportional to the share, so a secant
+/// finds it in a few steps; halving handles the other cases.
 double largest_share(const Way& way, double excess_at_end) {
   double share = 1 / excess_at_end, fine = 0, too_large = 1;
   for (int i = 0; i < kMostAttempts; ++i) {
@@ -215,7 +214,7 @@ double largest_share(const Way& way, double excess_at_end) {
   return fine;
 }
 
-/// As far along a way as nothing is too fast.
+/// Moves along a way until something is too fast.
 RobotTargets moved_along(const Way& way, const RobotTargets& from, const RobotTargets& to, Interventions& done) {
   RobotTargets result = to;
   if (!to.arm) result.arm = from.arm;
@@ -301,7 +300,7 @@ RobotTargets moved_by_arm(const MountedArm& arm, const RobotTargets& from, const
   next.T_base_hand = carried_pose(arm.T_base_wrist(*next.arm), next.hand.joints, part);
   next = moved_along(Way(from, next, seconds, limits, part, &arm), from, next, slowed);
   for (const Intervention kind : all_values<Intervention>())
-    if (slowed[kind] > 0) done.add(kind);  // once, however often it was slowed down
+    if (slowed[kind] > 0) done.add(kind);  // each kind once
   return next;
 }
 

@@ -7,18 +7,18 @@
 
 namespace glovebench {
 
-/// One command as one line of JSON, without the line end; the keys are documented in core/robot/README.md.
-/// Numbers are rounded to 1e-6 of their unit, so equal commands are equal bytes. Throws Error if one is not finite.
+/// One command as a line of JSON (core/robot/command.schema.json) without the line end. Numbers are rounded to 1e-6
+/// of their unit. Throws: Error if a number is not finite.
 std::string to_json_line(const RobotCommand& command);
 
-/// Writes commands as JSON Lines, each as it comes, as LineFile does: `finish` gives the file its name, and without
-/// it the lines stay in PATH.partial. Every function throws Error if the disk has no room.
+/// Writes commands to a LineFile.
+/// Throws: Error, from every function, if the disk is full.
 class JsonLinesSink : public RobotCommandSink {
  public:
   explicit JsonLinesSink(const std::string& path) : file_(path) {}
   void send(const RobotCommand& command) override;
   void finish() override { file_.finish(); }
-  /// Lines that are not under the file's own name, and where they are; empty if there are none.
+  /// As LineFile::kept.
   std::string kept() const { return file_.kept(); }
 
  private:

@@ -9,33 +9,32 @@
 
 namespace glovebench {
 
-/// How one motor moves the last two joints of a finger while nothing stands in their way. Its target is J0 = J1 +
-/// J2, 0 to 180 degrees; J1 and J2 cannot be commanded apart (github.com/shadow-robot/sr_core, issue 150).
+/// How one motor moves J1 and J2 of a free finger (core/robot/README.md). Its target is J0 = J1 + J2, 0 to 180
+/// degrees.
 enum class ShadowCoupling {
-  series,  ///< J2 alone until it is at 90 degrees, then J1: google-deepmind/mujoco_menagerie issue 132, one report
-           ///< of a real hand, not verified against the maker's manual
-  even,    ///< both alike, as published simulation models do
+  series,  ///< J2 alone to 90 degrees, then J1
+  even,    ///< J1 = J2
 };
 constexpr auto names_of(ShadowCoupling) {
   return std::to_array<std::string_view>({"series", "even"});
 }
 
-/// The last two joints of a finger, rad.
+/// The last two joints of a finger.
+/// Units: rad.
 struct CoupledJoints {
-  double distal;    ///< J1, which is never above J2
+  double distal;    ///< J1, never above J2
   double proximal;  ///< J2
 };
-/// The joints of a motor at `motor`, 0 to pi rad. Their sum is `motor`, to the last bit.
+/// Splits a motor's target, 0 to pi rad. The sum is `motor` to the last bit.
 CoupledJoints split_motor(double motor, ShadowCoupling coupling);
-/// J1's share of a small motion of the motor from there, 0 to 1; J2 has the rest.
+/// J1's share of a small motion of the motor, 0 to 1.
 double distal_share(double motor, ShadowCoupling coupling);
 
-/// A share (0 to 1) of the way between two states of such joints. The motor goes straight. What the first state is
-/// off the model, as a finger that touches something is, fades by the same share. Both joints stay within their
-/// limits and J1 stays under J2.
+/// The joints at a share (0 to 1) of the way; the motor goes straight. A deviation of `from` from the model, as of
+/// a finger that touches something, fades. J1 stays under J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
-/// The 24 joints of a Shadow Dexterous Hand. J1 of a finger is its last joint, J4 its spread.
+/// Joints of a Shadow Dexterous Hand: J1 is a finger's last joint, J4 its spread.
 // clang-format off: one finger a row
 enum ShadowJoint : int {
   kFFJ1,
@@ -67,28 +66,27 @@ enum ShadowJoint : int {
 inline constexpr int kShadowJointCount = 24;
 inline constexpr int kShadowActuatorCount = 20;
 
-/// A joint of the robot: its limits and the human angle that drives it. Robot angle = sign * human angle.
-/// Spread (J4) counts towards the thumb as negative on the first and middle finger, as positive on the ring and
-/// little finger; THJ5 turns the thumb across the palm, THJ4 lifts it off the palm; WRJ1 bends to the palm and
-/// WRJ2 turns towards the thumb.
+/// A joint's limits and source: robot angle = sign * human angle (core/robot/README.md). THJ5 turns the thumb
+/// across the palm, THJ4 lifts it off; WRJ1 bends to the palm, WRJ2 turns to the thumb.
 struct ShadowJointInfo {
   std::string_view name;
   double min_deg;
   double max_deg;
-  std::optional<Angle> source;  ///< none: the hand model has no such angle, the joint stays at zero
+  std::optional<Angle> source;  ///< none: stays at zero
   int sign;                     ///< +1 or -1
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// A motor of the robot. J0 of a finger drives two joints by one tendon: its target is their sum (ShadowCoupling).
+/// A finger's J0 drives two joints; its target is their sum.
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;
-  std::optional<ShadowJoint> coupled_joint;  ///< J1 of the finger whose J2 is `joint`
+  std::optional<ShadowJoint> coupled_joint;  ///< J1 where `joint` is J2
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, rad, with a flag for each that is not what the posture asked for.
+/// Targets within the limits, flagged where they differ from what was asked.
+/// Units: rad.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};
   std::array<bool, kShadowJointCount> joint_clamped{};
@@ -96,12 +94,13 @@ struct ShadowHandTargets {
   std::array<bool, kShadowActuatorCount> actuator_clamped{};
 };
 
-/// Gives each motor the target that follows from its joints'.
+/// Computes the motors' targets from the joints'.
 void make_actuators(ShadowHandTargets& hand);
 
-/// The direct mapping of section V. Each joint takes the angle of its source, clamped to its limits. J1 and J2 of a
-/// finger are what the coupling makes of their motor's target, the sum of their sources' angles clamped to its
-/// limits; they count as clamped where the motor does. Throws Error if an angle is not finite.
+/// Maps a posture directly: each joint takes its source's angle, clamped. The coupling splits the clamped sum of J1
+/// and J2, which are flagged with their motor.
+/// Throws: Error if an angle is not finite.
+/// Paper: section V.
 ShadowHandTargets map_to_shadow_hand(const Posture& posture, ShadowCoupling coupling = ShadowCoupling::series);
 
 }  // namespace glovebench

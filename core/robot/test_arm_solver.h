@@ -1,6 +1,6 @@
 #pragma once
 
-// Inverse kinematics of the arm without KDL. For tests and fuzz targets, not part of the library.
+// Inverse kinematics without KDL, for tests.
 
 #include <Eigen/Dense>
 
@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Steps along the numerical Jacobian: slow, and good enough near a solution.
+/// Gauss-Newton with a numerical Jacobian: slow, but good near a solution.
 class JacobianSolver : public ArmSolver {
  public:
   std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const override {

@@ -1,12 +1,12 @@
 #pragma once
 
-// Commands for the tests of robot streams. Not part of the library.
+// Commands for tests.
 
 #include "core/robot/robot_command.h"
 
 namespace glovebench {
 
-/// A good command: all joints at zero, the hand at 0.5 m ahead of the base and 0.5 m above it.
+/// All joints at zero, the hand at (0.5, 0, 0.5) m.
 inline RobotCommand good_command(int64_t timestamp_us) {
   RobotCommand command;
   command.frame_timestamp_us = command.timestamp_us = timestamp_us;
@@ -18,14 +18,13 @@ inline RobotCommand good_command(int64_t timestamp_us) {
   return command;
 }
 
-/// One whose frame is lost.
 inline RobotCommand lost_command(int64_t timestamp_us) {
   RobotCommand command;
   command.frame_timestamp_us = command.timestamp_us = timestamp_us;
   return command;
 }
 
-/// Sets a joint, and the target of its motor with it.
+/// Sets a joint and its motor's target.
 inline void set_joint(RobotTargets& targets, ShadowJoint joint, double angle) {
   targets.hand.joints[joint] = angle;
   for (int a = 0; a < kShadowActuatorCount; ++a) {

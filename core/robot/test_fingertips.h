@@ -1,7 +1,6 @@
 #pragma once
 
-// Where the robot's fingertips are, computed anew from Shadow's numbers: nothing here uses the library's
-// kinematics. For tests and fuzz targets, not part of the library.
+// Fingertips from Shadow's dimensions, for tests; independent of the library.
 
 #include <Eigen/Core>
 #include <array>
@@ -21,7 +20,7 @@ class TestFingertips {
     tips_.row(2) = (0.0495 - palm.row(2).array()).matrix();
   }
   const Tips& in_hand() const { return tips_; }
-  /// In the frame of WRJ2, which is fixed to the forearm.
+  /// In the frame of WRJ2, fixed to the forearm.
   Tips in_forearm() const {
     const Tips palm = in_palm();
     const double bend = q_[22], side = q_[23];
@@ -43,7 +42,7 @@ class TestFingertips {
   static Eigen::Vector3d about_z(double a, const Eigen::Vector3d& p) {
     return {p.x() * std::cos(a) - p.y() * std::sin(a), p.x() * std::sin(a) + p.y() * std::cos(a), p.z()};
   }
-  /// From the knuckle, of the finger whose J1 is joint `first`: bent about x, then spread about y.
+  /// From the knuckle of the finger whose J1 is `first`.
   Eigen::Vector3d finger(int first, double spread) const {
     const double a = q_[first + 2], b = a + q_[first + 1], c = b + q_[first];
     const Eigen::Vector3d bent(0, -0.045 * std::sin(a) - 0.025 * std::sin(b) - 0.026 * std::sin(c),
@@ -62,7 +61,7 @@ class TestFingertips {
     palm.col(1) = Eigen::Vector3d(0.033, 0, 0.095) + finger(0, -q_[3]);
     palm.col(2) = Eigen::Vector3d(0.011, 0, 0.099) + finger(4, -q_[7]);
     palm.col(3) = Eigen::Vector3d(-0.011, 0, 0.095) + finger(8, q_[11]);
-    // The palm folds about an axis that is 35 degrees off the fingers.
+    // The palm folds about an axis 35 degrees off the fingers.
     const double tilt = 35 * std::atan(1.0) / 45;
     const Eigen::Vector3d little = Eigen::Vector3d(0, 0, 0.06579) + finger(12, q_[15]);
     palm.col(4) = Eigen::Vector3d(-0.033, 0, 0.02071) + about_y(tilt, about_z(q_[16], about_y(-tilt, little)));

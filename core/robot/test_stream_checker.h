@@ -1,7 +1,6 @@
 #pragma once
 
-// What every stream of guarded commands must be, told anew: nothing here uses the guard's code or its tables. For
-// tests and fuzz targets, not part of the library.
+// Checks streams of guarded commands, for tests; independent of the guard.
 
 #include <cmath>
 #include <string>
@@ -15,10 +14,10 @@ class StreamChecker {
  public:
   explicit StreamChecker(const CommandLimits& limits) : limits_(limits) {}
 
-  /// The stream starts where the robot stands; its J1 and J2 may be off their model.
+  /// The stream starts there; J1 and J2 may be off their model.
   void start(const RobotTargets& targets) { targets_ = targets; }
 
-  /// What is wrong with the next command of the stream; empty if nothing is.
+  /// The problem of the next command; empty if none.
   std::string problem(const RobotCommand& command) {
     std::string found = stamps(command);
     if (found.empty()) found = states(command);
@@ -34,8 +33,8 @@ class StreamChecker {
  private:
   static constexpr double kDegree = 3.14159265358979323846 / 180;
   static constexpr double kTiny = 1e-12;     // rad and m: rounding of sums
-  static constexpr double kTip = 1e-9;       // m: rounding of the numbers of the two computations
-  static constexpr double kRotation = 5e-6;  // rad: rotations are only such to 1e-6
+  static constexpr double kTip = 1e-9;       // m: rounding in the two computations
+  static constexpr double kRotation = 5e-6;  // rad: rotations are exact to 1e-6
 
   std::string stamps(const RobotCommand& command) const {
     if (!last_) return "";
@@ -92,7 +91,7 @@ class StreamChecker {
     return "";
   }
 
-  /// How far J1 of a finger is from where its motor would have it if nothing was in the way.
+  /// How far J1 is from its model.
   double off_model(const std::array<double, kShadowJointCount>& q, int finger) const {
     const double motor = q[finger] + q[finger + 1];
     const double alone = limits_.coupling == ShadowCoupling::even ? motor / 2 : std::max(0.0, motor - 90 * kDegree);
@@ -146,7 +145,7 @@ class StreamChecker {
 
   CommandLimits limits_;
   std::optional<RobotCommand> last_;
-  std::optional<RobotTargets> targets_;  ///< where the robot is
+  std::optional<RobotTargets> targets_;
   int64_t followed_us_ = INT64_MIN;
 };
 

@@ -19,11 +19,11 @@ class ColorCalibration {
  public:
   explicit ColorCalibration(ColorSpace space = ColorSpace::yuv) : space_(space) {}
 
-  /// Adds the pixels that are not beside a label border; label 0 = not glove. Both images have one size.
+  /// Adds pixels that are not beside a label border; 0 = not glove. Images have one size.
   void add_view(const ColorImage& color, const LabelImage& labels);
   /// The pixel shows one color. `label`: 0..kColorCount.
   void add_pixel(const Rgb& color, uint8_t label);
-  /// Relights seen colors within the limits of `model`; each cell gets its most probable label, if sure enough.
+  /// Relights seen colors within the limits of `model`, then gives each cell its most probable label.
   /// Throws: Error if a glove color was never bright enough.
   ColorTable build(const ColorModel& model = {}) const;
 

@@ -76,8 +76,8 @@ LabelImage majority_filter(const LabelImage& labels);
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
 
 /// Corrects labels at borders, where pixels mix colors (not in the paper): a pixel takes the most frequent label of
-/// its 3x3 neighborhood within `depth_step`, m. Its own label wins a tie, else the smallest; an unlabeled pixel
-/// does not vote and needs two votes. A pixel without depth keeps its label.
+/// its 3x3 neighborhood within `depth_step`, m. Ties go to its own label, else the smallest. An unlabeled pixel
+/// needs two votes.
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step = 0.02);
 
 }  // namespace glovebench

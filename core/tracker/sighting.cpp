@@ -48,7 +48,7 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
   if (static_cast<int>(cloud.points.size()) < config.min_pixels) {
     return cloud.labeled_outside >= config.min_pixels ? TrackStatus::outside_volume : TrackStatus::no_hand;
   }
-  // A third of the glove is missing: what is left would be matched as if it were all.
+  // With a third of the glove cut off, the rest would be matched as a whole hand.
   if (2 * cloud.labeled_cut_off > static_cast<int>(cloud.points.size())) return TrackStatus::outside_volume;
   if (is_cut_by_border(cloud.labels, cloud.points.size(), config)) return TrackStatus::cut_by_border;
   const RecycledVector<int> sizes = component_sizes(cloud, config.component_depth_step);

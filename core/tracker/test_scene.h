@@ -18,7 +18,7 @@ std::shared_ptr<const T> borrowed(const T& object) {
   return {&object, [](const T*) {}};
 }
 
-/// Made by the first test process that asks, under the default lighting.
+/// Made by the first test process that asks.
 inline const ColorTable& test_color_table() {
   static const ColorTable table = [] {
     const std::string path = shared_test_folder() + "/colors.table";

@@ -17,11 +17,11 @@ namespace glovebench {
 /// the origin).
 enum class TrackStatus {
   tracked,
-  no_hand,           ///< too few glove pixels
-  outside_volume,    ///< at least a third of the glove is too near or too far
-  cut_by_border,     ///< the glove touches the image border too long
-  several_hands,     ///< more than one large glove-colored object
-  too_few_points,    ///< fewer than three usable points
+  no_hand,         ///< too few glove pixels
+  outside_volume,  ///< at least a third of the glove is too near or too far
+  cut_by_border,   ///< the glove touches the image border too long
+  several_hands,   ///< more than one large glove-colored object
+  too_few_points,
   degenerate_cloud,  ///< the points lie on one line
   no_shared_color,   ///< cloud and visible model share none
   poor_match,        ///< nearest entry beyond `max_matching_error`
@@ -50,13 +50,13 @@ struct TrackResult {
 
   Posture posture_unfiltered = Posture::Zero();  ///< rad
   Eigen::Isometry3d T_camera_hand_unfiltered = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();  ///< before the alignment
+  Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();
   RecycledVector<Match> matches;
 
   bool ambiguous = false;  ///< rotations differ by more than 60 degrees
   bool converged = false;  ///< of the alignment
   int cloud_points = 0;    ///< |C|
-  int icp_points = 0;      ///< used by the alignment
+  int icp_points = 0;
   int icp_iterations = 0;
   double icp_residual = 0;  ///< final mean point-to-triangle distance, m
   std::optional<AngleCertainty> certainty;
@@ -88,9 +88,9 @@ using StageObserver = std::function<void(Stage stage)>;
 /// Observes nothing.
 inline void unobserved(Stage) {}
 
-/// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
-/// icp_iterations, icp_residual_mm, ambiguous, converged; if known angle_deviations_deg and hidden (names). Lost
-/// frames have no posture and pose. Numbers are rounded to 1e-6.
+/// A JSON object without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
+/// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known angle_deviations_deg and
+/// hidden (names). A lost frame has no posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

@@ -17,7 +17,7 @@ namespace glovebench {
 struct SegmentationConfig {
   ColorSpace color_space = ColorSpace::yuv;
   bool majority_filter = false;    ///< 3x3 (not in the paper)
-  bool surface_majority = false;   ///< within 2 cm depth (not in the paper)
+  bool surface_majority = false;   ///< of neighbors within 2 cm depth (not in the paper)
   bool largest_component = false;  ///< keep that one only (not in the paper)
 };
 
@@ -35,13 +35,12 @@ struct SmoothingConfig {
 };
 
 struct DetectionConfig {
-  int min_pixels = 150;  ///< fewer glove pixels: `no_hand`, >= 3
+  int min_pixels = 150;  ///< glove pixels; fewer: `no_hand`, >= 3
   /// A second component above this share of the largest means `several_hands`, (0, 1].
   double second_hand_share = 0.3;
   double component_depth_step = 0.05;  ///< depth step between components, m, > 0
-  int max_border_pixels = 40;          ///< more glove pixels there: `cut_by_border`, >= 0
-  /// The same as a share of the root of all glove pixels, > 0. It catches single fingers, which cover few border
-  /// pixels.
+  int max_border_pixels = 40;          ///< glove pixels; more: `cut_by_border`, >= 0
+  /// The same for single fingers, as a share of the square root of all glove pixels, > 0.
   double max_border_share = 0.35;
 };
 
@@ -59,7 +58,7 @@ struct TrackerConfig {
   double max_residual = 0.02;  ///< larger: `poor_alignment`, m, > 0
   SmoothingConfig smoothing;
 
-  /// One problem a line; empty without any.
+  /// One problem per line.
   std::vector<std::string> problems() const;
 };
 

@@ -14,9 +14,8 @@
 namespace glovebench::eval {
 namespace {
 
-/// A Kinect's depth image, and its color image.
 constexpr int kDepthWidth = 640, kDepthHeight = 480;
-/// What an IR picture may have more on each axis: libfreenect's have eight rows.
+/// Most extra pixels of an IR picture per axis; libfreenect's has eight extra rows.
 constexpr int kMostRim = 16;
 
 struct CalibrateCameras {
@@ -73,7 +72,7 @@ struct CalibrateCameras {
                   fmt::format("{}x{}, as the device's frames are", kDepthWidth, kDepthHeight));
   }
 
-  /// Of the depth image, which begins where --ir-offset says and may reach beyond the IR pictures.
+  /// IR camera of the depth image, whose corner --ir-offset gives; the image may reach beyond the IR pictures.
   PinholeCamera depth_camera(PinholeCamera camera) const {
     const int rim_x = camera.width - kDepthWidth, rim_y = camera.height - kDepthHeight;
     if (std::min(rim_x, rim_y) < 0 || std::max(rim_x, rim_y) > kMostRim)

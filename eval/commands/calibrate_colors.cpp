@@ -49,7 +49,7 @@ struct CalibrateColors {
       throw Error("--picture", "file name", picture, "the ending .png");
     require_different_files({{"--output", common.output}, {"--report", report}, {"--picture", picture}});
     for (const std::string& path : {common.output, report, picture})
-      if (!path.empty()) const WholeFile probe(path);  // never committed: nothing stays
+      if (!path.empty()) const WholeFile probe(path);  // tests that the file can be written; never committed
   }
 
   calibration::ColorSeeds seeds_to_begin_with() const {
@@ -57,7 +57,7 @@ struct CalibrateColors {
     return calibration::seeds_of_table(*common.workbench().color_table(), "the tracker's own color table");
   }
 
-  /// Frames spread over the recording; of a live device the first ones. Some are kept for the picture.
+  /// Frames spread over a recording, or the first ones of a live device. Keeps some for the picture.
   std::vector<calibration::VolumeView> take_frames(TrackSource& source, calibration::ColorSamples& samples) const {
     constexpr int kViews = 4;
     const int taken = source.frame_count > 0 ? std::min(frame_count, source.frame_count) : frame_count;

@@ -17,7 +17,7 @@
 namespace glovebench::eval {
 namespace {
 
-/// None of the suites' own: a floor must not be measured on the seeds that it judges.
+/// No suite's seed, since a noise floor must not be measured on the seeds that it judges.
 constexpr uint64_t kFirstSeed = 1001;
 
 struct CalibrateNoise {
@@ -76,7 +76,7 @@ struct CalibrateNoise {
     return floor;
   }
 
-  /// A row for each metric: the mean over all experiments, and the least sensitive of them.
+  /// One row per metric: the mean over all experiments, and the least sensitive experiment.
   static reports::Table smallest_changes(const reports::NoiseFloor& floor) {
     reports::Table table = reports::table_of({"suite " + floor.suite, "all, same seeds", "all, other seeds",
                                               "worst experiment, same seeds", "worst experiment, other seeds"});

@@ -36,7 +36,7 @@ struct Compare {
     if (!output.empty()) fmt::print("Report: {}/index.html\n", output);
   }
 
-  /// The given one; or the one beside the baseline, if it is of the candidate's suite.
+  /// The given noise floor, else the baseline's if it is of the candidate's suite.
   std::optional<reports::NoiseFloor> noise_floor(const FileSet& baseline, const std::string& suite) const {
     if (!noise_floor_path.empty()) return reports::read_noise_floor(noise_floor_path);
     std::optional<reports::NoiseFloor> floor = load_noise_floor_beside(baseline);

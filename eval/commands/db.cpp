@@ -35,7 +35,7 @@ struct Build {
 };
 
 void show(const std::string& path) {
-  const Database database = Database::load(path);  // all of it, so that damage is found
+  const Database database = Database::load(path);  // read completely, to find damage
   database.check();
   const double bytes = static_cast<double>(std::filesystem::file_size(path));
   fmt::print("{}: {}, {} hand, {} entries of {:.0f} bytes, {} memory, content {}\n", path,

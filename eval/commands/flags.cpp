@@ -130,7 +130,7 @@ Option RobotFlags::add(Command command, const std::string& what) {
 
 namespace {
 
-/// As the flags take it, rounded.
+/// Rounded, as the flags take it.
 nlohmann::json transform_json(const Eigen::Isometry3d& T) {
   const Eigen::Quaterniond q(T.linear());
   nlohmann::json values = nlohmann::json::array();
@@ -178,10 +178,10 @@ RobotOutput RobotFlags::output_of(Workbench& workbench) const {
 
 namespace {
 
-/// The same for all names of a file, whether it is there yet or not.
+/// Equal for all names of a file, even if it does not exist yet.
 std::string identity(const std::string& path) {
   std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);  // its reader or writer refuses it
+  const bool is_folder = std::filesystem::is_directory(path, ignored);  // its reader or writer reports it
   const OutputTarget target = is_folder ? OutputTarget{.path = path} : find_output(path);
   if (target.is_stream) {
     struct stat found = {};
@@ -212,7 +212,7 @@ void require_different_files(const std::vector<FileFlag>& files) {
 void CommonFlags::check_output_folder() const {
   if (std::filesystem::exists(output + "/provenance.json"))
     throw Error("--output", "folder", output + ", which holds a baseline", "another: both have a results.json");
-  const WholeFile probe(output + "/results.json");  // never committed: nothing stays
+  const WholeFile probe(output + "/results.json");  // tests that files can be written; never committed
 }
 
 }  // namespace glovebench::eval

@@ -13,16 +13,15 @@
 
 namespace glovebench::eval {
 
-/// Flags that mean the same in every subcommand.
 struct CommonFlags {
   std::string output;
   std::string config_file;
-  nlohmann::json config_json;  ///< instead of a file: the configuration of an earlier run
+  nlohmann::json config_json;  ///< an earlier run's, instead of a file
   std::string profile = "paper";
   std::string method;  ///< empty: the configuration's
   std::string cascade;
-  std::string calibration;          ///< file; empty: the synthetic Kinect's own
-  nlohmann::json calibration_json;  ///< instead of a file: that of an earlier run
+  std::string calibration;          ///< file; empty: the synthetic Kinect's
+  nlohmann::json calibration_json;  ///< likewise
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -33,20 +32,21 @@ struct CommonFlags {
   Option add_output(Command command, const std::string& what);
   void add_tracker(Command command);
   void add_seed(Command command);
-  /// The cameras of the synthetic Kinect.
   void add_cameras(Command command);
   void add_machine(Command command);
 
-  /// Defaults < profile < file < command line. Throws Error.
+  /// Defaults < profile < file < command line.
+  /// Throws: Error.
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
-  /// Counted up from `seed`. Throws Error if there are not so many.
+  /// `count` seeds from `seed` up.
+  /// Throws: Error beyond the largest seed.
   std::vector<uint64_t> seeds(int count) const;
-  /// Throws Error if no file can be written to the output folder: before the work, not after it. Makes the folder.
+  /// Makes the folder, before the work.
+  /// Throws: Error if it cannot be written.
   void check_output_folder() const;
 };
 
-/// How the hand is mounted on the arm.
 struct MountingFlag {
   std::optional<Eigen::Isometry3d> transform;  ///< empty: default_T_flange_wrist()
 
@@ -54,32 +54,28 @@ struct MountingFlag {
   Eigen::Isometry3d T_flange_wrist() const;
 };
 
-/// What robot commands may do, and how J1 and J2 of its fingers hang together.
 struct LimitsFlag {
-  std::string file;  ///< JSON (`glovebench list limits`); empty: CommandLimits' own
+  std::string file;  ///< JSON (`glovebench list limits`); empty: defaults
 
   std::string coupling{to_string(CommandLimits().coupling)};
 
   void add(Command command);
   Option add_coupling(Command command);
-  /// Throws Error.
+  /// Throws: Error.
   CommandLimits limits() const;
 };
 
-/// A file of the command line.
 struct FileFlag {
   std::string flag;
   std::string path;  ///< empty: none
 };
-/// Throws Error if two of them are one file under whatever names, or one is where the lines of another are kept
-/// until it is whole (core/base/line_file.h): one would replace the other. For all files that a command writes, and
-/// those that it reads and could write.
+/// For all files that a command writes or could overwrite.
+/// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
 
-/// The arm's solver. Throws Error naming the field if this build has none.
+/// Throws: Error naming the field without a solver.
 std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const std::string& field);
 
-/// Where robot commands go, and how a hand becomes one.
 struct RobotFlags {
   std::string output;
   std::string mapping = "direct";
@@ -90,7 +86,7 @@ struct RobotFlags {
 
   /// Returns the option of `output`.
   Option add(Command command, const std::string& what);
-  /// Of the workbench's hand. Throws Error if the arm is asked for and this program was built without it.
+  /// Throws: Error if the arm is requested and this build has none.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };

@@ -21,7 +21,7 @@ struct Gate {
   reports::PairingOptions pairing;
   bool update = false;
 
-  /// What `make` returns. What it throws is written in the place of a report, too.
+  /// Returns what `make` returns. Also writes its error in place of a report.
   template <typename Make>
   auto or_refusal(Make&& make) const {
     try {
@@ -32,7 +32,7 @@ struct Gate {
     }
   }
 
-  /// The exit code. A report of an earlier gate does not stay beside a refusal.
+  /// Returns the exit code. Replaces an earlier gate's report even if it refuses.
   int run() const {
     if (!output.empty()) reports::require_own_folder(output);
     const StoredRun candidate = or_refusal([&] { return load_run(candidate_path); });
@@ -43,7 +43,7 @@ struct Gate {
     return or_refusal([&] { return update ? replace(folder, candidate) : judge(folder, candidate); });
   }
 
-  /// Says what the new baseline changes, then makes it the baseline.
+  /// Says what the new baseline changes before making it the baseline.
   int replace(const std::string& folder, const StoredRun& candidate) const {
     try {
       const Baseline old = load_baseline(folder);
@@ -78,8 +78,8 @@ struct Gate {
     return made;
   }
 
-  /// Writes and prints; returns whether nothing stops the change. The accuracy is written before a missing speed
-  /// can be an error.
+  /// Writes and prints the report; returns whether nothing stops the change. Accuracy is written before a missing
+  /// speed can be an error.
   bool report(const Baseline& baseline, const std::string& folder, const StoredRun& candidate,
               reports::ComparisonReport made) const {
     if (!output.empty()) {

@@ -25,7 +25,7 @@ std::string one_line(const std::string& text) {
   return replaced(text, "\n", " ");
 }
 
-/// A paragraph of a manual page: what stands between backticks is bold.
+/// Text in backticks becomes bold.
 std::string roff(const std::string& text) {
   std::string line = replaced(replaced(one_line(text), "\\", "\\e"), "-", "\\-");
   for (bool begins = true; line.find('`') != std::string::npos; begins = !begins)
@@ -38,7 +38,7 @@ std::string roff_option(const OptionText& option) {
                      roff(option.value), roff(option.help));
 }
 
-/// The commands under `command` that do something; `name`: with those above it.
+/// All commands under `command` that have an action. `name` includes the parents.
 std::string roff_commands(const CommandText& command, const std::string& name) {
   std::string page;
   for (const CommandText& subcommand : command.subcommands) {

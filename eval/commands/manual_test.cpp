@@ -76,7 +76,7 @@ TEST(Completions, Bash) {
 
 TEST(Completions, Zsh) {
   const std::string program = build_paths::program("glovebench");
-  // Outside of a line editor: what zsh's own functions are given is printed.
+  // Prints what zsh's functions receive, since there is no line editor.
   const std::string zsh =
       "compdef() {}; _describe() { print -l -- \"${(@P)2}\" }; _files() { print a file }; "
       "source <('" +

@@ -1,4 +1,4 @@
-// The only source that knows CLI11, which takes long to compile.
+// The only source that includes CLI11, which takes long to compile.
 #include "eval/commands/options.h"
 
 #include <fmt/format.h>
@@ -23,14 +23,14 @@ namespace {
 constexpr int kWrongCommandLine = 2;
 constexpr int kHelpColumn = 34;
 
-/// An empty value looks like an option that is not there, as of a variable of a script that is not set.
+/// An empty value usually comes from an unset variable of a script.
 CLI::Validator not_empty() {
   return {
       [](const std::string& text) -> std::string { return text.empty() ? "found nothing, expected a value" : ""; },
       ""};
 }
 
-/// A number from `low` to `high`; `type`: in the help. CLI::Range lets pass what is no number.
+/// Accepts numbers from `low` to `high`; CLI::Range also accepts text that is no number. `type` is for the help.
 CLI::Validator number_within(double low, double high, std::string_view type) {
   return {[=](const std::string& text) -> std::string {
             double value = 0;
@@ -40,7 +40,7 @@ CLI::Validator number_within(double low, double high, std::string_view type) {
           fmt::format("{} in [{} - {}]", type, low, high)};
 }
 
-/// CLI11 takes 010 for 8, and the largest number for one that is larger.
+/// CLI11 would read 010 as 8, and clamp numbers that are too large.
 template <typename Number>
 CLI::Validator whole_number() {
   return {[](const std::string& text) -> std::string {
@@ -82,7 +82,7 @@ bool is_empty(const Value& value) {
   return false;
 }
 
-/// The words of an option with `one_of`: CLI11 keeps them in the type alone, as in TEXT:{slow,fast}.
+/// The words of `one_of`. CLI11 keeps them only in the type: TEXT:{slow,fast}.
 std::vector<std::string> words_of(const std::string& type) {
   const size_t begin = type.find(":{"), end = type.rfind('}');
   if (begin == std::string::npos || end == std::string::npos) return {};
@@ -109,8 +109,7 @@ CommandText text_of(const CLI::App& app) {
   return text;
 }
 
-/// What is wrong with the command line. CLI11 tells a missing subcommand or option before an unknown one, which
-/// hides the misspelling that it comes from.
+/// The error's message. CLI11 reports a missing subcommand or option before the misspelled one that causes it.
 std::string describe(const CLI::App& program, const CLI::ParseError& error) {
   const std::vector<std::string> unknown = program.remaining(true);
   const bool missing = error.get_name() == "RequiredError";

@@ -47,7 +47,7 @@ class Options : public testing::Test {
     err = testing::internal::GetCapturedStderr();
     return exit_code;
   }
-  /// What is said of `walk home` with more arguments, which are wrong.
+  /// The message for `walk home` with wrong arguments.
   std::string refusal(std::vector<const char*> more) {
     more.insert(more.begin(), {"walk", "home"});
     EXPECT_EQ(run(more), 2);

@@ -24,15 +24,15 @@ struct Reproduce {
   RobotFlags robot;
 
   int run() {
-    constexpr double kLogInterval = 25;  // s: a log has a line at least every 30 s
+    constexpr double kLogInterval = 25;  // s; a log needs a line at least every 30 s
     log_progress(kLogInterval);
     refuse_twice("--trajectory", options.trajectories);
     refuse_twice("--only", options.only);
-    options.study.tracker = common.tracker_config();  // a wrong configuration is named before anything is built
+    options.study.tracker = common.tracker_config();  // fails before anything is built
     if (common.output.empty()) common.output = "out";
     options.study.seeds = common.seeds(seed_count);
     if (all_gains) options.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
-    plan_reproduction(options);  // and so is a wrong name
+    plan_reproduction(options);  // checks the names of parts, too
     common.check_output_folder();
 
     Workbench workbench = common.workbench();
@@ -58,8 +58,7 @@ struct Reproduce {
       throw Error(flag, "names", "one of them twice", "each once");
   }
 
-  /// Figure 4 at first, then the study that came last. If nobody reads it, the work goes on: the summary fails
-  /// then.
+  /// Shows Figure 4 first, then the newest study. If stdout has no reader, the work goes on and the summary fails.
   void show_newest(const reports::RunResult& so_far) const {
     const std::string text =
         so_far.studies.empty() ? figure4_text(so_far) : reports::study_markdown(so_far.studies.back());

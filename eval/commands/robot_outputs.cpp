@@ -35,7 +35,7 @@ void RobotOutputs::send(CommandGuard& guard, const RobotCommand& command, int64_
   const int64_t now_us = bus_ ? bus_->start(guard, command) : command.timestamp_us;
   const std::optional<RobotCommand> safe = guard.guard(command, now_us);
   if (!safe) return;
-  if (bus_) bus_->send(*safe, arrived_us);  // first: a slow disk does not hold the robot up
+  if (bus_) bus_->send(*safe, arrived_us);  // first, since a disk may be slow
   if (file_) file_->send(*safe);
 }
 

@@ -15,7 +15,6 @@
 namespace glovebench::eval {
 namespace {
 
-/// Which robot is served, and how.
 struct ServerFlags {
   BusFlags bus{.middleware = "dds", .interface = {}, .security = {}};
   std::string log;
@@ -28,7 +27,8 @@ struct ServerFlags {
   int run() const {
     if (!hand && !arm) throw Error("robot-server run", "joints", "none", "--hand, --arm or both");
     const std::unique_ptr<ArmSolver> solver = arm ? require_arm_solver("robot-server run", "--arm") : nullptr;
-    const DdsServerOptions read = options(solver.get());  // before signals only ask: a pipe may never end
+    // Before the Interruption: opening a pipe may block forever.
+    const DdsServerOptions read = options(solver.get());
     const Interruption interruption;
     const DdsServerSummary summary = serve(read);
     fmt::print("{}\n", summary.text);
@@ -53,7 +53,6 @@ struct ServerFlags {
   }
 };
 
-/// Keys for DDS Security.
 struct Keys {
   std::string folder;
   int days = 365;

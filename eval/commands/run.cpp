@@ -65,7 +65,7 @@ struct RunCommand {
     print_end(timings);
   }
 
-  /// A part of the reproduction by itself; a cascade on the command line takes the place of Figure 8's four.
+  /// Runs one part of the reproduction. A cascade on the command line replaces the four of Figure 8.
   void run_study() {
     for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
                              "--noise", "--gain", "--subject"})
@@ -91,7 +91,7 @@ struct RunCommand {
     fmt::print("{}", reports::study_markdown(result));
   }
 
-  /// The suite by its name, or what the flags say, as a suite without a name.
+  /// The suite by name, or an unnamed suite from the flags.
   Suite chosen_suite() const {
     require_one_choice();
     Suite suite = suite_name.empty() ? suite_of_flags() : load_suite(suite_name);

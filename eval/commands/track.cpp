@@ -21,10 +21,10 @@
 namespace glovebench::eval {
 namespace {
 
-/// Plays the frames of a recording no faster than they were taken.
+/// Plays a recording no faster than it was taken.
 class Pace {
  public:
-  /// Returns when a frame is due, or when the end is wished.
+  /// Returns when the frame is due or the user interrupts.
   void wait_for(int64_t timestamp_us) {
     using namespace std::chrono;
     constexpr milliseconds kLongestNap(50);
@@ -48,12 +48,12 @@ struct Track {
   int limit = 0;       ///< frames; 0: to the end
   RobotFlags robot;
   BusFlags bus;
-  std::string topics = "own";  ///< that commands are sent to
+  std::string topics = "own";  ///< to which commands are sent
 
   // Of the run.
   int frames = 0, unusable = 0, tracked = 0;
   std::optional<Error> failure;  ///< of the device, or of a command
-  bool is_whole = true;          ///< no command failed, and every line was written
+  bool is_whole = true;          ///< all commands succeeded and all lines were written
 
   void run() {
     require_different_files({{"--output", common.output}, {"--robot-out", robot.output}});
@@ -71,7 +71,8 @@ struct Track {
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
     RobotSetup setup = robot.setup(workbench);
     LineFile output(common.output);
-    const Interruption interruption;  // after all files were read: a pipe may never end, and a signal must end that
+    // After reading all files: opening a pipe may block, and a signal must end that.
+    const Interruption interruption;
     setup.arm_start = outputs.arm_start().value_or(setup.arm_start);
     RobotCommander commander(setup);
     const size_t kept_results = static_cast<size_t>(config.smoothing.forget_after);
@@ -126,8 +127,8 @@ struct Track {
     if_it_fails([&] { outputs.send(guard, commander.command(result), arrived_us); });
   }
 
-  /// A session whose device failed is as long as it is, and its files get their names. One that lost a line
-  /// replaces no older file: what there is of it stays beside, and the message says where.
+  /// Names the files of a session, even if its device failed. A session that lost a line keeps an older file and
+  /// leaves its own lines beside it; the message says where.
   void finish(LineFile& output, RobotOutputs& outputs) {
     if_it_fails([&] { outputs.finish(is_whole); });
     if (is_whole) if_it_fails([&] { output.finish(); });
@@ -138,7 +139,7 @@ struct Track {
     throw Error(message);
   }
 
-  /// Notes an error of an output, which ends the session.
+  /// Notes an output's error, which ends the session.
   void if_it_fails(const std::function<void()>& write) {
     try {
       write();
@@ -148,14 +149,14 @@ struct Track {
     }
   }
 
-  /// Where the summary goes: not among the lines.
+  /// The summary's stream; stdout may hold the lines.
   std::FILE* messages() const {
     for (const std::string& path : {common.output, robot.output})
       if (!path.empty() && find_output(path).descriptor == STDOUT_FILENO) return stderr;
     return stdout;
   }
 
-  /// Counts the frame, if there is one, also if it is unusable: then there is nothing to return.
+  /// Counts the frame. Empty at the end and for an unusable frame.
   std::optional<DeviceFrame> next_frame(Device& device) {
     try {
       std::optional<DeviceFrame> frame = device.next_frame();

@@ -25,7 +25,7 @@ TrackSource open_recording(const SourceFlags& flags, bool quiet) {
   say_changed(flags.source, recording->changed(), quiet);
   return {std::move(device), recording->frame_count(),
           [recording] { return recording->unpaired_depth_count() + recording->repeated_count(); },
-          system_us,  // it is read when it is asked for
+          system_us,  // a frame arrives when it is read
           [] { return std::string(); }};
 }
 
@@ -50,7 +50,7 @@ TrackSource open_live(const SourceFlags& flags) {
       flags.calibration.empty() ? nominal_kinect_calibration() : load_calibration(flags.calibration);
   LiveOptions options{.index = index, .every_frame = flags.every_frame, .interrupted = Interruption::wished};
   if (!flags.calibration.empty()) options.calibration_name = flags.calibration;
-  // What is played may pause as long as its recording did.
+  // A played recording may pause as long as the original did.
   if (flags.every_frame) options.silence_limit = std::numeric_limits<double>::infinity();
   std::unique_ptr<LiveKinect> device = open_kinect(calibration, options);
   const LiveKinect* live = device.get();

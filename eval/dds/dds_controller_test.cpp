@@ -1,4 +1,4 @@
-// `track` before the controllers of a robot: it starts where the robot is measured to stand.
+// `track` with a robot's controllers starts where the robot is measured to stand.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -36,7 +36,7 @@ class DdsController : public DdsBus {
     for (size_t j = 0; j < names.size(); ++j) text += fmt::format(" {}={}", names[j], positions.at(j));
     return text;
   }
-  /// Half open, as no tracked hand is at first.
+  /// Half open, unlike any tracked hand at the start.
   static std::vector<double> standing() {
     std::vector<double> positions(kShadowJointCount);
     for (int j = 0; j < kShadowJointCount; ++j) {
@@ -45,7 +45,7 @@ class DdsController : public DdsBus {
     }
     return positions;
   }
-  /// A driver that tells where the joints are, a hundred times a second, until it is stopped.
+  /// A driver that reports joints a hundred times a second until it is stopped.
   StartedProgram drive(const std::string& topic, const std::vector<std::string>& names,
                        const std::vector<double>& positions, const ProgramSetting& setting = {}) {
     return talk("wait " + topic + "\nstate " + topic + values(names, positions) + "\nagain 100000 10000\n",
@@ -60,11 +60,11 @@ class DdsController : public DdsBus {
         joints[word.substr(0, equals)] = std::stod(word.substr(equals + 1));
     return joints;
   }
-  /// In which the controller shall reach the targets of a message, s: a microsecond more than it says.
+  /// When the controller must reach the targets of a message, s: a microsecond later than it says.
   static double time_of(const std::string& line) {
     return std::stod(line.substr(line.find(" point ") + std::string_view(" point ").size())) + 1e-6;
   }
-  /// When the controller got a message.
+  /// When the controller received a message.
   static double received_s(const std::string& line) {
     return static_cast<double>(std::stoll(line.substr(line.rfind(' ') + 1))) * 1e-9;
   }
@@ -77,7 +77,7 @@ class DdsController : public DdsBus {
   }
   /// A tracked frame whose joints are all at 0.
   static RobotCommand command(int i) { return good_command(1'000'000 + 33'333 * int64_t{i}); }
-  /// What `track` does with commands.
+  /// Sends commands as `track` does.
   static void send(RobotOutputs& outputs, int count) {
     CommandGuard guard;
     for (int i = 0; i < count; ++i) {
@@ -86,7 +86,7 @@ class DdsController : public DdsBus {
     }
     outputs.finish();
   }
-  /// Nothing keeps a command from being sent.
+  /// Whether the command is sent without an Error.
   static bool is_sent(RobotOutputs& outputs, CommandGuard& guard, int i) {
     try {
       outputs.send(guard, command(i), system_us());
@@ -95,8 +95,7 @@ class DdsController : public DdsBus {
       return false;
     }
   }
-  /// The hand is lost for a while, and meanwhile somebody bends the fingers: the next command starts where they
-  /// are.
+  /// While the hand is lost, somebody bends the fingers; the next command must start there.
   void expect_asked_again(double stop_after_s) {
     const StartedProgram listener = listen("60", kController);
     const auto heard = [&] { return lines_of("hand", said(listener)).size(); };
@@ -156,7 +155,7 @@ TEST_F(DdsController, IsLeftNoFasterThanTheLimitsFromWhereTheRobotStands) {
                                             : drive("states", hand_joint_names(), standing(), kController);
     const StartedProgram listener = listen_to_controller();
     RobotOutputs outputs("", controllers(false));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the listener knows the sender a little later
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // for discovery of the sender
     send(outputs, 20);
     stop(driver, SIGKILL);
     const std::string heard = finish(listener).out;
@@ -235,7 +234,7 @@ TEST_F(DdsController, IsNotSpokenToAfterItsDriverFellSilent) {
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const StartedProgram listener = listen_to_controller();
   CommandGuard guard;
-  EXPECT_NO_THROW(outputs.send(guard, lost_command(1), system_us()));  // says nothing anyway
+  EXPECT_NO_THROW(outputs.send(guard, lost_command(1), system_us()));  // a lost command is not sent anyway
   EXPECT_THROW(outputs.send(guard, command(2), system_us()), Error);
   EXPECT_EQ(stop(listener, SIGTERM).out, "ready\n");
 }
@@ -252,9 +251,9 @@ TEST_F(DdsController, HearsABurstOfFramesNoFasterThanTheClockOfTheWall) {
   const StartedProgram driver = drive("measured", hand_joint_names(), standing());
   const StartedProgram listener = listen_to_controller();
   RobotOutputs outputs("", controllers(false));
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the listener knows the sender a little later
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // for discovery of the sender
   CommandGuard guard;
-  for (int i = 0; i < 200; ++i) outputs.send(guard, command(i), system_us());  // 6.6 s by their stamps
+  for (int i = 0; i < 200; ++i) outputs.send(guard, command(i), system_us());  // 6.6 s by their time stamps
   outputs.finish();
   stop(driver, SIGKILL);
   const std::vector<std::string> hands = lines_of("hand", finish(listener).out);
@@ -273,7 +272,7 @@ TEST_F(DdsController, StartsTheArmWhereItStands) {
   const StartedProgram hand = drive("measured", hand_joint_names(), std::vector<double>(kShadowJointCount, 0.0));
   const StartedProgram listener = listen_to_controller();
   const ArmJoints rest = kArmAtRest;
-  // The arm's own controller tells of it on another topic.
+  // The arm's own controller reports on another topic.
   const StartedProgram arm = drive("states", arm_joint_names(), {rest.begin(), rest.end()}, kController);
   RobotOutputs outputs("", controllers(true));
   ASSERT_TRUE(outputs.arm_start());
@@ -293,7 +292,7 @@ TEST_F(DdsController, StartsTheArmWhereItStands) {
     std::string frame;
     Eigen::Vector3d now;
     words >> frame >> now.x() >> now.y() >> now.z();
-    // The wrist turns about the hand's origin, which the limits are of.
+    // The wrist turns about the hand's origin, to which the limits apply.
     constexpr double kWristFromHand = 0.15;
     EXPECT_LE((now - before).norm(),
               (CommandLimits().hand_speed + kWristFromHand * CommandLimits().hand_turn_speed) * time_of(hands[i]));
@@ -323,7 +322,7 @@ TEST(MeasuredTargets, TakeNoiseAsTheLimit) {
 /// From frames to a controller.
 class DdsControllerTrack : public CommandTest {};
 
-/// A recording that is tracked faster than it was taken.
+/// A recording, tracked faster than it was taken.
 class DdsControllerRecording : public DdsController {
  protected:
   static constexpr int kLength = 46;

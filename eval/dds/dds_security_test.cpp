@@ -1,4 +1,4 @@
-// DDS Security between processes: who has no right is neither followed nor believed.
+// DDS Security between processes: participants without the right are neither followed nor believed.
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"
@@ -35,7 +35,7 @@ class DdsSecurity : public RobotServer {
     make_security_keys(path("strangers"), valid_now());
   }
 
-  /// What Cyclone DDS is told, whether it fits or not.
+  /// Settings of Cyclone DDS, valid or not.
   struct Files {
     std::string identity_ca, certificate, key, permissions_ca, governance, permissions;
   };
@@ -44,7 +44,7 @@ class DdsSecurity : public RobotServer {
     return {base + "identity_ca.pem",    base + role + ".pem",    base + role + ".key",
             base + "permissions_ca.pem", base + "governance.p7s", base + role + ".p7s"};
   }
-  /// For the probe, which checks nothing by itself.
+  /// For the probe, which makes no checks itself.
   static ProgramSetting as(const Files& files) {
     return {.environment = {
                 {"CYCLONEDDS_URI",
@@ -67,7 +67,7 @@ class DdsSecurity : public RobotServer {
     openssl({"smime", "-sign", "-text", "-signer", "own_ca.pem", "-inkey", "own.key", "-out", file}, document);
   }
 
-  /// An observer with a true identity whose rights are signed by itself.
+  /// An observer with a valid identity that signed its own permissions.
   ProgramSetting as_presumptuous_observer() {
     openssl({"req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-subj",
              "/CN=its own", "-keyout", "own.key", "-out", "own_ca.pem"});
@@ -85,21 +85,21 @@ class DdsSecurity : public RobotServer {
     its.key = files("keys", "server").key;
     return as(its);
   }
-  /// Everybody who has no right to send what `role` does.
+  /// All who may not send what `role` sends.
   std::vector<std::pair<std::string, ProgramSetting>> intruders(const std::string& role) {
     return {{"unsecured", {}},
             {"a stranger", as(files("strangers", role))},
             {"a wrong private key", with_wrong_key(role)},
             {"an observer with rights of its own making", as_presumptuous_observer()}};
   }
-  /// One of a program that has the keys.
+  /// Access of a program that has the keys.
   DdsAccess access(const std::string& role) const { return {"", path("keys"), role}; }
 };
 
 TEST_F(DdsSecurity, OnlyTheSenderIsFollowed) {
   const std::string log = path("hand.jsonl");
   const StartedProgram server = serve_until_ready("hand", log, {"--security", path("keys")});
-  const std::string wait = "sleep 500\n", more = "again 200 10000\n";  // none waits for a listener: most have none
+  const std::string wait = "sleep 500\n", more = "again 200 10000\n";  // does not wait: most have no listener
   std::vector<StartedProgram> running;
   for (const auto& [who, setting] : intruders("sender"))
     running.push_back(talk(wait + fingers(80, 1) + more, setting));
@@ -161,7 +161,7 @@ TEST_F(DdsSecurity, ACertificateThatExpiredIsNotFollowed) {
   while (now_s() <= end_s) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const std::string log = path("hand.jsonl");
   const StartedProgram server = serve_until_ready("hand", log, {"--security", path("short")});
-  finish(sender);  // its keys were good when it started, so nothing but the server stops it
+  finish(sender);  // its keys were valid at the start, so only the server stops it
   EXPECT_EQ(good(log, "fingers"), 0);
   const ProgramRun late = finish(talk(fingers(80, 1), as(files("short", "sender"))));
   EXPECT_EQ(late.exit_code, 1) << "another one cannot even start";

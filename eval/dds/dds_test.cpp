@@ -1,4 +1,4 @@
-// Robot commands over DDS, received by processes that share nothing with the sender but the messages' definitions.
+// Robot commands over DDS. The receiving processes share only the messages' definitions with the sender.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -22,7 +22,7 @@ using nlohmann::json;
 
 class Dds : public DdsBus {
  protected:
-  /// The i-th of a stream at 30 Hz whose joints all move.
+  /// Command i of a stream at 30 Hz in which all joints move.
   static RobotCommand command(int i) {
     RobotCommand command = good_command(1'000'000 + 33'333 * int64_t{i});
     for (int j = 0; j < kShadowJointCount; ++j)
@@ -38,7 +38,7 @@ class Dds : public DdsBus {
   }
   static void await_listener(const DdsSink& sink) {
     ASSERT_TRUE(comes_true([&] { return sink.listeners() > 0; }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the listener knows the sender a little later
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // for discovery of the sender
   }
   static std::string stamp(int i) {
     const int64_t us = 1'000'000 + 33'333 * int64_t{i};
@@ -50,7 +50,7 @@ class Dds : public DdsBus {
       text += fmt::format(" {}={:.17g}", names[j], 0.001 * i + 0.01 * (first + static_cast<int>(j)));
     return text;
   }
-  /// A line without the source time, its second word, and the time of its receipt.
+  /// A line without source time (its second word) and time of receipt.
   static std::string without_times(const std::string& line) {
     const size_t begin = line.find(' ') + 1, source_end = line.find(' ', begin) + 1;
     return line.substr(0, begin) + line.substr(source_end, line.find(" received ") - source_end);
@@ -112,7 +112,7 @@ TEST_F(Dds, BytesAreThoseOfRos2) {
   put(22, 4);
   for (int j = 0; j < 22; ++j) put(std::bit_cast<uint64_t>(0.001 * 7 + 0.01 * j), 8);
   put(0, 4), put(0, 4), put(0, 4);  // velocities, accelerations, effort
-  put(0, 4);                        // time_from_start.sec; what follows differs from message to message
+  put(0, 4);                        // time_from_start.sec; the rest differs between messages
   std::string hex = "0001";
   for (const char byte : bytes) hex += fmt::format("{:02x}", static_cast<unsigned char>(byte));
   const std::string found = text.substr(text.find('\n') + 1);

@@ -16,12 +16,12 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Where the wrist is when the arm is at rest.
+/// The wrist's pose with the arm at rest.
 Eigen::Isometry3d wrist_at_rest(const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
   return arm_flange_pose(kArmAtRest) * T_flange_wrist;
 }
 
-/// A pose that far from there, as a line for the probe.
+/// A probe's line for a pose at that distance from there.
 std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame = "base_link",
                  const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
   const Eigen::Isometry3d T = wrist_at_rest(T_flange_wrist);
@@ -31,7 +31,7 @@ std::string pose(const Eigen::Vector3d& way, int sec, const std::string& frame =
                      q.w());
 }
 
-/// Where the wrist is at the end of a log.
+/// The wrist's pose at the end of a log.
 Eigen::Isometry3d last_wrist(const json& state,
                              const Eigen::Isometry3d& T_flange_wrist = default_T_flange_wrist()) {
   ArmJoints joints;
@@ -41,7 +41,7 @@ Eigen::Isometry3d last_wrist(const json& state,
   return arm_flange_pose(joints) * T_flange_wrist;
 }
 
-/// By a log of hand and arm, from one state to the next, each fingertip in the arm's base frame.
+/// Checks each fingertip's speed in the arm's base frame between the states of a log.
 void expect_slow_fingertips(const std::string& log) {
   std::optional<TestFingertips::Tips> last;
   int64_t last_us = 0;
@@ -61,7 +61,7 @@ void expect_slow_fingertips(const std::string& log) {
     if (last) {
       const double seconds = std::min(CommandLimits().longest_step_s, static_cast<double>(now_us - last_us) * 1e-6);
       const double way = (now - *last).colwise().norm().maxCoeff();
-      ASSERT_LE(way, CommandLimits().fingertip_speed * seconds + 1e-7) << line;  // a log's rounding
+      ASSERT_LE(way, CommandLimits().fingertip_speed * seconds + 1e-7) << line;  // rounding of a log
       fastest = std::max(fastest, way / seconds);
     }
     last = now;
@@ -127,7 +127,7 @@ TEST_F(RobotServerArm, TheArmStartsAtALimitAndNotBeyond) {
     json state = json::parse(last);
     state["position_deg"]["S1"] = angle_deg;
     state["time_us"] = system_us();
-    std::string text = state.dump();  // in the order of a log: `event` comes first
+    std::string text = state.dump();  // in the log's order, which starts with `event`
     text.erase(text.find(R"("event":"state",)"), 16);
     const std::string place = state["position_deg"].dump();
     write_file(log, R"({"event":"state",)" + text.substr(1) + "\n" +

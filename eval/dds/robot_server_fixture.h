@@ -1,6 +1,6 @@
 #pragma once
 
-// Servers of hand and arm as processes on a bus of their own, and what every log of theirs must keep to.
+// Runs robot servers as processes and checks their logs.
 
 #include <fmt/format.h>
 
@@ -29,7 +29,7 @@
 
 namespace glovebench::eval {
 
-/// A robot behind a server: its joints are where they were told to be last, and it measures that.
+/// A robot that is at once where a server tells it to be.
 class SimulatedRobot {
  public:
   explicit SimulatedRobot(int domain)
@@ -82,7 +82,7 @@ class RobotServer : public DdsBus {
     command.insert(command.end(), more.begin(), more.end());
     return start(command, setting);
   }
-  /// A server that has begun, as its log shows.
+  /// Waits until the log shows the start.
   StartedProgram serve_until_ready(const std::string& sides, const std::string& log,
                                    const std::vector<std::string>& more = {}, const ProgramSetting& setting = {}) {
     const size_t before = std::filesystem::exists(log) ? std::filesystem::file_size(log) : 0;
@@ -108,7 +108,7 @@ class RobotServer : public DdsBus {
     std::vector<json> found;
     std::istringstream all(read_file(log));
     for (std::string line; std::getline(all, line);) {
-      json parsed = json::parse(line, nullptr, false);  // a kill may have cut one
+      json parsed = json::parse(line, nullptr, false);  // a kill may have cut it
       if (!parsed.is_discarded() && parsed.at("event") == event) found.push_back(std::move(parsed));
     }
     return found;
@@ -118,26 +118,26 @@ class RobotServer : public DdsBus {
     return std::ranges::count_if(
         all, [&](const json& line) { return line.at("topic") == topic && line.at("receipt") == receipt; });
   }
-  /// Messages that were good in themselves, whether they were followed or came at a start or too late.
+  /// Valid messages: followed, at a start, or too late.
   static int64_t good(const std::string& log, const std::string& topic) {
     return received(log, topic, "accepted") + received(log, topic, "starting") + received(log, topic, "stale");
   }
-  /// On a busy machine a server misses ticks, and then follows nothing until its sender has started anew.
+  /// A busy server misses ticks, then waits until its sender starts anew.
   static bool had_gaps(const ProgramRun& run) { return run.out.find("; gaps: ") != std::string::npos; }
   static double last_angle(const std::string& log, const std::string& joint) {
     return lines(log, "state").back().at("position_deg").at(joint).get<double>();
   }
-  /// rad/s: what the guard grants a joint of the hand, or the arm's own.
+  /// The guard's for hand joints, the arm's own for others.
+  /// Units: rad/s.
   static double speed(const std::string& joint) {
     for (const ArmJointInfo& info : arm_joint_infos())
       if (info.name == joint) return radians_from_degrees(info.max_speed_deg_s);
     return CommandLimits().hand_joint_speed;
   }
-  /// From one state to the next no joint moves farther than its speed allows. Every state is inside the interval
-  /// that the log states before it, also across a restart.
+  /// Checks that no joint exceeds its speed or the last logged interval, also across a restart.
   static void expect_safe(const std::string& log) {
-    constexpr double kRounded = 3e-6;      // degrees: two angles of a log
-    constexpr double kLongestStepS = 0.1;  // what the guard takes as the time of one step, at most
+    constexpr double kRounded = 3e-6;      // degrees, of two logged angles
+    constexpr double kLongestStepS = 0.1;  // longest step that the guard assumes
     json last, interval;
     bool started = false;
     int states = 0;

@@ -1,4 +1,4 @@
-// The hand's server as a process, with other processes that send to it.
+// The hand's server as a process, with other senders as processes.
 #include <gmock/gmock.h>
 
 #include "eval/dds/robot_server_fixture.h"
@@ -39,16 +39,16 @@ TEST_F(RobotServer, RefusesWhatIsWrongAndGoesOn) {
   const StartedProgram server = serve_until_ready("hand", log);
   std::string other_names = fingers(20, 12);
   other_names.replace(other_names.find("rh_FFJ1"), 7, "xx_FFJ1");
-  finish(talk("wait hand\nwait wrist\n" + fingers(5, 10) + "again 60 10000\n" +  // good
-              fingers(20, 9) + fingers(20, 10) +                                 // went back, came twice
+  finish(talk("wait hand\nwait wrist\n" + fingers(5, 10) + "again 60 10000\n" +  // valid
+              fingers(20, 9) + fingers(20, 10) +                                 // goes back, comes twice
               fingers(std::nan(""), 11) + fingers(INFINITY, 11) + other_names +  // 2 not finite, wrong joints
-              "hand 13 0 1" + joints(hand_joint_names(), 20) +                   // with the wrist: wrong joints
-              "hand 13 0 1 rh_FFJ1=1\nhand 13 0 1 \n" +                          // one, none: wrong joints
-              fingers(20, 14, 0) + fingers(20, 14, 2) +                          // no point, two
+              "hand 13 0 1" + joints(hand_joint_names(), 20) +                   // has the wrist: wrong joints
+              "hand 13 0 1 rh_FFJ1=1\nhand 13 0 1 \n" +                          // 1 and 0 joints: wrong joints
+              fingers(20, 14, 0) + fingers(20, 14, 2) +                          // 0 and 2 points
               "short 14 0" + joints(hand_trajectory_names(), 20) +               // one position too few
               "hand -1 0 1" + joints(hand_trajectory_names(), 20) +              // before 1970
               "hand 15 4000000000 1" + joints(hand_trajectory_names(), 20) +     // nanoseconds of four seconds
-              fingers(1e9, 16) + fingers(10, 17) + "sleep 50\n"));               // clamped; good
+              fingers(1e9, 16) + fingers(10, 17) + "sleep 50\n"));               // clamped; valid
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("hand: messages: 2 bad_time, 4 wrong_joints, 3 wrong_points, 2 not_finite, "));
@@ -71,11 +71,11 @@ TEST_F(RobotServer, TheFirstSenderOwnsItWhileAnotherFloods) {
   EXPECT_EQ(finish(flooder).out, "said\n");
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0);
-  // A flood that pushed the owner's messages out would leave few of 301. A busy machine may lose some: a writer
-  // keeps 10.
+  // If a flood pushed out the owner's messages, few of 301 would remain. A busy machine may lose some, since a
+  // writer keeps 10.
   EXPECT_GE(good(log, "fingers"), 225) << "the owner is heard: " << run.out;
   EXPECT_THAT(run.out, HasSubstr(" foreign"));
-  if (!had_gaps(run)) {  // after one, the first who starts owns it
+  if (!had_gaps(run)) {  // the first to start again owns the server
     EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
     EXPECT_LE(last_angle(log, "rh_FFJ3"), 10 + 1e-6);
   }
@@ -99,7 +99,7 @@ TEST_F(RobotServer, HoldsAndStopsWhenItsSenderDiesAndFollowsTheNext) {
   stop(first, SIGKILL);
   const auto state_is = [&](const char* state) { return lines(log, "state").back().at("state") == state; };
   EXPECT_TRUE(comes_true([&] { return state_is("stopped"); }));
-  // It holds before it stops, unless it did not run all the while.
+  // Holds before it stops, unless it had a pause.
   const std::vector<json> states = lines(log, "state");
   const auto held =
       std::find_if(states.rbegin(), states.rend(), [](const json& line) { return line.at("state") != "stopped"; });
@@ -108,7 +108,7 @@ TEST_F(RobotServer, HoldsAndStopsWhenItsSenderDiesAndFollowsTheNext) {
     const int64_t elapsed_us = std::prev(held)->at("clock_us").get<int64_t>() - held->at("clock_us").get<int64_t>();
     EXPECT_GE(elapsed_us, 1e6 * (CommandLimits().stop_after_s - CommandLimits().silence_s) - 1);
   }
-  finish(talk("wait hand\n" + fingers(20, 1) + "again 150 10000\n"));  // its stamps begin anew
+  finish(talk("wait hand\n" + fingers(20, 1) + "again 150 10000\n"));  // its time stamps start anew
   const ProgramRun run = stop(server, SIGTERM);
   if (!had_gaps(run)) {
     EXPECT_THAT(run.out, HasSubstr("streams: 2;"));
@@ -121,7 +121,7 @@ TEST_F(RobotServer, GoesOnWhereItWasKilled) {
   const std::string log = path("hand.jsonl");
   const SimulatedRobot robot(std::stoi(domain_));
   StartedProgram server = serve_until_ready("hand", log);
-  std::string script = "wait hand\n";  // to and fro, so that it is always on its way
+  std::string script = "wait hand\n";  // back and forth, so that it is always moving
   for (int i = 0; i < 40; ++i) script += fingers(i % 2 ? 80 : 5, 1 + i) + "again 20 10000\n";
   const StartedProgram sender = talk(script);
   for (int round = 0; round < 3; ++round) {
@@ -166,7 +166,7 @@ TEST_F(RobotServer, StaleCommandsMoveNothing) {
   ASSERT_TRUE(comes_true([&] { return last_angle(log, "rh_FFJ3") > 5; }));
   kill(server.process, SIGSTOP);
   const double stood = last_angle(log, "rh_FFJ3");
-  std::this_thread::sleep_for(std::chrono::milliseconds(3500));  // the sender says 80 degrees by now
+  std::this_thread::sleep_for(std::chrono::milliseconds(3500));  // the sender is at 80 degrees by now
   stop(sender, SIGKILL);
   std::this_thread::sleep_for(std::chrono::seconds(5));
   kill(server.process, SIGCONT);
@@ -174,7 +174,7 @@ TEST_F(RobotServer, StaleCommandsMoveNothing) {
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(HasSubstr(" stale"), HasSubstr("; gaps: ")));
-  // It was on its way to 10 degrees, and the last lines of the log were still to be written.
+  // It was moving to 10 degrees, and the last lines of the log were not yet written.
   EXPECT_LE(last_angle(log, "rh_FFJ3"), std::max(stood + 5, 10 + 1e-6));
   expect_safe(log);
 }
@@ -182,7 +182,7 @@ TEST_F(RobotServer, StaleCommandsMoveNothing) {
 TEST_F(RobotServer, NobodyHasToHearWhatItSays) {
   const std::string log = path("hand.jsonl");
   stop(serve_until_ready("hand", log), SIGTERM);
-  const StartedProgram server = serve_until_ready("hand", log, {}, {.unheard = true});  // says where it starts
+  const StartedProgram server = serve_until_ready("hand", log, {}, {.unheard = true});  // prints where it starts
   finish(talk("wait hand\n" + fingers(10, 1) + "again 200 10000\n"));
   EXPECT_NEAR(last_angle(log, "rh_FFJ3"), 10, 1e-6) << "it serves";
   EXPECT_EQ(stop(server, SIGTERM).exit_code, 2) << "its last line could not be said; no signal has ended it";
@@ -199,7 +199,7 @@ TEST_F(RobotServer, ATerminalThatIsClosedEndsItCleanly) {
   EXPECT_THAT(run.out, HasSubstr("hand: messages: "));
   stop(sender, SIGKILL);
   const json last = lines(log, "interval").back();
-  // Intervals are rounded outwards, to 1e-6 degrees.
+  // Intervals are rounded outward, to 1e-6 degrees.
   EXPECT_NEAR(last.at("min_deg").at("rh_THJ3"), last.at("max_deg").at("rh_THJ3"), 2.5e-6)
       << "the log says where it stands";
   EXPECT_EQ(stop(serve_until_ready("hand", log), SIGTERM).exit_code, 0);
@@ -222,7 +222,7 @@ TEST_F(RobotServer, AFullDiskHoldsTheHand) {
   EXPECT_THAT(states.back(), HasSubstr(" rh_FFJ3=0 ")) << "nobody would know where it is";
 }
 
-/// The most memory that a process has had, bytes.
+/// Peak memory of a process, bytes.
 size_t peak_memory(const StartedProgram& program) {
   const std::string status = read_file(fmt::format("/proc/{}/status", program.process));
   return std::stoull(status.substr(status.find("VmHWM:") + 6)) * 1024;

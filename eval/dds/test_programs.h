@@ -1,7 +1,5 @@
 #pragma once
 
-// A bus of its own for each test of the middleware, with other processes on it.
-
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -17,7 +15,7 @@
 
 namespace glovebench::eval {
 
-/// A bus that no other run is on, and other processes on it.
+/// A bus for one test, with other processes on it.
 class DdsBus : public testing::Test {
  protected:
   void SetUp() override {
@@ -46,13 +44,13 @@ class DdsBus : public testing::Test {
     return finish(program);
   }
 
-  /// Prints what arrives until nothing has for a second and a half, or for longer, after the first.
+  /// Prints messages until `seconds` pass without one; waits longer for the first.
   StartedProgram listen(const std::string& seconds = "1.5", const ProgramSetting& setting = {}) {
     const StartedProgram listener = start({build_paths::program("dds_probe"), "listen", domain_, seconds}, setting);
     EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
     return listener;
   }
-  /// Does what a script of the probe says.
+  /// Runs a probe script.
   StartedProgram talk(const std::string& script, const ProgramSetting& setting = {}) {
     const std::string file = path("script-" + std::to_string(scripts_++));
     write_file(file, script);

@@ -28,7 +28,7 @@ constexpr const char *kResults = "results.json", *kNoiseFloor = "noise_floor.jso
                      *kProvenance = "provenance.json", *kTimings = "timings.json";
 constexpr std::string_view kProvenanceFormat = "glovebench-provenance";
 
-/// What the baseline was made by. No name of a machine: the file is committed.
+/// Names no machine, since the file is committed.
 std::string provenance_json(const reports::NamedResult& run, const std::string& results_hash,
                             const reports::StageTimes& times, const Json& replaced) {
   const reports::Timings here = host_timings(1);
@@ -45,7 +45,7 @@ std::string provenance_json(const reports::NamedResult& run, const std::string& 
                                {"replaced", replaced}});
 }
 
-/// Throws Incomparable unless the file is what the set's manifest says.
+/// Throws Incomparable unless the file matches the set's manifest.
 std::string read_of(const FileSet& set, const std::string& name) {
   try {
     return set.read(name, kLargestResults);
@@ -74,7 +74,7 @@ void require_whole_suite(const reports::NamedResult& run, const Suite& suite) {
   }
 }
 
-/// The folder of a run or of the file in it that was given.
+/// The run's folder, also if a file in it was given.
 std::string folder_of(const std::string& folder_or_file) {
   std::error_code error;
   return fs::is_directory(folder_or_file, error) ? folder_or_file : folder_above(folder_or_file);
@@ -84,8 +84,7 @@ reports::NamedResult results_of(const FileSet& files) {
   return {files.path(kResults), reports::parse_results(read_of(files, kResults), files.path(kResults))};
 }
 
-/// The baseline that is replaced, as it is, in a few words; null if there is none. Throws Error if it has another
-/// truth than the run.
+/// Describes the baseline to be replaced; null if there is none. Throws Error if its truth differs from the run's.
 Json describe_replaced(const FileSet& files, const reports::NamedResult& run) {
   if (!files.has(kResults)) return nullptr;
   const std::string text = files.find(kResults, kLargestResults).content;
@@ -100,7 +99,7 @@ Json describe_replaced(const FileSet& files, const reports::NamedResult& run) {
   return {{"commit", old.commit}, {"results_hash", hash_text(text)}};
 }
 
-/// The results are those that the provenance speaks of: a change by hand is found.
+/// Finds a change by hand: the results must have the hash of the provenance.
 void require_same_bytes(const FileSet& files) {
   const std::string expected = read_provenance(files).results_hash, found = hash_text(read_of(files, kResults));
   if (found != expected) {
@@ -129,12 +128,12 @@ StoredRun load_run(const std::string& folder_or_file) {
   if (folder == folder_or_file) return {files, results_of(files)};
   const std::string name = fs::path(folder_or_file).filename().string();
   if (name == kResults && files.has(name)) return {files, results_of(files)};
-  // Another file that somebody put there is no part of the run, and is read as it is.
+  // Another file is not part of the run and is read alone.
   return {files, {folder_or_file, reports::read_results(folder_or_file)}};
 }
 
 std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files) {
-  const std::string path = files.path(kNoiseFloor);  // is written by itself, and in no set
+  const std::string path = files.path(kNoiseFloor);  // written alone, in no set
   if (!fs::exists(path)) return std::nullopt;
   return reports::parse_noise_floor(read_regular_file(path, kLargestSmallFile), path);
 }
@@ -173,7 +172,7 @@ Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file)
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times) {
   require_whole_suite(run, suite);
-  WholeFiles files(folder);  // first: it finishes an update that a kill ended
+  WholeFiles files(folder);  // first, since it finishes an update that a kill interrupted
   const FileSet old(folder);
   if (old.has(kTimings)) throw Error(folder, "baseline", "a run", "a folder of its own");
   const Json replaced = describe_replaced(old, run);

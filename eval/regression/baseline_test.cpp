@@ -1,4 +1,4 @@
-// Baselines and runs that are replaced while they are read.
+// Baselines and runs that are replaced during reading.
 #include "eval/regression/baseline.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@
 namespace glovebench::eval {
 namespace {
 
-/// A baseline of which every file holds a number: 1, 2, ...
+/// A baseline whose files all contain one number: 1, 2, ...
 void write_baseline(const std::string& folder, int number) {
   reports::RunResult result = reports::small_result();
   result.commit = std::to_string(number);
@@ -48,7 +48,7 @@ TEST(Baseline, that_is_replaced_while_it_is_read_does_not_mix) {
       EXPECT_EQ(baseline.times.stages.at(0).median_ms, number);
       ++reads;
     } catch (const reports::Incomparable&) {
-      // It was replaced twice since its manifest was read: its files are gone.
+      // Replaced twice since its manifest was read, so its files are gone.
     }
   }
   is_done = true;

@@ -26,12 +26,12 @@ constexpr Rgb kTruth = {255, 255, 255}, kBaseline = {90, 170, 255}, kCandidate =
 constexpr int kChangedFrameMargin = 20;  // px around the hand
 constexpr int kPanelSize = 300;          // px
 
-/// The estimates of a run, read when they are asked for.
+/// A run's estimates, read on demand.
 class StoredEstimates {
  public:
   explicit StoredEstimates(const FileSet& set) : set_(set) {}
 
-  /// Empty if the folder has none of that experiment, or the frame was lost.
+  /// Empty if the folder has no estimates of the experiment, or the frame was lost.
   std::optional<Estimate> find(const reports::ExperimentKey& key, uint64_t seed, int frame) {
     const std::string name = reports::estimates_file(key);
     if (!files_.contains(name)) {
@@ -50,7 +50,6 @@ class StoredEstimates {
   std::map<std::string, std::vector<Estimate>> files_;
 };
 
-/// Draws hands as the depth camera sees them.
 class Scene {
  public:
   Scene(Workbench& workbench, const ChangedFrame& change, std::shared_ptr<const trajectories::Trajectory> truth)
@@ -95,7 +94,7 @@ std::string error_text(const std::optional<double>& vertex_error_mm) {
   return vertex_error_mm ? reports::fixed(vertex_error_mm, 1) + " mm" : "lost";
 }
 
-/// The panel of one of the two runs; none if it tracked the frame and did not keep what it said.
+/// Adds one run's panel, unless the run tracked the frame but kept no estimates.
 void add_panel(std::vector<render::Panel>& panels, Scene& scene, const std::string& run, const Rgb& color,
                const std::optional<double>& vertex_error_mm, const std::optional<Estimate>& estimate) {
   if (vertex_error_mm && !estimate) return;
@@ -115,7 +114,7 @@ reports::Picture draw(Scene& scene, const ChangedFrame& change, const std::optio
       render::encode_png(render::montage(panels, static_cast<int>(panels.size()), kPanelSize, kPanelSize))};
 }
 
-/// For its hands alone: no database is asked for.
+/// Used for its hands only; no database is needed.
 std::unique_ptr<Workbench> make_workbench(Side side) {
   WorkbenchConfig config;
   config.side = side;

@@ -1,4 +1,4 @@
-// compare, gate and calibrate noise as a user runs them, on a suite of one's own.
+// Runs compare, gate and calibrate noise on the user's own suite.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ class RegressionLong : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_glovebench(arguments);
   }
-  /// The results of "run" with a change that leaves them whole.
+  /// The results of "run" with a change that keeps them valid.
   static std::string write_changed(const std::string& name, const std::function<void(RunResult&)>& change) {
     RunResult result = reports::read_results(path("run/results.json"));
     change(result);
@@ -283,7 +283,7 @@ TEST_F(RegressionLong, MeasuresTheNoiseFloorOfAnOwnSuite) {
 }
 
 TEST_F(RegressionLong, PicturesTheWorstFrames) {
-  // One of the program's own trajectories: others are not at hand when results are compared.
+  // One of the program's own trajectories, since a comparison has no others.
   const std::vector<std::string> arguments = {"run",     "--suite", "quick", "--filter", "Exit_*",
                                               "--seeds", "1",       "-q",    "-o",       path("exit")};
   ASSERT_EQ(run_glovebench(arguments).exit_code, 0);

@@ -13,7 +13,7 @@ constexpr const char* kLatencyDatabase = "DB_open_pinch_power";
 const std::vector<std::string> kColorDatabases = {"DB_open_pinch_power", "DB_20_postures"};
 constexpr const char* kColorBlind = "color-blind";
 
-/// The latency of each movement, over the seeds that have one.
+/// Latency of each movement, averaged over seeds that have one.
 std::vector<std::optional<double>> latencies(const Selection& runs) {
   std::vector<std::optional<double>> result;
   for (const auto& stratum : sequences_of(runs)) {
@@ -32,7 +32,7 @@ std::optional<double> mean_of(const std::vector<std::optional<double>>& values, 
   return reports::mean(present);
 }
 
-/// A statistic of movements, and its interval over them.
+/// A statistic of movements with its interval over movements.
 Measure movement_measure(const std::string& name, const std::string& unit, int movements,
                          const std::function<std::optional<double>(std::span<const int>)>& statistic) {
   std::vector<int> all(movements);
@@ -40,7 +40,7 @@ Measure movement_measure(const std::string& name, const std::string& unit, int m
   return {name, unit, statistic(all), interval_over(movements, "movements", statistic)};
 }
 
-/// 1 in frames in which the look-up is wrong, else 0.
+/// 1 in frames with a wrong look-up, else 0.
 Sample wrong_look_ups(const Selection& runs) {
   return sample_of(runs, [](const MeasuredRun& run, size_t frame) -> std::optional<double> {
     const std::optional<double>& posture = run.errors[frame].record["posture_rms_unfiltered_deg"];
@@ -48,8 +48,8 @@ Sample wrong_look_ups(const Selection& runs) {
   });
 }
 
-/// Wrong look-ups that both alignments answer, as 1 or 0 in every frame, and there the difference of their errors,
-/// 0 elsewhere: databases are put together by their sums.
+/// Per frame: `counted` is 1 if both alignments answer a wrong look-up, and `difference` is that of their errors;
+/// else both are 0. Databases are combined by sums.
 struct Excess {
   Sample counted;
   Sample difference;
@@ -89,7 +89,7 @@ Measure color_measure(const Runs& runs, const std::string& name, const std::stri
   return {name, unit, excess.value, excess.interval};
 }
 
-/// 1 in frames whose matches are of several postures.
+/// 1 in frames whose matches differ in posture, else 0.
 Sample distinct_matches(const Selection& runs) {
   return sample_of(runs, [](const MeasuredRun& each, size_t frame) -> std::optional<double> {
     const TrackResult& result = each.run.answers[frame];

@@ -19,7 +19,7 @@ using reports::TruthKind;
 
 constexpr const char* kAblationDatabase = "DB_open_pinch_power";
 
-/// The movements that a database can follow; none: all.
+/// The movements that a database can follow; empty: all.
 std::vector<std::string> movements_for(const std::string& database) {
   std::vector<std::string> names;
   if (database == "DB_open_power") {
@@ -29,7 +29,7 @@ std::vector<std::string> movements_for(const std::string& database) {
   return names;
 }
 
-/// The mean of what movements and seeds have.
+/// Mean over movements and seeds with a value.
 Cell sequence_cell(const Selection& runs, std::optional<double> SequenceMetrics::*metric) {
   std::vector<double> values;
   for (const auto& stratum : sequences_of(runs))
@@ -141,7 +141,7 @@ Runs run_rows(const StudyContext& context, const std::vector<Ablation>& wanted) 
   }
   Runs runs;
   for (auto& [database, settings] : by_database) {
-    // What looks the same stands together, to be rendered once.
+    // Runs of the same images become neighbors, to be rendered once.
     std::ranges::stable_sort(
         settings, {}, [](const Setting& setting) { return std::pair(setting.subject, setting.clutter_in_volume); });
     std::ranges::move(run_settings(context, settings, {database}, TruthKind::source, movements_for(database)),
@@ -163,7 +163,7 @@ reports::StudyResult run_ablations(const StudyContext& context) {
   std::ranges::move(measured_ablations(), std::back_inserter(wanted));
   Runs runs = run_rows(context, wanted);
 
-  // Building a database of 20 postures takes longer than everything else that a quick reproduction does.
+  // One in a quick reproduction: building a database of 20 postures takes most of its time.
   std::vector<PostureSet> choices;
   for (int number = 1; number <= (context.options.quick ? 1 : 3); ++number)
     choices.push_back(random_choice(number));

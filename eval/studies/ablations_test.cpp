@@ -52,7 +52,7 @@ TEST(Ablations, random_postures_are_drawn_once_each_beside_the_three_grasps) {
     EXPECT_EQ(one.postures[i] == two.postures[i], i < 3);
     for (size_t j = 0; j < i; ++j) EXPECT_NE(one.postures[i], one.postures[j]);
   }
-  // Low-dispersion sampling is made to cover the pool.
+  // Low-dispersion sampling is meant to cover the pool.
   EXPECT_LT(covering_radius_deg(chosen), covering_radius_deg(one));
   EXPECT_LT(covering_radius_deg(chosen), covering_radius_deg(two));
 }
@@ -75,16 +75,16 @@ TEST(AblationsLong, changes_are_against_the_first_row) {
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   EXPECT_TRUE(std::holds_alternative<std::monostate>(cell_of(table, 0, "posture_change_deg")));
   EXPECT_TRUE(std::holds_alternative<std::monostate>(cell_of(table, 2, "posture_change_deg")));
-  // The filter changes the posture only, and all frames of the stretch are tracked both ways.
+  // The filter changes only the posture, and both ways track all frames of the stretch.
   EXPECT_EQ(number_in(table, 0, "position_error_mm"), number_in(table, 1, "position_error_mm"));
   EXPECT_EQ(number_in(table, 1, "position_change_mm"), 0);
   EXPECT_EQ(number_in(table, 1, "rotation_change_deg"), 0);
   const double change = number_in(table, 1, "posture_change_deg");
   EXPECT_NEAR(change, number_in(table, 1, "posture_error_deg") - number_in(table, 0, "posture_error_deg"), 1e-9);
   EXPECT_NE(change, 0);
-  // Of a stretch so short there is no interval.
+  // The stretch is too short for an interval.
   EXPECT_TRUE(std::holds_alternative<std::monostate>(cell_of(table, 1, "posture_change_deg_low")));
-  // The component is the hand: the clutter is gone, as if it had not been there.
+  // The largest component is the hand, so the clutter has no effect.
   EXPECT_GT(number_in(table, 3, "covered_percent"), 90);
   EXPECT_LT(number_in(table, 2, "covered_percent"), number_in(table, 3, "covered_percent"));
 }

@@ -12,13 +12,13 @@
 namespace glovebench::eval {
 namespace {
 
-/// A database to look up in, with what finds its true neighbors.
+/// A database and the search for its true neighbors.
 struct Searched {
   std::shared_ptr<const Database> database;
   std::unique_ptr<const TrueNeighborSearch> true_neighbors;
 };
 
-/// One frame: percent of every stage of every cascade in every database, in their order.
+/// Of one frame, in percent, in the order of the stages.
 using FrameSurvival = std::vector<std::optional<double>>;
 
 std::vector<Searched> load(Workbench& workbench, const std::vector<std::string>& names) {
@@ -30,7 +30,7 @@ std::vector<Searched> load(Workbench& workbench, const std::vector<std::string>&
   return searched;
 }
 
-/// Each stage of each cascade in each database, without frames yet.
+/// All stages of all cascades and databases, without frames.
 std::vector<StageSurvival> all_stages(const std::vector<std::string>& names, const std::vector<Searched>& searched,
                                       const std::vector<Cascade>& cascades) {
   std::vector<StageSurvival> stages;
@@ -67,7 +67,7 @@ FrameSurvival survive(const std::vector<Searched>& searched, const std::vector<C
   return survival;
 }
 
-/// All frames of a run, in all databases.
+/// All frames of a run in all databases.
 std::vector<FrameSurvival> run_look_ups(Workbench& workbench, const RunSpec& spec,
                                         const std::vector<Searched>& searched, const std::vector<Cascade>& cascades,
                                         const std::function<void()>& frame_done) {
@@ -91,10 +91,10 @@ std::vector<StageSurvival> measure_survival(const StudyContext& context, const s
                                             const std::vector<Cascade>& cascades, reports::TruthKind truth) {
   Workbench& workbench = context.workbench;
   const TrackerConfig& tracker = context.options.tracker;
-  // One spec a frame sequence: it is looked up in all databases.
+  // One spec per frame sequence; it is looked up in all databases.
   const std::vector<RunSpec> specs =
       study_specs(context, {{.name = "look-up", .tracker = tracker}}, {databases.front()}, truth);
-  // Before the threads start: making these uses all of them.
+  // Before the threads start, since making these uses all threads.
   const std::vector<Searched> searched = load(workbench, databases);
   workbench.color_table(tracker.segmentation.color_space);
 

@@ -22,14 +22,14 @@ using reports::ConfidenceInterval;
 using reports::Measure;
 using reports::Table;
 
-/// The look-up keeps this many by images of 16 px (section IV-B).
+/// Entries that the look-up keeps by 16 px images (section IV-B).
 constexpr double kPreselected = 500;
 
-/// What the images of one size were good for, one value a query.
+/// Results of one image size, one value per query.
 struct SizeResult {
   int size = 0;                     ///< px
   std::vector<double> rank;         ///< of the true neighbor
-  std::vector<double> distance_us;  ///< processor time of one distance: of all entries' / entries
+  std::vector<double> distance_us;  ///< processor time per distance: all entries' time / entries
 };
 
 Database build_database(Workbench& workbench, const Figure7Setup& setup) {
@@ -39,8 +39,8 @@ Database build_database(Workbench& workbench, const Figure7Setup& setup) {
       workbench.config().threads, [&](double share) { progress.show(share); }, setup.sizes);
 }
 
-/// On the calling thread alone, the sizes of a query one after the other: what slows the machine down for a while
-/// slows down all of them.
+/// On the calling thread alone, all sizes of a query in turn, so that a slow moment of the machine affects all
+/// sizes.
 std::vector<SizeResult> rank_all(const Database& database, const TrueNeighborSearch& search,
                                  const PinholeCamera& camera, std::span<const TrialQuery> queries,
                                  const Figure7Setup& setup, bool quiet) {
@@ -68,13 +68,13 @@ double mean_of(const std::vector<double>& values, std::span<const int> drawn) {
   return sum / static_cast<double>(drawn.size());
 }
 
-/// Interval of a statistic of queries that are drawn again.
+/// Bootstrap interval of a statistic of queries.
 std::optional<ConfidenceInterval> query_interval(
     size_t queries, const std::function<std::optional<double>(std::span<const int>)>& statistic) {
   return interval_over(static_cast<int>(queries), "trial queries", statistic);
 }
 
-/// From how many sizes to the next larger one a value moves in this direction.
+/// Number of steps to the next larger size in which the value moves in this direction.
 template <typename Value, typename Compare>
 int count_steps(const std::vector<SizeResult>& results, const Value& value, const Compare& moves) {
   int count = 0;

@@ -76,7 +76,7 @@ TEST(Figure7Long, ranks_lie_in_range_and_do_not_depend_on_threads) {
     EXPECT_LE(number(table, row, "in_first_500_percent"), 100);
     EXPECT_GT(number(table, row, "distance_us"), 0);
   }
-  // Chance would put the true neighbor in the middle.
+  // By chance the true neighbor would have the middle rank.
   EXPECT_LT(number(table, 1, "mean_rank"), 0.1 * kEntries);
 
   const std::vector<StudyResult> all = {result};

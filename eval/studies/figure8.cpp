@@ -18,7 +18,7 @@ using reports::TruthKind;
 constexpr const char *kLarge = "DB_20_postures", *kSmall = "DB_open_pinch_power";
 const std::vector<std::string> kDatabases = {kLarge, kSmall};
 
-/// Those that the paper compares.
+/// The paper's cascades.
 std::vector<Cascade> paper_cascades() {
   std::vector<Cascade> cascades;
   for (const PaperCascade& row : reports::paper_numbers().figure_8)
@@ -90,10 +90,10 @@ Table empty_stages_table() {
 }
 
 constexpr std::array kImplementations = {Implementation::plain, Implementation::fast};
-/// The timed runs of each implementation. Times do not depend on the truth.
+/// Timed runs per implementation. Times do not depend on the truth.
 using Timed = std::array<Runs, kImplementations.size()>;
 
-/// The stages of one cascade in one database.
+/// Selects the stages of one cascade in one database.
 std::vector<StageSurvival> stages_of(const std::vector<StageSurvival>& all, const std::string& database,
                                      const Cascade& cascade) {
   std::vector<StageSurvival> stages;
@@ -142,7 +142,7 @@ void add_rows(reports::StudyResult& result, TruthKind truth, const std::vector<C
   }
 }
 
-/// The paper's four cascades by what they are in its argument.
+/// The paper's four cascades by their role in its argument.
 constexpr const char *kThreeStages = "16:1000,32:300,64:3", *kTwoStages = "16:500,64:3", *kLargestAlone = "64:3",
                      *kSmallestAlone = "8:15";
 bool has_all_of_the_paper(const std::vector<Cascade>& cascades) {
@@ -165,7 +165,7 @@ std::vector<Measure> cascade_error_measures(const Runs& runs) {
           {"figure8.tiny_posture_excess_deg", "deg", excess.value, excess.interval}};
 }
 
-/// Median time of the slowest stage beside the alignment.
+/// Median time of the slowest stage except the alignment.
 std::optional<double> slowest_other(const Selection& runs) {
   std::optional<double> slowest;
   for (const char* stage : {"register", "segment", "cloud", "tiny_images", "look_up", "smooth"})

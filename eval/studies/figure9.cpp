@@ -10,7 +10,7 @@ using reports::Table;
 using reports::TruthKind;
 
 constexpr std::array<int, 7> kFactors = {1, 2, 4, 8, 16, 32, 64};
-/// The grasp-specific database of the movements with a power grasp, as in the paper's Figure 5.
+/// The grasp-specific database of power grasps, as in Figure 5.
 constexpr const char* kSamplingDatabase = "DB_open_power";
 const std::vector<std::string> kTrajectories = {"Tr3", "Tr4", "Tr5"};
 
@@ -92,7 +92,7 @@ void add_times(Table& table, Implementation implementation, const Runs& runs) {
   }
 }
 
-/// Of the largest factor: the alignment beside all other stages, the look-up within the frame.
+/// At the largest factor: alignment compared with all other stages, and the look-up's part of the frame.
 std::vector<Measure> time_measures(const Selection& sparsest) {
   const auto frame = median(times_ms(sparsest)), align = median(times_ms(sparsest, "align")),
              look_up = median(times_ms(sparsest, "look_up"));
@@ -119,7 +119,7 @@ std::vector<Measure> sampling_error_measures(const Runs& runs) {
 reports::StudyResult run_figure9(const StudyContext& context) {
   reports::StudyResult result{
       "fig9", "Figure 9: sub-sampling", {empty_sampling_errors_table(), empty_times_table()}, {}};
-  // No claim rests on the recorded truth.
+  // No claim uses the recorded truth.
   const TruthKind truth = TruthKind::source;
   const std::vector<Setting> settings = sampling_settings(context.options.tracker);
 

@@ -14,15 +14,15 @@ using reports::Cell;
 using reports::Measure;
 using reports::Table;
 
-/// A color table of the study, and what its errors came to under each lighting.
+/// A color table and its errors under each lighting.
 struct LightResult {
   std::string calibration;  ///< to read
   ColorSpace space = ColorSpace::yuv;
-  std::vector<LabelErrors> errors;  ///< one a lighting
+  std::vector<LabelErrors> errors;  ///< one per lighting
 };
 
 constexpr std::array<ColorSpace, 2> kSpaces = {ColorSpace::yuv, ColorSpace::rgb};
-/// Where measure_light puts the tables of the calibration under one lighting.
+/// Indices of tables in measure_light; "own" is the tracker's, "one" calibrated under one lighting.
 constexpr size_t kOwnYuv = 0, kOwnRgb = 1, kOneYuv = 2, kOneRgb = 3;
 
 Table empty_light_table() {
@@ -74,7 +74,7 @@ double mislabeled_percent(const LabelErrors& errors) {
   return 100 * errors.mislabeled_share();
 }
 
-/// Of the held-out lightings, which come first.
+/// Over the held-out lightings, which come first.
 double mean_over(std::span<const LabelErrors> errors, double (*percent)(const LabelErrors&)) {
   double sum = 0;
   for (const LabelErrors& of_lighting : errors) sum += percent(of_lighting);
@@ -144,7 +144,7 @@ Table tracking_table(const StudyContext& context) {
   return table;
 }
 
-/// By calibration (the tracker's own, then that under one lighting) and space.
+/// Order: calibration (the tracker's own, then under one lighting), then color space.
 std::vector<LightResult> measure_light(Workbench& workbench, std::span<const Lighting> lightings) {
   const auto postures = trajectories::posture_set(trajectory_folder(), "DB_open_pinch_power").postures;
   std::vector<LightResult> results;

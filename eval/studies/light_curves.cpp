@@ -18,7 +18,7 @@ namespace {
 using reports::Cell;
 using reports::Table;
 
-/// Frames spread over the movements of these names.
+/// Frames spread evenly over these movements.
 std::vector<HandFrame> spread_frames(const std::vector<std::string>& names, int of_each) {
   std::vector<HandFrame> frames;
   for (const std::string& name : names) {
@@ -29,7 +29,7 @@ std::vector<HandFrame> spread_frames(const std::vector<std::string>& names, int 
   return frames;
 }
 
-/// A frame as the device gives it, and what it shows.
+/// A device frame with its true images.
 struct TrueFrame {
   render::RgbdImages images;
   DeviceFrame frame;
@@ -53,7 +53,7 @@ std::vector<TrueFrame> render_under(Workbench& workbench, int subject, const Lig
   return frames;
 }
 
-/// The table that labels most of these very pixels right.
+/// The best possible table for these pixels: each cell gets its most frequent label.
 ColorTable best_table(const std::vector<TrueFrame>& frames, const RgbdCalibration& calibration) {
   std::vector<std::array<int, kColorCount + 1>> counts(ColorTable::kCells);
   for (const TrueFrame& frame : frames) {
@@ -71,7 +71,7 @@ ColorTable best_table(const std::vector<TrueFrame>& frames, const RgbdCalibratio
   return ColorTable(std::move(labels));
 }
 
-/// What `calibrate colors` makes of a recording under that light; nothing if it refuses.
+/// The table that `calibrate colors` makes of a recording under this light; empty if it refuses.
 std::optional<ColorTable> recalibrated(Workbench& workbench, int subject, const LightPoint& point) {
   constexpr int kFrames = 24;
   const calibration::ColorSamples samples = record_under(workbench, subject, point, kFrames);
@@ -79,7 +79,7 @@ std::optional<ColorTable> recalibrated(Workbench& workbench, int subject, const 
     const auto seeds = calibration::seeds_of_table(*workbench.color_table(), "the tracker's own color table");
     return build_color_table(samples, fit_glove_colors(samples, seeds, "the recording"));
   } catch (const Error&) {
-    return {};  // that it refuses is what the curve shows
+    return {};  // a refusal is a result of the curve
   }
 }
 
@@ -146,7 +146,7 @@ bool is_usual(const LightPoint& point) {
          point.lighting.temperature_k <= 6500 && point.white_balance == Eigen::Vector3d::Ones();
 }
 
-/// The mean of each way over the usual lights: light_curves.own_table_right_percent and so on.
+/// Means of each way over the usual lights: light_curves.own_table_right_percent etc.
 std::vector<reports::Measure> mean_measures(const std::vector<LightAxis>& axes,
                                             const std::vector<std::vector<std::vector<LightWay>>>& ways) {
   const std::vector<std::string> names = {"own_table",    "own_table_majority",   "own_table_surface",
@@ -220,7 +220,7 @@ std::vector<LightWay> measure_light_point(Workbench& workbench, int subject, con
 reports::StudyResult run_light_curves(const StudyContext& context) {
   const std::vector<LightAxis> axes = light_axes(context.options.quick);
   context.workbench.subject(1);
-  context.workbench.color_table();                                    // before the threads ask for it
+  context.workbench.color_table();                                    // before the threads need it
   std::vector<std::vector<std::vector<LightWay>>> ways(axes.size());  // [axis][point][way]
   std::vector<std::pair<size_t, size_t>> places;
   for (size_t a = 0; a < axes.size(); ++a) {

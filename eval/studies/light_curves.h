@@ -9,40 +9,35 @@
 
 namespace glovebench::eval {
 
-/// One place on a curve: a light, and a white balance that has drifted.
 struct LightPoint {
-  double value = 0;  ///< of what varies
+  double value = 0;
   render::Lighting lighting;
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  ///< gains on linear R, G, B
 };
-/// What varies while the rest stays as the tracker's default has it.
+/// What varies; the rest stays at the tracker's default.
 struct LightAxis {
-  std::string table;    ///< "light_strength"
-  std::string title;    ///< to read
+  std::string table;  ///< "light_strength"
+  std::string title;
   std::string column;   ///< "strength", "temperature_k"
-  std::string heading;  ///< of the column, to read
+  std::string heading;  ///< of the column
   std::vector<LightPoint> points;
 };
-/// Strengths of an eighth to four times the default's, 2000 to 10000 K, and gains of green against red and blue of
-/// 0.6 to 1.67, which no temperature makes. `quick`: two of each.
+/// Strength 1/8 to 4 times the default's, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two of each.
 std::vector<LightAxis> light_axes(bool quick);
 
-/// What a user would record under that light to calibrate from: movements on which no curve is measured (Tr2, Tr3,
-/// Tr5), without their truth.
+/// A user's recording for calibration: Tr2, Tr3 and Tr5, which no curve measures, without truth.
 calibration::ColorSamples record_under(Workbench& workbench, int subject, const LightPoint& point, int frames);
 
-/// What a way to label came to; nothing where no table could be calibrated.
+/// One way to label; empty where calibration failed.
 struct LightWay {
   std::string name;
   std::optional<LabelErrors> errors;
 };
-/// Over eight hands of Tr1 and Tr4: the tracker's own table, and the one that `calibrate colors` makes of a
-/// recording under that light, each as in the paper and with filters; at last the table that labels most of these
-/// very pixels right, which no table over such cells can surpass.
+/// Over eight hands of Tr1 and Tr4: the tracker's table and the recalibrated one, plain and filtered; last the
+/// best possible table for these pixels.
 std::vector<LightWay> measure_light_point(Workbench& workbench, int subject, const LightPoint& point);
 
-/// A table for each of the axes, and the measures light_curves.*: the mean share of the glove's pixels that are
-/// right from half to double strength and 3000 to 6500 K.
+/// A table per axis; light_curves.*: mean share of correct glove pixels at strengths 0.5 to 2 and 3000 to 6500 K.
 reports::StudyResult run_light_curves(const StudyContext& context);
 
 }  // namespace glovebench::eval

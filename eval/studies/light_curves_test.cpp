@@ -53,7 +53,7 @@ std::vector<double> print_point(Workbench& workbench, int subject, const LightPo
 
 TEST(LightCurvesLong, a_table_of_a_recording_is_no_worse_than_the_trackers_own) {
   Workbench workbench(test_workbench());
-  // Usual light, warm and weak light, a drift of the white balance; a glove of other dyes.
+  // Usual light, warm and weak light, a drift of the white balance, a glove with other dyes.
   const std::vector<LightPoint> points = {
       {1, {}}, {0.35, {.strength = 0.35, .temperature_k = 3200}}, {1.25, {}, Eigen::Vector3d(1, 1.25, 1)}};
   for (const int subject : {1, 2})

@@ -25,7 +25,7 @@ std::vector<Setting> monocular_settings(const TrackerConfig& tracker) {
   return settings;
 }
 
-/// A value of the offset of the estimated hand origin from the true one (camera frame, m), in tracked frames.
+/// `value` of the offset (camera frame, m) between estimated and true hand origin, in tracked frames.
 Sample offset_sample(const Selection& runs, double (*value)(const Eigen::Vector3d& offset)) {
   return sample_of(runs, [&](const MeasuredRun& each, size_t frame) {
     const TrackResult& answer = each.run.answers[frame];
@@ -94,7 +94,7 @@ reports::StudyResult measure_monocular(const StudyContext& context, const std::v
   for (const Setting& setting : settings)
     for (const std::string& database : databases)
       table.rows.push_back(row_of(setting, database, select(runs, setting.name, database)));
-  // The first setting is the monocular method with the hand that it knows.
+  // The first setting is the monocular method with the tracker's own hand.
   const Estimated depth = depth_error_cm(select(runs, settings.front().name, databases.front()));
   return {"monocular", "Without depth", {table}, {{"monocular.depth_error_cm", "cm", depth.value, depth.interval}}};
 }

@@ -24,7 +24,7 @@ TEST(MonocularStudyLong, depth_tells_the_distance_that_the_color_image_does_not)
     return std::get<double>(table.rows[row].at(column_index(table, key)));
   };
   for (size_t row = 0; row < 4; ++row) {
-    // The position error is the length of the offset whose two parts the columns give.
+    // The position error is the length of the offset; the columns hold its two parts.
     const double depth_mm = 10 * number(row, "depth_error_cm"), lateral_mm = number(row, "lateral_error_mm");
     EXPECT_GE(number(row, "position_error_mm"), std::hypot(depth_mm, lateral_mm) - 1e-6);
     EXPECT_LE(number(row, "position_error_mm"), depth_mm + lateral_mm + 1e-6);

@@ -15,7 +15,7 @@ namespace {
 using reports::Cell;
 
 constexpr const char* kChosen = "DB_20_postures";
-constexpr size_t kGrasps = 3;  ///< the first postures of that set: open, pinch, power
+constexpr size_t kGrasps = 3;  ///< open, pinch and power come first in that set
 
 std::vector<Posture> pool() {
   return trajectories::movement_posture_pool(trajectories::load_gestures(trajectory_folder()));

@@ -6,18 +6,17 @@
 
 namespace glovebench::eval {
 
-/// DB_20_random_1, 2, ...: open hand, pinch and power grasp as in DB_20_postures, and as many movement postures as
-/// there, drawn at random from the pool that its own were chosen from. `number` is also the seed, >= 1.
+/// DB_20_random_NUMBER: like DB_20_postures, but its movement postures are drawn at random from the same pool.
+/// `number` >= 1 is the seed.
 PostureSet random_choice(int number);
-/// The largest distance of a posture of the pool to the nearest one of the set, degrees RMS.
+/// Largest distance from a pool posture to the nearest of the set, RMS.
 double covering_radius_deg(const PostureSet& set);
 
-/// DB_20_postures against these.
+/// Compares DB_20_postures with `choices`.
 Ablation posture_choice_ablation(const std::vector<PostureSet>& choices);
-/// Runs the default setting with each of them. A database of 20 postures takes 0.9 GB of memory; those of the
-/// choices are dropped as soon as they were used.
+/// Runs the default setting with each choice. Frees each database after use (0.9 GB each).
 Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices);
-/// The table "postures": a row each, DB_20_postures first, which must be among the runs, too.
+/// Table "postures": a row each, DB_20_postures first; `runs` must include it.
 reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices);
 
 }  // namespace glovebench::eval

@@ -43,7 +43,7 @@ std::optional<double> mean_of(const Sample& sample, std::span<const Draw> draws)
   return sum / count;
 }
 
-/// Every seed and every frame, once.
+/// All seeds and frames, once each.
 std::vector<Draw> everything(const Sample& sample) {
   std::vector<Draw> draws;
   for (const StratumShape& stratum : shape_of(sample)) {

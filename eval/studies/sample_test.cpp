@@ -5,7 +5,7 @@
 namespace glovebench::eval {
 namespace {
 
-/// 40 frames of one movement and one seed: blocks enough for an interval.
+/// 40 frames of one movement and one seed, enough blocks for an interval.
 Sample constant(double value) {
   return {{std::vector<std::optional<double>>(90, value)}};
 }
@@ -76,7 +76,7 @@ TEST(IntervalOver, draws_the_things_again) {
   ASSERT_TRUE(interval.has_value());
   EXPECT_EQ(interval->over, "tens");
   EXPECT_EQ(interval->blocks, 10);
-  // The mean of ten draws has a deviation of 2.87 / sqrt(10) = 0.91: 95% within 1.78.
+  // The mean of ten draws has a standard deviation of 2.87 / sqrt(10) = 0.91, so 95% lie within 1.78.
   EXPECT_NEAR(interval->low, 5.5 - 1.78, 0.25);
   EXPECT_NEAR(interval->high, 5.5 + 1.78, 0.25);
   EXPECT_FALSE(interval_over(1, "ones", mean_of).has_value());

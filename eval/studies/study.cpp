@@ -14,11 +14,11 @@ namespace {
 
 using trajectories::Trajectory;
 
-/// What a quick reproduction looks at, and a stretch that all movements have.
+/// The movement and stretch of a quick reproduction; all movements have this stretch.
 constexpr const char* kQuickTrajectory = "Tr4";
 constexpr FrameRange kQuickFrames = {44, 16};
-/// What is timed of each movement (times_explanation); so many that a 95th percentile over five of them is
-/// one of several frames.
+/// The timed stretch (times_explanation), long enough that over five movements more than one frame lies above the
+/// 95th percentile.
 constexpr FrameRange kTimedFrames = {44, 24}, kQuickTimedFrames = {44, 2};
 
 RunSpec spec_of(const Setting& setting, const std::string& database) {
@@ -32,7 +32,7 @@ RunSpec spec_of(const Setting& setting, const std::string& database) {
   return spec;
 }
 
-/// Of each trajectory, in turn: an item for each of its runs.
+/// Items of the runs, grouped by trajectory.
 template <typename Item>
 std::vector<std::vector<Item>> by_trajectory(const Selection& runs,
                                              const std::function<Item(const MeasuredRun&)>& item) {

@@ -4,7 +4,6 @@
 
 namespace glovebench::eval {
 
-/// Of the tests that run a study.
 inline StudyOptions quick_options() {
   StudyOptions options;
   options.tracker = profile("paper");

@@ -19,7 +19,7 @@ constexpr std::string_view kSequence = "trial queries";
 
 TrialQuery make_trial_query(TrialCamera& camera, const PostureSet& postures, std::span<const int> sizes,
                             uint64_t seed, int number) {
-  constexpr int kMaxDraws = 100;  // with the paper's configuration it is rarely more than two
+  constexpr int kMaxDraws = 100;  // rarely more than two with the paper's configuration
   RandomStream random(seed, kSequence, number, "hand");
   for (int redraws = 0; redraws < kMaxDraws; ++redraws) {
     TrialQuery query{draw_trial_hand(postures, random), {}, redraws};
@@ -44,7 +44,7 @@ HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random) {
   hand.posture = (1 - share) * postures.postures[first] + share * postures.postures[second];
   for (double& angle : hand.posture) angle += radians_from_degrees(kTrialAngleNoise_deg) * random.normal();
   hand.posture = clamp_to_limits(hand.posture);
-  // The direction of a normal 4-vector is uniform, and so is the rotation of that quaternion.
+  // A normal 4-vector has a uniform direction, so its quaternion is a uniform rotation.
   Eigen::Vector4d q;
   for (double& x : q) x = random.normal();
   hand.T_camera_hand.linear() = Eigen::Quaterniond(q.normalized()).toRotationMatrix();
@@ -76,9 +76,9 @@ std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerCo
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,
                                            int count) {
   workbench.color_table(
-      config.segmentation.color_space);  // before the threads start: calibrating it takes all of them
+      config.segmentation.color_space);  // before the threads start, since calibration uses all threads
   std::vector<TrialQuery> queries(count);
-  // A camera draws with the OpenGL context of the thread that made it.
+  // A camera needs the OpenGL context of the thread that made it.
   tbb::enumerable_thread_specific<std::unique_ptr<TrialCamera>> cameras;
   Progress progress("drawing trial queries", workbench.config().quiet);
   std::atomic<int> done{0};

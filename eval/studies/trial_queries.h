@@ -14,24 +14,22 @@
 
 namespace glovebench::eval {
 
-/// How trial hands are drawn.
-inline constexpr double kTrialAngleNoise_deg = 3.0;  ///< standard deviation of each angle's
-/// Hand origins lie in a box around this place on the optical axis with these half edges, m: a hand of 0.19 m,
-/// whichever way it is turned, is then in view of both cameras and within the working volume, but for a few.
+inline constexpr double kTrialAngleNoise_deg = 3.0;  ///< standard deviation of each angle
+/// Center on the optical axis and half edges of the box of hand origins, m; nearly every hand in it is fully in
+/// view.
 inline constexpr double kTrialDistance = 0.70;
 inline constexpr std::array<double, 3> kTrialReach = {0.12, 0.07, 0.10};
 
-/// A hand between the postures and views of a database: a blend of two different postures (of the one, if there are
-/// no more) with noise on every angle, a rotation from the uniform distribution, an origin from the box.
+/// A blend of two postures (of one, if there are no more) with noise on each angle, a uniform rotation, an origin
+/// from the box.
 HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random);
 
-/// The synthetic Kinect and the tracker's stages before the look-up, with the scene of the first subject. Serves
-/// one thread at a time; what it sees does not depend on the thread.
+/// The synthetic Kinect with subject 1's scene, and the tracker's stages before the look-up. Not thread-safe.
 class TrialCamera {
  public:
   TrialCamera(Workbench& workbench, const TrackerConfig& config, const render::NoiseConfig& noise);
 
-  /// The labels of the cloud, as the tracker would look them up; empty if it would not. `key` names the noise.
+  /// The labels that the tracker would look up, else empty. `key` selects the noise.
   std::optional<LabelImage> see(const HandFrame& hand, const render::FrameKey& key);
 
  private:
@@ -44,11 +42,11 @@ class TrialCamera {
 
 struct TrialQuery {
   HandFrame hand;
-  std::vector<LabelImage> images;  ///< tiny images, one a size
-  int redraws = 0;                 ///< hands that were drawn before it and that the tracker would not look up
+  std::vector<LabelImage> images;  ///< tiny images, one per size
+  int redraws = 0;                 ///< hands drawn before it that the tracker would not look up
 };
-/// `count` trial queries, drawn from `seed` and seen under the paper's noise. Uses the workbench's threads; the
-/// result does not depend on their number. Throws Error if the tracker would look up hardly any hand.
+/// Queries under the paper's noise; independent of the number of threads.
+/// Throws: Error if hardly any hand can be looked up.
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,
                                            int count);

@@ -29,14 +29,14 @@ TEST(TrialHand, lies_between_two_postures_in_the_box) {
     share_sum += share;
     spread_sum += (hand.posture - share * power).squaredNorm() / (kAngleCount - 1);
   }
-  // Uniform shares of 0..1: mean 0.5, its deviation 0.29 / sqrt(2000) = 0.0065 (noise adds little; limits cut
-  // some).
+  // Uniform shares of 0..1 have mean 0.5 with deviation 0.29 / sqrt(2000) = 0.0065; noise adds little, limits cut
+  // some.
   EXPECT_NEAR(share_sum / kHands, 0.5, 0.03);
-  // What is off the line between the postures is the noise, less what the limits cut off.
+  // The distance from the line between the postures is the noise, reduced by the limits.
   const double spread_deg = degrees_from_radians(std::sqrt(spread_sum / kHands));
   EXPECT_LT(spread_deg, 1.05 * kTrialAngleNoise_deg);
   EXPECT_GT(spread_deg, 0.6 * kTrialAngleNoise_deg);
-  // No direction is preferred: the mean of uniform directions has a deviation of 1 / sqrt(3 * 2000) = 0.013 an
+  // No direction is preferred: the mean of uniform directions has a deviation of 1 / sqrt(3 * 2000) = 0.013 per
   // axis.
   EXPECT_LT((axis_sum / kHands).norm(), 0.06);
 }

@@ -31,7 +31,7 @@ struct NoiseConfig {
   double color_sigma_gray = kColorSigma_gray;  ///< of each 8-bit channel, >= 0
   KinectNoiseConfig kinect;
 
-  /// One problem a line; empty without any.
+  /// One problem per line.
   std::vector<std::string> problems() const;
 };
 

@@ -44,7 +44,7 @@ inline constexpr double kSegmentJoining = 0.0015;
 /// k inside the palm, m.
 inline constexpr double kPalmJoining = 0.005;
 
-/// Moves `p` along the gradient to this level, by at most 24 Newton steps of 3 mm; it may stop short in creases.
+/// Moves `p` along the gradient to this level by Newton steps; it may stop short in creases.
 Eigen::Vector3d project_to_level(std::span<const Capsule> capsules, std::span<const UnionPart> parts, double level,
                                  Eigen::Vector3d p);
 

@@ -23,18 +23,15 @@ class CapsuleGlove {
   CapsuleGlove(const std::vector<HandCapsule>& capsules, std::vector<Capsule> placed,
                const JointPoses& T_hand_joint, uint64_t seed);
 
-  /// As `patch_scores`. Borders lie at the joints (proximal segments 4 mm past, thumb 2 mm); thenar and cuff start
-  /// 24 and 2 mm from the wrist; front and back meet where the normal is level, radial and ulnar at the middle MCP.
-  /// Each border is shifted randomly.
+  /// How strongly a point belongs to each patch, as `patch_scores`. Borders lie near the joints, each shifted
+  /// randomly by up to 3 mm.
   PatchScores scores(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const;
 
   /// Folds across the fingers, m, with mean 0.
   std::vector<double> folds(const std::vector<Eigen::Vector3d>& places) const;
 
  private:
-  /// Constant and varying parts of a border's shift.
   double shift(int border, const Eigen::Vector3d& p) const;
-  /// Shares of thumb to little, with sum 1.
   std::array<double, 5> ray_shares(const Eigen::Vector3d& p) const;
 
   const std::vector<HandCapsule>& capsules_;

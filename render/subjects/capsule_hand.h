@@ -9,8 +9,8 @@
 namespace glovebench::render {
 
 /// A gloved hand unlike the tracker's mesh: a smooth union of tapered capsules with anthropometric dimensions. The
-/// seed draws person, skeleton and glove. It is polygonized once with spread fingers; a posture projects each
-/// vertex onto the union of its moved capsules (Vaillant et al. 2013, "Implicit Skinning", without contact).
+/// seed draws person, skeleton and glove. A posture moves the capsules and projects each vertex onto their union
+/// (Vaillant et al. 2013, "Implicit Skinning", without contact).
 class CapsuleHand {
  public:
   /// `definition`: the package's skeleton, for the thumb's zero.
@@ -52,9 +52,9 @@ class CapsuleHand {
   Skeleton skeleton_;
   std::vector<HandCapsule> capsules_;
   std::vector<Triangle> triangles_;
-  std::vector<Eigen::Vector3d> rest_;  ///< with spread fingers, without folds
+  std::vector<Eigen::Vector3d> rest_;
   std::vector<double> levels_;
-  JointPoses T_joint_rest_;  ///< from hand coordinates at rest
+  JointPoses T_joint_rest_;
   std::vector<UnionPart> parts_;
   std::vector<uint32_t> first_part_;
   std::vector<Follow> follows_;

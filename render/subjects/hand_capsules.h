@@ -28,7 +28,6 @@ struct HandCapsule {
 /// As wide as `hand`, without the glove.
 std::vector<HandCapsule> make_capsules(const HandDimensions& hand, const Skeleton& skeleton);
 
-/// The capsules in this posture.
 std::vector<Capsule> place_capsules(const std::vector<HandCapsule>& capsules, const JointPoses& T_hand_joint,
                                     const Posture& posture);
 

@@ -31,8 +31,7 @@ Published published_breadth(bool woman);
 /// `segment`: 0..2 as in HandDimensions::segments, 3: pulp; both sexes.
 Published published_segment(int finger, int segment);
 
-/// Breadth correlates with length (0.6); segments follow length, girths breadth, with spreads of 4 and 3%. Draws
-/// end at two standard deviations.
+/// Draws a hand whose segments vary with its length and girths with its breadth.
 HandDimensions draw_dimensions(uint64_t seed);
 
 }  // namespace glovebench::render

@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// The values with which a claim holds: an interval, one of whose ends may be infinite.
+/// The values with which a claim holds; one end may be infinite.
 struct Rule {
   enum class Kind { below, at_most, above, at_least, within };
   Kind kind = Kind::below;
@@ -20,7 +20,7 @@ struct Rule {
   friend bool operator==(const Rule&, const Rule&) = default;
 };
 using glovebench::to_string;
-/// As claims.json says them.
+/// As in claims.json.
 constexpr auto names_of(Rule::Kind) {
   return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});
 }
@@ -30,43 +30,41 @@ bool meets(const Rule& rule, double low, double high);
 /// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);
 
-/// Reproduction: the experiment is the paper's. Consistency: it only shows that what the paper cites is plausible.
+/// Reproduction: the paper's experiment. Consistency: what the paper cites is plausible.
 enum class ClaimKind { reproduction, consistency };
 constexpr auto names_of(ClaimKind) {
   return std::to_array<std::string_view>({"reproduction", "consistency"});
 }
 
-/// What the paper says, and what a run must have measured for it to hold.
+/// What the paper says, and what a run must measure.
 struct ClaimDefinition {
   std::string claim;        ///< one sentence
   std::string source;       ///< section or figure of the paper
-  std::string paper_value;  ///< what the paper prints, as text; "" where it prints no number
-  std::string measured;     ///< what is measured, on which truth, and what the rule means
+  std::string paper_value;  ///< as printed; "" if no number
+  std::string measured;     ///< what, on which truth, and what the rule means
   std::string measure;      ///< name of a Measure
   Rule rule;
   ClaimKind kind = ClaimKind::reproduction;
-  bool required = false;   ///< a run in which it does not hold has failed
-  bool withdrawn = false;  ///< not judged any more, still listed
+  bool required = false;   ///< the run fails if it does not hold
+  bool withdrawn = false;  ///< listed, but not judged
   std::string if_not;      ///< shown when it does not hold
 
   friend bool operator==(const ClaimDefinition&, const ClaimDefinition&) = default;
 };
 
-/// One change of a claim. The first one writes it.
+/// The first change writes the claim.
 struct ClaimChange {
   std::string date;                     ///< "2026-11-21"
-  std::optional<std::string> commit;    ///< empty for the newest change alone: no commit can name itself
-  ClaimDefinition definition;           ///< the definition after this change
-  std::vector<std::string> set;         ///< the fields of it that are others than before; none if only the program
-                                        ///< that measures it changed
-  std::optional<std::string> came_out;  ///< what runs measured with it, and in brackets their commits; empty if no
-                                        ///< run was published
+  std::optional<std::string> commit;    ///< empty only for the newest change, which cannot name itself
+  ClaimDefinition definition;           ///< after this change
+  std::vector<std::string> set;         ///< changed fields; none if only the measuring program changed
+  std::optional<std::string> came_out;  ///< published measurements with their commits in brackets; empty if none
   std::string why;
 
   friend bool operator==(const ClaimChange&, const ClaimChange&) = default;
 };
 
-/// A claim: its history, whose newest entry says what it is.
+/// The newest entry of the history holds.
 struct Claim {
   std::string id;                    ///< "position-error-source"
   std::vector<ClaimChange> history;  ///< oldest first, at least one
@@ -76,17 +74,17 @@ struct Claim {
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// One change of the way in which all claims are judged.
+/// A change in how all claims are judged.
 struct JudgingChange {
   std::string date;
   std::optional<std::string> commit;  ///< as in ClaimChange
-  std::string rule;                   ///< how claims are judged from here on, in sentences
+  std::string rule;                   ///< in sentences, valid from here on
   std::string why;
 
   friend bool operator==(const JudgingChange&, const JudgingChange&) = default;
 };
 
-/// Claims in the order of the paper's sections, and how they are and were judged, oldest first.
+/// Claims in the order of the paper's sections; `judging` oldest first.
 struct ClaimSet {
   std::vector<Claim> claims;
   std::vector<JudgingChange> judging;
@@ -94,22 +92,21 @@ struct ClaimSet {
   friend bool operator==(const ClaimSet&, const ClaimSet&) = default;
 };
 
-/// A field of a definition by its name in claims.json, as text: "below 10", "true". Throws std::logic_error if
-/// there is no such field.
+/// A field of claims.json as text: "below 10", "true".
+/// Throws: std::logic_error if there is no such field.
 std::string field_text(const ClaimDefinition& definition, std::string_view field);
-/// How often a claim became another one than it was when it was first written.
+/// Changes after the first that altered the claim.
 int change_count(const Claim& claim);
 
-/// What this program carries (reports/data/claims.json).
+/// From reports/data/claims.json.
 const ClaimSet& claim_set();
 const std::vector<Claim>& claims();
 
-/// Strict; throws Error naming `where` and the field.
+/// Throws: Error naming `where` and the field.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
-/// How a later state of the claims tampers with an earlier one, one sentence each; empty if it only adds. No claim
-/// and no entry of a history may be gone or changed, but for two gaps that may be filled once: a commit, and what
-/// came out.
+/// One sentence per change of `earlier`; empty if `later` only adds. A missing commit or `came_out` may be filled
+/// once.
 std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

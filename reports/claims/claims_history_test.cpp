@@ -1,4 +1,4 @@
-// The claims' histories: complete, true, and never rewritten.
+// Histories of the claims are complete, true and never rewritten.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -129,7 +129,7 @@ TEST(ClaimsHistory, TheClaimThatWasRemovedIsBackWithItsOutcome) {
   EXPECT_TRUE(claim->history[1].definition.withdrawn);
 }
 
-/// What a program printed; empty if it failed.
+/// Output of a program; empty if it failed.
 std::optional<std::string> output_of(const std::string& command) {
   FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
   if (!pipe) return std::nullopt;
@@ -143,14 +143,14 @@ std::optional<std::string> output_of(const std::string& command) {
 std::optional<std::string> git(const std::string& folder, const std::string& arguments) {
   return output_of(fmt::format("git -C '{}' {}", folder, arguments));
 }
-/// Throws std::runtime_error with the advice if git fails.
+/// Throws std::runtime_error with advice if git fails.
 std::string git_or_throw(const std::string& folder, const std::string& arguments, const std::string& advice) {
   if (const auto text = git(folder, arguments)) return *text;
   throw std::runtime_error(fmt::format("{}: git {} failed: {}", folder, arguments, advice));
 }
 
-/// Every state of claims.json that was committed, oldest first. Empty if the folder has no repository of its own,
-/// or git is not installed. Throws std::runtime_error if the repository cannot be read, or not to its first commit.
+/// All committed states of claims.json, oldest first. Empty without a repository or git. Throws std::runtime_error
+/// if the repository cannot be read back to its first commit.
 std::vector<std::pair<std::string, json>> committed_states(const std::string& folder) {
   if (!std::filesystem::exists(folder + "/.git") || !output_of("git --version")) return {};
   const std::string file = "reports/data/claims.json", damaged = "found a damaged repository, expected a whole one";
@@ -169,7 +169,7 @@ std::vector<std::pair<std::string, json>> committed_states(const std::string& fo
   return states;
 }
 
-/// What a claim of version 1 or 2 said beside its history, which version 1 did not have.
+/// A claim's definition in version 1 or 2, where it was beside the history (version 1 had none).
 ClaimDefinition definition_of(const json& claim) {
   json set = claim;
   set.erase("id");
@@ -186,7 +186,7 @@ ClaimDefinition definition_of(const json& claim) {
   return parse_claims(document.dump(), "an old claim").claims[0].definition();
 }
 
-/// Walks along the histories and says where they are not what was committed.
+/// Follows the histories and reports differences from the commits.
 class Follower {
  public:
   void follow(const std::string& commit, const json& document) {
@@ -216,7 +216,7 @@ class Follower {
   std::map<std::string, ClaimDefinition> now_;
 };
 
-/// The claims of version 2, each of which said beside its history what it is: the newest entry says the same.
+/// Reads version 2, where each claim repeated its newest definition beside the history.
 ClaimSet set_of_version_2(json document, const std::string& commit) {
   document["version"] = 3;
   std::vector<ClaimDefinition> definitions;

@@ -8,7 +8,7 @@
 namespace glovebench::reports {
 namespace {
 
-/// Of the page's style.
+/// Class of the page's style.
 std::string_view css_class(ClaimOutcome outcome) {
   switch (outcome) {
     case ClaimOutcome::reproduced:
@@ -30,7 +30,7 @@ std::string when(const std::string& date, const std::optional<std::string>& comm
   return commit ? fmt::format("{}, commit {}", date, *commit) : date;
 }
 
-/// What a field was, if it was anything, and what it became.
+/// Old value, if any, and new value of a field.
 std::string change_html(const ClaimChange* before, const ClaimChange& after, const std::string& field) {
   const std::string old_text = before ? field_text(before->definition, field) : "";
   const std::string old_html = old_text.empty() ? "" : fmt::format("<del>{}</del> ", escape_html(old_text));

@@ -35,7 +35,7 @@ std::string ids_of(const std::vector<ClaimVerdict>& verdicts, ClaimOutcome outco
   return fmt::format("{}", fmt::join(ids, ", "));
 }
 
-/// The claims that were run.
+/// Rows of the claims that were run.
 Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
   Table table = table_of({"outcome", "claim", "source", "paper", "measured", "holds if"}, 4);
   for (const ClaimVerdict& verdict : verdicts) {
@@ -53,7 +53,7 @@ Json or_null(const std::optional<std::string>& text) {
   return text ? Json(*text) : Json();
 }
 
-/// As claims.json of this program has it, but for a rule, which is in words.
+/// As in claims.json, but a rule is in words.
 Json field_json(const ClaimDefinition& definition, const std::string& field) {
   if (field == "required") return definition.required;
   if (field == "withdrawn") return definition.withdrawn;
@@ -131,7 +131,7 @@ Json csv_row(const ClaimVerdict& verdict) {
 
 std::string measured_text(const ClaimVerdict& verdict) {
   if (!verdict.measure || !verdict.measure->value) return "-";
-  // Counts, shares and errors stand in one column: four digits tell each of them.
+  // Counts, shares and errors share a column; four digits suffice for all.
   std::string text = fmt::format("{:.4g}", rounded(*verdict.measure->value));
   if (const auto& interval = verdict.measure->interval)
     text += fmt::format(" [{:.4g}, {:.4g}]", rounded(interval->low), rounded(interval->high));

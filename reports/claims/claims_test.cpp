@@ -148,7 +148,7 @@ TEST(Claims, DamageGivesAnErrorOrClaimsButNothingElse) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   }
-  // Most of the file is sentences, in which another letter is another sentence.
+  // Most of the file is sentences, in which a changed letter is still a valid sentence.
   EXPECT_GT(refused, 300);
 }
 

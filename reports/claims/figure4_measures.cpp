@@ -12,15 +12,15 @@ namespace {
 constexpr std::array<std::string_view, 3> kErrors = {"position_error_mm", "posture_rms_deg", "rotation_error_deg"};
 constexpr size_t kTrajectories = 5;
 
-/// One trajectory of Figure 4 with its databases: the grasp-specific one first, the largest last.
+/// A trajectory's experiments: grasp-specific database first, largest last.
 using Group = std::array<const ExperimentResult*, 3>;
 using Groups = std::array<Group, kTrajectories>;
 
-/// Empty unless all 15 experiments are there.
+/// Empty unless all 15 experiments exist.
 std::optional<Groups> find_groups(const RunResult& result, TruthKind truth) {
   Groups groups{};
   for (size_t t = 0; t < kTrajectories; ++t) {
-    // Tr1 and Tr2 pinch, the others are power grasps (section IV).
+    // Tr1 and Tr2 are pinches, the others power grasps (section IV).
     const std::string specific = t < 2 ? "DB_open_pinch" : "DB_open_power";
     const std::array<std::string, 3> databases = {specific, "DB_open_pinch_power", "DB_20_postures"};
     for (size_t d = 0; d < databases.size(); ++d) {
@@ -46,7 +46,7 @@ bool can_share_draws(const Group& group) {
          });
 }
 
-/// The mean over the frames that were drawn.
+/// Mean over the drawn frames.
 std::optional<double> drawn_mean(const ExperimentResult& experiment, std::string_view metric, const Draw& draw) {
   const size_t value = metric_index(metric);
   double sum = 0;
@@ -64,9 +64,9 @@ std::optional<double> drawn_mean(const ExperimentResult& experiment, std::string
   return sum / count;
 }
 
-/// Means of an error with the databases of one trajectory.
+/// Means of an error, one per database of a trajectory.
 using Means = std::array<std::optional<double>, 3>;
-/// The means of an error of a trajectory of that index: of all frames or of drawn ones.
+/// Means of an error for one trajectory, over all or over drawn frames.
 using MeansOf = std::function<Means(size_t trajectory, std::string_view metric)>;
 using Statistic = std::function<std::optional<double>(const MeansOf&)>;
 
@@ -93,7 +93,7 @@ bool is_number(const std::optional<double>& mean) {
   return mean && std::isfinite(*mean);
 }
 
-/// Empty when an experiment has no mean, or none that is a number: it may be the largest.
+/// Empty if a mean is missing or not finite, since it could be the largest.
 std::optional<double> largest_position_error(const MeansOf& means_of) {
   double largest = 0;
   for (size_t t = 0; t < kTrajectories; ++t) {
@@ -115,8 +115,7 @@ bool is_ordered(const Means& means) {
   return specific_is_best(means) && large_is_worst(means);
 }
 
-/// In how many of the 15 pairs of trajectory and error the condition holds; empty when a mean is missing or no
-/// number.
+/// In how many of 15 pairs (trajectory, error) the condition holds; empty if a mean is missing or not finite.
 Statistic count_of(bool (*condition)(const Means&)) {
   return [condition](const MeansOf& means_of) -> std::optional<double> {
     int count = 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFrames = 60;
 
-/// An experiment whose frames all have the same errors: every resample has the same means.
+/// All frames have the same errors, so all resamples have the same means.
 ExperimentResult even_experiment(const ExperimentKey& key, double position_mm, double posture_deg,
                                  double rotation_deg) {
   std::vector<FrameRecord> frames;
@@ -20,10 +20,10 @@ ExperimentResult even_experiment(const ExperimentKey& key, double position_mm, d
   return summarize(key, {{1, frames}}, pck_curve({}, 0), {}, {.resamples = 10});
 }
 
-/// The errors of a trajectory (1 to 5) with its databases: grasp-specific, three postures, 20 postures.
+/// Errors of a trajectory (1 to 5) with its databases: grasp-specific, three postures, 20 postures.
 using Errors = std::function<std::array<double, 3>(int trajectory)>;
 
-/// Figure 4 against one truth; all three errors have the same number.
+/// Figure 4 against one truth; all three errors are equal.
 RunResult even_result(TruthKind truth, const Errors& errors) {
   RunResult result;
   for (int t = 1; t <= 5; ++t) {
@@ -136,7 +136,7 @@ TEST(Figure4Measures, AMeanThatIsNoNumberIsNotIgnored) {
 }
 
 TEST(Figure4Measures, DrawsAreSharedByTheDatabasesOfATrajectory) {
-  // Errors that wander by 10 mm and differ by 0.5 mm frame by frame: only draws that are shared keep the order.
+  // Errors that vary by 10 mm and differ by 0.5 mm in each frame: only shared draws keep their order.
   RunResult result = ordered_result();
   for (size_t e = 0; e < result.experiments.size(); ++e) {
     std::vector<FrameRecord> frames;

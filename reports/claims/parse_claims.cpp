@@ -10,7 +10,7 @@
 namespace glovebench::reports {
 namespace {
 
-/// Rules are about millimetres, degrees, counts and ratios: a larger bound is a slip of the pen.
+/// Rules are about millimeters, degrees, counts and ratios; a larger bound is a typing error.
 constexpr double kLargestBound = 1e6;
 
 Rule read_rule(const JsonCursor& json) {
@@ -55,7 +55,6 @@ std::string read_id(const JsonCursor& json, const std::vector<Claim>& before) {
   return id;
 }
 
-/// The fields of a definition by their names.
 struct Field {
   std::string_view name;
   void (*read)(ClaimDefinition& definition, const JsonCursor& json);
@@ -102,7 +101,7 @@ std::optional<std::string> read_commit(const JsonCursor& json, bool is_newest) {
   return json.text();
 }
 
-/// Sets the fields that a change names: all of them in the first one, only others than before in a later one.
+/// Sets the fields that a change names: all of them in the first change, only different ones later.
 void apply(const JsonCursor& set, bool is_first, ClaimChange& change) {
   const ClaimDefinition before = change.definition;
   for (const auto& [name, value] : set.members()) {

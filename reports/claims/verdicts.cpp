@@ -13,7 +13,7 @@ bool is_interval(const ConfidenceInterval& interval) {
   return std::isfinite(interval.low) && std::isfinite(interval.high) && interval.low <= interval.high;
 }
 
-/// 1 if the claim holds, -1 if it does not, 0 if neither can be said.
+/// 1 if the claim holds, -1 if it does not, 0 if that is unknown.
 int sign_of(const Rule& rule, const Measure& measure) {
   if (!measure.value || !std::isfinite(*measure.value)) return 0;
   if (!holds(rule, *measure.value)) return -1;
@@ -21,7 +21,7 @@ int sign_of(const Rule& rule, const Measure& measure) {
   const double low = measure.interval->low, high = measure.interval->high;
   if (!is_interval(*measure.interval)) return 0;
   if (!meets(rule, low, high)) return -1;
-  // A rule is an interval: it holds everywhere between two values with which it holds.
+  // A rule is an interval, so it holds between two values if it holds for both.
   return holds(rule, low) && holds(rule, high) ? 1 : 0;
 }
 
@@ -41,7 +41,7 @@ ClaimVerdict verdict_of(const Claim& claim, Measure measure) {
   return {claim, std::move(measure), outcome};
 }
 
-/// Claims are about the paper's configuration. A run that does not say its own is taken for one of it.
+/// Claims are about the paper's configuration. A run without a configuration counts as the paper's.
 bool is_of_the_paper(const nlohmann::json& configuration) {
   const auto tracker = configuration.find("tracker");
   return tracker == configuration.end() || *tracker == to_json(profile("paper"));

@@ -69,7 +69,7 @@ Measure without_interval(std::optional<double> value) {
   return {"m", "mm", value, {}, false};
 }
 
-/// What comes of a measure, by hand, for the rule "below 10".
+/// A measure and its outcome for the rule "below 10".
 struct Case {
   const char* what;
   std::optional<Measure> measure;

@@ -43,7 +43,7 @@ FrameDifferences frame_differences(const std::vector<const Metric*>& metrics, co
   return result;
 }
 
-/// "icp.max_iterations": the way to each value of a configuration.
+/// Adds all values by their path: "icp.max_iterations".
 void add_flat(const json& configuration, const std::string& prefix, std::map<std::string, std::string>& fields) {
   const json flat = configuration.flatten();
   for (const auto& [pointer, value] : flat.items()) {
@@ -53,7 +53,7 @@ void add_flat(const json& configuration, const std::string& prefix, std::map<std
   }
 }
 
-/// The tracker's, and that of the cameras if they are none of the program's own.
+/// The tracker's configuration, and that of the cameras unless they are the program's own.
 std::map<std::string, std::string> flat_configuration(const RunResult& result) {
   std::map<std::string, std::string> fields;
   const auto add = [&](const char* part, const std::string& prefix) {
@@ -102,9 +102,9 @@ std::vector<ChangedFrame> frames_that_got_worse(const Pairing& pairing) {
   return frames;
 }
 
-/// The frames whose vertex error grew most, by more than 0.01 mm, at most kWorstFrames of them. A frame that was
-/// lost counts as 50 mm, the bound of a covered frame. Of frames close together in one experiment, which show the
-/// same failure, the worst. None where a result has no vertex errors.
+/// The frames whose vertex error grew most, by more than 0.01 mm, at most kWorstFrames. A lost frame counts as 50
+/// mm, the bound of a covered frame. Frames close together in one experiment show the same failure, so only the
+/// worst is taken. Empty if a result has no vertex errors.
 std::vector<ChangedFrame> worst_frames(const Pairing& pairing) {
   if (std::ranges::find(pairing.metrics, "vertex_error_mm", &Metric::key) == pairing.metrics.end()) return {};
   std::vector<ChangedFrame> frames = frames_that_got_worse(pairing);

@@ -9,54 +9,51 @@
 
 namespace glovebench::reports {
 
-/// Of a candidate against a baseline.
 enum class Verdict {
-  better,           ///< significantly, and by at least the minimum effect
-  worse,            ///< the same in the other direction
-  same,             ///< the interval lies within the minimum effect on both sides
-  not_enough_data,  ///< none of these can be said
+  better,           ///< significant, and at least the minimum effect
+  worse,            ///< likewise
+  same,             ///< the interval lies within the minimum effect
+  not_enough_data,  ///< none of these
 };
 constexpr auto names_of(Verdict) {
   return std::to_array<std::string_view>({"better", "worse", "same", "not enough data"});
 }
 
-/// Name of the rows over all experiments: the mean of the experiments' differences.
+/// Name of rows over all experiments: means of their differences.
 inline constexpr std::string_view kAllExperiments = "all";
 
 struct CompareConfig {
   double family_error = 0.01;  ///< of all intervals together (Bonferroni), in (0, 1)
-  int block_frames = 16;       ///< successive frames are not independent: at least so many make a block, >= 16
+  int block_frames = 16;       ///< fewest frames of a block, >= 16; successive frames are not independent
   int resamples = 4000;        ///< >= 100
   uint64_t seed = 1;           ///< of the bootstrap
 };
 
-/// One metric of one experiment, or of all.
 struct ComparisonRow {
-  std::string experiment;          ///< to_string of its key, or kAllExperiments
+  std::string experiment;          ///< name or kAllExperiments
   const Metric* metric = nullptr;  ///< gated
-  int pairs = 0;                   ///< frames of all seeds that have the value in both
+  int pairs = 0;                   ///< frames of all seeds with both values
   int frames = 0;                  ///< frames of all seeds
-  std::optional<double> baseline;  ///< mean over the pairs
+  std::optional<double> baseline;  ///< mean over pairs
   std::optional<double> candidate;
-  std::optional<double> difference;  ///< candidate - baseline: above zero is worse
-  std::optional<double> low, high;   ///< simultaneous interval of the difference
-  int blocks = 0;                    ///< of frames, that were resampled
+  std::optional<double> difference;  ///< candidate - baseline; positive is worse
+  std::optional<double> low, high;   ///< simultaneous interval
+  int blocks = 0;                    ///< resampled blocks of frames
   double minimum_effect = 0;
-  bool is_measured = false;  ///< the minimum effect: by a noise floor; otherwise it is a default
+  bool is_measured = false;  ///< by a noise floor; else a default
   Verdict verdict = Verdict::not_enough_data;
 };
 
-/// A frame whose error changed for the worse.
 struct ChangedFrame {
   ExperimentKey key;
   uint64_t baseline_seed = 0;
   uint64_t candidate_seed = 0;
   int frame = 0;
-  std::optional<double> baseline_vertex_error_mm;  ///< empty where the frame was lost
+  std::optional<double> baseline_vertex_error_mm;  ///< empty if lost
   std::optional<double> candidate_vertex_error_mm;
 };
 
-/// The paired differences of one experiment, frame by frame: mean over the seeds that have both.
+/// Differences of one experiment per frame: means over seeds with both values.
 struct FrameDifferences {
   std::string experiment;
   int first_frame = 0;
@@ -67,10 +64,9 @@ struct FrameDifferences {
   std::vector<OfMetric> differences;
 };
 
-/// A field of the effective configurations that differs.
 struct ConfigurationChange {
-  std::string field;     ///< e.g. "icp.max_iterations"
-  std::string baseline;  ///< as JSON; empty where there is none
+  std::string field;     ///< "icp.max_iterations"
+  std::string baseline;  ///< JSON; empty if absent
   std::string candidate;
 };
 
@@ -85,29 +81,28 @@ struct Comparison {
   ComparedResult baseline;
   ComparedResult candidate;
   CompareConfig config;
-  int seeds = 0;             ///< of each experiment (the most, where they differ)
-  bool other_seeds = false;  ///< the noise seeds differ, so that the frames' noise is not paired
+  int seeds = 0;             ///< per experiment; the most, where they differ
+  bool other_seeds = false;  ///< noise seeds differ, so noise is not paired
   bool has_noise_floor = false;
-  std::vector<ComparisonRow> rows;  ///< first those over all experiments, then experiment by experiment
+  std::vector<ComparisonRow> rows;  ///< all experiments first, then each
   std::vector<FrameDifferences> frames;
-  std::vector<ChangedFrame> worst;  ///< the most changed first; at most kWorstFrames, none of them unchanged
+  std::vector<ChangedFrame> worst;  ///< most changed first; at most kWorstFrames
   std::vector<ConfigurationChange> configuration;
   std::vector<std::string> only_in_baseline;
   std::vector<std::string> only_in_candidate;
-  std::map<std::string, std::string> uncompared_metrics;  ///< key: why
+  std::map<std::string, std::string> uncompared_metrics;  ///< key: reason
 };
 inline constexpr int kWorstFrames = 6;
 
-/// Compares two results, frame by frame and seed by seed. The sequences are fixed strata: blocks of frames (at
-/// least block_frames, all of about one length) and seeds are resampled within them (Rao and Wu's rescaled
-/// bootstrap: one fewer is drawn than there are), experiments on the same trajectory share their draws. An interval
-/// is the difference -+ Student's t times the bootstrap's standard error, with one degree of freedom fewer than
-/// blocks, at the level that holds the family error over all rows. Minimum effects come from the noise floor where
-/// it has them. Throws Incomparable.
+/// Compares frame by frame and seed by seed. Blocks of frames and seeds are resampled within each sequence
+/// (rescaled bootstrap of Rao and Wu, n - 1 of n); experiments on one trajectory share draws. Intervals are +-
+/// Student's t (blocks - 1 degrees of freedom) times the bootstrap's standard error, at the level that keeps the
+/// family error over all rows. `floor` gives minimum effects; may be null.
+/// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});
 
-/// What the intervals and verdicts mean, in a paragraph of plain text.
+/// What intervals and verdicts mean.
 std::string comparison_explanation(const Comparison& comparison);
 
 }  // namespace glovebench::reports

@@ -72,7 +72,7 @@ Json differences_json(const FrameDifferences& experiment) {
           {"differences", std::move(differences)}};
 }
 
-/// Texts of JSON values; no value is null.
+/// Values are JSON texts; a missing value is null.
 Json change_json(const ConfigurationChange& change) {
   const auto value = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   return {{"field", change.field}, {"baseline", value(change.baseline)}, {"candidate", value(change.candidate)}};

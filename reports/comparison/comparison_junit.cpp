@@ -9,7 +9,7 @@
 namespace glovebench::reports {
 namespace {
 
-/// What a test came to: "failure", "skipped" or "error", or nothing if it passed.
+/// Outcome of a test: "failure", "skipped", "error", or empty if it passed.
 struct TestCase {
   std::string name;
   std::string class_name;
@@ -59,7 +59,7 @@ TestCase row_case(const ComparisonRow& row) {
   TestCase test;
   test.name = row.metric->key;
   std::string experiment = row.experiment;
-  std::ranges::replace(experiment, '.', '_');  // a dot would begin another package
+  std::ranges::replace(experiment, '.', '_');  // a dot would start another package
   test.class_name = "glovebench." + experiment;
   test.output = row_sentence(row);
   if (stops(row)) {

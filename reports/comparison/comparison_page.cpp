@@ -10,7 +10,7 @@
 namespace glovebench::reports {
 namespace {
 
-/// The interval as a bar over the minimum effect as a band, zero in the middle: less is to the left, and better.
+/// The interval as a bar over a band of the minimum effect; zero is in the middle, better is left.
 std::string interval_plot(const ComparisonRow& row) {
   if (!row.difference || !row.low || !row.high) return "";
   constexpr double kHalf = 60;
@@ -27,7 +27,7 @@ std::string interval_plot(const ComparisonRow& row) {
       x(*row.high), x(*row.difference));
 }
 
-/// `of_one`: of one experiment, whose name stands above.
+/// `of_one`: all rows are of one experiment, whose name is in the heading.
 std::string rows_html(std::span<const ComparisonRow> rows, bool of_one) {
   Table table = verdict_first(rows_table(rows));
   if (of_one) {
@@ -61,7 +61,7 @@ bool shows_change(const FrameDifferences::OfMetric& differences) {
   return std::ranges::any_of(differences.values, [](const auto& value) { return value && *value != 0; });
 }
 
-/// The differences frame by frame that the charts are drawn from, of the experiments in which any metric changed.
+/// Differences per frame for the charts, of experiments in which any metric changed.
 Table difference_table(const std::vector<FrameDifferences>& experiments) {
   Table table;
   table.columns = {{"experiment", ""}, {"frame", ""}};
@@ -80,7 +80,7 @@ Table difference_table(const std::vector<FrameDifferences>& experiments) {
   return table;
 }
 
-/// A chart of the metrics that changed in some frame; `number` of the experiment in difference_table.
+/// Chart of the metrics that changed in some frame. `number`: of the experiment in difference_table.
 std::string difference_chart(const FrameDifferences& experiment, std::ptrdiff_t number) {
   std::vector<std::string_view> changed, unchanged;
   for (const auto& differences : experiment.differences)
@@ -94,7 +94,7 @@ std::string difference_chart(const FrameDifferences& experiment, std::ptrdiff_t 
   return html;
 }
 
-/// Folded, unless there is something to read in it.
+/// Folded if nothing in it is worth reading.
 std::string experiment_section(std::span<const ComparisonRow> rows, const std::vector<FrameDifferences>& frames) {
   const std::string& name = rows.front().experiment;
   const auto worse = std::ranges::count_if(rows, stops);

@@ -33,7 +33,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The small comparison with a name that means something in every format.
+/// The small comparison with a name that has a special meaning in every format.
 ComparisonReport hostile_comparison() {
   ComparisonReport report = small_comparison();
   Comparison& comparison = report.comparison;

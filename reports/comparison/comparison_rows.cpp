@@ -9,11 +9,11 @@
 namespace glovebench::reports {
 namespace {
 
-/// A row of one experiment and what the row over all experiments needs of it.
+/// A row of one experiment, with its part in the row over all experiments.
 struct ResampledRow {
   ComparisonRow row;
   std::string trajectory;
-  Eigen::VectorXd means;  ///< of the resamples; none where there are fewer than two blocks
+  Eigen::VectorXd means;  ///< of the resamples; empty below two blocks
 };
 
 void set_interval(ComparisonRow& row, const Eigen::VectorXd& means, double tail_error, int degrees_of_freedom) {
@@ -42,8 +42,7 @@ ResampledRow experiment_row(const Metric& metric, const ExperimentResult& baseli
   return result;
 }
 
-/// Those that a row over all experiments can say something about: with an interval of their own, or, if there is
-/// none, with a difference.
+/// The experiments in the row over all: those with an interval, or, if there are none, those with a difference.
 std::vector<const ResampledRow*> members_of_all(const std::vector<ResampledRow>& experiments) {
   std::vector<const ResampledRow*> members, with_difference;
   for (const ResampledRow& experiment : experiments) {
@@ -53,7 +52,7 @@ std::vector<const ResampledRow*> members_of_all(const std::vector<ResampledRow>&
   return members.empty() ? with_difference : members;
 }
 
-/// Experiments on one trajectory repeat its blocks, which are counted once.
+/// Experiments on one trajectory repeat its blocks, so blocks count once per trajectory.
 std::map<std::string, int> blocks_by_trajectory(const std::vector<const ResampledRow*>& members) {
   std::map<std::string, int> blocks;
   for (const ResampledRow* member : members) {
@@ -129,9 +128,9 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
     seeds = std::min(seeds, static_cast<int>(baseline->runs.size()));
   for (ComparisonRow& row : rows) {
     const bool is_all = row.experiment == kAllExperiments;
-    // The mean over all experiments bears two frames in each of them: one experiment's own row bears no more.
+    // The row over all tolerates two frames per experiment, as an experiment's own row does.
     const int frames = is_all ? row.frames / static_cast<int>(std::max<size_t>(1, experiments)) : row.frames;
-    // Where an experiment is missing, the mean over all is another one than the noise floor's.
+    // If an experiment is missing, the noise floor's row over all does not apply.
     const bool has_entry = floor && !(is_all && !pairing.only_in_baseline.empty());
     row.minimum_effect = minimum_effect(*row.metric, row.experiment, frames, seeds, has_entry ? floor : nullptr);
     row.is_measured = has_entry && floor->find(row.experiment, row.metric->key) != nullptr;

@@ -7,10 +7,9 @@
 
 namespace glovebench::reports {
 
-/// Rows of all experiments together and of each: what the family error is shared by.
+/// Rows that share the family error: all experiments and each.
 int row_count(size_t metrics, size_t experiments);
-/// The rows of compare_results: first those over all experiments, then experiment by experiment. `draws` are of
-/// config's seed and number of resamples; one object may serve many comparisons.
+/// All experiments first, then each. `draws` must have the seed and resamples of `config`.
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
                                            const CompareConfig& config, Draws& draws);
 

@@ -36,7 +36,7 @@ NamedResult noisy(const std::string& purpose, double shift_mm, int frames = 128)
   return example_named(purpose, std::move(experiments));
 }
 
-/// One experiment of one seed, whose position error is the given one.
+/// One experiment with one seed and these position errors.
 NamedResult of_positions(const std::vector<std::optional<double>>& positions_mm) {
   const MakeFrame make_frame = [&](uint64_t, int f) {
     return positions_mm[f] ? example_frame(f, *positions_mm[f], 5, 2) : example_lost_frame(f);
@@ -196,7 +196,7 @@ TEST(Comparison, TooLittleHasNoInterval) {
   const std::vector<std::optional<double>> lost(64);
   expect_none(compare(positions({1, 1, 1, 1}), lost), std::nullopt, 0);
   auto nearly_lost = lost;
-  nearly_lost[3] = 2.0;  // one block with a pair: nothing tells how it varies
+  nearly_lost[3] = 2.0;  // only one block has a pair, so the variation is unknown
   expect_none(compare(positions({1, 1, 1, 1}), nearly_lost), 1.0, 1);
 }
 
@@ -253,7 +253,7 @@ TEST(Comparison, WorstFramesAreDistinct) {
   before[80].reset();
   after[80].reset();
   before[90].reset();  // found again
-  after[100] = 3.004;  // nothing to see
+  after[100] = 3.004;  // too small a change
   const Comparison comparison = compare_results(of_positions(before), of_positions(after), nullptr);
   ASSERT_EQ(comparison.worst.size(), 2u);
   EXPECT_EQ(comparison.worst[0].frame, 60);

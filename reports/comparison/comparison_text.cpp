@@ -21,7 +21,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-/// Three digits while they fit, else fewer.
+/// Three digits if they fit, else fewer.
 std::string formatted(double value) {
   const double magnitude = std::abs(value);
   if (magnitude >= 99999.5) return fmt::format("{:.2e}", value);
@@ -112,7 +112,7 @@ std::string readable_experiment(const std::string& experiment) {
   if (experiment == kAllExperiments) return "all experiments";
   const std::vector<std::string> parts = split(experiment, '_');
   if (parts.size() < 6) return experiment;
-  // From the end: names of trajectories and databases hold underscores themselves.
+  // Counted from the end, since names of trajectories and databases may contain underscores.
   const auto tail = parts.end() - 4;
   const std::string &truth = tail[0], &subject = tail[1], &noise = tail[2], &factor = tail[3];
   if ((truth != "source" && truth != "recorded") || !subject.starts_with("subject")) return experiment;

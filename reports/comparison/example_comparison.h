@@ -1,7 +1,6 @@
 #pragma once
 
-// Comparisons made by hand and by seeded chance, for the tests and for looking at the page. Not part of the
-// library.
+// For tests and a look at the page.
 
 #include <cmath>
 
@@ -10,7 +9,7 @@
 
 namespace glovebench::reports {
 
-/// A row whose interval reaches as far as given on both sides of the difference.
+/// `reach`: half width of the interval.
 inline ComparisonRow example_row(const std::string& experiment, std::string_view metric, double baseline,
                                  double difference, double reach, Verdict verdict) {
   ComparisonRow row;
@@ -28,8 +27,7 @@ inline ComparisonRow example_row(const std::string& experiment, std::string_view
   return row;
 }
 
-/// One experiment and the rows over all, each verdict once: position worse, rotation better, posture the same, the
-/// unfiltered posture without any value, lost frames that stop though the data say little.
+/// Each verdict once, and a metric without value.
 inline ComparisonReport small_comparison() {
   const std::string experiment = "Tr4_DB_open_power_source_subject1_gradient_1";
   ComparisonReport report;
@@ -56,7 +54,7 @@ inline ComparisonReport small_comparison() {
   return report;
 }
 
-/// Frame by frame: noise, and after a third of the movement a change that fades away.
+/// Noise, and a change after a third of the movement that fades.
 inline std::vector<std::optional<double>> example_differences(const std::string& name, size_t metric, double level,
                                                               bool loses_frames) {
   std::vector<std::optional<double>> values;
@@ -101,7 +99,7 @@ inline void append_example_experiment(Comparison& comparison, const ExperimentKe
   comparison.frames.push_back(std::move(frames));
 }
 
-/// The quick suite with one experiment worse, one better, one unchanged and one that loses frames.
+/// Experiments that are worse, better, unchanged and losing frames.
 inline ComparisonReport full_comparison() {
   ComparisonReport report = small_comparison();
   Comparison& comparison = report.comparison;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Results whose every value the test decides. Not part of the library.
+// For tests.
 
 #include <functional>
 
@@ -34,8 +34,8 @@ inline NamedResult example_named(const std::string& name, std::vector<Experiment
   return named;
 }
 
-/// Errors of about 3 mm: a movement that all seeds and results share, a slow change that belongs to the seed and
-/// `purpose`, and noise of each frame. `shift_mm` is added to all.
+/// Errors of about 3 mm + `shift_mm`: a movement shared by all, a slow change per seed and `purpose`, noise per
+/// frame.
 inline ExperimentResult noisy_experiment(const std::string& trajectory, const std::vector<uint64_t>& seeds,
                                          int frames, const std::string& purpose, double shift_mm) {
   std::vector<double> movement(frames, 0);

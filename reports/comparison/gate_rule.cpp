@@ -8,9 +8,9 @@
 namespace glovebench::reports {
 namespace {
 
-/// Files round to 1e-6 of a unit: nothing smaller decides.
+/// Files round to 1e-6 of a unit, so a smaller difference decides nothing.
 constexpr double kNegligible = 1e-6;
-/// Minimum effects that stop a change whatever the interval says, unless it is a share.
+/// So many minimum effects stop a change whatever the interval says; of a share one does.
 constexpr double kSurely = 2;
 
 bool reaches(double difference, double minimum_effect) {
@@ -37,7 +37,7 @@ std::string name(const ComparisonRow& row) {
   return fmt::format("{}, {}", row.experiment, row.metric->key);
 }
 
-/// A change that the interval cannot tell from chance sits in a few stretches: the page shows where.
+/// A change that the interval cannot tell from chance lies in a few places, which the page shows.
 std::string how(const ComparisonRow& row) {
   return row.verdict == Verdict::worse ? "worse by" : "worse in places, up by";
 }

@@ -18,25 +18,23 @@
 
 namespace glovebench::reports {
 
-/// Below this a difference can come from another machine, or is fewer than two frames of a share. `frames` of all
-/// seeds.
+/// Another machine can cause less; for a share it is at least two frames. `frames` of all seeds.
 double least_effect(const Metric& metric, int frames);
-/// The noise floor's, or the default; never below least_effect. `seeds` of each result: fewer than the floor is for
-/// raise it, as the spread of their mean is larger. `floor` may be null.
+/// The noise floor's effect or the default, at least least_effect. It grows if a result has fewer `seeds` than the
+/// floor is for, since their mean varies more. `floor` may be null.
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 
-/// Of the row's difference, interval and minimum effect.
+/// From difference, interval and minimum effect.
 Verdict verdict_of(const ComparisonRow& row);
-/// Does this row stop a change? If it is worse, or rose by its sure effect.
+/// Whether the row is worse, or rose by its sure effect.
 bool stops(const ComparisonRow& row);
-/// How much must be added to every frame of the candidate for the row to stop the change. The row has a difference.
+/// What must be added to every candidate frame for the row to stop the change. The row has a difference.
 double missing_to_stop(const ComparisonRow& row);
 
-/// What lets a change pass or stops it.
 struct GateDecision {
-  std::vector<std::string> failures;  ///< a line each: experiment, metric, numbers
-  std::vector<std::string> warnings;  ///< what could be a regression, but the data do not say so
+  std::vector<std::string> failures;  ///< one line each: experiment, metric, numbers
+  std::vector<std::string> warnings;  ///< possible regressions without enough data, and gaps in the comparison
   bool passed() const { return failures.empty(); }
 };
 GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& speed);

@@ -15,10 +15,10 @@ namespace {
 
 constexpr int kDraws = 100;
 constexpr double kPower = 0.9;
-/// The standard error of a draw is known to 2% of itself; the quantile over the draws is coarser than that.
+/// Enough to know a draw's standard error to 2%, which is finer than the quantile over the draws.
 constexpr int kResamples = 1000;
 
-/// The mean of each seed; empty for a metric that some seed has no value of.
+/// Mean per seed; empty if a seed has no value of the metric.
 using SeedMeans = std::optional<std::vector<double>>;
 
 SeedMeans seed_means(const Metric& metric, const ExperimentResult& experiment) {
@@ -40,15 +40,15 @@ double standard_deviation(const std::vector<double>& values) {
   return std::sqrt(squares / (static_cast<double>(values.size()) - 1));
 }
 
-/// Of one metric: over all experiments, and of each; empty where it has none.
+/// Spreads of one metric, over all experiments and per experiment; empty without values.
 struct Spreads {
   std::optional<double> all;
   std::vector<std::optional<double>> experiments;
-  int measured = 0;  ///< experiments that have one
+  int measured = 0;  ///< experiments with a spread
 };
 
-/// Few seeds estimate a spread badly, and one that came out too small would raise false alarms: the spread of all
-/// experiments, as a root mean square, bounds that of each from below.
+/// An experiment's spread is at least the RMS over all experiments: few seeds estimate a spread badly, and one
+/// that is too small would raise false alarms.
 Spreads measure_spreads(const Metric& metric, const RunResult& result) {
   Spreads spreads;
   std::vector<double> measured, sums(result.experiments.front().runs.size());
@@ -72,7 +72,7 @@ int frames_of(const ExperimentResult& experiment, int seeds) {
   return seeds * static_cast<int>(experiment.runs.front().frames.size());
 }
 
-/// One entry for each row of a comparison that has a spread, without `detectable`.
+/// One entry per row of a comparison that has a spread, without `detectable`.
 std::vector<NoiseFloorEntry> measure_effects(const RunResult& result, const NoiseFloor& floor) {
   const std::vector<const Metric*> metrics = shared_metrics(result.protocol, result.protocol);
   const double tail_error = floor.family_error / (2 * row_count(metrics.size(), result.experiments.size()));
@@ -99,7 +99,7 @@ std::vector<NoiseFloorEntry> measure_effects(const RunResult& result, const Nois
   return entries;
 }
 
-/// Two results of disjoint seeds, drawn from one of many.
+/// Draws two results of disjoint seeds from one with many.
 std::pair<RunResult, RunResult> draw_results(const RunResult& result, int seeds, int draw) {
   std::vector<size_t> order(result.experiments.front().runs.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -118,7 +118,7 @@ std::pair<RunResult, RunResult> draw_results(const RunResult& result, int seeds,
   return drawn;
 }
 
-/// The entries that a comparison has a difference for, with the change that it detects.
+/// Keeps the entries for which comparisons have a difference, and adds the change that they detect.
 std::vector<NoiseFloorEntry> with_detectable(const RunResult& result, const NoiseFloor& floor) {
   const CompareConfig config = {.family_error = floor.family_error, .resamples = kResamples};
   Draws draws(config.seed, config.resamples);

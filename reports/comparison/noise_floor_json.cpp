@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kNoiseFloorFormat = "glovebench-noise-floor";
 constexpr int kVersion = 1;
 
-/// Of millimeters, degrees and percents: more is damage, and less is written as 0.
+/// In millimeters, degrees or percent: larger values are damage, smaller ones are written as 0.
 constexpr double kLargestAmount = 1e6, kSmallestAmount = 1e-6;
 
 NoiseFloorEntry read_entry(const JsonCursor& json) {

@@ -23,7 +23,7 @@ std::vector<uint64_t> seeds_from(uint64_t first, int count) {
   return seeds;
 }
 
-/// Every seed has a level of its own, of known spread; some frames are lost by chance.
+/// Every seed has its own level, of known spread; some frames are lost at random.
 RunResult simulated(const std::vector<uint64_t>& seeds, double shift_mm = 0, int trajectories = 4) {
   std::vector<ExperimentResult> experiments;
   for (int t = 1; t <= trajectories; ++t) {
@@ -117,7 +117,7 @@ TEST(NoiseFloorLong, WhatIsCalledDetectableIsDetectedMostly) {
         compare_results(before, after, &example_floor(), {.other_seeds = true}, {.resamples = 500}).rows;
     found += stops(rows[0]);
   }
-  // 90% as measured from 24 seeds, of which 100 draws repeat the same few: give or take 12.
+  // 90%, measured from 24 seeds of which 100 draws repeat the same few: 12 less or more.
   EXPECT_GE(found, 78);
   EXPECT_LT(found, 100) << "and no more than needed";
 }

@@ -11,8 +11,7 @@
 
 namespace glovebench::reports {
 
-/// What a metric changed by from the baseline to the candidate: run by run, frame by frame; empty where either
-/// has no value.
+/// Candidate minus baseline: [run][frame], empty where either has no value.
 struct PairedDifferences {
   std::vector<std::vector<std::optional<double>>> by_seed;
   int pairs = 0;
@@ -21,22 +20,22 @@ struct PairedDifferences {
   std::optional<double> candidate_mean;
   std::optional<double> mean;
 };
-/// Both have as many runs, of as many frames.
+/// Both need equal numbers of runs and frames.
 PairedDifferences paired_differences(const Metric& metric, const std::vector<SeedRun>& baseline,
                                      const std::vector<SeedRun>& candidate);
 
-/// Sums and counts of the differences, a row for each block of frames, a column for each seed.
+/// Rows are blocks of frames, columns are seeds.
 struct BlockSums {
   Eigen::MatrixXd sums;
   Eigen::MatrixXd counts;
 };
-/// Every block has at least `block_frames` frames (but where there are fewer in all), and about as many as the
-/// others. Blocks without a pair are left out: they would count as evidence that nothing varies.
+/// Blocks have at least `block_frames` frames, if there are that many, and similar lengths. Blocks without a pair
+/// are left out.
 BlockSums block_sums(const PairedDifferences& differences, int block_frames);
 
-/// How often each block and each seed occurs in each resample (rows), one fewer drawn than there are: so the
-/// resamples vary as the mean over the blocks does, unbiased even where there are few (Rao and Wu, JASA 1988).
-/// Experiments on the same trajectory share their draws, since its difficult moments are difficult in all of them.
+/// How often each resample (row) has each block or seed: n - 1 of n are drawn, so the variance is unbiased even
+/// for small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws, since they share its difficult
+/// moments.
 class Draws {
  public:
   Draws(uint64_t seed, int resamples) : seed_(seed), resamples_(resamples) {}
@@ -51,11 +50,11 @@ class Draws {
   std::map<std::pair<std::string, int>, Eigen::MatrixXd> drawn_;
 };
 
-/// The mean difference of each resample; NaN where it drew no pair.
+/// Mean difference per resample; NaN without a pair.
 Eigen::VectorXd resampled_means(const BlockSums& sums, const std::string& trajectory, Draws& draws);
-/// Standard deviation of the resamples that have a mean; empty if fewer than half of them do.
+/// Standard deviation without NaN; empty if over half are NaN.
 std::optional<double> standard_error(const Eigen::VectorXd& means);
-/// The value that Student's t exceeds with this probability.
+/// Quantile that Student's t exceeds with this probability.
 double student_t_above(double probability, int degrees_of_freedom);
 
 }  // namespace glovebench::reports

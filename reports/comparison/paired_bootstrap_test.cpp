@@ -9,7 +9,7 @@
 namespace glovebench::reports {
 namespace {
 
-/// One value a block of 16 frames, a row for each seed.
+/// One value per block of 16 frames; one row per seed.
 PairedDifferences blockwise(const std::vector<std::vector<double>>& blocks_by_seed) {
   PairedDifferences differences;
   for (const auto& blocks : blocks_by_seed) {
@@ -77,7 +77,7 @@ TEST(PairedBootstrap, OneTrajectoryHasOneSetOfDraws) {
 }
 
 TEST(PairedBootstrap, AResampleWithoutPairsHasNoMean) {
-  // Each seed has one block: a draw of one seed and one block misses it half of the time.
+  // Each seed has one block, so a draw of one seed and one block misses it half of the time.
   PairedDifferences differences = blockwise({{1, 1}, {2, 2}});
   for (int f = 0; f < 16; ++f) differences.by_seed[0][f].reset();
   for (int f = 16; f < 32; ++f) differences.by_seed[1][f].reset();

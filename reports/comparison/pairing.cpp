@@ -14,7 +14,7 @@ void check_equal(const std::string& where, const std::string& field, const std::
   if (found != expected) throw Incomparable(where, field, found, expected);
 }
 
-/// The first name that differs, in words; lists that are equal up to there differ in length.
+/// Names the first difference; if one list is a part of the other, the lengths differ.
 void check_names(const std::string& where, const std::string& field, const std::vector<std::string>& found,
                  const std::vector<std::string>& expected) {
   const size_t most = std::max(found.size(), expected.size());
@@ -37,7 +37,7 @@ void check_unique(const NamedResult& result) {
       throw Incomparable(result.name, "experiments", to_string(experiment.key) + " twice", "each of them once");
 }
 
-/// What is not in the file cannot be known to be the same.
+/// A missing hash cannot be compared.
 void check_hash(const NamedResult& baseline, const NamedResult& candidate, const std::string& name,
                 std::map<std::string, std::string> InputHashes::*hashes, const std::string& field) {
   const auto& found = candidate.result.inputs.*hashes;
@@ -66,7 +66,7 @@ void check_seeds(const std::string& where, const ExperimentResult& found, const 
     throw Incomparable(where, field, seeds_of(found), fmt::format("{} seeds", expected.runs.size()));
 }
 
-/// Where the shorter list stops following the longer one.
+/// Index in the longer list where the shorter one stops following it.
 size_t first_extra(const std::vector<FrameRecord>& longer, const std::vector<FrameRecord>& shorter) {
   size_t i = 0;
   while (i < shorter.size() && shorter[i].frame == longer[i].frame) ++i;

@@ -17,20 +17,19 @@ namespace {
 
 constexpr std::string_view kSpeedFormat = "glovebench-speed";
 constexpr size_t kMinRepetitions = 3;
-/// No iteration takes less than a picosecond or more than a day: what lies beyond is no time, and the ratio of two
-/// times is a number.
+/// An iteration takes between a picosecond and a day; within these bounds the ratio of two times is finite.
 constexpr double kShortest_s = 1e-12, kLongest_s = 86400;
-/// Far beyond any ratio that was measured, and not lost in the rounding of a file.
+/// Far beyond any measured ratio, and large enough to survive a file's rounding.
 constexpr double kLeastRatio = 1e-3, kLargestRatio = 1e6;
 
-/// CPU seconds of an iteration by the number of the repetition.
+/// CPU seconds per iteration, by repetition.
 using Repetitions = std::map<int64_t, double>;
 
 bool is_ratio(double value) {
   return value >= kLeastRatio && value <= kLargestRatio;
 }
 
-/// A name stands in messages of one line.
+/// Names appear in one-line messages.
 std::string read_benchmark_name(const JsonCursor& json) {
   const std::string name = json.text();
   if (std::ranges::any_of(name, [](unsigned char c) { return c < ' '; }))
@@ -53,7 +52,7 @@ double cpu_seconds(const JsonCursor& run) {
   return seconds;
 }
 
-/// The runs by the benchmark's name. Aggregates carry the name of the runs they are made of, and are left out.
+/// Repetitions by benchmark. Leaves out aggregates, which carry the same names.
 std::map<std::string, Repetitions> read_repetitions(const JsonCursor& benchmarks) {
   std::map<std::string, Repetitions> repetitions;
   for (const JsonCursor& run : benchmarks.items()) {
@@ -97,7 +96,7 @@ SpeedRatio ratio_of(const std::string& name, const Repetitions& plain, const Rep
   if (!is_ratio(of_pairs.front()) || !is_ratio(of_pairs.back()))
     throw Error(where, name, fmt::format("ratios of {:g} to {:g}", of_pairs.front(), of_pairs.back()),
                 fmt::format("ones of {} to {}", kLeastRatio, kLargestRatio));
-  // One pair at each end may have been disturbed.
+  // Another program may have disturbed one pair at each end.
   return {name, ratio, std::min(ratio, of_pairs[1]), std::max(ratio, of_pairs[of_pairs.size() - 2])};
 }
 

@@ -5,40 +5,37 @@
 
 namespace glovebench::reports {
 
-/// How many times faster than the plain implementation, both timed in one process: what of a speed can be compared
-/// between machines.
+/// Speed relative to the plain implementation in one process; comparable between machines.
 struct SpeedRatio {
-  std::string name;  ///< of the benchmark, without /plain and /fast
-  double ratio = 0;  ///< plain / fast, of the medians of CPU times
-  double low = 0;    ///< smallest and largest ratio of a pair of repetitions but for one at each end
+  std::string name;  ///< without /plain and /fast
+  double ratio = 0;  ///< plain / fast, medians of CPU time
+  double low = 0;    ///< extreme ratios of paired repetitions, without one at each end
   double high = 0;
 
   friend bool operator==(const SpeedRatio&, const SpeedRatio&) = default;
 };
 
-/// From a JSON file of glovebench_bench (Google Benchmark's --benchmark_out), in which every pair NAME/plain,
-/// NAME/fast has at least three repetitions (aggregates are not counted as such), or from one that speed_json
-/// wrote; by name. Throws Error, also if there is no pair or a benchmark failed.
+/// Reads glovebench_bench's --benchmark_out (Google Benchmark) with at least three repetitions per pair
+/// NAME/plain, NAME/fast, or a file of speed_json. Sorted by name.
+/// Throws: Error, also without a pair or for a failed benchmark.
 std::vector<SpeedRatio> read_speed_ratios(const std::string& path);
 std::vector<SpeedRatio> parse_speed_ratios(const std::string& text, const std::string& where);
-/// What a baseline keeps of a benchmark's file: the ratios, without the machine's name and paths.
+/// Only the ratios, without machine name and paths.
 std::string speed_json(const std::vector<SpeedRatio>& ratios);
 
-/// One ratio against the baseline's.
 struct SpeedRow {
   std::string name;
   double baseline = 0;
   double candidate = 0;
   double best = 0;   ///< the candidate's `high`
-  double limit = 0;  ///< what is no faster than this at best has become slower
+  double limit = 0;  ///< slower if `best` is below
   bool slower = false;
 };
-/// Half of the baseline's ratio: other processors, and other work on this one, move a ratio by less. Where that is
-/// little more than 1, the geometric middle between both.
+/// Half the baseline's ratio, since other processors and load change it less; near 1 its geometric mean with 1.
 double speed_limit(double baseline);
 
-/// In the baseline's order; ratios that only the candidate has are new and not compared. Throws Incomparable if the
-/// candidate lacks a ratio of the baseline's.
+/// In the baseline's order; new ratios are not compared.
+/// Throws: Incomparable if the candidate lacks a ratio.
 std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,
                                     const std::vector<SpeedRatio>& candidate, const std::string& candidate_name);
 

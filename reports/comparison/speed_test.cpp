@@ -190,7 +190,7 @@ TEST(CompareSpeed, calls_slower_what_lost_half_of_its_ratio_at_best) {
 }
 
 TEST(CompareSpeed, sees_that_a_small_ratio_is_gone) {
-  // Half of it would be less than the plain implementation beside itself.
+  // Half of it would be slower than the plain implementation.
   const std::vector<SpeedRow> rows =
       compare_speed({{"small", 1.9, 1.5, 2.3}}, {{"small", 1, 0.8, 1.3}}, "bench.json");
   EXPECT_TRUE(rows[0].slower);

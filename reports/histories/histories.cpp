@@ -11,11 +11,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A metric of an experiment; no value where no frame has one.
+/// A metric of an experiment; empty where no frame has one.
 struct Measurement {
   std::optional<double> value;
   std::optional<ConfidenceInterval> interval;
-  int frames = 0;  ///< that the value is from
+  int frames = 0;  ///< with a value
 };
 
 Measurement share_of(const std::vector<SeedRun>& runs, const Metric& metric) {
@@ -66,7 +66,7 @@ std::string github_action_benchmark_json(const RunResult& result) {
       Json entry = {{"name", fmt::format("{} {}", to_string(experiment.key), metric.key)},
                     {"unit", std::string(metric.unit)},
                     {"value", rounded(*measurement.value)}};
-      // The format knows one number: the farther bound, so that the range covers the interval.
+      // The format has one number for the range: the farther bound, so that the range covers the interval.
       if (const auto& interval = measurement.interval)
         entry["range"] = fmt::format(
             "± {:.3f}", std::max(interval->high - *measurement.value, *measurement.value - interval->low));

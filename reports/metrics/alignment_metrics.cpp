@@ -21,8 +21,8 @@ std::vector<Metric> alignment_metrics() {
            .description = "equation (2) of the best match",
            .place = 130,
            .of_any = matching_error_px},
-          // A fit, not an error against the truth: it shows first when the sensor gets noisier or an alignment
-          // stops too early.
+          // Quality of the fit, not an error against the truth. It rises first when the sensor gets noisier or an
+          // alignment stops too early.
           {.key = "icp_residual_mm",
            .unit = "mm",
            .description = "mean distance of the points from the aligned mesh",

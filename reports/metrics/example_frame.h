@@ -1,6 +1,6 @@
 #pragma once
 
-// A frame and its right estimate, for tests of metrics.
+// For tests of metrics.
 
 #include "core/tracker/track_result.h"
 
@@ -20,7 +20,6 @@ inline Eigen::Isometry3d some_pose() {
   return T_camera_hand;
 }
 
-/// An estimate that is right.
 inline TrackResult make_estimate() {
   TrackResult estimate;
   estimate.timestamp_us = 66667;

@@ -14,7 +14,7 @@ namespace glovebench::reports {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Of a value computed in doubles from metres and radians.
+/// Of a value computed in doubles from meters and radians.
 constexpr double kRounding = 1e-6;
 
 const HandModel& hand() {
@@ -141,7 +141,7 @@ TEST(MeasureFrame, PixelsOfSeveralPatchesAddUp) {
   truth.visible_pixels.fill(0);
   truth.visible_pixels[kIndexProximal] = truth.visible_pixels[kIndexDistal] = kObservedPixels / 2;
   TrackResult estimate = make_estimate();
-  estimate.posture[kIndexMcpFlexion] += radians_from_degrees(10);  // moves both; only MCP's two angles do
+  estimate.posture[kIndexMcpFlexion] += radians_from_degrees(10);  // only MCP's two angles move both patches
   EXPECT_NEAR(*measure(estimate, truth)["posture_rms_observed_deg"], 10 / std::sqrt(2.0), kRounding);
 }
 

@@ -4,8 +4,8 @@
 namespace glovebench::reports {
 namespace {
 
-/// Poses the tracker's own mesh twice, so that it measures posture and pose, not the size of the hand: it says
-/// nothing about the surface of a subject with another mesh.
+/// Poses the tracker's mesh twice, so it measures posture and pose, not the size of the hand. It says nothing
+/// about the surface of a subject with another mesh.
 std::optional<double> vertex_error_mm(const MeasuredFrame& frame) {
   const auto &estimated = frame.estimated_hand.vertices, &truth = frame.true_hand.vertices;
   double sum = 0;

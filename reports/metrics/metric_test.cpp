@@ -32,7 +32,7 @@ TEST(Metrics, SharesAreNoColumns) {
   EXPECT_EQ(FrameRecord().values.size(), frame_metrics().size());
 }
 
-// Rows of comparisons and of noise floors are in this order.
+// Rows of comparisons and noise floors have this order.
 TEST(Metrics, NewGatedOnesComeLast) {
   EXPECT_THAT(
       keys_of(gated_metrics().first(10)),

@@ -12,7 +12,7 @@ const HandModel& palm_hand() {
   return hand;
 }
 
-/// Of an estimate that is off the truth, a hand at rest 0.7 m in front of the camera.
+/// Metric of an estimate that differs from the truth, for a hand at rest 0.7 m in front of the camera.
 std::optional<double> palm_error(const std::function<void(TrackResult&)>& change) {
   FrameTruth truth;
   truth.T_camera_hand = Eigen::Translation3d(0.05, 0, 0.7);

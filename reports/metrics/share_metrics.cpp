@@ -3,7 +3,7 @@
 namespace glovebench::reports {
 
 std::vector<Metric> share_metrics() {
-  // The tolerance is 0, since two frames, the least change that counts, are more.
+  // Tolerance 0, since two frames, the least effect, are more than any tolerance.
   constexpr Metric::Gate kGate = {1, 0};
   return {{.key = "uncovered_percent",
            .unit = "%",

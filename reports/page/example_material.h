@@ -1,6 +1,6 @@
 #pragma once
 
-// Invented material of a page, for its tests and to look at it without a run. Not part of the library.
+// For tests and a look at the page.
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -16,7 +16,7 @@ inline std::string encode(const cv::Mat& image, const char* extension) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// Each tile says which frame it is; the truth's are dark, the difference's lighter.
+/// Tiles show their frame number; differences are lighter.
 inline FrameSheet example_sheet(const std::string& figure, int frames) {
   FrameSheet sheet{figure, "", 16, 160, 128, 0, frames};
   const int rows = (frames + sheet.columns - 1) / sheet.columns;
@@ -36,7 +36,7 @@ inline FrameSheet example_sheet(const std::string& figure, int frames) {
   return sheet;
 }
 
-/// A column for numbers, a time if its key is of milliseconds or microseconds.
+/// A time if the key is in ms or us.
 inline Column example_column(const std::string& key) {
   return {key, key, 2, key.find("_ms") != std::string::npos || key.find("_us") != std::string::npos};
 }
@@ -100,7 +100,7 @@ inline StudyResult example_ablations() {
   return {"ablations", "What the paper asserts, one change at a time", {table}, {}};
 }
 
-/// Sheets of both curves and a gallery of gray pictures.
+/// Sheets of both curves and gray pictures.
 inline PageMaterial example_material(const RunResult& result, std::vector<std::string> scripts) {
   PageMaterial material{std::move(scripts), {example_sheet("figure5", 117), example_sheet("figure6", 137)}, {}};
   for (const WorstFrame& worst : worst_frames(result))

@@ -9,9 +9,9 @@
 namespace glovebench::reports {
 namespace {
 
-/// An error of the paper's figures 4 to 6.
+/// An error in the paper's Figures 4 to 6.
 struct CurveError {
-  std::string_view name;  ///< in the charts' names
+  std::string_view name;  ///< in names of charts
   std::string_view metric;
   std::string_view label;
   double PaperErrors::*paper;
@@ -37,7 +37,7 @@ std::string largest(const std::vector<double>& values) {
   return values.empty() ? "-" : fixed(*std::ranges::max_element(values), 2);
 }
 
-/// What the curves come to, beside the paper's: their means and largest values.
+/// Means and largest values of the curves, beside the paper's.
 Table curve_summary(const ExperimentResult& experiment, const PaperCurve& paper) {
   Table table = table_of({"", "mean", "paper's mean", "largest", "paper's largest"});
   for (const CurveError& error : kCurveErrors) {

@@ -16,7 +16,7 @@ bool is_preferred(const ExperimentKey& key, const NoiseSetting& noise) {
   return key.truth == TruthKind::source && key.subject == 1 && key.noise == noise;
 }
 
-/// All frames that have the error, the largest first; of equal ones the earlier.
+/// All frames with this error, largest first, then earliest.
 std::vector<WorstFrame> ranked(const std::vector<const ExperimentResult*>& experiments, std::string_view metric) {
   std::vector<WorstFrame> frames;
   for (const ExperimentResult* experiment : experiments)
@@ -38,7 +38,7 @@ bool may_join(const std::vector<WorstFrame>& chosen, const WorstFrame& candidate
   return of_experiment < kPerExperiment;
 }
 
-/// A word for the shell, which trajectories of a user's file may need.
+/// Quoted for the shell: names from a user's file may contain anything.
 std::string shell_quoted(const std::string& text) {
   const bool is_plain = std::ranges::all_of(text, [](unsigned char c) {
     return std::isalnum(c) || std::string_view("_-.+/").find(c) != std::string::npos;

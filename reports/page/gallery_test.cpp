@@ -23,7 +23,7 @@ std::vector<std::string> names(const std::vector<WorstFrame>& frames) {
 
 TEST(Gallery, TakesTheLargestOfEachErrorAtMostTwoOfAnExperiment) {
   RunResult result;
-  // Frames are 1/15 s apart: 0, 10 and 20 may stand together, 11 is too close to 10.
+  // Frames are 1/15 s apart: 0, 10 and 20 may be chosen together, 11 is too close to 10.
   result.experiments = {
       experiment("A", TruthKind::source,
                  {example_frame(0, 30, 1, 1), example_lost_frame(5), example_frame(10, 40, 1, 1),

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int kKeyframes = 6;  // about as many as the paper shows
 
-/// A window on one tile of a sheet; row 0 of a frame is the truth, row 1 the difference. Positions are shares, so
-/// that the style sheet alone says how large a tile is shown.
+/// A window on one tile of a sheet: row 0 of a frame is the truth, row 1 the difference. Positions are shares, so
+/// only the style sheet sets the size of a tile.
 std::string tile(const FrameSheet& sheet, int frame, int row, const std::string& what) {
   const int columns = sheet.columns, rows = 2 * ((sheet.frames + columns - 1) / columns);
   const auto share = [](int place, int count) { return count < 2 ? 0 : 100.0 * place / (count - 1); };

@@ -72,7 +72,7 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
                                   const PageMaterial& material) {
   std::vector<Section> sections;
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
-  // A quick run judges none, but shows what a whole one would.
+  // A quick run judges no claims, but shows the section of a whole run.
   if (any_was_run(verdicts) || !quick_note(result).empty())
     sections.push_back({"claims", "Claims", claims_section(verdicts)});
   for (Section& section : experiment_sections(result, paper, material.sheets))
@@ -92,7 +92,7 @@ std::string section_html(const Section& section) {
                      has_heading ? "" : "<h2>" + escape_html(section.title) + "</h2>\n", section.html);
 }
 
-/// The list that leads to the sections.
+/// Links to the sections.
 std::string contents_list(const std::vector<Section>& sections) {
   std::string html = "<nav aria-label=\"Contents\"><ul>\n";
   for (const Section& section : sections)

@@ -9,34 +9,30 @@
 
 namespace glovebench::reports {
 
-/// Pictures of all frames of a curve in one image. A frame has two tiles, one above the other: the true hand, and
-/// the difference of the depth images of estimate and truth. Frame i of the sheet is in column i % columns of the
-/// pair of tile rows i / columns.
+/// All frames of a curve in one image, each as two tiles, one above the other: true hand, and difference of
+/// estimated and true depth. Frame i is in column i % columns, tile row pair i / columns.
 struct FrameSheet {
   std::string figure;  ///< "figure5"
-  std::string image;   ///< the bytes of a JPEG (or PNG) file
+  std::string image;   ///< JPEG or PNG file
   int columns = 1;
   int tile_width = 0;   ///< px
   int tile_height = 0;  ///< px
-  int first_frame = 0;  ///< its number in the trajectory
+  int first_frame = 0;  ///< number in the trajectory
   int frames = 0;
 };
 
-/// Depth differences of that much and more have the strongest color of a sheet.
+/// Larger depth differences get the strongest color.
 inline constexpr double kSheetDifferenceMm = 20;
 
-/// What the page shows beside the numbers.
 struct PageMaterial {
-  /// Vega, Vega-Lite and Vega-Embed, in that order: the text of scripts that draw the charts. Without them the page
-  /// has its tables and pictures.
+  /// Vega, Vega-Lite and Vega-Embed, in this order; without them no charts.
   std::vector<std::string> scripts;
-  std::vector<FrameSheet> sheets;     ///< of figures 5 and 6
+  std::vector<FrameSheet> sheets;     ///< of Figures 5 and 6
   std::vector<Picture> worst_frames;  ///< as chosen by `worst_frames`
 };
 
-/// index.html, one file that needs no other: the paper's figures 4 to 9 beside its numbers, as charts over tables;
-/// what was not run is left out. Without JavaScript the tables and the keyframes are there. Of the times of the run
-/// those of the robot commands are shown, and, if it has studies, which are of times themselves, where it ran.
+/// index.html in one file: Figures 4 to 9 that were run, beside the paper's numbers. Tables and keyframes need no
+/// JavaScript. `timings` gives robot commands and, with studies, the machine.
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
                       const PageMaterial& material = {});
 

@@ -22,7 +22,7 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-/// JSON that no text in it can end the script element of: "<" is written as an escape.
+/// JSON for a script element: escapes "<", so that no text can end the element.
 std::string for_script(const Json& json) {
   std::string text;
   const std::string dumped = json.dump(-1, ' ', false, Json::error_handler_t::replace);  // names can hold any bytes
@@ -76,7 +76,7 @@ std::string html_document(const std::string& title, const std::string& body, con
                           const std::string& end) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-         // An empty icon, or browsers ask for /favicon.ico.
+         // An empty icon keeps browsers from asking for /favicon.ico.
          "<link rel=\"icon\" href=\"data:,\"/>\n" +
          fmt::format("<title>{}</title>\n<style>\n", escape_html(title)) + embedded_page_style() + style +
          fmt::format("</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n", escape_html(title)) + body + "</main>\n" +

@@ -13,7 +13,7 @@ using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Made once: its intervals take a while.
+/// Made once, since its intervals take a while.
 const RunResult& example_page() {
   static const RunResult result = full_result();
   return result;

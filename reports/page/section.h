@@ -7,26 +7,25 @@
 
 namespace glovebench::reports {
 
-/// A part of the page, which its contents list names.
 struct Section {
   std::string id;
   std::string title;  ///< plain text
-  std::string html;   ///< what follows the heading, or begins with a heading of its own
+  std::string html;   ///< follows the heading, or begins with its own
 };
 
-/// Where the numbers of a chart are.
+/// Says where a chart's numbers are.
 std::string data_note(const std::string& table);
 
-/// The experiments: Figure 4, the curves of figures 5 and 6 with their keyframes. Those that were run.
+/// Figure 4, and Figures 5 and 6 with keyframes, if run.
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
-/// A section for each study of a run, with its charts and tables.
+/// One per study, with charts and tables.
 std::vector<Section> study_sections(const RunResult& result);
 
-/// The keyframes of a curve and, for data/page_frames.js, the place of one frame with its slider.
+/// Keyframes of a curve; the place of one frame with slider for data/page_frames.js.
 std::string keyframes_html(const FrameSheet& sheet);
 std::string frame_viewer_html(const FrameSheet& sheet);
-/// Puts each sheet into the page once: the tiles are windows on it.
+/// Holds each sheet once; tiles are windows on it.
 std::string sheet_style(const std::vector<FrameSheet>& sheets);
 
 }  // namespace glovebench::reports

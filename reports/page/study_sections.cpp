@@ -29,12 +29,12 @@ constexpr std::array<StudyChart, 12> kCharts = {{
     {"light_white_balance", "light-white-balance", "Glove pixels without their label against the white balance"},
 }};
 
-/// `is_only`: the section's heading says what it is.
+/// `is_only`: the only table, so the section's heading names it.
 std::string table_html(const Table& table, bool is_only) {
   std::string charts;
   for (const StudyChart& chart : kCharts)
     if (chart.table == table.name) charts += chart_place(std::string(chart.chart), std::string(chart.label));
-  constexpr size_t kLong = 24;  // rows: a longer table is opened by who wants it
+  constexpr size_t kLong = 24;  // rows; a longer table is folded
   return (is_only ? "" : "<h3>" + escape_html(table.title) + "</h3>\n") + "<p>" + escape_html(table.explanation) +
          "</p>\n" + (charts.empty() ? "" : "<div class=\"row\">\n" + charts + "</div>\n") + data_note(table.name) +
          fmt::format("<details{}><summary>Table</summary>\n", table.rows.size() > kLong ? "" : " open=\"\"") +

@@ -6,14 +6,14 @@
 namespace glovebench::trajectories {
 namespace {
 
-/// Between two frames that show a thing; equal ones rest.
+/// A place between two frames that show a value. If both are the same, the value is constant.
 struct Between {
   size_t before;
   size_t after;
   double share;  ///< of the way from one to the other
 };
 
-/// For each frame that does not show a thing, the frames around it that do. Nothing if none does.
+/// For each frame that does not show a value, the frames around it that do. Empty if none does.
 template <typename Shown>
 std::vector<std::pair<size_t, Between>> gaps_of(size_t count, const std::vector<double>& times_s, Shown is_shown) {
   std::vector<std::pair<size_t, Between>> gaps;
@@ -49,7 +49,7 @@ bool is_end_joint(int angle) {
 void bridge_angle(int a, const std::vector<Observability>& shown, const std::vector<double>& times_s,
                   Bridged& result) {
   const auto index = static_cast<size_t>(a);
-  // A pose that is not shown shows no angle either.
+  // Without a pose, no angle is shown.
   const auto is_shown = [&](size_t f) { return shown[f].pose && shown[f].angles[index]; };
   const std::vector<HandState> states = result.states;
   size_t last = states.size();

@@ -8,18 +8,16 @@
 
 namespace glovebench::trajectories {
 
-/// The states of a sequence after its gaps were filled.
 struct Bridged {
   std::vector<HandState> states;
-  std::vector<std::array<bool, kAngleCount>> angles;  ///< those of each frame that were filled
-  std::vector<bool> poses;                            ///< of each frame, whether its pose was not shown
+  std::vector<std::array<bool, kAngleCount>> angles;  ///< filled ones of each frame
+  std::vector<bool> poses;                            ///< filled ones
   std::array<bool, kAngleCount> never_shown = {};
-  int angle_gaps = 0;  ///< runs of frames without an angle that is shown elsewhere
+  int angle_gaps = 0;  ///< gaps of angles that other frames show
 };
 
-/// Fills in what the points of a frame do not show: an angle or the pose goes evenly from the last frame that shows
-/// it to the next; before the first and after the last it rests. An angle that no frame shows is 0 degrees, an end
-/// joint two thirds of its middle joint. `shown` and `times_s`: one for each frame.
+/// Interpolates what frames do not show, constant at the ends. An angle that no frame shows is 0, or kEndJointShare
+/// of the middle joint. `shown` and `times_s` have an item for each frame.
 Bridged bridge_gaps(const std::vector<HandState>& states, const std::vector<Observability>& shown,
                     const std::vector<double>& times_s);
 

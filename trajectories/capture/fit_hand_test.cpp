@@ -177,7 +177,7 @@ Trajectory with_free_end_joints(Trajectory movement) {
   return movement;
 }
 
-/// The figures of README.md, as its table: median and 95% over frames and angles, the second subject's hand.
+/// The figures of README.md, as a table: median and 95% over frames and angles, the second subject's hand.
 class FitHandLong : public testing::Test {
  protected:
   static constexpr CaptureFlaws kFlaws{

@@ -26,7 +26,7 @@ MarkerSequence mirrored(MarkerSequence sequence) {
   return sequence;
 }
 
-/// The pose of the left hand whose mirror image has that pose.
+/// The pose of the left hand whose mirror image has this pose.
 Eigen::Isometry3d mirrored(const Eigen::Isometry3d& T) {
   const Eigen::DiagonalMatrix<double, 3> mirror(-1, 1, 1);
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();

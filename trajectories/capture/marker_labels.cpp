@@ -77,14 +77,14 @@ Relabeling relabel(const std::vector<Eigen::Vector3d>& predicted, const std::vec
 
   const size_t markers = predicted.size();
   const double none = kLabelGate * kLabelGate;
-  // After the candidates a column for each marker that remains without a point.
+  // After the candidates, each marker has a column for no point.
   Eigen::MatrixXd cost =
       Eigen::MatrixXd::Constant(static_cast<int>(markers), static_cast<int>(candidates.size() + markers), none);
   for (size_t m = 0; m < markers; ++m) {
     for (size_t c = 0; c < candidates.size(); ++c) {
       const double distance = is_seen(candidates[c]) ? (candidates[c] - predicted[m]).norm() : 2 * kLabelGate;
       const double counted = c == m ? kOwnShare * distance : distance;
-      // What is nobody's costs a little more than to have none.
+      // A point beyond the gate costs more than no point.
       cost(static_cast<int>(m), static_cast<int>(c)) = distance < kLabelGate ? counted * counted : 2 * none;
     }
   }

@@ -7,14 +7,14 @@
 
 namespace glovebench::trajectories {
 
-/// How large the captured hand is, relative to `hand`: the median ratio of distances that no posture changes. 1 if
-/// there is no such pair. `points`: of each frame, one a marker, or a gap. Throws Error if it is no hand's size.
+/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points` has a point or
+/// gap for each frame and marker.
+/// Throws: Error if no hand has this size.
 double hand_scale(const CaptureHand& hand, const std::vector<std::vector<Eigen::Vector3d>>& points,
                   const std::string& where);
 
-/// A first guess of every frame: from the frame with the most points on, forth and back, each from its neighbor,
-/// the pose by the points of the palm where they show it. Where that does not fit, other postures are tried. Throws
-/// Error if no frame has three points of the palm.
+/// Guesses each frame from its neighbor, starting at the frame with the most points.
+/// Throws: Error if no frame has three palm points.
 std::vector<HandState> start_states(const CaptureHand& hand,
                                     const std::vector<std::vector<Eigen::Vector3d>>& points, double robust_scale,
                                     const std::string& where);

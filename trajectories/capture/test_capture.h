@@ -1,6 +1,6 @@
 #pragma once
 
-// Captures of known movements, for the tests of this folder. Not part of the library.
+// Captures of known movements.
 
 #include <string>
 #include <vector>
@@ -13,23 +13,20 @@
 
 namespace glovebench::trajectories {
 
-/// What is wrong with a capture.
 struct CaptureFlaws {
   double noise = 0;            ///< of each coordinate, m
-  double placement = 0;        ///< how far markers sit from their place: of kPlacement's
+  double placement = 0;        ///< of markers, relative to kPlacement
   double gap_share = 0;        ///< of all points
-  double swap_share = 0;       ///< of all frames: two neighbors changed names
-  double unlabeled_share = 0;  ///< of all points: seen without a name
+  double swap_share = 0;       ///< of frames with two neighbors swapped
+  double unlabeled_share = 0;  ///< of all points
   uint64_t seed = 1;
 };
 
-/// A marker on a finger sits this far from where it should, m: across, height, along. Other than what the fit
-/// assumes.
+/// Deviation of a finger marker, m: across, height, along. The fit assumes another.
 inline const Eigen::Vector3d kPlacement(0.0015, 0.001, 0.003);
 inline constexpr int kGapFrames = 4;
 inline constexpr int kUnlabeledColumns = 3;
 
-/// The camera in the capture's frame: anywhere.
 inline Eigen::Isometry3d test_T_capture_camera() {
   const Eigen::AngleAxisd turn(2.1, Eigen::Vector3d(0.3, -0.8, 0.5).normalized());
   return Eigen::Translation3d(1.2, -0.4, 0.9) * turn;
@@ -41,7 +38,6 @@ inline std::vector<std::string> webxr_names() {
   return names;
 }
 
-/// 28 markers: one on each segment and fingertip, six on the palm, two on the forearm.
 inline std::vector<std::string> skin_names() {
   std::vector<std::string> names = {"thumb_metacarpal", "thumb_proximal", "thumb_distal",   "thumb_tip",
                                     "wrist_radial",     "wrist_ulnar",    "forearm_radial", "forearm_ulnar"};
@@ -53,7 +49,6 @@ inline std::vector<std::string> skin_names() {
   return names;
 }
 
-/// The places of the names on that hand, each moved from there.
 inline std::vector<PlacedMarker> stuck_markers(const std::vector<std::string>& names, const HandModel& hand,
                                                const CaptureFlaws& flaws) {
   std::vector<PlacedMarker> markers;
@@ -66,7 +61,6 @@ inline std::vector<PlacedMarker> stuck_markers(const std::vector<std::string>& n
   return markers;
 }
 
-/// The movement of that hand as a capture sees it.
 inline MarkerSequence captured(const Trajectory& movement, const HandModel& hand,
                                const std::vector<std::string>& names, const CaptureFlaws& flaws) {
   const std::vector<PlacedMarker> markers = stuck_markers(names, hand, flaws);
@@ -88,7 +82,6 @@ inline MarkerSequence captured(const Trajectory& movement, const HandModel& hand
   return sequence;
 }
 
-/// The capture with gaps of kGapFrames, names of neighbors swapped, and points in columns without a name.
 inline MarkerSequence flawed(MarkerSequence sequence, const CaptureFlaws& flaws) {
   const size_t markers = sequence.names.size();
   for (int u = 0; u < kUnlabeledColumns; ++u) sequence.names.push_back("unlabeled_" + std::to_string(u + 1));

@@ -11,23 +11,22 @@
 
 namespace glovebench::trajectories {
 
-/// A file format. One file defines it: trajectories/formats/X_format.cpp has `Format X_format()`, and
-/// ci/corpora/format_X holds files for the fuzz driver to start from. Readers throw Error naming `where`, the
-/// field, what was found and what was expected.
+/// trajectories/formats/X_format.cpp defines `Format X_format()`; ci/corpora/format_X seeds its fuzzing. Readers
+/// throw Error naming `where` and the field.
 struct Format {
   std::string_view name;         ///< X
-  std::string_view ending;       ///< ".json"
+  std::string_view ending;       ///< such as ".json"
   std::string_view description;  ///< one line
-  // Exactly one reader is given: what a file holds.
+  // Exactly one reader is given.
   Trajectory (*trajectory)(std::string_view bytes, const std::string& where) = nullptr;
-  /// `name` is the set's where the format holds none.
+  /// `name` is used if the file has none.
   PostureSet (*postures)(std::string_view bytes, const std::string& name, const std::string& where) = nullptr;
   MarkerSequence (*markers)(std::string_view bytes, Side side, const std::string& where) = nullptr;
 };
 /// Sorted by name.
 std::span<const Format> formats();
 
-/// The formats that have this reader: `formats_with(&Format::markers)`.
+/// The formats with a reader, such as `formats_with(&Format::markers)`.
 template <typename Reader>
 std::vector<const Format*> formats_with(Reader Format::*reader) {
   std::vector<const Format*> found;
@@ -36,7 +35,7 @@ std::vector<const Format*> formats_with(Reader Format::*reader) {
   return found;
 }
 
-/// The format with this reader and the ending of the path; null if there is none.
+/// Chooses by the path's ending; null if there is none.
 template <typename Reader>
 const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   for (const Format* format : formats_with(reader))
@@ -44,7 +43,7 @@ const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   return nullptr;
 }
 
-/// Whether a name is that of a file, by its ending; the names of our own trajectories and posture sets have none.
+/// Whether a name has a file's ending; names of our own trajectories and sets have none.
 inline bool is_trajectory_file(std::string_view name) {
   return format_of_file(name, &Format::trajectory) != nullptr;
 }
@@ -52,14 +51,15 @@ inline bool is_posture_file(std::string_view name) {
   return format_of_file(name, &Format::postures) != nullptr;
 }
 
-/// Reads a file in the format of its ending. Throws Error.
+/// Reads a file by its ending.
+/// Throws: Error.
 Trajectory load_trajectory(const std::string& path);
-/// A set of a format without names has that of its file.
+/// A set without a name takes its file's.
 PostureSet load_posture_set(const std::string& path);
 
-/// The format of markers with that name. Throws Error listing the known ones.
+/// Throws: Error listing the known names.
 const Format& find_marker_format(std::string_view name);
-/// Separated by commas, for messages and help.
+/// The names, separated by commas.
 std::string marker_format_names();
 
 }  // namespace glovebench::trajectories

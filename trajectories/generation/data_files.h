@@ -5,11 +5,12 @@
 
 namespace glovebench::trajectories {
 
-/// The content of every generated file, by its path under the data folder ("sources/Tr1.json"), made from the
-/// gestures and scripts that lie there. Throws Error if those are missing or wrong.
+/// Makes every generated file, by path in the data folder, from its gestures and scripts.
+/// Throws: Error.
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder);
 
-/// The table of README.md: properties of the source trajectories in the data folder. Throws Error.
+/// Lists properties of the source trajectories as a Markdown table: distances, speeds, grasps.
+/// Throws: Error.
 std::string source_properties_table(const std::string& data_folder);
 
 }  // namespace glovebench::trajectories

@@ -6,13 +6,12 @@
 
 namespace glovebench::trajectories {
 
-inline constexpr size_t kPostureCount20 = 20;  ///< of DB_20_postures: the three and 17 movement postures
+inline constexpr size_t kPostureCount20 = 20;
 
-/// Plausible postures of a moving hand: blends of two or three of the gestures, varied along variation_modes().
-/// Within the limits; wrist angles zero; end joints bend about two thirds as far as middle joints. Deterministic.
+/// Random blends of two or three gestures within limits, with the wrist at 0.
 std::vector<Posture> movement_posture_pool(const PostureSet& gestures);
 
-/// The four sets of section IV: DB_open_pinch, DB_open_power, DB_open_pinch_power, DB_20_postures.
+/// The four sets of section IV.
 std::vector<PostureSet> make_database_posture_sets(const PostureSet& gestures);
 
 }  // namespace glovebench::trajectories

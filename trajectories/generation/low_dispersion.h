@@ -6,14 +6,15 @@
 
 namespace glovebench::trajectories {
 
-/// Low-dispersion sampling (section III; after [1] of the paper): the indices of `count` postures of the pool, each
-/// the one farthest (posture_distance) from those chosen before it and from `given`. Ties go to the lower index.
-/// Throws Error if the pool has fewer than `count` postures or `given` is empty.
+/// Indices of `count` postures, each farthest (posture_distance) from `given` and earlier ones; ties go to the
+/// lower index.
+/// Throws: Error if the pool is too small or `given` is empty.
+/// Paper: section III, reference 1.
 std::vector<size_t> low_dispersion_sample(const std::vector<Posture>& pool, const std::vector<Posture>& given,
                                           size_t count);
 
-/// The dispersion of `chosen` in the pool: the largest distance from a posture of the pool to its nearest chosen
-/// one, radians. Throws Error if either is empty.
+/// The largest distance from a pool posture to its nearest chosen one, rad.
+/// Throws: Error if either is empty.
 double covering_radius(const std::vector<Posture>& pool, const std::vector<Posture>& chosen);
 
 }  // namespace glovebench::trajectories

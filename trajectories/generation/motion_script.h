@@ -11,29 +11,28 @@
 
 namespace glovebench::trajectories {
 
-inline constexpr double kFrameRateHz = 15;  ///< of the paper's system
+inline constexpr double kFrameRateHz = 15;
 
-/// What the hand does at one frame; between two keys it moves along the minimum-jerk profile.
+/// A value at a frame; minimum_jerk interpolates.
 template <typename Value>
 struct Keyframe {
   int frame = 0;
   Value value;
 };
 
-/// The two wrist angles, rad.
+/// rad
 struct WristAngles {
   double flexion = 0;
   double abduction = 0;
 };
 
-/// Position and orientation of the hand, in the camera frame (m, rad).
+/// Camera frame, m.
 struct HandPose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// A movement as its author thinks of it: keyframes of posture, wrist and pose, each from the first frame to the
-/// last, and the seed of the drift and tremor that are laid over them.
+/// Keyframes from the first frame to the last. The seed draws drift and tremor.
 struct MotionScript {
   std::string name;
   std::string description;
@@ -44,18 +43,17 @@ struct MotionScript {
   std::vector<Keyframe<HandPose>> poses;
 };
 
-inline constexpr uint64_t kLargestMotionScript = uint64_t{1} << 18;  // bytes: ten times ours
+inline constexpr uint64_t kLargestMotionScript = uint64_t{1} << 18;  // bytes
 
-/// Reads the format "glovebench-motion-script" (README.md); postures are blends of `gestures`. Throws Error.
+/// Reads "glovebench-motion-script" (README.md); postures blend `gestures`.
+/// Throws: Error.
 MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where);
 
-/// The share of the way done when the share `time` of the time is over, both 0..1: the profile with the least jerk
-/// (Flash and Hogan 1985), at rest at both ends.
+/// Share of the way done after a share of the time, 0..1 (Flash and Hogan 1985).
 double minimum_jerk(double time);
 
-/// R_camera_hand of a hand under a camera that looks down on it: at zero the fingers point up in the image and the
-/// back of the hand faces the camera; then turned about the hand's length (roll, camera y), tilted (pitch, camera
-/// x) and turned about the optical axis (yaw, camera z).
+/// R_camera_hand under a camera that looks down, rad. At 0 the fingers point up in the image and the back faces the
+/// camera; roll is about camera y, pitch about x, yaw about z.
 Eigen::Quaterniond hand_rotation(double yaw, double pitch, double roll);
 
 /// Plays the script at 15 Hz.

@@ -1,5 +1,5 @@
-// glovebench_trajectory_data FOLDER: writes the generated files of the data folder anew and prints the table of
-// README.md.
+// glovebench_trajectory_data FOLDER: writes the generated files of the data folder anew and prints a table of the
+// movements' properties.
 #include <cstdio>
 
 #include "core/base/error.h"

@@ -4,35 +4,34 @@
 
 namespace glovebench {
 
-/// Where a participant of DDS talks, and as whom.
 struct DdsAccess {
-  /// The network interface. Empty: what CYCLONEDDS_URI says, if that is set; otherwise loopback alone.
+  /// Empty: CYCLONEDDS_URI's, or loopback if that is not set.
   std::string interface;
-  /// Folder of keys (`glovebench robot-server keys`) for DDS Security; empty: without.
+  /// Folder of keys (`glovebench robot-server keys`); empty: no DDS Security.
   std::string security;
   std::string role;  ///< whose keys (`security_roles`)
 
   bool operator==(const DdsAccess&) const = default;
 };
 
-/// Topics as DDS knows them: ROS 2 puts `rt/` before its own names.
+/// DDS names of topics: ROS 2 puts `rt/` before its own.
 struct Topics {
-  const char* hand;          ///< trajectory_msgs/JointTrajectory of the fingers
-  const char* wrist;         ///< trajectory_msgs/JointTrajectory of the wrist
-  const char* arm;           ///< geometry_msgs/PoseStamped of the wrist in the arm's base frame
-  const char* joint_states;  ///< sensor_msgs/JointState: where the joints are told to be
+  const char* hand;          ///< JointTrajectory
+  const char* wrist;         ///< JointTrajectory
+  const char* arm;           ///< PoseStamped of the wrist
+  const char* joint_states;  ///< JointState, as commanded
 };
 
 namespace topics {
 
-/// Between `track --robot` and `robot-server`. Nothing else listens there.
+/// From `track --robot` to `robot-server`.
 inline constexpr Topics kOwn = {"rt/glovebench/hand/command", "rt/glovebench/wrist/command",
                                 "rt/glovebench/arm/command/pose", "rt/glovebench/joint_states"};
-/// Of a robot's own controllers.
+/// To a robot's own controllers.
 inline constexpr Topics kController = {"rt/rh_trajectory_controller/command",
                                        "rt/rh_wr_trajectory_controller/command", "rt/pa10/command/pose",
                                        "rt/joint_states"};
-/// sensor_msgs/JointState: where the robot's driver measures the joints.
+/// JointState, as a robot's driver measures.
 inline constexpr const char* kMeasuredJointStates = "rt/glovebench/measured_joint_states";
 
 }  // namespace topics

@@ -42,7 +42,7 @@ Qos make_qos() {
 
 std::atomic<int64_t> messages_too_large = 0, messages_of_too_many = 0;
 
-/// What the library says: to stderr, as without this, but not without end.
+/// Writes the library's lines to stderr, but only so many a second.
 void hear_library(void*, const dds_log_data_t* said) {
   using namespace std::chrono;
   static std::mutex mutex;
@@ -51,18 +51,18 @@ void hear_library(void*, const dds_log_data_t* said) {
   messages_too_large += std::string_view(said->message, said->size).starts_with("dropping oversize");
   const int64_t now = duration_cast<seconds>(steady_clock::now().time_since_epoch()).count();
   if (std::exchange(second, now) != now) lines = 0;
-  pollfd to_person = {STDERR_FILENO, POLLOUT, 0};  // a reader that stands still holds nothing up
+  pollfd to_person = {STDERR_FILENO, POLLOUT, 0};  // a blocked reader of stderr blocks nothing here
   if (++lines <= kLinesPerSecond && ::poll(&to_person, 1, 0) == 1 && (to_person.revents & POLLOUT))
     std::fwrite(said->message - said->hdrsize, 1, said->hdrsize + said->size + 1, stderr);
 }
 
-/// Keeps what is sent on this host. The receive sockets listen on all addresses all the same.
+/// Sends on this host only. Receive sockets still listen on all addresses.
 constexpr const char* kLoopback =
     "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
     "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/></Peers></Discovery>";
 
-/// Of the library, for a domain.
+/// The library's configuration of a domain.
 std::string configuration(const DdsAccess& access) {
   const char* const uri = std::getenv("CYCLONEDDS_URI");
   const bool configured = uri && *uri;
@@ -87,7 +87,7 @@ std::string configuration(const DdsAccess& access) {
 
 }  // namespace
 
-/// A domain of this process, for as long as somebody has it: it is deleted with all that lives in it.
+/// A domain of this process, deleted with its entities when the last participant is gone.
 struct DdsDomain {
   DdsDomain(int domain, const DdsAccess& its)
       : access(its),
@@ -207,19 +207,19 @@ std::optional<uint64_t> DdsSenders::of(dds_instance_handle_t writer) {
   const auto known = participants_.find(writer);
   if (known != participants_.end()) return known->second;
   if (participants_.size() >= kMostWriters)
-    std::erase_if(participants_, [&](const auto& entry) { return !look_up(entry.first); });  // those that are gone
+    std::erase_if(participants_, [&](const auto& entry) { return !look_up(entry.first); });  // gone writers
   if (participants_.size() >= kMostWriters) {
     ++messages_of_too_many;
     return std::nullopt;
   }
-  return participants_[writer] = look_up(writer).value_or(writer);  // gone before it was seen: a sender of its own
+  return participants_[writer] = look_up(writer).value_or(writer);  // gone already: its own sender
 }
 
 std::set<uint64_t> DdsSenders::present() {
   std::erase_if(participants_, [&](const auto& known) { return !look_up(known.first); });
   std::set<uint64_t> senders;
   for (const auto& [writer, participant] : participants_) senders.insert(participant);
-  std::array<dds_instance_handle_t, kMostWriters> writers;  // the first of them, however many there are
+  std::array<dds_instance_handle_t, kMostWriters> writers;  // only the first ones
   const dds_return_t count = dds_get_matched_publications(reader_, writers.data(), writers.size());
   for (size_t i = 0; i < std::min(static_cast<size_t>(std::max(count, 0)), writers.size()); ++i)
     if (const std::optional<uint64_t> participant = look_up(writers[i])) senders.insert(*participant);

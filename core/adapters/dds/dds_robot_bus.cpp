@@ -34,8 +34,7 @@ class DdsRobotBus : public RobotBus {
     const int64_t now = now_us(command);
     if (!measured_ || command.hold || !command.targets || guard.state_at(now) == CommandState::following)
       return now;
-    // Without an arm the pose is not sent, but the guard needs one: the hand's, so far inside that every fingertip
-    // is.
+    // Without an arm no pose is sent, but the guard needs one: a hand so far inside that all fingertips are inside.
     Eigen::Isometry3d T_base_hand = command.targets->T_base_hand;
     const CommandLimits& limits = guard.limits();
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(kShadowHandReach);
@@ -45,7 +44,7 @@ class DdsRobotBus : public RobotBus {
                                     .eval();
     guard.start_from(targets_at(measured_->state(kStartWait), T_flange_wrist_, T_base_hand));
     const int64_t measured_us = now_us(command);
-    guard.tick(measured_us - 1);  // the first command is the place where the robot stands
+    guard.tick(measured_us - 1);  // the first command is the robot's place
     return measured_us;
   }
 
@@ -65,10 +64,10 @@ class DdsRobotBus : public RobotBus {
 
   Eigen::Isometry3d T_flange_wrist_;
   DdsSink sink_;
-  std::optional<DdsParticipant> participant_;  ///< of what is measured
+  std::optional<DdsParticipant> participant_;  ///< for measurements
   std::optional<MeasuredRobot> measured_;
   std::optional<ArmJoints> arm_start_;
-  std::optional<int64_t> first_us_;  ///< of the first frame, less the clock at that time
+  std::optional<int64_t> first_us_;  ///< time stamp of the first frame minus the clock then
 };
 
 }  // namespace

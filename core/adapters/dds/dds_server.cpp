@@ -48,7 +48,7 @@ class Port {
     each([&](RobotTopic, auto& reader) { senders.merge(reader.senders().present()); });
     return senders;
   }
-  /// Whatever has come. `report`: of each message that was read.
+  /// Receives all waiting messages. `report`: called for each that was read.
   template <typename Report>
   void receive(const Report& report) {
     each([&](RobotTopic topic, auto& reader) {
@@ -78,14 +78,14 @@ class Port {
   std::optional<DdsReader<ros::PoseStamped>> pose_;
 };
 
-/// Whether another process says where a joint of hand or arm is: it serves the robot, too. Two servers, also of
+/// Whether another process publishes a joint of hand or arm, and so serves the robot, too. Two servers, even of
 /// different joints, would share no limit.
 class OtherServers {
  public:
   explicit OtherServers(const DdsParticipant& participant)
       : states_(DdsReader<ros::JointState>::of_others(participant, topics::kOwn.joint_states)) {}
 
-  /// The name of a joint that another has told of since the last call.
+  /// A joint that another process has published since the last call.
   std::optional<std::string> heard() {
     std::optional<std::string> joint;
     for (int i = 0; i < kMostStates && !joint; ++i) {  // a flood is looked at a little at a time
@@ -215,19 +215,19 @@ class Service {
   DdsWaitset waitset_;
   RobotState last_;
   int64_t longest_gap_us_ = 0, states_sent_ = 0;
-  int64_t waited_ = 0;  ///< states at which a command had to wait for the disk
+  int64_t waited_ = 0;  ///< states in which a command waited for the disk
   bool told_of_log_ = false;
-  int seen_others_ = 0;  ///< looks at which there was another
+  int seen_others_ = 0;  ///< looks that found another server
 };
 
-/// Throws Error if another server is heard.
+/// Throws: Error if another server is heard.
 void refuse_others(OtherServers& others, const DdsServerOptions& options) {
   if (const std::optional<std::string> joint = others.heard())
     throw Error(fmt::format("DDS domain {}", options.domain), topics::kOwn.joint_states,
                 fmt::format("another process that tells of {}", *joint), "one server of a robot");
 }
 
-/// A server tells of its joints all the time, so a second is enough for whoever the middleware finds.
+/// A server publishes its joints all the time, so listening for a second finds all that the middleware finds.
 void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   const int64_t end_us = steady_us() + kListenUs;
   while (steady_us() < end_us && !options.stopping()) {
@@ -236,8 +236,8 @@ void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   }
 }
 
-/// Where the joints are measured, as soon as they are. Nothing if the server shall stop before. Throws Error if
-/// another server begins meanwhile.
+/// Waits until the joints are measured. Nothing if the server shall stop before.
+/// Throws: Error if another server begins meanwhile.
 std::optional<StartPlace> await_measured(const DdsParticipant& participant, const LoggedStart& logged,
                                          OtherServers& others, const DdsServerOptions& options) {
   const std::string topic = topics::kMeasuredJointStates;
@@ -261,12 +261,12 @@ std::optional<StartPlace> await_measured(const DdsParticipant& participant, cons
 DdsServerSummary serve(const DdsServerOptions& options) {
   const ServedRobot& robot = options.robot;
   MotionLog log(options.log, robot.names(),
-                robot.motions(options.limits));  // first: nobody else writes on from here
+                robot.motions(options.limits));  // first: from here on nobody else writes the log
   if (!options.log.empty() && !std::filesystem::is_regular_file(options.log))
     options.tell(fmt::format("{}: no regular file, so nothing on it is durable and no joint moves", options.log));
   const LoggedStart logged = log.start(robot.at_rest(), system_us(), options.max_log_age_s, kPeriodUs * 1e-6);
   std::optional<StartPlace> start = StartPlace{logged.joints, logged.source};
-  if (logged.doubt.empty()) RobotServer(options.limits, robot, *start);  // throws where that is no place
+  if (logged.doubt.empty()) RobotServer(options.limits, robot, *start);  // throws if the start is no valid place
   const DdsParticipant participant(options.domain, options.access);
   OtherServers others(participant);
   refuse_beside(others, options);

@@ -30,7 +30,7 @@ DdsSink::DdsSink(int domain, const DdsSinkOptions& options)
 
 void DdsSink::send(const RobotCommand& command) {
   const int64_t source_ns = std::exchange(arrived_ns_, std::nullopt).value_or(dds_time());
-  // What is sent is to be followed: a lost hand is silence, at which a server holds and then stops.
+  // A lost frame sends nothing: at silence a server holds and then stops.
   if (command.hold || !command.targets) return;
   if (others_) others_->refuse();
   hand_.write(hand_message(command, time_to_targets_us_), source_ns);

@@ -8,40 +8,35 @@
 
 namespace glovebench {
 
-/// To whom a DdsSink speaks.
 struct DdsSinkOptions {
   DdsAccess access;
   Topics topics = topics::kOwn;
-  bool arm = true;                                         ///< false: the arm's topic is not spoken to
-  double longest_step_s = CommandLimits().longest_step_s;  ///< of the guard of the commands
+  bool arm = true;                                         ///< send the arm's pose
+  double longest_step_s = CommandLimits().longest_step_s;  ///< of the commands' guard
   bool alone = false;                                      ///< nobody else may write on the topics
 };
 
-/// Sends commands over DDS as a node of ROS 2 would (core/robot/README.md: topics, types, quality of service): the
-/// joints of the hand, those of its wrist, and a pose for the arm, one message of each a command. A lost frame
-/// sends the last targets again; before the first tracked frame nothing is sent. Nobody has to listen, and nobody
-/// who does holds it up.
+/// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md). Lost frames send nothing. Listeners
+/// cannot block it.
 class DdsSink : public RobotCommandSink {
  public:
-  /// Domain 0..230. Throws Error if there is no such domain or no network, or, if the sink must be alone, as soon
-  /// as there is another writer; for that it looks for a second before it writes.
+  /// `domain`: 0..230.
+  /// Throws: Error if domain or network is unusable or, if `alone`, another writer is found within 1 s.
   explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
 
-  /// When the frame of the next command was there, microseconds since 1970: its messages carry it as their source
-  /// time. Without a call: the moment when it is sent.
+  /// Sets the next command's source time, microseconds since 1970; else that is the time of sending.
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
-  /// Throws Error if a target is not finite, a time stamp is negative, DDS refuses, or there is another writer and
-  /// the sink must be alone.
+  /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
   void send(const RobotCommand& command) override;
-  /// Waits until those who listen have everything, at most a second.
+  /// Waits up to 1 s until listeners have everything.
   void finish() override;
 
   int64_t sent() const { return sent_; }  ///< commands
-  int listeners() const;                  ///< now, to the topic that has the fewest
+  int listeners() const;                  ///< of the topic with the fewest
 
  private:
   DdsParticipant participant_;
-  std::optional<DdsOtherWriters> others_;  ///< before the writers: one that runs does not see who only looks
+  std::optional<DdsOtherWriters> others_;  ///< first: it must look before this writes
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
   std::optional<DdsWriter<ros::PoseStamped>> arm_;
   std::optional<int64_t> arrived_ns_;

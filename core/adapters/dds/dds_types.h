@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// How a message of ROS goes through Cyclone DDS: `descriptor`, `write` (the library's return code) and `read`.
+/// How Cyclone DDS carries a ROS message; `write` returns its code.
 template <typename Message>
 struct DdsType;
 

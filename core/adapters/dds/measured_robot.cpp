@@ -21,9 +21,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPause = std::chrono::milliseconds(2);  // between two looks: shorter than a driver's period
-constexpr int kDepth = 100;               // messages that wait: those of other joints push none out for long
-constexpr int64_t kTellerUs = 1'000'000;  // a process that was silent for longer tells no more
-constexpr size_t kMostTellers = 16;       // two are too many already
+constexpr int kDepth = 100;                            // waiting messages, also of other joints
+constexpr int64_t kTellerUs = 1'000'000;               // after this silence a process publishes no more
+constexpr size_t kMostTellers = 16;                    // two are too many already
 
 std::string seconds(int64_t us) {
   return fmt::format("{:.2f} s", static_cast<double>(us) * 1e-6);
@@ -46,7 +46,7 @@ double within(double angle, double min, double max, std::string_view joint) {
   return std::clamp(angle, min, max);
 }
 
-/// By the first that has an answer. All are asked: each then knows why it has none.
+/// The answer of the first source that has one. All are asked, so that each knows why it has none.
 std::optional<std::vector<double>> latest(std::vector<MeasuredJoints>& sources) {
   const int64_t steady_us =
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();

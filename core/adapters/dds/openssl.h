@@ -6,15 +6,14 @@
 
 namespace glovebench {
 
-/// What a call of the program `openssl` ended with.
 struct OpensslResult {
   bool is_success;
   std::string output;
-  std::string reason;  ///< the last line of what it said on standard error
+  std::string reason;  ///< last line of standard error
 };
 
-/// Runs `openssl` in a folder, with `input` as its standard input: a private key goes that way ("/dev/stdin") and
-/// is never on a disk. Throws Error where the program is missing or cannot be run.
+/// Runs `openssl` in a folder. Private keys go through `input`, its standard input, and never to a disk.
+/// Throws: Error if the program cannot be run.
 OpensslResult run_openssl(const std::string& folder, std::vector<std::string> arguments,
                           std::string_view input = "");
 

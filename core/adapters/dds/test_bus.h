@@ -1,6 +1,6 @@
 #pragma once
 
-// A bus of its own for each test of the middleware, on the loopback interface. Not part of the library.
+// A private loopback bus for tests.
 
 #include <unistd.h>
 
@@ -12,8 +12,7 @@
 
 namespace glovebench {
 
-/// This process and those that it starts get a Cyclone DDS for a sandbox: one interface, no multicast, and a tag
-/// that keeps apart what runs at the same time. `more`: further elements of the configuration.
+/// Gives this process and its children a Cyclone DDS of their own on loopback. `more`: further configuration.
 inline void use_loopback_dds(const std::string& more = "") {
   const std::string uri =
       "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
@@ -25,7 +24,7 @@ inline void use_loopback_dds(const std::string& more = "") {
   setenv("CYCLONEDDS_URI", uri.c_str(), 1);
 }
 
-/// Asks again and again; whether it came true within a time in which it should by far.
+/// Waits up to 20 s.
 template <typename Condition>
 bool comes_true(const Condition& condition) {
   for (int i = 0; i < 2000; ++i) {

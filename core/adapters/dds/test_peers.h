@@ -1,6 +1,6 @@
 #pragma once
 
-// The far end of the bus, in the same process, for the tests of the library. Not part of it.
+// The far end of the bus in the same process, for tests.
 
 #include <string>
 
@@ -8,12 +8,12 @@
 
 namespace glovebench {
 
-/// A process meets its own domain without a network; this one is the same seen from outside.
+/// kFar is kDomain seen from outside, since a process reaches its own domain without a network.
 inline constexpr int kDomain = 7, kFar = 8;
 inline constexpr const char* kFarDomain =
     "<Domain id=\"8\"><Discovery><ExternalDomainId>7</ExternalDomainId></Discovery></Domain>";
 
-/// Somebody out there who keeps to no size of messages.
+/// Sends messages of any size.
 class UnboundedWriter {
  public:
   explicit UnboundedWriter(const std::string& topic)

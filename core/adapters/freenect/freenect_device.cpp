@@ -30,11 +30,11 @@ namespace glovebench {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 480;
-constexpr size_t kMaxImages = 16;  // of each kind that wait for a partner: half a second
-constexpr size_t kMaxFrames = 2;   // whole ones that wait to be fetched
+constexpr size_t kMaxImages = 16;  // of each kind waiting for a partner: half a second
+constexpr size_t kMaxFrames = 2;   // whole frames waiting to be fetched
 constexpr auto kSlice = std::chrono::milliseconds(100);
 
-/// No signal interrupts a thread that is started while this lives: libusb would report it as a failure.
+/// Keeps signals from a thread that is started while this lives: libusb would report one as a failure.
 class SignalsBlocked {
  public:
   SignalsBlocked() {
@@ -55,7 +55,7 @@ struct WholeFrame {
   int64_t arrived_us = 0;  ///< since 1970
 };
 
-/// What fakenect plays, if it is the library behind the interface.
+/// The recording that fakenect plays, if fakenect is loaded.
 const char* played_dump() {
   return std::getenv("FAKENECT_PATH");
 }
@@ -74,7 +74,7 @@ const LiveOptions& checked(const LiveOptions& options, const RgbdCalibration& ca
   return options;
 }
 
-/// The device, the thread that serves it, and what waits between that thread and the reader.
+/// The device, its thread, and the queue between the thread and the reader.
 class FreenectDevice : public LiveKinect {
  public:
   FreenectDevice(const RgbdCalibration& calibration, const LiveOptions& options)
@@ -155,7 +155,7 @@ class FreenectDevice : public LiveKinect {
     require_freenect(freenect_start_video(device) >= 0, "video stream", "a start");
   }
 
-  /// The thread: from here the library calls take_depth and take_color.
+  /// The thread's function, in which the library calls take_depth and take_color.
   void serve() {
     int result = 0;
     while (result >= 0 && !is_stopping()) {
@@ -173,7 +173,7 @@ class FreenectDevice : public LiveKinect {
     changed_.notify_all();
   }
 
-  /// Does something where nothing may be thrown: in the thread, called by C. What is thrown ends the stream.
+  /// Runs an action in the thread, which C calls, so that nothing may be thrown; an exception ends the stream.
   template <typename Action>
   void or_fail(const Action& action) noexcept {
     try {
@@ -185,7 +185,7 @@ class FreenectDevice : public LiveKinect {
     }
   }
 
-  /// As the Error that a device throws, whatever it was.
+  /// Throws the failure as Error, whatever it was.
   void throw_failure() const {
     if (!failure_) return;
     try {
@@ -197,7 +197,7 @@ class FreenectDevice : public LiveKinect {
     }
   }
 
-  /// Nothing more will come. Wants the mutex.
+  /// Whether nothing more will come; needs the mutex.
   bool has_ended() const { return !end_.empty() || failure_; }
 
   bool is_stopping() const {
@@ -250,8 +250,8 @@ class FreenectDevice : public LiveKinect {
   LatestQueue<WholeFrame> frames_{kMaxFrames};
   int64_t fetched_us_ = 0;
   bool stopping_ = false;
-  std::string end_;             ///< why, once the stream has ended well
-  std::exception_ptr failure_;  ///< what has ended it otherwise
+  std::string end_;             ///< why the stream ended without a failure
+  std::exception_ptr failure_;  ///< the failure that ended it
   std::thread thread_;
 };
 

@@ -7,11 +7,11 @@
 namespace glovebench {
 namespace {
 
-/// What libfreenect said last of what is wrong. It tells the context alone, to which nothing of ours can be tied.
+/// libfreenect's last complaint. The library passes only its context, which cannot refer to our objects.
 std::mutex complaint_mutex;
 std::string complaint;
 
-/// Called from C: nothing may be thrown, so a complaint there is no memory for is lost.
+/// Called from C, so nothing may be thrown: without memory a complaint is lost.
 void keep_complaint(freenect_context*, freenect_loglevel level, const char* message) noexcept try {
   if (level > FREENECT_LOG_ERROR) return;
   const std::lock_guard lock(complaint_mutex);

@@ -6,16 +6,15 @@
 
 namespace glovebench {
 
-/// " (libfreenect: ...)", what the library said last of what is wrong, or "". For the end of a message.
+/// " (libfreenect: ...)" with the library's last complaint, or "".
 std::string last_complaint();
-/// Throws Error naming the field, what was expected and the library's complaint unless the library did as it was
-/// told.
+/// Throws: Error with the last complaint unless `success`.
 void require_freenect(bool success, const char* field, const std::string& expected);
 
-/// Initialized libfreenect with one open device; closes what it has opened.
+/// libfreenect with one open device.
 class FreenectHandle {
  public:
-  /// Throws Error if there is no such device or it cannot be opened.
+  /// Throws: Error if the device is missing or cannot be opened.
   explicit FreenectHandle(int index);
   ~FreenectHandle();
   FreenectHandle(const FreenectHandle&) = delete;

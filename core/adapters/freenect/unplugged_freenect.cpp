@@ -18,7 +18,7 @@ freenect_video_cb take_video = nullptr;
 freenect_log_cb log_line = nullptr;
 uint32_t frame = 0;
 
-/// Neither the context nor the device is looked into by those who use them.
+/// The users of these never look inside.
 template <typename T>
 T* some() {
   static std::max_align_t place;

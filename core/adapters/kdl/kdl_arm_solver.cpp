@@ -16,11 +16,11 @@ constexpr unsigned kMaxIterations = 100;
 constexpr double kSolverTolerance = 1e-7;    // m and rad, of KDL's twist
 constexpr double kPositionTolerance = 1e-5;  // m
 constexpr double kRotationTolerance = 1e-5;  // rad
-/// Damping of a step: keeps it finite where the arm is stretched, and slows the rest down little.
+/// Damping keeps a step finite where the arm is stretched, and slows others down little.
 constexpr double kDamping = 0.01;
 
-/// How far the arm goes back to rest, in what leaves the flange where it is, over a step of that way or turn; the
-/// later ones where the ones before lead to no solution.
+/// How far the arm drifts back to rest without moving the flange, over a step of that way or turn. Later values are
+/// tried where earlier ones give no solution.
 constexpr std::array<double, 4> kBackToRest = {0.05, 0.2, 0.4, 0};
 constexpr double kStep = 0.02, kTurn = 0.1;  // m, rad
 
@@ -42,9 +42,8 @@ Jacobian jacobian(const ArmJoints& joints) {
   return J;
 }
 
-/// Where to solve from. Seven joints reach a pose in many ways, and the shortest step to the next pose wanders off
-/// among them until a joint is at its limit; so each goes a little towards rest, the more the farther it is to the
-/// pose.
+/// Where to solve from. Seven joints reach a pose in many ways, and with the shortest steps joints wander to their
+/// limits. So each joint drifts a little to rest, in proportion to the way to the pose.
 ArmJoints nearer_to(const ArmJoints& rest, const ArmJoints& joints, double share,
                     const Eigen::Isometry3d& T_base_flange) {
   const Eigen::Isometry3d off = arm_flange_pose(joints).inverse() * T_base_flange;
@@ -112,7 +111,7 @@ class KdlArmSolver : public ArmSolver {
   }
 
  private:
-  /// What KDL ends with; whether it is a solution is checked by the caller.
+  /// KDL's result; the caller checks whether it is a solution.
   ArmJoints solved_from(const ArmJoints& start, const KDL::Frame& target) const {
     KDL::JntArray from(kArmJointCount), to(kArmJointCount);
     for (int j = 0; j < kArmJointCount; ++j) from(j) = start[j];

@@ -6,10 +6,8 @@
 
 namespace glovebench {
 
-/// Inverse kinematics of the PA-10-7C by Orocos KDL: Newton-Raphson within the joint limits
-/// (ChainIkSolverPos_NR_JL) from `start`, or a little nearer to `rest` than that in what the pose leaves open. A
-/// solution is one whose flange is within 0.01 mm and 0.00001 rad of the pose by the core's own kinematics. One
-/// thread at a time. Empty in a build without Orocos KDL.
+/// Inverse kinematics by Orocos KDL (ChainIkSolverPos_NR_JL) from near `start`, a little towards `rest`. Solutions
+/// are exact to 0.01 mm and 1e-5 rad. Not thread-safe. Empty in a build without KDL.
 std::unique_ptr<ArmSolver> make_arm_solver(const ArmJoints& rest = kArmAtRest);
 
 }  // namespace glovebench

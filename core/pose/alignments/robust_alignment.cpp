@@ -9,7 +9,7 @@
 namespace glovebench {
 namespace {
 
-/// In a step on planes, what of a pair's distance lies along the surface counts this share of what lies across it.
+/// `tangential`: in a step on planes, the weight of a distance along the surface.
 struct Step {
   enum class Kind { horn, planes } kind;
   double tangential = 0;
@@ -18,12 +18,11 @@ constexpr Step kHorn{Step::Kind::horn}, kMixed{Step::Kind::planes, 0.3}, kPlanes
 constexpr Step kOnSome[] = {kHorn, kHorn, kHorn, kMixed, kMixed, kMixed, kPlanes, kPlanes, kPlanes};
 constexpr Step kOnAll[] = {kPlanes, kPlanes};
 
-/// The share of the points for the first steps, and how many are too few to leave any out.
+/// The first steps use every fifth point, but keep at least a hundred.
 constexpr size_t kStride = 5;
 constexpr size_t kEnough = 100;
 
-/// Below this the mean distance has settled, as a share of it: a step of the schedule is large beside one of
-/// Horn's.
+/// Relative change of the mean distance below which it has settled. It is larger than for Horn's smaller steps.
 constexpr double kSettled = 0.01;
 
 struct Pair {
@@ -50,10 +49,10 @@ double mean_distance(const RecycledVector<Pair>& pairs) {
   return sum / static_cast<double>(pairs.size());
 }
 
-/// Tukey's biweight about zero, whose width is that many standard deviations, and those 1.4826 times the median of
-/// the absolute residuals. 4.685 is the textbook's, which keeps 95% of the efficiency of least squares under
-/// Gaussian noise. A narrower one pays where the posture is not quite right: a third of the points then do not fit,
-/// and are no noise. `glovebench_bench --benchmark_filter=icp/errors` measures widths (bench/README.md).
+/// The textbook's width of Tukey's biweight, in standard deviations: it keeps 95% of the efficiency of least
+/// squares under Gaussian noise. A standard deviation is 1.4826 times the median absolute residual. A narrower
+/// width is better for a slightly wrong posture, where a third of the points do not fit (bench/README.md,
+/// icp/errors).
 constexpr double kTextbookWidth = 4.685;
 
 class Tukey {
@@ -75,7 +74,7 @@ class Tukey {
   double width_;
 };
 
-/// The rotation vector's motion; of the points, about the hand's origin.
+/// The motion of a rotation vector and a translation.
 Eigen::Isometry3d motion(const Eigen::Vector3d& turn, const Eigen::Vector3d& shift) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   const double angle = turn.norm();
@@ -84,8 +83,7 @@ Eigen::Isometry3d motion(const Eigen::Vector3d& turn, const Eigen::Vector3d& shi
   return T;
 }
 
-/// One Gauss-Newton step on the weighted distances: how to move the points towards the hand. Empty if they leave a
-/// motion open.
+/// The motion of the points towards the hand by one Gauss-Newton step. Empty if a motion is undetermined.
 std::optional<Eigen::Isometry3d> step_on_planes(const RecycledVector<Pair>& pairs, double tangential,
                                                 double width) {
   using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -110,7 +108,7 @@ std::optional<Eigen::Isometry3d> step_on_planes(const RecycledVector<Pair>& pair
     const Pair& pair = pairs[i];
     const double weight = tukey.weight(distances[i]);
     if (weight == 0) continue;
-    // Arms in units of ten centimeters: the two halves of the system are of one size.
+    // Arms in units of 10 cm give rotation and translation equal scale.
     const Eigen::Vector3d arm = 10 * (pair.p - center), apart = pair.q - pair.p;
     add(arm, pair.normal, pair.normal.dot(apart), weight * (1 - tangential));
     if (tangential == 0) continue;
@@ -118,7 +116,7 @@ std::optional<Eigen::Isometry3d> step_on_planes(const RecycledVector<Pair>& pair
   }
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(H.selfadjointView<Eigen::Lower>());
   const Vector6d pivots = solver.vectorD();
-  // Within a thousandth of the spread, as Horn's alignment tells a line.
+  // A spread below a thousandth counts as a line, as in Horn's alignment.
   if (!(pivots.minCoeff() > 1e-6 * pivots.maxCoeff())) return {};
   const Vector6d solution = solver.solve(g);
   if (!solution.allFinite()) return {};
@@ -135,7 +133,7 @@ std::optional<Eigen::Isometry3d> step_of_horn(const RecycledVector<Pair>& pairs)
   return align_points(from, to);
 }
 
-/// Takes steps until they are done, or there is a reason to stop: false.
+/// Takes all steps, or returns false with the reason in `result.status`.
 bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& config, double width,
                 Alignment& result) {
   matcher.cull(result.T_camera_hand);
@@ -149,7 +147,7 @@ bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& 
       return false;
     }
     result.residual = mean_distance(pairs);
-    // Planes that leave a motion open, such as a single flat patch, still have Horn's answer.
+    // Horn's step also works for planes that leave a motion undetermined, such as a single flat patch.
     std::optional<Eigen::Isometry3d> moved;
     if (step.kind == Step::Kind::planes) moved = step_on_planes(pairs, step.tangential, width);
     if (!moved) moved = step_of_horn(pairs);
@@ -174,7 +172,7 @@ Alignment align_robust(const HandModel& model, const PosedHand& hand, RecycledVe
   Matcher some(model, hand, every_nth(points, stride), config);
   Matcher all(model, hand, std::move(points), config);
   if (!take_steps(some, kOnSome, config, width, result)) {
-    // What a part of the points cannot do, such as share a color with the hand, all of them may.
+    // All points may share a color with the hand although a part of them does not.
     result.T_camera_hand = T_camera_hand_coarse;
     result.iterations = 0;
     if (!take_steps(all, kOnSome, config, width, result)) return result;

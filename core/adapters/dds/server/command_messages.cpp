@@ -81,6 +81,8 @@ int64_t nanoseconds(const ros::Time& time) {
 }
 
 int64_t time_to_targets_us(double longest_step_s) {
+  // After a time t a controller still has at most the rest of this time to go, and the next targets are at most
+  // min(t, longest_step_s) farther. Where a motion starts was measured at most kMeasuredAgeUs ago.
   return std::max(static_cast<int64_t>(std::ceil(longest_step_s * 1e6)), kMeasuredAgeUs);
 }
 

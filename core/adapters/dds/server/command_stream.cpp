@@ -8,12 +8,12 @@
 namespace glovebench {
 namespace {
 
-constexpr int64_t kGapUs = 100'000;        // between two ticks, or what a clock jumps by
-constexpr int64_t kSettleUs = 100'000;     // after a gap: what was underway arrives
+constexpr int64_t kGapUs = 100'000;        // between two ticks, or of a clock's jump
+constexpr int64_t kSettleUs = 100'000;     // after a gap, for messages under way
 constexpr int64_t kStartUs = 200'000;      // of a stream, by both clocks
-constexpr int64_t kCatchUpUs = 20'000;     // by which source times may gain on the server's clock during a start
-constexpr int64_t kWindowUs = 10'000'000;  // in which the smallest delay counts
-constexpr int64_t kBucketUs = 1'000'000;   // of the window: a flood takes no memory
+constexpr int64_t kCatchUpUs = 20'000;     // that source times may gain on the server's clock during a start
+constexpr int64_t kWindowUs = 10'000'000;  // for the smallest delay
+constexpr int64_t kBucketUs = 1'000'000;   // part of the window; bounds the memory
 constexpr size_t kMostStreams = 64;
 
 int64_t whole_us(double seconds) {
@@ -74,7 +74,7 @@ Receipt CommandStream::judge(const Arrival& arrival, int topic, const ros::Time&
   return receipt;
 }
 
-/// With the age of the message, us.
+/// Also returns the age of the message, us.
 std::pair<Receipt, int64_t> CommandStream::judge_age(const Arrival& arrival, int topic) {
   const int64_t source = arrival.source_ns / 1000, delay = arrival.now_us - source;
   if (settled_us_ && arrival.now_us < *settled_us_) return {Receipt::stale, 0};
@@ -87,7 +87,7 @@ std::pair<Receipt, int64_t> CommandStream::judge_age(const Arrival& arrival, int
   its.add(arrival.now_us, source, delay);
   const int64_t age_us = delay - its.smallest_delay();
   if (age_us > silence_us_) return {Receipt::stale, age_us};
-  // Source times that gain on the server's clock are those of messages that waited: no start is among them.
+  // Source times that gain on the server's clock belong to messages that waited: the start begins anew.
   if (!its.start || (!its.started && its.start->first - its.start->second - delay > kCatchUpUs))
     its.start = {arrival.now_us, source};
   its.started |= arrival.now_us - its.start->first >= kStartUs && source - its.start->second >= kStartUs;
@@ -100,7 +100,7 @@ Receipt CommandStream::judge_order(const Arrival& arrival, int topic, const ros:
     owner_ = arrival.sender;
     ++owners_;
     std::ranges::fill(stamps_ns_, std::nullopt);
-    std::ranges::fill(until_us_, std::nullopt);  // what the owner before wanted is wanted no more
+    std::ranges::fill(until_us_, std::nullopt);  // the last owner's goals end
   }
   const int64_t stamp_ns = nanoseconds(stamp);
   std::optional<int64_t>& last_ns = stamps_ns_.at(static_cast<size_t>(topic));
@@ -131,12 +131,12 @@ void CommandStream::tick(const ServerTime& now) {
   seen_us_ = now.clock_us;
 }
 
-/// For every moment at which something is received. Whether there was a gap until now.
+/// Call at each reception and tick. Returns whether a gap has just ended.
 bool CommandStream::watch(int64_t now_us) {
   if (!seen_us_) seen_us_ = now_us;
   const int64_t missed_us = now_us - *seen_us_;
   if (missed_us <= kGapUs) return false;
-  // The time that the server has missed ages nothing that it knows: so it tells old messages from new ones.
+  // Delays do not age during the gap, so old messages can still be told from new ones.
   for (auto& [key, its] : delays_)
     for (auto& [from_us, delay] : its.smallest) from_us += missed_us;
   begin_gap(now_us);

@@ -21,7 +21,7 @@
 namespace glovebench {
 namespace {
 
-constexpr size_t kMostBytes = 4 << 20;  // that wait: half a minute of a busy log
+constexpr size_t kMostBytes = 4 << 20;  // waiting; half a minute of a busy log
 constexpr std::chrono::seconds kFarewell{2}, kSyncPeriod{1};
 
 /// Locks a file, for as long as it is open.
@@ -66,7 +66,7 @@ struct LogWriter::Shared {
 
   /// Writes one line or more, given without the last line end. Returns how many were lost, and why.
   std::pair<int64_t, int> append(const std::string& lines);
-  /// Why who opens the file by its name does not find all that was written; empty if they do.
+  /// Why the file's name does not lead to all that was written; empty if it does.
   std::string misplaced() const;
 
   // The thread's own.
@@ -117,9 +117,9 @@ std::pair<int64_t, int> LogWriter::Shared::append(const std::string& lines) {
   if (written.bytes > 0) is_cut = whole[written.bytes - 1] != '\n';
   size += static_cast<off_t>(written.bytes);
   if (written.error == 0) return {0, 0};
-  futimens(descriptor, nullptr);  // takes no room, and tells the next reader that there was more
+  futimens(descriptor, nullptr);  // needs no room, and tells the next reader that lines are missing
   int64_t lost = std::ranges::count(whole.substr(written.bytes), '\n');
-  if (written.bytes == 0 && whole.front() == '\n') --lost;  // that end is of a line that was lost before
+  if (written.bytes == 0 && whole.front() == '\n') --lost;  // this line end belongs to an earlier lost line
   return {lost, written.error};
 }
 
@@ -141,7 +141,7 @@ void LogWriter::finish() {
     thread_.join();
     return;
   }
-  // The disk holds the thread. It ends with the process, or when the disk lets it go.
+  // The disk blocks the thread, which ends with the process or when the disk answers.
   Progress& progress = shared_->progress;
   progress.lost += static_cast<int64_t>(shared_->pushed - progress.done);
   if (progress.failure.empty()) progress.failure = "a disk that does not answer";

@@ -20,7 +20,7 @@ double widest_deg(const JointInterval& interval) {
   return degrees_from_radians(widest);
 }
 
-/// An interval is rounded outwards, so a state that was inside is still.
+/// Intervals are rounded outwards, so a state inside is still inside.
 bool holds(const JointInterval& interval, const std::vector<double>& positions) {
   for (size_t j = 0; j < positions.size(); ++j)
     if (!(positions[j] >= interval.min[j] && positions[j] <= interval.max[j])) return false;
@@ -45,7 +45,7 @@ LoggedStart MotionLog::start(const std::vector<double>& rest, int64_t now_us, do
   const std::string tail = read_tail(path_, kTailBytes);
   const std::optional<LoggedState> last = last_state(tail, names_, path_);
   const std::optional<JointInterval> interval = last_interval(tail, names_, path_);
-  // Joints move only after a state and an interval were written: no server with this log has moved any.
+  // Joints move only after a state and an interval are written, so no server with this log has moved any.
   if (!last && !interval && tail.size() < kTailBytes) return start;
   start.source = path_;
   start.from = "log";
@@ -57,7 +57,7 @@ LoggedStart MotionLog::start(const std::vector<double>& rest, int64_t now_us, do
     start.doubt = "the log's last state is outside of its last interval";
   }
   if (!last) return start;
-  if (start.doubt.empty()) {  // else the place is measured, and nobody believes the log
+  if (start.doubt.empty()) {  // else the joints are measured, and the log's state does not matter
     check_age(*last, now_us, max_age_s, path_);
     check_whole(*last, changed_us(path_), path_);
   }

@@ -33,7 +33,7 @@ double start_angle(double angle, double min_deg, double max_deg, const StartPlac
   return std::clamp(angle, radians_from_degrees(min_deg), radians_from_degrees(max_deg));
 }
 
-/// J1 of a finger, which is not above its J2.
+/// J1 of a finger at the start, not above its J2.
 double start_distal(double distal, double proximal, const StartPlace& start, std::string_view joint) {
   if (!(distal <= proximal + start.tolerance))
     throw Error(start.source, std::string(joint), fmt::format("{} degrees", degrees_from_radians(distal)),
@@ -55,7 +55,7 @@ std::array<double, kShadowJointCount> start_hand(const StartPlace& start) {
   return joints;
 }
 
-/// From the last joints of a start.
+/// The arm's joints are the last ones.
 ArmJoints start_arm(const StartPlace& start) {
   ArmJoints joints;
   for (size_t j = 0; j < joints.size(); ++j) {
@@ -162,7 +162,7 @@ Receipt RobotServer::receive(RobotTopic topic, const ros::PoseStamped& message, 
   return receipt;
 }
 
-/// One that is accepted is wanted from now on.
+/// An accepted message becomes the goal of its topic.
 Receipt RobotServer::judge(RobotTopic topic, const ros::Time& stamp, Receipt found, const Arrival& arrival) {
   const Receipt receipt = stream_.receive(arrival, static_cast<int>(topic), stamp, found);
   if (receipt != Receipt::accepted) return receipt;
@@ -171,7 +171,7 @@ Receipt RobotServer::judge(RobotTopic topic, const ros::Time& stamp, Receipt fou
   return receipt;
 }
 
-/// Joints whose goal is followed no more shall stay where they are. True if there are some.
+/// Joints whose goal has ended shall stay where they are. Returns whether there are any.
 bool RobotServer::drop_old_goals(int64_t now_us) {
   bool dropped = false;
   for (const RobotTopic topic : {RobotTopic::fingers, RobotTopic::wrist, RobotTopic::pose}) {
@@ -187,7 +187,7 @@ bool RobotServer::drop_old_goals(int64_t now_us) {
 }
 
 RobotTargets RobotServer::goal() const {
-  RobotTargets targets = stands_;  // with the arm's joints, which stay unless a pose is wanted
+  RobotTargets targets = stands_;  // the arm's joints stay unless a pose is wanted
   targets.hand.joints = hand_goal_;
   make_actuators(targets.hand);
   if (!robot_.arm) return targets;
@@ -196,7 +196,7 @@ RobotTargets RobotServer::goal() const {
     T_base_wrist = T_base_wrist_goal_;
     targets.arm.reset();
   }
-  std::array<double, kShadowJointCount> joints = hand_goal_;  // which the guard will move into their limits
+  std::array<double, kShadowJointCount> joints = hand_goal_;  // the guard moves them into their limits
   for (const ShadowJoint j : {kWRJ1, kWRJ2})
     joints[j] = std::clamp(joints[j], radians_from_degrees(shadow_joint_infos()[j].min_deg),
                            radians_from_degrees(shadow_joint_infos()[j].max_deg));
@@ -225,7 +225,7 @@ RobotCommand RobotServer::limited(int64_t now_us, bool follows) {
 RobotState RobotServer::tick(const ServerTime& now, bool may_move) {
   stream_.tick(now);
   changed_ |= drop_old_goals(now.clock_us);
-  // The first tick only says what time it is: from there the guard knows how far a joint may move.
+  // The first tick only sets the time from which the guard limits motion.
   const bool follows = may_move && ticked_ && stream_.is_current(now.clock_us);
   const RobotCommand sent = limited(now.clock_us, follows);
   stands_ = *sent.targets;

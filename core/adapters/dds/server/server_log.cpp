@@ -33,7 +33,7 @@ std::string angles_text(const std::vector<double>& angles, const std::vector<std
   return "{" + text + "}";
 }
 
-/// The last line that begins like that and was written as a whole; null if there is none.
+/// The last complete line that begins so; null if there is none.
 nlohmann::json last_line(std::string_view log, std::string_view beginning) {
   size_t end = log.rfind('\n');
   while (end != std::string_view::npos) {
@@ -43,7 +43,7 @@ nlohmann::json last_line(std::string_view log, std::string_view beginning) {
     if (line.starts_with(beginning)) {
       try {
         return parse_json(line, "log");
-      } catch (const Error&) {  // a kill may have cut it
+      } catch (const Error&) {  // a kill may have cut the line
       }
     }
     end = before;
@@ -57,7 +57,7 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.1f} days", seconds / 86400);
 }
 
-/// How long before `now_us`; negative if after.
+/// The age at `now_us`, negative if the state is later.
 double age_s(const LoggedState& state, int64_t now_us) {
   return (static_cast<double>(now_us) - static_cast<double>(state.time_us)) * 1e-6;
 }

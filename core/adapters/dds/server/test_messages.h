@@ -1,18 +1,17 @@
 #pragma once
 
-// Messages for the tests of the server. Not part of the library.
+// Messages for tests.
 
 #include "core/adapters/dds/server/command_messages.h"
 #include "core/base/math.h"
 
 namespace glovebench {
 
-/// One second is 1'000'000 us, for clocks and stamps alike.
 inline ros::Time test_stamp(int64_t time_us) {
   return {static_cast<int32_t>(time_us / 1'000'000), static_cast<uint32_t>(time_us % 1'000'000 * 1000)};
 }
 
-/// All joints of a topic at one angle.
+/// All joints at one angle.
 inline ros::JointTrajectory trajectory_message(const std::vector<std::string>& names, double angle_deg,
                                                int64_t stamp_us) {
   ros::JointTrajectory message;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Shared by the tests of a server that moves the arm.
+// For tests of a server that moves the arm.
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -11,16 +11,16 @@ namespace glovebench {
 
 inline constexpr int64_t kArmPeriodUs = 10'000;
 inline constexpr uint64_t kSender = 3;
-inline constexpr double kArmRounding = 1e-9;  // of a pose that went through seven rotations
+inline constexpr double kArmRounding = 1e-9;  // of a pose after seven rotations
 
-/// Where the wrist is by the joints of an arm.
+/// T_base_wrist for the arm's joints, the last ones.
 inline Eigen::Isometry3d wrist_of(const std::vector<double>& positions, const Eigen::Isometry3d& T_flange_wrist) {
   ArmJoints joints;
   std::copy_n(positions.end() - kArmJointCount, kArmJointCount, joints.begin());
   return arm_flange_pose(joints) * T_flange_wrist;
 }
 
-/// Finds nothing until it is told to.
+/// Finds nothing while `asleep`.
 class SleepingSolver : public JacobianSolver {
  public:
   std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const override {
