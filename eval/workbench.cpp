@@ -114,7 +114,7 @@ PostureSet Workbench::postures_of(const std::string& name) const {
 std::unique_ptr<Method> Workbench::make_method(const TrackerConfig& config, const std::string& database_name) {
   return find_method(config.method)
       .make({config, config_.calibration, model(), database(database_name),
-             color_table(config.segmentation.color_space)});
+             color_table(config.segmentation.color_space), render::label_renderer_factory()});
 }
 
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {

@@ -8,13 +8,6 @@
 
 namespace glovebench::render {
 
-/// The hand alone; 0 elsewhere.
-struct HandImages {
-  LabelImage label;      ///< 1..kColorCount
-  Image<uint8_t> patch;  ///< patch + 1
-  DepthImage depth;      ///< z, m
-};
-
 /// Draws from 0.05 to 10 m, without back faces. Serves one thread at a time.
 class LabelRenderer : public ViewRenderer {
  public:
@@ -25,7 +18,7 @@ class LabelRenderer : public ViewRenderer {
   LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                            const Eigen::Isometry3d& T_camera_hand) override;
   HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
-                        const Eigen::Isometry3d& T_camera_hand);
+                        const Eigen::Isometry3d& T_camera_hand) override;
 
  private:
   struct State;

@@ -30,6 +30,10 @@ class SquareRenderer : public ViewRenderer {
     }
     return image;
   }
+  HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_camera_hand) override {
+    return {render_labels(model, hand, camera, T_camera_hand), {}, {}};
+  }
 };
 
 class DatabaseCacheTest : public testing::Test {

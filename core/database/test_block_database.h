@@ -27,6 +27,10 @@ class BlockRenderer : public ViewRenderer {
     }
     return image;
   }
+  HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
+                        const Eigen::Isometry3d& T_camera_hand) override {
+    return {render_labels(model, hand, camera, T_camera_hand), {}, {}};
+  }
 };
 
 inline constexpr ViewConfig kSmallViews{.image_size = 64};

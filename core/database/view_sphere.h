@@ -22,13 +22,22 @@ std::vector<Eigen::Vector3d> camera_directions();
 /// R_view_hand, cameras looking at the hand origin. View = position * 18 + rotation.
 const std::vector<Eigen::Matrix3d>& view_rotations();
 
-/// Draws label views; belongs to one thread.
+/// The hand alone; 0 elsewhere.
+struct HandImages {
+  LabelImage label;      ///< 1..kColorCount
+  Image<uint8_t> patch;  ///< patch + 1
+  DepthImage depth;      ///< z, m
+};
+
+/// Draws views of the hand; belongs to one thread.
 class ViewRenderer {
  public:
   virtual ~ViewRenderer() = default;
   /// Labels of the nearest surfaces, 0 elsewhere.
   virtual LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                    const Eigen::Isometry3d& T_camera_hand) = 0;
+  virtual HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
+                                const Eigen::Isometry3d& T_camera_hand) = 0;
 };
 
 using ViewRendererFactory = std::function<std::unique_ptr<ViewRenderer>()>;

@@ -27,6 +27,7 @@ struct MethodInputs {
   std::shared_ptr<const HandModel> model;
   std::shared_ptr<const Database> database;
   std::shared_ptr<const ColorTable> table;
+  ViewRendererFactory renderers = {};  ///< for methods that compare rendered images; may be empty
 };
 
 /// X_method.cpp in this folder defines `MethodEntry X_method()`.

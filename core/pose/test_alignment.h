@@ -21,7 +21,7 @@ inline PosedHand posed() {
 
 inline RecycledVector<LabeledPoint> true_cloud(const Eigen::Isometry3d& T_camera_hand) {
   render::LabelRenderer renderer;
-  const render::HandImages images = renderer.render_ids(test_hand(), posed(), kKinect, T_camera_hand);
+  const HandImages images = renderer.render_ids(test_hand(), posed(), kKinect, T_camera_hand);
   return build_cloud(images.depth, images.label, kKinect, WorkingVolume{}).points;
 }
 

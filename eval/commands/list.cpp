@@ -42,13 +42,9 @@ void list_studies() {
   for (const Study& study : studies()) fmt::print("{:<10} {}\n", study.name, study.title);
 }
 
-void list_methods() {
-  for (const MethodEntry& method : methods()) fmt::print("{:<16} {}\n", method.name, method.description);
-}
-
-void list_noises() {
-  for (const render::DepthNoise& noise : render::depth_noises())
-    fmt::print("{:<16} {}\n", noise.name, noise.description);
+template <typename Entry, std::span<const Entry> (*entries)()>
+void list_entries() {
+  for (const Entry& entry : entries()) fmt::print("{:<16} {}\n", entry.name, entry.description);
 }
 
 void list_formats() {
@@ -89,8 +85,13 @@ void add_list(Command program) {
   list.subcommand("databases", "The posture databases.").runs(list_databases);
   list.subcommand("suites", "Experiments that belong together, for `glovebench run --suite`.").runs(list_suites);
   list.subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.").runs(list_studies);
-  list.subcommand("methods", "Ways to track, for --method.").runs(list_methods);
-  list.subcommand("noises", "How the depth camera errs, for --noise.").runs(list_noises);
+  list.subcommand("methods", "Ways to track, for --method.").runs(list_entries<MethodEntry, methods>);
+  list.subcommand("alignments", "Ways to align the hand with the cloud, for `icp.algorithm` of a configuration.")
+      .runs(list_entries<AlignmentEntry, alignments>);
+  list.subcommand("look-ups", "Ways to search the database, for `lookup.implementation` of a configuration.")
+      .runs(list_entries<LookUpEntry, look_ups>);
+  list.subcommand("noises", "How the depth camera errs, for --noise.")
+      .runs(list_entries<render::DepthNoise, render::depth_noises>);
   list.subcommand("formats", "Files of movements and postures, and captures for `glovebench import`.")
       .runs(list_formats);
   list.subcommand("metrics", "What is measured of each frame, and which of it `compare` and `gate` compare.")

@@ -83,7 +83,7 @@ struct Render {
       const TrackResult& result = results.back();
       const HandModel& model = *workbench.model();
       render::LabelRenderer renderer;
-      const render::HandImages estimate =
+      const HandImages estimate =
           renderer.render_ids(model, model.pose(result.posture), workbench.calibration().ir, result.T_camera_hand);
       layers.tracker_depth = estimate.depth;
       layers.tracker_label = estimate.label;

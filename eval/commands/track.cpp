@@ -17,6 +17,7 @@
 #include "eval/commands/track_source.h"
 #include "eval/interruption.h"
 #include "eval/terminal.h"
+#include "render/label_renderer.h"
 
 namespace glovebench::eval {
 namespace {
@@ -68,7 +69,8 @@ struct Track {
     const std::unique_ptr<Method> method =
         find_method(config.method)
             .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
-                   own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)});
+                   own_colors ? own_colors : workbench.color_table(config.segmentation.color_space),
+                   render::label_renderer_factory()});
     RobotSetup setup = robot.setup(workbench);
     LineFile output(common.output);
     // After reading all files: opening a pipe may block, and a signal must end that.
