@@ -365,6 +365,8 @@ TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list", "databases"}).out, HasSubstr("DB_20_postures"));
   EXPECT_THAT(run_glovebench({"list", "suites"}).out, AllOf(HasSubstr("quick"), HasSubstr("full")));
   EXPECT_THAT(run_glovebench({"list", "methods"}).out, AllOf(HasSubstr("schroeder2012"), HasSubstr("monocular")));
+  EXPECT_THAT(run_glovebench({"list", "alignments"}).out, AllOf(HasSubstr("horn"), HasSubstr("robust")));
+  EXPECT_THAT(run_glovebench({"list", "look-ups"}).out, AllOf(HasSubstr("plain"), HasSubstr("fast")));
   EXPECT_THAT(run_glovebench({"list", "subjects"}).out,
               AllOf(HasSubstr("\n 3 woman 181 mm long"), HasSubstr("\n22 "), Not(HasSubstr("\n23 "))));
   EXPECT_THAT(run_glovebench({"list", "angles"}).out, HasSubstr("little_dip_flexion"));

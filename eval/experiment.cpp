@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "eval/program_info.h"
+#include "eval/program.h"
 #include "eval/sequence_metrics.h"
 
 namespace glovebench::eval {

@@ -3,7 +3,7 @@
 
 #include "ci/build_paths.h"
 #include "core/base/file_set.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/test_program.h"
 #include "trajectories/capture/test_capture.h"
 #include "trajectories/catalog.h"

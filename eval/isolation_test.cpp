@@ -4,8 +4,8 @@
 #include "ci/build_paths.h"
 #include "core/kinect/recording.h"
 #include "core/tracker/track_result.h"
+#include "eval/program.h"
 #include "eval/run.h"
-#include "eval/share.h"
 #include "eval/test_program.h"
 #include "trajectories/catalog.h"
 

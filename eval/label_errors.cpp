@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
 #include "core/segmentation/color_table.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "render/synthetic_kinect.h"
 #include "trajectories/catalog.h"
 

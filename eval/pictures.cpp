@@ -6,8 +6,7 @@
 
 #include "core/base/error.h"
 #include "eval/keyframes.h"
-#include "eval/share.h"
-#include "eval/truths.h"
+#include "eval/program.h"
 #include "render/label_renderer.h"
 #include "render/pictures.h"
 #include "reports/metrics/measure_frame.h"

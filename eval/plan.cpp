@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "eval/share.h"
+#include "eval/program.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

@@ -5,8 +5,8 @@
 
 #include "core/base/error.h"
 #include "core/base/math.h"
+#include "eval/program.h"
 #include "eval/record.h"
-#include "eval/share.h"
 #include "eval/test_program.h"
 #include "reports/metrics/measure_frame.h"
 #include "trajectories/catalog.h"

@@ -3,7 +3,7 @@
 #include "core/adapters/kdl/make_arm_solver.h"
 #include "core/base/math.h"
 #include "core/robot/command_guard.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

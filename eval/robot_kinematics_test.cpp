@@ -6,7 +6,7 @@
 #include "core/base/math.h"
 #include "core/hand/hand_model.h"
 #include "core/robot/fingertip_mapping.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "trajectories/catalog.h"
 #include "trajectories/posture_file.h"
 

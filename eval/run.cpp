@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "eval/in_parallel.h"
+#include "eval/run_bytes.h"
 #include "eval/terminal.h"
 #include "eval/thread_time.h"
 #include "reports/metrics/measure_frame.h"

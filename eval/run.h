@@ -72,9 +72,5 @@ std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, c
 
 /// Hash of all inputs but the program.
 std::string run_key(Workbench& workbench, const RunSpec& spec);
-/// Lossless CBOR, without the spec.
-std::string to_bytes(const Run& run);
-/// Empty if `bytes` are no run.
-std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec);
 
 }  // namespace glovebench::eval

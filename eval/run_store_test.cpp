@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
-#include "eval/run.h"
+#include "eval/run_bytes.h"
 #include "eval/test_program.h"
 #include "reports/comparison/pairing.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/test_program.h"
 #include "trajectories/catalog.h"
 

@@ -5,7 +5,7 @@
 
 #include "eval/color_table_cache.h"
 #include "eval/label_errors.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/test_program.h"
 #include "eval/workbench.h"
 #include "trajectories/catalog.h"

@@ -2,7 +2,7 @@
 
 #include "core/base/math.h"
 #include "core/tracker/smoothing.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

@@ -1,5 +1,5 @@
 #include "core/base/fuzz_target.h"
-#include "eval/stored_study.h"
+#include "eval/run_bytes.h"
 
 namespace glovebench {
 

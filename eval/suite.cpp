@@ -12,7 +12,7 @@
 #include "core/base/parse_json.h"
 #include "core/base/registry.h"
 #include "core/base/text.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "eval/color_table_cache.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/terminal.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"

@@ -7,7 +7,7 @@
 #include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
 #include "eval/experiment.h"
-#include "eval/program_info.h"
+#include "eval/program.h"
 #include "eval/regression/baseline.h"
 #include "eval/suite.h"
 #include "reports/comparison/comparison.h"

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include "eval/commands/flags.h"
+#include "eval/program.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
-#include "eval/share.h"
 #include "reports/comparison/comparison_report.h"
 
 namespace glovebench::eval {

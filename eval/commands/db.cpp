@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/terminal.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"

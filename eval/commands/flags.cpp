@@ -14,7 +14,7 @@
 #include "core/base/whole_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_limits.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "reports/json_text.h"
 
 namespace glovebench::eval {

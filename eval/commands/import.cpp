@@ -7,7 +7,7 @@
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "trajectories/capture/import_capture.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "eval/program_info.h"
+#include "eval/program.h"
 
 namespace glovebench::eval {
 namespace {

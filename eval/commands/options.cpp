@@ -14,7 +14,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "eval/program_info.h"
+#include "eval/program.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {

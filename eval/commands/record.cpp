@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
+#include "eval/program.h"
 #include "eval/record.h"
-#include "eval/share.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 

@@ -11,7 +11,7 @@
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/whole_file.h"
-#include "eval/program_info.h"
+#include "eval/program.h"
 #include "eval/run_store.h"
 #include "eval/suite.h"
 #include "reports/json_text.h"

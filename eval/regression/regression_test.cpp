@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/hash.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/test_program.h"
 #include "reports/results_json.h"
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/studies/ablations.h"
 #include "eval/studies/posture_choices.h"
 #include "eval/studies/test_options.h"

@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/database/look_up.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/studies/sample.h"
 #include "eval/studies/trial_queries.h"
 #include "eval/terminal.h"

@@ -2,7 +2,7 @@
 
 #include "eval/color_table_cache.h"
 #include "eval/label_errors.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/studies/study.h"
 #include "trajectories/catalog.h"
 

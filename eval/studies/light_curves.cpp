@@ -7,7 +7,7 @@
 #include "core/calibration/glove_colors.h"
 #include "core/kinect/disparity.h"
 #include "eval/in_parallel.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "render/lighting.h"
 #include "render/synthetic_kinect.h"
 #include "trajectories/catalog.h"

@@ -4,7 +4,7 @@
 
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "trajectories/catalog.h"
 #include "trajectories/generation/database_postures.h"
 #include "trajectories/generation/low_dispersion.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "eval/program.h"
 #include "eval/sequence_metrics.h"
-#include "eval/share.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

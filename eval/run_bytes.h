@@ -3,9 +3,15 @@
 #include <optional>
 #include <string>
 
+#include "eval/run.h"
 #include "reports/study.h"
 
 namespace glovebench::eval {
+
+/// Lossless CBOR, without the spec.
+std::string to_bytes(const Run& run);
+/// Empty if `bytes` are no run.
+std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec);
 
 /// Lossless CBOR.
 std::string to_bytes(const reports::StudyResult& study);

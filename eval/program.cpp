@@ -1,10 +1,19 @@
-#include "eval/share.h"
+#include "eval/program.h"
 
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "eval/commit.h"
+#include "trajectories/catalog.h"
+#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
@@ -18,7 +27,40 @@ std::string environment(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+std::string host_name() {
+  char name[256] = {};
+  return gethostname(name, sizeof(name) - 1) == 0 ? name : "unknown";
+}
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
 }  // namespace
+
+const ProgramInfo& program_info() {
+  static const ProgramInfo info{GLOVEBENCH_VERSION, kCommit};
+  return info;
+}
+
+reports::Timings host_timings(int threads) {
+  reports::Timings timings;
+  timings.host = host_name();
+  timings.processor = processor_name();
+  timings.threads = threads;
+#ifdef __VERSION__
+  timings.compiler = __VERSION__;
+#endif
+  timings.build_type = GLOVEBENCH_BUILD_TYPE;
+  timings.commit = program_info().commit;
+  timings.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                             fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+  return timings;
+}
 
 std::string share_folder() {
   const std::string chosen = environment("GLOVEBENCH_SHARE");
@@ -60,6 +102,16 @@ std::string default_cache_folder() {
   if (const std::string cache = environment("XDG_CACHE_HOME"); !cache.empty()) return cache + "/glovebench";
   if (const std::string home = environment("HOME"); !home.empty()) return home + "/.cache/glovebench";
   return "glovebench-cache";
+}
+
+std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key) {
+  const bool recorded = key.truth == reports::TruthKind::recorded;
+  for (const trajectories::TrajectoryListing& listing : trajectories::list_trajectories(trajectory_folder())) {
+    if (listing.name != key.trajectory) continue;
+    if ((listing.kind == trajectories::TrajectoryKind::recorded) != recorded) continue;
+    return std::make_shared<const trajectories::Trajectory>(trajectories::load_trajectory(listing.path));
+  }
+  return nullptr;
 }
 
 }  // namespace glovebench::eval

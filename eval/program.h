@@ -1,9 +1,23 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "reports/results.h"
+#include "reports/timings.h"
+#include "trajectories/trajectory.h"
+
 namespace glovebench::eval {
+
+struct ProgramInfo {
+  std::string version;
+  std::string commit;  ///< "unknown" if not built from a checkout; "-dirty" after changes
+};
+const ProgramInfo& program_info();
+
+/// No times yet.
+reports::Timings host_timings(int threads);
 
 /// GLOVEBENCH_SHARE, else ../share/glovebench beside the program.
 /// Throws: Error if there is none.
@@ -16,5 +30,9 @@ std::string suite_folder();
 std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.
 std::string default_cache_folder();
+
+/// The built-in truth of an experiment. Null for a user's file.
+/// Throws: Error if the data folder is damaged.
+std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key);
 
 }  // namespace glovebench::eval
