@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "eval/test_program.h"
+#include "reports/results_json.h"
 
 namespace glovebench::eval {
 namespace {
@@ -216,6 +217,21 @@ TEST_F(SuitePlan, FullHoldsFigure4AndQuick) {
   EXPECT_TRUE(std::ranges::includes(full, figure4));
   EXPECT_TRUE(std::ranges::includes(full, quick)) << "a night judges what a commit judges";
   EXPECT_EQ(full.size(), 48U);
+}
+
+TEST_F(SuitePlan, ListsTheExperimentsInTheOrderOfTheBaselines) {
+  Workbench workbench(test_workbench());
+  for (const std::string suite : {"quick", "full"}) {
+    std::vector<std::string> planned, of_baseline;
+    for (const RunSpec& spec : plan_suite(workbench, profile("paper"), load_suite(suite), "").specs) {
+      const std::string name = to_string(key_of(spec));
+      if (std::ranges::count(planned, name) == 0) planned.push_back(name);
+    }
+    const std::string path = build_paths::source("ci/baselines/" + suite + "/results.json");
+    for (const reports::ExperimentResult& experiment : reports::read_results(path).experiments)
+      of_baseline.push_back(to_string(experiment.key));
+    EXPECT_EQ(planned, of_baseline) << suite;
+  }
 }
 
 TEST_F(SuitePlan, UnknownNamesAreListed) {
