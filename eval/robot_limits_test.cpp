@@ -69,7 +69,7 @@ TEST_F(RobotLimits, ThatCannotBeAreRefused) {
     return refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
                                    path("out"), "--robot-limits", path("limits.json")}));
   };
-  EXPECT_THAT(refused("{"), HasSubstr("limits.json: column 2: found the end, expected JSON"));
+  EXPECT_THAT(refused("{"), HasSubstr("limits.json: column 2: found the end of the text, expected JSON"));
   EXPECT_THAT(refused(R"({"hand_speed_m_s": -1})"), AllOf(HasSubstr("limits.json"), HasSubstr("hand_speed")));
   EXPECT_THAT(refused(R"({"speed": 1})"), HasSubstr("unknown key \"speed\""));
   EXPECT_THAT(refused(R"({"workspace_max_m": [1, 1, 0.2]})"),

@@ -225,7 +225,7 @@ std::span<const HandFrame> frames_of(const RunSpec& spec) {
   const int count = range.count.value_or(have - range.first);
   if (range.first < 0 || count < 1 || range.first > have - count) {
     throw Error(spec.trajectory->name, "frames", fmt::format("{} from {} on", count, range.first),
-                fmt::format("some of 0 to {}", have - 1));
+                fmt::format("frames from 0 to {}", have - 1));
   }
   return all.subspan(range.first, count);
 }

@@ -112,7 +112,7 @@ std::optional<std::string> RunStore::load(const std::string& key) const {
   if (bytes.substr(0, content) == heading(key, std::string_view(bytes).substr(content)))
     return bytes.substr(content);
   std::call_once(told_, [&] {
-    say("glovebench: {} is cut short or of another version of the program: made anew, as any such\n", path);
+    say("glovebench: {} is damaged or from another version of the program; such parts are computed again\n", path);
   });
   fs::remove_all(path, ignored);
   return std::nullopt;

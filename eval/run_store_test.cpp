@@ -228,7 +228,7 @@ TEST_F(RunStoreTest, SaysOnceWhatIsMadeAnew) {
   EXPECT_FALSE(run.load("a").has_value());
   EXPECT_FALSE(run.load("b").has_value());
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              AllOf(HasSubstr("a.stored is cut short or of another version"), testing::Not(HasSubstr("b.stored"))));
+              AllOf(HasSubstr("a.stored is damaged or from another version"), testing::Not(HasSubstr("b.stored"))));
 }
 
 TEST_F(RunStoreTest, RemovesAMarkThatWasPutAside) {

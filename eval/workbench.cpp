@@ -120,7 +120,7 @@ std::unique_ptr<Method> Workbench::make_method(const TrackerConfig& config, cons
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {
   if (config.method != kPaperMethod) {
     throw Error("configuration", "method", config.method,
-                fmt::format("{}: of no other method the stages are known", kPaperMethod));
+                fmt::format("{}, whose stages can be shown", kPaperMethod));
   }
   return Tracker(config, config_.calibration, model(), database(database_name),
                  color_table(config.segmentation.color_space));

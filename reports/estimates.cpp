@@ -143,7 +143,7 @@ void check_order(const Line& line, const std::vector<Estimate>& before, const Es
                  std::set<uint64_t>& seeds) {
   if (estimate.frame < 0) line.fail(1, "0 or more");
   if (before.empty() || before.back().seed != estimate.seed) {
-    if (!seeds.insert(estimate.seed).second) line.fail(0, "a seed that has not been before");
+    if (!seeds.insert(estimate.seed).second) line.fail(0, "each seed once");
     return;
   }
   if (estimate.frame - 1 != before.back().frame) line.fail(1, std::to_string(int64_t{before.back().frame} + 1));

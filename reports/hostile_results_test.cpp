@@ -118,9 +118,9 @@ TEST(HostileResults, MeansThatTheFramesDoNotHave) {
 
 TEST(HostileResults, WhatComesTwice) {
   EXPECT_THAT(hostile_error_of_change([](json& r) { r["experiments"].push_back(r["experiments"][0]); }),
-              HasSubstr("experiments[4]: found an object, expected an experiment that has not been before"));
+              HasSubstr("experiments[4]: found an object, expected each experiment once"));
   EXPECT_THAT(hostile_error_of_change([](json& r) { r["experiments"][0]["runs"][1]["seed"] = 1; }),
-              HasSubstr("runs[1].seed: found 1, expected a seed that has not been before"));
+              HasSubstr("runs[1].seed: found 1, expected each seed once"));
 }
 
 TEST(HostileResults, FramesThatDoNotFollowEachOther) {

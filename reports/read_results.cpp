@@ -40,7 +40,7 @@ Protocol read_protocol(const JsonCursor& json) {
   protocol.joint_order = read_texts(json["joint_order"]);
   std::set<std::string> known;  // a file may hold millions
   for (const JsonCursor& key : json["metric_keys"].items()) {
-    if (!known.insert(key.name()).second) key.fail("a metric that has not been before");
+    if (!known.insert(key.name()).second) key.fail("each metric once");
     protocol.metric_keys.push_back(key.name());
   }
   protocol.association = json["association"].text();
@@ -153,8 +153,7 @@ std::vector<SeedRun> read_runs(const JsonCursor& json, const FileMetrics& metric
     item.expect_keys({"seed", "frames"});
     SeedRun run;
     run.seed = item["seed"].unsigned_integer();
-    if (std::ranges::find(runs, run.seed, &SeedRun::seed) != runs.end())
-      item["seed"].fail("a seed that has not been before");
+    if (std::ranges::find(runs, run.seed, &SeedRun::seed) != runs.end()) item["seed"].fail("each seed once");
     const JsonItems rows = read_rows(item["frames"], metrics);
     run.frames.reserve(rows.size());
     for (const JsonCursor& row : rows) {
@@ -271,7 +270,7 @@ RunResult parse_results(const std::string& text, const std::string& where) {
   json["configuration"].members();
   for (const JsonCursor& item : json["experiments"].items()) {
     ExperimentResult experiment = read_experiment(item, metrics);
-    if (find_experiment(result, experiment.key)) item.fail("an experiment that has not been before");
+    if (find_experiment(result, experiment.key)) item.fail("each experiment once");
     result.experiments.push_back(std::move(experiment));
   }
   if (has_studies) result.studies = read_studies(json["studies"]);

@@ -133,7 +133,7 @@ TEST(ResultsJson, MetricsOfAnotherVersion) {
   EXPECT_EQ(results_json(parse_results(written.dump(), "again")), results_json(read));
 
   add_metric(results, "position_error_mm");
-  EXPECT_THAT(error_of(results.dump()), HasSubstr("a metric that has not been before"));
+  EXPECT_THAT(error_of(results.dump()), HasSubstr("each metric once"));
 }
 
 TEST(ResultsJson, ColumnsAndAggregatesAreThoseOfTheProtocol) {

@@ -100,8 +100,7 @@ std::vector<Column> read_columns(const JsonCursor& json) {
   std::vector<Column> columns;
   for (const JsonCursor& item : json.items()) {
     Column column = read_column(item);
-    if (std::ranges::find(columns, column.key, &Column::key) != columns.end())
-      item["key"].fail("a key that has not been before");
+    if (std::ranges::find(columns, column.key, &Column::key) != columns.end()) item["key"].fail("each key once");
     columns.push_back(std::move(column));
   }
   if (columns.empty()) json.fail("at least one column");
@@ -120,8 +119,7 @@ Table read_table(const JsonCursor& json, const std::vector<StudyResult>& studies
   json.expect_keys({"name", "title", "explanation", "columns", "name_columns", "rows"});
   Table table;
   table.name = read_key(json["name"]);
-  if (find_table(studies, table.name) || is_taken(table.name))
-    json["name"].fail("a name that no table has had before");
+  if (find_table(studies, table.name) || is_taken(table.name)) json["name"].fail("each table name once");
   table.title = json["title"].text();
   table.explanation = json["explanation"].text();
   table.columns = read_columns(json["columns"]);
@@ -142,7 +140,7 @@ Measure read_measure(const JsonCursor& json, const std::vector<StudyResult>& stu
   json.expect_keys({"name", "unit", "value", "interval"});
   Measure measure;
   measure.name = read_key(json["name"], true);
-  if (find_measure(studies, measure.name)) json["name"].fail("a name that no measure has had before");
+  if (find_measure(studies, measure.name)) json["name"].fail("each measure name once");
   measure.unit = json["unit"].text();
   measure.value = json["value"].number_or_null(-kLargestCell, kLargestCell);
   measure.interval = read_interval(json["interval"], -kLargestCell, kLargestCell);

@@ -69,7 +69,8 @@ class StrictDocument : public json::json_sax_t {
     constexpr int kNumberOverflow = 406;  // of the library's numbered errors
     if (error.id == kNumberOverflow)
       throw Error(where_, place_of(text_, byte), "a number that no double can hold", "a finite number");
-    throw Error(where_, place_of(text_, byte), byte > text_.size() ? "the end" : "something else", "JSON");
+    throw Error(where_, place_of(text_, byte), byte > text_.size() ? "the end of the text" : "invalid syntax",
+                "JSON");
   }
 
   json take() { return std::move(document_); }

@@ -25,19 +25,20 @@ TEST(ParseJson, ReadsJson) {
 }
 
 TEST(ParseJson, NamesThePlaceOfWhatIsNone) {
-  EXPECT_EQ(refusal(""), "x.json: column 1: found the end, expected JSON");
-  EXPECT_EQ(refusal("{\"a\": 1"), "x.json: column 8: found the end, expected JSON");
-  EXPECT_EQ(refusal("[1, ]"), "x.json: column 5: found something else, expected JSON");
+  EXPECT_EQ(refusal(""), "x.json: column 1: found the end of the text, expected JSON");
+  EXPECT_EQ(refusal("{\"a\": 1"), "x.json: column 8: found the end of the text, expected JSON");
+  EXPECT_EQ(refusal("[1, ]"), "x.json: column 5: found invalid syntax, expected JSON");
   EXPECT_EQ(refusal("{\n  \"a\": 1,\n  \"b\": ?\n}"),
-            "x.json: line 3, column 8: found something else, expected JSON");
-  EXPECT_EQ(refusal("[1] 2"), "x.json: column 5: found something else, expected JSON");
+            "x.json: line 3, column 8: found invalid syntax, expected JSON");
+  EXPECT_EQ(refusal("[1] 2"), "x.json: column 5: found invalid syntax, expected JSON");
   for (const char* text :
        {"[NaN]", "[Infinity]", "[1] // one", "['a']", "[01]", "[\"\xff\"]", "[\"\\ud800\"]", "\xef\xbb"})
     EXPECT_TRUE(refusal(text).ends_with("expected JSON")) << text << ": " << refusal(text);
 }
 
 TEST(ParseJson, EndsWithItsText) {
-  EXPECT_EQ(refusal("[1, \n"), "x.json: column 5: found the end, expected JSON") << "of one line, with its end";
+  EXPECT_EQ(refusal("[1, \n"), "x.json: column 5: found the end of the text, expected JSON")
+      << "of one line, with its end";
   EXPECT_EQ(refusal({"[1]\0[2]", 7}), "x.json: column 4: found a zero byte, expected JSON");
 }
 

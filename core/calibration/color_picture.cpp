@@ -158,7 +158,7 @@ void draw_plane(cv::Mat& picture, const ColorSamples& samples, const GloveColorF
   write(plane, "U", kPlane - 20, gray.y - 6);
   write(plane, "V", gray.x + 6, 16);
   plane.copyTo(picture(cv::Rect(left, top, kPlane, kPlane)));
-  write(picture, fmt::format("table, pixels and bells at Y = {:.0f}", luma), left, top - 8);
+  write(picture, fmt::format("color table, samples and fitted Gaussians at Y = {:.0f}", luma), left, top - 8);
 }
 
 }  // namespace

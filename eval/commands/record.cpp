@@ -23,7 +23,8 @@ struct Record {
     const trajectories::Trajectory source = is_file
                                                 ? trajectories::load_trajectory(trajectory)
                                                 : trajectories::source_trajectory(trajectory_folder(), trajectory);
-    if (is_file && database.empty()) throw Error("--database", "name", "none", "one, to record a file with");
+    if (is_file && database.empty())
+      throw Error("--database", "name", "nothing", "a database; recording a file needs one");
     const std::string name = !database.empty() ? database : trajectories::databases_of(trajectory).front();
     common.left = source.side == Side::left;
     Workbench workbench = common.workbench();

@@ -126,7 +126,7 @@ struct RunCommand {
   }
 
   void require_output() const {
-    if (common.output.empty()) throw Error("--output", "folder", "none", "one for the report");
+    if (common.output.empty()) throw Error("--output", "folder", "nothing", "a folder for the report");
   }
 
   void print_dry_run(Workbench& workbench, const Plan& plan) const {

@@ -110,7 +110,7 @@ TEST(Claims, ErrorsNameFileFieldAndExpectation) {
               HasSubstr("claims[0].history[0].set.if_not: found nothing"));
   EXPECT_THAT(claims_error([&](json& j) { first(j)["rule"] = set(j)["rule"]; }), HasSubstr("unknown key \"rule\""));
   EXPECT_THAT(claims_error([&](json& j) { j["claims"][1]["id"] = first(j)["id"]; }),
-              HasSubstr("claims[1].id: found \"position-below-1-cm-recorded\", expected an id that has not been"));
+              HasSubstr("claims[1].id: found \"position-below-1-cm-recorded\", expected each id once"));
   EXPECT_THAT(claims_error([&](json& j) { first(j)["id"] = "Two Words"; }), HasSubstr("claims[0].id"));
   EXPECT_THAT(claims_error([&](json& j) { set(j)["claim"] = "two\nlines"; }), HasSubstr("a line of text"));
   EXPECT_THAT(claims_error([&](json& j) { set(j)["measure"] = ""; }),

@@ -51,7 +51,7 @@ std::string read_id(const JsonCursor& json, const std::vector<Claim>& before) {
   const std::string id = json.text();
   if (!consists_of(id, 1, 40, "abcdefghijklmnopqrstuvwxyz0123456789-"))
     json.fail("lower-case letters, digits and hyphens, 40 at most");
-  if (std::ranges::find(before, id, &Claim::id) != before.end()) json.fail("an id that has not been before");
+  if (std::ranges::find(before, id, &Claim::id) != before.end()) json.fail("each id once");
   return id;
 }
 
