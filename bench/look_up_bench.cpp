@@ -147,8 +147,7 @@ const int look_up_registered = [] {
   };
   for (const char* cascade : {"16:500,64:3", "16:1000,32:300,64:3", "8:15", "16:3", "32:3", "exact:3"}) {
     for (const char* implementation : {"plain", "fast"}) {
-      benchmark::RegisterBenchmark(name(cascade, to_string(implementation)).c_str(), run_look_up, cascade,
-                                   implementation)
+      benchmark::RegisterBenchmark(name(cascade, implementation).c_str(), run_look_up, cascade, implementation)
           ->Unit(benchmark::kMillisecond);
     }
   }

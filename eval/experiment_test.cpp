@@ -3,8 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "eval/command_measurement.h"
 #include "eval/pictures.h"
-#include "eval/robot_commands.h"
 #include "eval/test_program.h"
 #include "reports/report.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "eval/command_measurement.h"
 #include "eval/plan.h"
-#include "eval/robot_commands.h"
 #include "eval/studies/study.h"
 #include "reports/claims/verdicts.h"
 

@@ -30,7 +30,7 @@ struct CalibrateNoise {
     if (suites.empty() && runs.empty()) throw Error("calibrate noise", "--suite, --run", "neither", "one of them");
     common.check_output_folder();
     std::vector<reports::NoiseFloor> floors;
-    for (const std::string& run : runs) floors.push_back(measure_run(load_run(run).results));
+    for (const std::string& run : runs) floors.push_back(measure_run(load_finished_run(run).results));
     if (runs.empty()) {
       for (const std::string& suite : suites) floors.push_back(measure_suite(load_suite(suite)));
     }

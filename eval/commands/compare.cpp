@@ -19,7 +19,7 @@ struct Compare {
 
   void run() const {
     if (!output.empty()) reports::require_own_folder(output);
-    const StoredRun baseline = load_run(baseline_path), candidate = load_run(candidate_path);
+    const FinishedRun baseline = load_finished_run(baseline_path), candidate = load_finished_run(candidate_path);
     const std::optional<reports::NoiseFloor> floor = noise_floor(baseline.files, candidate.results.result.suite);
     reports::ComparisonReport report;
     report.comparison =

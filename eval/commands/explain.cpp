@@ -26,7 +26,7 @@ struct Explain {
 
   void run() {
     const std::string results_path = run_folder + "/results.json";
-    const reports::RunResult results = load_run(run_folder).results.result;
+    const reports::RunResult results = load_finished_run(run_folder).results.result;
     const ExperimentResult& experiment = find(results, results_path);
     const auto truth = std::make_shared<const Trajectory>(load_truth(experiment.key));
     check_truth(results, experiment.key, *truth, results_path);

@@ -7,8 +7,8 @@
 
 #include "core/robot/arm.h"
 #include "core/tracker/tracker_config.h"
+#include "eval/command_measurement.h"
 #include "eval/commands/options.h"
-#include "eval/robot_commands.h"
 #include "eval/workbench.h"
 
 namespace glovebench::eval {

@@ -6,6 +6,7 @@
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
 #include "reports/comparison/comparison_report.h"
+#include "reports/comparison/gate_rule.h"
 
 namespace glovebench::eval {
 namespace {
@@ -35,7 +36,7 @@ struct Gate {
   /// Returns the exit code. Replaces an earlier gate's report even if it refuses.
   int run() const {
     if (!output.empty()) reports::require_own_folder(output);
-    const StoredRun candidate = or_refusal([&] { return load_run(candidate_path); });
+    const FinishedRun candidate = or_refusal([&] { return load_finished_run(candidate_path); });
     const std::string folder = or_refusal([&] {
       return baseline_folder.empty() ? default_baseline_folder(suite_name(candidate.results)) : baseline_folder;
     });
@@ -44,7 +45,7 @@ struct Gate {
   }
 
   /// Says what the new baseline changes before making it the baseline.
-  int replace(const std::string& folder, const StoredRun& candidate) const {
+  int replace(const std::string& folder, const FinishedRun& candidate) const {
     try {
       const Baseline old = load_baseline(folder);
       report(old, folder, candidate, compare(old, candidate));
@@ -60,7 +61,7 @@ struct Gate {
     return 0;
   }
 
-  int judge(const std::string& folder, const StoredRun& candidate) const {
+  int judge(const std::string& folder, const FinishedRun& candidate) const {
     const Baseline baseline = load_baseline(folder);
     reports::ComparisonReport made = compare(baseline, candidate);
     require_baseline_for_all(made.comparison, folder);
@@ -70,7 +71,7 @@ struct Gate {
     return is_fine ? 0 : kGateFailed;
   }
 
-  reports::ComparisonReport compare(const Baseline& baseline, const StoredRun& candidate) const {
+  reports::ComparisonReport compare(const Baseline& baseline, const FinishedRun& candidate) const {
     reports::ComparisonReport made;
     made.comparison = reports::compare_results(baseline.run.results, candidate.results,
                                                baseline.noise_floor ? &*baseline.noise_floor : nullptr, pairing);
@@ -80,7 +81,7 @@ struct Gate {
 
   /// Writes and prints the report; returns whether nothing stops the change. Accuracy is written before a missing
   /// speed can be an error.
-  bool report(const Baseline& baseline, const std::string& folder, const StoredRun& candidate,
+  bool report(const Baseline& baseline, const std::string& folder, const FinishedRun& candidate,
               reports::ComparisonReport made) const {
     if (!output.empty()) {
       made.scripts = page_scripts();

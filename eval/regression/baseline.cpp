@@ -121,7 +121,7 @@ std::string default_baseline_folder(const std::string& suite) {
   return "ci/baselines/" + suite;
 }
 
-StoredRun load_run(const std::string& folder_or_file) {
+FinishedRun load_finished_run(const std::string& folder_or_file) {
   const std::string folder = folder_of(folder_or_file);
   require_finished(folder);
   const FileSet files(folder);

@@ -14,12 +14,12 @@
 namespace glovebench::eval {
 
 /// A finished run or baseline. `files` reads a single state of its folder.
-struct StoredRun {
+struct FinishedRun {
   FileSet files;
   reports::NamedResult results;
 };
 /// Throws: Error; Incomparable if the run is unfinished.
-StoredRun load_run(const std::string& folder_or_file);
+FinishedRun load_finished_run(const std::string& folder_or_file);
 std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files);
 /// Empty where the folder has no times.
 reports::StageTimes load_stage_times(const FileSet& files);
@@ -31,7 +31,7 @@ reports::StageTimes load_stage_times(const FileSet& files);
 ///   provenance.json   commit, date, compiler, processor, stage times, replaced baseline
 ///   manifest.json     the set of results, speed and provenance (core/base/file_set.h); old ones lack it
 struct Baseline {
-  StoredRun run;
+  FinishedRun run;
   std::optional<reports::NoiseFloor> noise_floor;
   std::vector<reports::SpeedRatio> speed;
   reports::StageTimes times;

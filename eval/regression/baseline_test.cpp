@@ -65,10 +65,10 @@ TEST(Baseline, without_provenance_is_refused) {
   }
 }
 
-TEST(StoredRun, that_was_replaced_since_is_not_read_on) {
+TEST(FinishedRun, that_was_replaced_since_is_not_read_on) {
   const TestFolder folder;
   write_baseline(folder.path(), 1);
-  const StoredRun run = load_run(folder.path());
+  const FinishedRun run = load_finished_run(folder.path());
   EXPECT_EQ(load_stage_times(run.files).stages.at(0).median_ms, 1);
   write_baseline(folder.path(), 2);
   EXPECT_EQ(run.results.result.commit, "1");

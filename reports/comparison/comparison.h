@@ -9,6 +9,7 @@
 
 namespace glovebench::reports {
 
+/// Given by `verdict_of` (gate_rule.h).
 enum class Verdict {
   better,           ///< significant, and at least the minimum effect
   worse,            ///< likewise

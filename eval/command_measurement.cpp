@@ -1,4 +1,4 @@
-#include "eval/robot_commands.h"
+#include "eval/command_measurement.h"
 
 #include <fmt/format.h>
 

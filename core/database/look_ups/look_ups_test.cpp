@@ -18,15 +18,18 @@ bool equal(const RecycledVector<Match>& a, const RecycledVector<Match>& b) {
       a, b, [](const Match& x, const Match& y) { return x.entry == y.entry && x.error == y.error; });
 }
 
-/// The fast look-up's matches and trace are the plain one's, on each instruction set.
+/// Each look-up's matches and trace are the plain one's, on each instruction set.
 void expect_equal_to_plain(const Database& database, const TinyImages& query, const Cascade& cascade) {
   LookUpTrace plain_trace{{{1}}};  // of another look-up
   const RecycledVector<Match> plain = look_up(database, query, cascade, "plain", &plain_trace);
   on_each_instruction_set([&] {
-    LookUpTrace fast_trace{{{2}}};
-    const RecycledVector<Match> fast = look_up(database, query, cascade, "fast", &fast_trace);
-    EXPECT_TRUE(equal(plain, fast)) << to_string(cascade);
-    EXPECT_EQ(plain_trace.kept, fast_trace.kept) << to_string(cascade);
+    for (const LookUpEntry& other : look_ups()) {
+      if (other.name == "plain") continue;
+      LookUpTrace trace{{{2}}};
+      EXPECT_TRUE(equal(plain, look_up(database, query, cascade, other.name, &trace)))
+          << other.name << " " << to_string(cascade);
+      EXPECT_EQ(plain_trace.kept, trace.kept) << other.name << " " << to_string(cascade);
+    }
   });
 }
 
