@@ -33,9 +33,9 @@ class StageTimer {
   }
   void end_frame() {
     end_stage();
+    frame_ms_.push_back(start_ - frame_start_);
     for (size_t i = 0; i < in_this_frame_.size(); ++i)
       if (in_this_frame_[i]) stage_ms_[i].push_back(*in_this_frame_[i]);
-    frame_ms_.push_back(thread_time_ms() - frame_start_);
   }
   /// Of the stages that ever began.
   std::vector<reports::StageTiming> take_stages() {

@@ -220,8 +220,13 @@ TEST(DataFiles, can_be_written_like_the_example_of_the_readme) {
 }
 
 TEST(DataFiles, have_a_table_of_their_properties) {
-  EXPECT_THAT(source_properties_table(kFolder),
-              HasSubstr("\n| Tr4 | 117 | 216 | 646 | 82 | 0.34 | 27 / 12 | 5, 5 | 64 / 33 | 109 |\n"));
+  EXPECT_THAT(source_properties_table(kFolder), HasSubstr(R"(
+| Tr1 | 137 | 225 | 718 | 77 | 0.34 | 26 / 16 | 5, 4, 4 | 26 / 27 | 105 |
+| Tr2 | 144 | 202 | 767 | 91 | 0.35 | 23 / 16 | 4, 4, 5 | 32 / 26 | 115 |
+| Tr3 | 132 | 250 | 699 | 81 | 0.35 | 26 / 14 | 4, 5, 4 | 24 / 24 | 99 |
+| Tr4 | 117 | 216 | 646 | 82 | 0.34 | 27 / 12 | 5, 5 | 64 / 33 | 109 |
+| Tr5 | 126 | 237 | 660 | 90 | 0.35 | 22 / 13 | 4, 4 | 27 / 24 | 97 |
+)"));
 }
 
 }  // namespace

@@ -10,6 +10,13 @@
 
 namespace glovebench {
 
+/// The entry of the file X_KIND.cpp, whose name, if it has one, is X.
+template <typename Entry>
+Entry named(std::string_view name, Entry entry) {
+  if constexpr (requires { entry.name; }) check(entry.name == name, "an entry has the name of its file");
+  return entry;
+}
+
 /// The names of a registry's entries (glovebench_registry in CMakeLists.txt), sorted.
 template <typename Entry>
 std::vector<std::string> names_in(std::span<const Entry> entries) {

@@ -46,6 +46,7 @@ std::span<const LookUpEntry> look_ups();
 
 /// Ranks in each stage what the previous one kept: best first, equal errors by entry number. Empty without glove
 /// pixels. `name`: of `look_ups`; all give the same result.
+/// Throws: Error if no look-up has the name.
 /// Paper: section III-B.
 RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
                               std::string_view name = "fast", LookUpTrace* trace = nullptr);

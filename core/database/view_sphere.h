@@ -36,6 +36,7 @@ class ViewRenderer {
   /// Labels of the nearest surfaces, 0 elsewhere.
   virtual LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                    const Eigen::Isometry3d& T_camera_hand) = 0;
+  /// Labels, patches and depth of the nearest surfaces.
   virtual HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                 const Eigen::Isometry3d& T_camera_hand) = 0;
 };

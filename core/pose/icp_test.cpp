@@ -149,11 +149,13 @@ TEST(Icp, both_implementations_give_the_same_alignment_bit_for_bit) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
   RecycledVector<LabeledPoint> cloud = true_cloud(truth);
   cloud[30].p.x() = std::numeric_limits<float>::quiet_NaN();  // a point that is nowhere takes no part
-  for (const IcpAlgorithm algorithm : {IcpAlgorithm::horn, IcpAlgorithm::robust}) {
+  for (const AlignmentEntry& alignment : alignments()) {
     for (const bool cull : {false, true}) {
       for (const bool colors : {false, true}) {
-        IcpConfig config{
-            .algorithm = algorithm, .max_points = 150, .max_iterations = 30, .cull_each_iteration = cull};
+        IcpConfig config{.algorithm = std::string(alignment.name),
+                         .max_points = 150,
+                         .max_iterations = 30,
+                         .cull_each_iteration = cull};
         config.color_sensitive = colors;
         config.implementation = Implementation::plain;
         const Alignment plain = align(test_hand(), posed(), cloud, perturbed(truth, 4), config);

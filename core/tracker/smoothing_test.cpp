@@ -69,5 +69,23 @@ TEST(Smoothing, repeats_the_last_answer_while_lost_and_starts_anew_after_a_while
   EXPECT_EQ(smoother.smooth(measured(0, 0)).posture[0], 0);
 }
 
+TEST(Smoothing, needs_no_more_than_the_newest_results) {
+  SmoothingConfig config;
+  config.forget_after = 3;
+  config.pose_keep = 0.5;
+  Sequence whole{config};
+  std::vector<TrackResult> newest;
+  for (int frame = 0; frame < 60; ++frame) {
+    const bool lost = frame % 13 < 2 || frame % 17 < 4;
+    const TrackResult result =
+        measured(0.01 * frame, 0.001 * frame, lost ? TrackStatus::no_hand : TrackStatus::tracked);
+    const TrackResult expected = whole.smooth(result), found = smoothed(result, newest, config);
+    EXPECT_EQ(found.posture, expected.posture) << frame;
+    EXPECT_EQ(found.T_camera_hand.matrix(), expected.T_camera_hand.matrix()) << frame;
+    newest.push_back(found);
+    if (newest.size() > 3) newest.erase(newest.begin());
+  }
+}
+
 }  // namespace
 }  // namespace glovebench

@@ -83,7 +83,8 @@ constexpr auto names_of(Stage) {
 }
 static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
 
-/// Called when a stage begins, so that a caller with a clock can time it. A frame may enter a stage twice.
+/// Called when a stage begins, so that a caller with a clock can time it. A frame may enter a stage twice. Not
+/// empty.
 using StageObserver = std::function<void(Stage stage)>;
 /// Observes nothing.
 inline void unobserved(Stage) {}

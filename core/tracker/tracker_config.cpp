@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/json_cursor.h"
 #include "core/base/registry.h"
+#include "core/base/text.h"
 
 namespace glovebench {
 namespace {
@@ -132,7 +133,8 @@ void check_range(const std::string&, Enum, const Range&, std::vector<std::string
 void check_range(const std::string& field, const std::string& value, const Names& names,
                  std::vector<std::string>& problems) {
   if (std::ranges::find(names.known, value) != names.known.end()) return;
-  problems.push_back(fmt::format("{}: found {}, expected one of {}", field, value, fmt::join(names.known, ", ")));
+  problems.push_back(
+      fmt::format("{}: found {}, expected one of {}", field, quoted_excerpt(value), fmt::join(names.known, ", ")));
 }
 void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
   try {
@@ -165,7 +167,8 @@ std::vector<std::string> TrackerConfig::problems() const {
   });
   const std::span<const std::string_view> methods = method_names();
   if (std::find(methods.begin(), methods.end(), method) == methods.end()) {
-    problems.push_back(fmt::format("method: found {}, expected one of {}", method, fmt::join(methods, ", ")));
+    problems.push_back(
+        fmt::format("method: found {}, expected one of {}", quoted_excerpt(method), fmt::join(methods, ", ")));
   }
   if (volume.z_min >= volume.z_max) {
     problems.push_back(

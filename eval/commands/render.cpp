@@ -55,7 +55,7 @@ struct Render {
       const DeviceFrame frame = *kinect.next_frame();
       if (recording) recording->write(frame);
       if (format == "png") add_pngs(*pictures, frame, f);
-      if (tracker) results.push_back(tracker->track(frame, results));
+      if (tracker && format == "exr") results.push_back(tracker->track(frame, results));
       if (format == "exr") add_layers(*pictures, workbench, kinect, results, frame, f);
       progress.show(static_cast<double>(f + 1) / count);
     }

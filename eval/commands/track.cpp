@@ -114,7 +114,8 @@ struct Track {
       if (frame) {
         if (drives_a_robot && source.frame_count > 0) pace.wait_for(frame->depth_timestamp_us);
         const TrackResult result = results.emplace_back(method.track(*frame, results));
-        if (results.size() > kept_results) results.erase(results.begin());
+        if (results.size() == 2 * kept_results)  // not in each frame: an erasure moves the rest
+          results.erase(results.begin(), results.begin() + static_cast<ptrdiff_t>(kept_results));
         command_robot(result);
         if_it_fails([&] { output.append(estimate_line(number, result)); });
         tracked += result.status == TrackStatus::tracked;

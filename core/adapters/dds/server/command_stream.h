@@ -27,7 +27,7 @@ struct Arrival {
 };
 
 /// Decides which messages a server follows: good, fresh ones of one owner, in time order.
-/// core/adapters/dds/README.md ("The server", "Old commands and gaps") has the rules. Reads no clock.
+/// core/adapters/dds/README.md ("The server") has the rules. Reads no clock.
 ///
 /// A message is stale if it is older than `silence_s` or comes within 0.1 s after a gap. A stream is `starting` for
 /// 0.2 s at first, after a gap, and after a jump of its sender's clock. A gap, or a jump of the owner's clock,

@@ -45,7 +45,7 @@ struct StartPlace {
   double tolerance = radians_from_degrees(1e-6);  ///< rad: twice the log's rounding
 };
 
-/// Serves hand, arm or both, without middleware or clock; core/robot/README.md ("Who knows what") has the limits.
+/// Serves hand, arm or both, without middleware or clock; core/robot/README.md ("The guard") has the limits.
 /// Topics without a current message (CommandStream) move nothing. The coupling splits the sum of J1 and J2.
 class RobotServer {
  public:
