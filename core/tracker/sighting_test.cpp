@@ -14,7 +14,7 @@ Sighting seen(const DeviceFrame& frame, const TrackerConfig& config = {}) {
   return see(frame, synthetic_calibration(), test_color_table(), config);
 }
 Sighting seen_in_reach(const DeviceFrame& frame, const TrackerConfig& config = {}) {
-  return see_in_reach(frame, synthetic_calibration(), test_color_table(), config, [](std::string_view) {});
+  return see_in_reach(frame, synthetic_calibration(), test_color_table(), config, unobserved);
 }
 
 /// What lies beyond reach changes neither the cloud nor the status.

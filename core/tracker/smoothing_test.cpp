@@ -16,8 +16,8 @@ TrackResult measured(double angle, double x, TrackStatus status = TrackStatus::t
 
 /// Smooths results one after the other.
 struct Sequence {
-  SmoothingConfig config;
-  std::vector<TrackResult> results;
+  SmoothingConfig config = {};
+  std::vector<TrackResult> results = {};
   TrackResult smooth(TrackResult result) {
     results.push_back(smoothed(std::move(result), results, config));
     return results.back();
