@@ -154,7 +154,7 @@ TEST(HostileResults, StudiesThatNoRunWrites) {
   EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["name"] = "../../figure8"; }),
               HasSubstr("studies[1].tables[0].name"));
   EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["name"] = "figure7"; }),
-              HasSubstr("studies[1].tables[0].name: found \"figure7\", expected a name that no table has had"));
+              HasSubstr("studies[1].tables[0].name: found \"figure7\", expected each table name once"));
   EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["rows"][3].push_back(nullptr); }),
               HasSubstr("rows[3]: found an array of 14, expected one cell for each of columns"));
   EXPECT_THAT(hostile_error_of_change([&](json& r) { table(r)["rows"][0][5] = 1e308; }), HasSubstr("rows[0][5]"));

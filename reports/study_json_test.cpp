@@ -98,7 +98,7 @@ TEST(StudyJson, ErrorsNameTheField) {
   EXPECT_THAT(study_error([&](json& j) { table(j)["name"] = "figure4"; }), HasSubstr("tables[0].name"));
   EXPECT_THAT(study_error([&](json& j) { table(j)["extra"] = 1; }), HasSubstr("unknown key"));
   EXPECT_THAT(study_error([&](json& j) { j[0]["tables"].push_back(table(j)); }),
-              HasSubstr("studies[0].tables[1].name: found \"sizes\", expected a name that no table has had"));
+              HasSubstr("studies[0].tables[1].name: found \"sizes\", expected each table name once"));
   EXPECT_THAT(study_error([&](json& j) { table(j)["columns"][0]["unit"] = "mm"; }), HasSubstr("unknown key"));
   EXPECT_THAT(study_error([&](json& j) { table(j)["columns"][0]["digits"] = 7; }), HasSubstr("digits"));
   EXPECT_THAT(study_error([&](json& j) { table(j)["columns"][1]["key"] = "name"; }), HasSubstr("columns[1].key"));

@@ -117,7 +117,7 @@ TEST(Monocular, takes_the_largest_of_several_blobs) {
 TEST(Monocular, smooths_the_posture_like_the_tracker) {
   const auto method = make("monocular_bbox");
   const TrackResult open = method->track(shoot(pose_before_camera(0.0, 0.65)).frame);
-  const TrackResult power = method->track(shoot(pose_before_camera(0.0, 0.65), power_posture()).frame);
+  const TrackResult power = method->track(shoot(pose_before_camera(0.0, 0.65), power_posture()).frame, {&open, 1});
   ASSERT_EQ(power.status, TrackStatus::tracked);
   const Posture expected = 0.75 * open.posture + 0.25 * power.posture_unfiltered;
   EXPECT_LT((power.posture - expected).cwiseAbs().maxCoeff(), 1e-12);

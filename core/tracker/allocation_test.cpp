@@ -83,15 +83,15 @@ std::vector<int> requests_a_frame(const TrackerConfig& config) {
   const std::unique_ptr<Method> method = find_method(config.method)
                                              .make({config, synthetic_calibration(), borrowed(render::test_hand()),
                                                     borrowed(test_database()), borrowed(test_color_table())});
-  std::vector<TrackResult> results;
+  std::vector<TrackResult> last;
   for (int round = 0; round < 2; ++round) {
     for (const DeviceFrame& frame : frames()) {
-      results.push_back(method->track(frame, results));
-      EXPECT_EQ(results.back().status, TrackStatus::tracked);
+      last = {method->track(frame, last)};
+      EXPECT_EQ(last.front().status, TrackStatus::tracked);
     }
   }
   std::vector<int> counts;
-  for (const DeviceFrame& frame : frames()) counts.push_back(requests_of([&] { method->track(frame, results); }));
+  for (const DeviceFrame& frame : frames()) counts.push_back(requests_of([&] { method->track(frame, last); }));
   return counts;
 }
 

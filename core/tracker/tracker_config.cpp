@@ -85,9 +85,6 @@ void read(int& value, const JsonCursor& json) {
 void read(bool& value, const JsonCursor& json) {
   value = json.boolean();
 }
-void read(std::string& value, const JsonCursor& json) {
-  value = json.text();
-}
 template <Named Enum>
 void read(Enum& value, const JsonCursor& json) {
   value = json.one_of<Enum>();
@@ -119,6 +116,15 @@ json written(Enum value) {
 }
 json written(const Cascade& value) {
   return to_string(value);
+}
+
+template <typename Value>
+void read(Value& value, const JsonCursor& json, const Range&) {
+  read(value, json);
+}
+void read(std::string& value, const JsonCursor& json, const Names& names) {
+  if (!json.is_text()) json.fail(fmt::format("one of {}", fmt::join(names.known, ", ")));
+  value = json.text();
 }
 
 template <typename Number>
@@ -194,8 +200,8 @@ TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const s
     }
   }
   if (root.has("method")) config.method = root["method"].text();
-  visit_fields(config, [&](const char* section, const char* key, auto& value, const auto&) {
-    if (root.has(section) && root[section].has(key)) read(value, root[section][key]);
+  visit_fields(config, [&](const char* section, const char* key, auto& value, const auto& range) {
+    if (root.has(section) && root[section].has(key)) read(value, root[section][key], range);
   });
   const std::vector<std::string> problems = config.problems();
   if (!problems.empty()) throw Error(fmt::format("{}: {}", where, fmt::join(problems, "; ")));

@@ -142,7 +142,7 @@ TEST(TrackerConfig, refuses_unknown_keys_and_lists_the_known_ones) {
   // A key of another section does not count.
   expect_refused({{"volume", {{"max_points", 3}}}}, {"volume: ", "unknown key \"max_points\""});
   expect_refused({{"profile", "fast"}}, {"fast", "paper"});
-  expect_refused({{"method", "best"}}, {"method: found best", "schroeder2012"});
+  expect_refused({{"method", "best"}}, {"method: found \"best\"", "schroeder2012"});
 }
 
 TEST(TrackerConfig, refuses_wrong_types) {
