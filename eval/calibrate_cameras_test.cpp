@@ -129,7 +129,8 @@ TEST_F(CalibrateCamerasLong, NamesWhatItCannotUse) {
   EXPECT_THAT(refused({"--square-mm", "nan"}), HasSubstr("square"));
   EXPECT_THAT(refused({"--ir-offset", "nan", "0"}),
               HasSubstr("--ir-offset: found nan, expected a number from -16 to 16"));
-  EXPECT_THAT(refused({"--lens", "fisheye"}), HasSubstr("--lens: value: found fisheye"));
+  EXPECT_THAT(refused({"--lens", "fisheye"}),
+              HasSubstr("--lens: found fisheye, expected one of none, radial, full"));
   EXPECT_THAT(refusal(run_glovebench({"calibrate", "cameras", "--ir", "fakenect:" + path("ir"), "--rgb",
                                       path("rgb"), "-o", path("own.json")})),
               HasSubstr("INDEX.txt"));

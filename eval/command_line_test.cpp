@@ -68,7 +68,9 @@ TEST_F(CommandLine, MissingOrUnknownWords) {
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"bogus"}), HasSubstr("bogus"));
   EXPECT_THAT(refusal({"run", "--bogus"}), HasSubstr("--bogus"));
-  EXPECT_THAT(refusal({"list", "bogus"}), HasSubstr("bogus"));
+  EXPECT_THAT(refusal({"track", "--databse", "x"}),
+              HasSubstr("did you mean --database? (see glovebench track --help)"));
+  EXPECT_THAT(refusal({"list", "metric"}), HasSubstr("did you mean metrics? (see glovebench list --help)"));
   EXPECT_THAT(refusal({"db"}), HasSubstr("subcommand is required"));
   EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_open_power"}), HasSubstr("--output"));
 }
@@ -149,6 +151,11 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(refusal(run_of("Tr9")), AllOf(HasSubstr("Tr9"), HasSubstr("Tr5")));
   EXPECT_THAT(refusal({"run", "--trajectory", good_trajectory(), "--database", "DB_none", "-o", output_}),
               AllOf(HasSubstr("DB_none"), HasSubstr("DB_open_power")));
+  EXPECT_THAT(refusal(run_of("Tr9")), Not(HasSubstr("share/glovebench"))) << "the installation's path says nothing";
+  EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_20_posture", "-o", output_}),
+              HasSubstr("posture sets: name: found \"DB_20_posture\", expected one of DB_20_postures, DB_open"));
+  EXPECT_THAT(refusal({"run", "fig10", "-o", output_}), HasSubstr("expected one of fig7"));
+  EXPECT_THAT(refusal({"run", "--suite", "quik", "-o", output_}), HasSubstr("; did you mean quick?"));
   EXPECT_THAT(refusal({"explain", path("nothing"), "3"}), HasSubstr("nothing"));
   EXPECT_THAT(refusal({"explain", folder_, "3"}), HasSubstr("results.json"));
   EXPECT_THAT(refusal({"db", "info", path("none.glovedb")}), HasSubstr("none.glovedb"));
@@ -332,7 +339,7 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   const std::vector<std::string> machine = {"--threads", "--cache", "--low-memory", "--quiet"};
   const std::vector<std::string> random = {"--seed"};
   const auto expect_flags = [](std::vector<std::string> command, const std::vector<std::vector<std::string>>& all) {
-    command.push_back("--help");
+    command.push_back("--help-all");
     const ProgramRun run = run_glovebench(command);
     EXPECT_EQ(run.exit_code, 0) << command[0];
     EXPECT_EQ(run.err, "");
@@ -361,6 +368,8 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
 }
 
 TEST_F(CommandLine, ListsWhatItKnows) {
+  EXPECT_THAT(run_glovebench({"list"}).out,
+              AllOf(HasSubstr("\n  subjects      The hands"), HasSubstr("\n  mapping "), HasSubstr("\n  config ")));
   EXPECT_THAT(run_glovebench({"list", "trajectories"}).out, AllOf(HasSubstr("Tr1"), HasSubstr("recorded")));
   EXPECT_THAT(run_glovebench({"list", "databases"}).out, HasSubstr("DB_20_postures"));
   EXPECT_THAT(run_glovebench({"list", "suites"}).out, AllOf(HasSubstr("quick"), HasSubstr("full")));

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/base/text.h"
 #include "eval/experiment.h"
 #include "eval/pictures.h"
 #include "eval/program.h"
@@ -32,8 +33,7 @@ void refuse_unknown_parts(const std::vector<std::string>& only) {
   const std::vector<std::string> known = part_names();
   for (const std::string& part : only) {
     if (std::ranges::find(known, part) != known.end()) continue;
-    throw Error("--only", "part", part.empty() ? "an empty name" : part,
-                fmt::format("one of {}", fmt::join(known, ", ")));
+    throw Error("--only", "part", part.empty() ? "an empty name" : part, one_of(known, part));
   }
 }
 

@@ -38,8 +38,7 @@ reports::NoiseSetting noise_from(const JsonCursor& field) {
   field.expect_keys({"model", "factor"});
   const JsonCursor model = field["model"];
   const std::vector<std::string> known = names_in(render::depth_noises());
-  if (std::ranges::find(known, model.text()) == known.end())
-    model.fail(fmt::format("one of {}", fmt::join(known, ", ")));
+  if (std::ranges::find(known, model.text()) == known.end()) model.fail(one_of(known, model.text()));
   return {model.text(), field["factor"].number(0, kMaxNoiseFactor)};
 }
 
@@ -217,8 +216,7 @@ Suite load_suite(const std::string& name_or_file) {
   if (name_or_file.ends_with(".json")) return parse_suite(read_file(name_or_file, kLargestSuite), name_or_file);
   const std::vector<std::string> known = suite_names();
   if (std::ranges::count(known, name_or_file) == 0) {
-    throw Error("suites", "name", name_or_file,
-                fmt::format("a file (*.json) or one of {}", fmt::join(known, ", ")));
+    throw Error("suites", "name", name_or_file, "a file (*.json) or " + one_of(known, name_or_file));
   }
   const std::string path = fmt::format("{}/{}.json", suite_folder(), name_or_file);
   Suite suite = parse_suite(read_file(path, kLargestSuite), path);

@@ -1,5 +1,8 @@
 #include "eval/terminal.h"
 
+#include <sys/ioctl.h>
+
+#include <algorithm>
 #include <optional>
 
 namespace glovebench::eval {
@@ -38,6 +41,13 @@ ProgressLog& progress_log() {
 }
 
 }  // namespace
+
+size_t terminal_columns() {
+  constexpr size_t kUsual = 80, kFewest = 60;
+  winsize size = {};
+  const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? std::max<size_t>(size.ws_col, kFewest) : kUsual;
+}
 
 void log_progress(double interval) {
   ProgressLog& log = progress_log();

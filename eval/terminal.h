@@ -13,7 +13,7 @@
 
 #include "core/tracker/track_result.h"
 
-// Messages to a person, on stderr.
+// The terminal of a person: its width, and messages on stderr.
 
 namespace glovebench::eval {
 
@@ -25,6 +25,9 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
   if (::poll(&to_person, 1, 0) == 1 && (to_person.revents & POLLOUT))
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
+
+/// Of stdout, 60 or more; 80 if it is no terminal.
+size_t terminal_columns();
 
 /// Lets every `Progress` also log a line per `interval` where stderr is no terminal.
 /// Units: s.

@@ -1,6 +1,12 @@
 #include "eval/terminal.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
 
 namespace glovebench::eval {
 namespace {
@@ -48,6 +54,45 @@ TEST(Progress, TellsALogOnlyOnceItIsAskedTo) {
   EXPECT_EQ(said(true), "");
   log_progress(3600);
   EXPECT_EQ(said(false), "") << "the next line is due in an hour";
+}
+
+/// Stdout is a terminal of that width meanwhile.
+class TerminalOutput {
+ public:
+  explicit TerminalOutput(unsigned short columns)
+      : stdout_(dup(STDOUT_FILENO)), main_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    grantpt(main_);
+    unlockpt(main_);
+    const int end = open(ptsname(main_), O_RDWR | O_NOCTTY);
+    const winsize size{24, columns, 0, 0};
+    ioctl(end, TIOCSWINSZ, &size);
+    dup2(end, STDOUT_FILENO);
+    close(end);
+  }
+  ~TerminalOutput() {
+    dup2(stdout_, STDOUT_FILENO);
+    close(stdout_);
+    close(main_);
+  }
+  TerminalOutput(const TerminalOutput&) = delete;
+  TerminalOutput& operator=(const TerminalOutput&) = delete;
+
+ private:
+  int stdout_, main_;
+};
+
+TEST(TerminalColumns, AreTheTerminalsOr80) {
+  const auto columns = [](unsigned short width) {
+    std::fflush(stdout);
+    const TerminalOutput terminal(width);
+    return terminal_columns();
+  };
+  EXPECT_EQ(columns(100), 100U);
+  EXPECT_EQ(columns(20), 60U) << "columns of a table need some space";
+  EXPECT_EQ(columns(0), 80U) << "a terminal that does not know";
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(terminal_columns(), 80U) << "a file";
+  testing::internal::GetCapturedStdout();
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ DatabaseCache Workbench::database_cache() const {
   cache.source_hash = render::database_source_hash();
   cache.threads = config_.threads;
   cache.memory = config_.memory;
-  cache.message = [](const std::string& text) { say("glovebench: {}\n", text); };
+  if (!config_.quiet) cache.message = [](const std::string& text) { say("glovebench: {}\n", text); };
   return cache;
 }
 

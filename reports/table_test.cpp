@@ -225,6 +225,7 @@ TEST(Text, IsWrappedAtSpaces) {
   const std::string word(70, 'a');
   EXPECT_EQ(wrapped(word + " " + word + " b"), word + "\n" + word + " b\n");
   EXPECT_EQ(wrapped(std::string(300, 'x')).size(), kTerminalColumns + 1);
+  EXPECT_EQ(wrapped("one two three", 9, 2), "one two\n  three\n") << "begins behind 2 columns";
 }
 
 }  // namespace

@@ -107,16 +107,17 @@ std::string shortened(const std::string& text, size_t columns) {
   return text.substr(0, left) + "..." + text.substr(right);
 }
 
-std::string wrapped(const std::string& text) {
+std::string wrapped(const std::string& text, size_t columns, size_t indent) {
   std::string lines;
-  size_t column = 0;
+  size_t column = indent;
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = shortened(text.substr(begin, end - begin), kTerminalColumns);
-    if (column > 0) {
-      const bool fits = column + 1 + text_width(word) <= kTerminalColumns;
+    const std::string word = shortened(text.substr(begin, end - begin), columns - indent);
+    if (column > indent) {
+      const bool fits = column + 1 + text_width(word) <= columns;
       lines += fits ? ' ' : '\n';
-      column = fits ? column + 1 : 0;
+      if (!fits) lines.append(indent, ' ');
+      column = fits ? column + 1 : indent;
     }
     lines += word;
     column += text_width(word);

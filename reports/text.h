@@ -23,7 +23,8 @@ inline constexpr size_t kTerminalColumns = 120;
 size_t text_width(std::string_view text);
 /// Cuts the middle, since names differ at their ends.
 std::string shortened(const std::string& text, size_t columns);
-/// At kTerminalColumns, between words.
-std::string wrapped(const std::string& text);
+/// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces; the first is to
+/// stand behind as many columns.
+std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
 
 }  // namespace glovebench::reports

@@ -29,16 +29,16 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-void expect_known(const fs::path& folder, const std::string& name) {
+/// `what` the files in the folder are, for the error.
+void expect_known(const fs::path& folder, const std::string& what, const std::string& name) {
   const std::vector<std::string> known = names_in(folder);
   if (std::ranges::find(known, name) != known.end()) return;
-  const std::string expected =
-      known.empty() ? "files *.json there" : fmt::format("one of {}", fmt::join(known, ", "));
-  throw Error(folder.string(), "name", quoted_excerpt(name), expected);
+  if (known.empty()) throw Error(folder.string(), what, "none", "files *.json");
+  throw Error(what, "name", quoted_excerpt(name), one_of(known, name));
 }
 
 Trajectory trajectory_of(const std::string& data_folder, TrajectoryKind kind, const std::string& name) {
-  expect_known(fs::path(data_folder) / folder_of(kind), name);
+  expect_known(fs::path(data_folder) / folder_of(kind), fmt::format("{} trajectories", to_string(kind)), name);
   const std::string path = trajectory_path(data_folder, kind, name);
   Trajectory trajectory = load_trajectory(path);
   if (trajectory.name != name) throw Error(path, "name", quoted_excerpt(trajectory.name), quoted_excerpt(name));
@@ -59,8 +59,7 @@ std::string grasp_of(std::string_view trajectory) {
   const std::vector<std::string>& names = ground_truth_names();
   const auto found = std::ranges::find(names, trajectory);
   if (found == names.end()) {
-    throw Error("ground truths", "trajectory", quoted_excerpt(trajectory),
-                fmt::format("one of {}", fmt::join(names, ", ")));
+    throw Error("ground truths", "trajectory", quoted_excerpt(trajectory), one_of(names, trajectory));
   }
   constexpr int pinch_count = 2;  // Tr1 and Tr2 pinch, the others grasp with the whole hand
   return found - names.begin() < pinch_count ? "pinch" : "power";
@@ -90,7 +89,7 @@ Trajectory recorded_trajectory(const std::string& data_folder, const std::string
 
 PostureSet posture_set(const std::string& data_folder, const std::string& name) {
   const fs::path folder = fs::path(data_folder) / "postures";
-  expect_known(folder, name);
+  expect_known(folder, "posture sets", name);
   const std::string path = (folder / (name + ".json")).string();
   PostureSet set = load_posture_set(path);
   if (set.name != name) throw Error(path, "name", quoted_excerpt(set.name), quoted_excerpt(name));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -14,13 +15,12 @@ using nlohmann::json;
 
 void JsonCursor::expect_keys(std::span<const std::string_view> required,
                              std::span<const std::string_view> optional) const {
-  for (const auto& member : object().items()) {
-    const auto is_it = [&](std::string_view key) { return key == member.key(); };
-    if (std::ranges::none_of(required, is_it) && std::ranges::none_of(optional, is_it))
-      fail(fmt::format("unknown key {}", excerpt(member.key())),
-           fmt::format("only {}{}{}", fmt::join(required, ", "), required.empty() || optional.empty() ? "" : ", ",
-                       fmt::join(optional, ", ")));
-  }
+  std::vector<std::string> known(required.begin(), required.end());
+  known.insert(known.end(), optional.begin(), optional.end());
+  for (const auto& member : object().items())
+    if (std::ranges::find(known, member.key()) == known.end())
+      fail("unknown key " + excerpt(member.key()),
+           fmt::format("only {}{}", fmt::join(known, ", "), did_you_mean(member.key(), known)));
   for (const std::string_view key : required) (*this)[key];
 }
 

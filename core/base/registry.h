@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 namespace glovebench {
 
@@ -25,19 +26,11 @@ std::vector<std::string> names_in(std::span<const Entry> entries) {
   return names;
 }
 
-/// "one of horn, robust"
-template <typename Entry>
-std::string one_of(std::span<const Entry> entries) {
-  std::string text = "one of ";
-  for (const Entry& entry : entries) text += (&entry == entries.data() ? "" : ", ") + std::string(entry.name);
-  return text;
-}
-
 /// Throws: Error that names the place, the field and the known names.
 template <typename Entry>
 const Entry& find_in(std::span<const Entry> entries, std::string_view name, const char* where, const char* field) {
   const auto found = std::ranges::find(entries, name, &Entry::name);
-  if (found == entries.end()) throw Error(where, field, std::string(name), one_of(entries));
+  if (found == entries.end()) throw Error(where, field, std::string(name), one_of(names_in(entries), name));
   return *found;
 }
 

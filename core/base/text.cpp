@@ -1,6 +1,7 @@
 #include "core/base/text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +13,31 @@ namespace glovebench {
 namespace {
 
 constexpr size_t kLongest = 60;
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c += 'a' - 'A';
+  return lower;
+}
+
+/// Damerau-Levenshtein distance, in which no pair of characters is swapped and edited again.
+size_t edits_between(std::string_view a, std::string_view b) {
+  std::vector<std::vector<size_t>> edits(a.size() + 1, std::vector<size_t>(b.size() + 1));
+  for (size_t i = 0; i <= a.size(); ++i) {
+    for (size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        edits[i][j] = i + j;
+        continue;
+      }
+      const size_t replaced = edits[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      edits[i][j] = std::min({replaced, edits[i - 1][j] + 1, edits[i][j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
+    }
+  }
+  return edits[a.size()][b.size()];
+}
 
 bool is_part_of_path(std::string_view part) {
   const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
@@ -41,6 +67,24 @@ std::string excerpt(const nlohmann::json& value) {
   if (value.is_array()) return fmt::format("an array of {}", value.size());
   if (value.is_string()) return quoted_excerpt(value.get_ref<const std::string&>());
   return value.dump();
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
+  const std::string* nearest = nullptr;
+  size_t fewest = word.size() + 1;
+  for (const std::string& name : names) {
+    const size_t longest = std::max(word.size(), name.size());
+    if (longest - std::min(word.size(), name.size()) > longest / 3) continue;
+    const size_t edits = edits_between(lower_case(word), lower_case(name));
+    if (edits > longest / 3 || edits > fewest) continue;
+    nearest = edits < fewest ? &name : nullptr;
+    fewest = edits;
+  }
+  return nearest == nullptr ? "" : fmt::format("; did you mean {}?", *nearest);
+}
+
+std::string one_of(const std::vector<std::string>& names, std::string_view found) {
+  return fmt::format("one of {}{}", fmt::join(names, ", "), did_you_mean(found, names));
 }
 
 bool is_name(std::string_view text) {

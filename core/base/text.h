@@ -1,10 +1,11 @@
 #pragma once
 
-// Excerpts for error messages, and names for paths.
+// Excerpts and suggestions for error messages, and names for paths.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace glovebench {
 
@@ -18,6 +19,14 @@ std::string quoted_excerpt(std::string_view text);
 
 /// A value; of an array or object only the kind.
 std::string excerpt(const nlohmann::json& value);
+
+/// "; did you mean NAME?" for the name that takes the fewest edits (a character inserted, removed, replaced, or
+/// swapped with its neighbor; upper case equals lower case). Empty if that takes edits of over a third of the
+/// characters, or if two names are equally near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
+
+/// "one of horn, robust", with `did_you_mean`.
+std::string one_of(const std::vector<std::string>& names, std::string_view found);
 
 /// Whether a name may be part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces, starting with a letter
 /// or digit.

@@ -14,6 +14,32 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+TEST(DidYouMean, names_the_nearest) {
+  const std::vector<std::string> names = {"run", "record", "render", "track", "trajectories", "DB_open_power"};
+  EXPECT_EQ(did_you_mean("rnu", names), "; did you mean run?") << "two letters swapped are one edit";
+  EXPECT_EQ(did_you_mean("trak", names), "; did you mean track?");
+  EXPECT_EQ(did_you_mean("trackk", names), "; did you mean track?");
+  EXPECT_EQ(did_you_mean("trick", names), "; did you mean track?");
+  EXPECT_EQ(did_you_mean("trajectory", names), "; did you mean trajectories?");
+  EXPECT_EQ(did_you_mean("db_OPEN_pwoer", names), "; did you mean DB_open_power?");
+  EXPECT_EQ(did_you_mean("rus", {"rust", "run", "rus"}), "; did you mean rus?");
+}
+
+TEST(DidYouMean, guesses_nothing_far_or_ambiguous) {
+  EXPECT_EQ(did_you_mean("", {"run"}), "");
+  EXPECT_EQ(did_you_mean("track", {}), "");
+  EXPECT_EQ(did_you_mean("tr", {"track"}), "");
+  EXPECT_EQ(did_you_mean("rxx", {"run"}), "") << "2 of 3 characters";
+  EXPECT_EQ(did_you_mean("Tr9", {"Tr1", "Tr2", "Tr3"}), "") << "all equally near";
+  EXPECT_EQ(did_you_mean("Tr9", {"Tr1", "Tr2", "Tr9b"}), "");
+  EXPECT_EQ(did_you_mean(std::string(1 << 20, 'x'), {"run"}), "") << "compared with nothing of another length";
+}
+
+TEST(OneOf, lists_all_names) {
+  EXPECT_EQ(one_of({"horn", "robust"}, "best"), "one of horn, robust");
+  EXPECT_EQ(one_of({"horn", "robust"}, "horm"), "one of horn, robust; did you mean horn?");
+}
+
 TEST(Name, may_be_a_files_and_nothing_else) {
   for (const std::string& name : {std::string("a"), std::string("DB_20_postures"), std::string("Tr4.b-2 c"),
                                   std::string("9"), std::string(64, 'x')})

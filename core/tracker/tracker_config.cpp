@@ -140,7 +140,7 @@ void check_range(const std::string& field, const std::string& value, const Names
                  std::vector<std::string>& problems) {
   if (std::ranges::find(names.known, value) != names.known.end()) return;
   problems.push_back(
-      fmt::format("{}: found {}, expected one of {}", field, quoted_excerpt(value), fmt::join(names.known, ", ")));
+      fmt::format("{}: found {}, expected {}", field, quoted_excerpt(value), one_of(names.known, value)));
 }
 void check_range(const std::string& field, const Cascade& value, const Range&, std::vector<std::string>& problems) {
   try {
@@ -171,11 +171,10 @@ std::vector<std::string> TrackerConfig::problems() const {
   visit_fields(*this, [&](const char* section, const char* key, const auto& value, const auto& range) {
     check_range(fmt::format("{}.{}", section, key), value, range, problems);
   });
-  const std::span<const std::string_view> methods = method_names();
-  if (std::find(methods.begin(), methods.end(), method) == methods.end()) {
+  const std::vector<std::string> methods(method_names().begin(), method_names().end());
+  if (std::ranges::find(methods, method) == methods.end())
     problems.push_back(
-        fmt::format("method: found {}, expected one of {}", quoted_excerpt(method), fmt::join(methods, ", ")));
-  }
+        fmt::format("method: found {}, expected {}", quoted_excerpt(method), one_of(methods, method)));
   if (volume.z_min >= volume.z_max) {
     problems.push_back(
         fmt::format("volume.z_min_m: found {}, expected less than z_max_m = {}", volume.z_min, volume.z_max));
@@ -185,7 +184,7 @@ std::vector<std::string> TrackerConfig::problems() const {
 
 TrackerConfig profile(const std::string& name) {
   if (name == "paper") return {};
-  throw Error("profile", "name", name, "one of paper");
+  throw Error("profile", "name", name, one_of({"paper"}, name));
 }
 
 TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const std::string& where) {

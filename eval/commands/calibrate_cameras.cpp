@@ -31,15 +31,15 @@ struct CalibrateCameras {
   void run() const {
     require_different_files({{"--output", output}, {"--report", report}});
     const calibration::Chessboard chessboard = parse_board();
-    const std::optional<calibration::LensModel> model = from_name<calibration::LensModel>(lens);
-    if (!model) throw Error("--lens", "value", lens, known_names<calibration::LensModel>());
     const calibration::BoardViews ir_boards = boards_of(ir, chessboard, "IR");
     const calibration::BoardViews rgb_boards = boards_of(rgb, chessboard, "RGB");
-    calibration::StereoFit fit = calibration::fit_stereo(ir_boards, rgb_boards, chessboard, *model);
+    calibration::StereoFit fit =
+        calibration::fit_stereo(ir_boards, rgb_boards, chessboard, from_name<calibration::LensModel>(lens).value());
     fit.calibration.ir = depth_camera(fit.calibration.ir);
     require_device_size(fit.calibration.rgb);
     save_calibration(fit.calibration, output);
     if (!report.empty()) write_file(report, calibration::report_json(fit, chessboard).dump(2) + "\n");
+    if (quiet) return;
     fmt::print("{}\n{}: both cameras and the transform between them\n", calibration::report_text(fit), output);
   }
 
@@ -99,7 +99,8 @@ void add_calibrate_cameras(Command calibrate) {
   command.option("--rgb", state->rgb, "pictures of the RGB camera: a folder, or fakenect:FOLDER").required();
   command.option("--board", state->board, "inner corners of the chessboard, COLUMNSxROWS");
   command.option("--square-mm", state->square_mm, "side of a square, mm");
-  command.option("--lens", state->lens, "distortion to fit: none, radial (k1, k2, k3), full (also p1, p2)");
+  command.option("--lens", state->lens, "distortion to fit: none; radial, k1, k2, k3; full, also p1, p2")
+      .one_of(all_names<calibration::LensModel>());
   command
       .option("--ir-offset", state->ir_offset,
               "where the depth image begins in the IR pictures: pixels from the left, from the top")
@@ -108,7 +109,7 @@ void add_calibrate_cameras(Command calibrate) {
   command.option("--most", state->most, "of a recording, take at most that many pictures").in(5, 10000);
   command.option("-o,--output", state->output, "calibration to write (*.json)").named_file().required();
   command.option("--report", state->report, "errors of every view, to write (*.json)").named_file();
-  command.option("--quiet", state->quiet, "no progress");
+  command.option("-q,--quiet", state->quiet, "print only errors");
   command.runs([state] { state->run(); });
 }
 

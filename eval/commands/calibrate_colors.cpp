@@ -38,6 +38,7 @@ struct CalibrateColors {
     if (!report.empty())
       write_file(report, reports::format_json(color_report_json(samples, fit, separation, from.source)));
     if (!picture.empty()) render::write_png(picture, color_picture(views, samples, fit, table));
+    if (common.quiet) return;
     fmt::print("{}: a color table of {} frames\n\n{}", common.output, samples.frames(),
                color_report_markdown(samples, fit, separation));
   }
@@ -89,7 +90,7 @@ struct CalibrateColors {
 void add_calibrate_colors(Command calibrate) {
   const Command command = calibrate.subcommand(
       "colors",
-      "Make a color table of a recording of the glove, without labels: the light and the glove's colors are found\n"
+      "Make a color table of a recording of the glove, without labels: the light and the glove's colors are found "
       "from where the tracker's own table has them (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateColors>();
   command

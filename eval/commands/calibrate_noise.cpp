@@ -37,8 +37,10 @@ struct CalibrateNoise {
     for (const reports::NoiseFloor& floor : floors) {
       const std::string path = path_within(common.output, floor.suite + "/noise_floor.json");
       write_file(path, reports::noise_floor_json(floor));
+      if (common.quiet) continue;
       fmt::print("{}: {} seeds, for results of {} seeds\n", path, floor.seeds, floor.seeds_per_result);
     }
+    if (common.quiet) return;
     for (const reports::NoiseFloor& floor : floors) {
       fmt::print("\n{}", reports::to_markdown(smallest_changes(floor)));
     }

@@ -29,6 +29,7 @@ struct Build {
     const std::string content = Database::build_file(
         common.output, set, model, config.views, render::label_renderer_factory(), config.threads,
         [&](double share) { progress.show(share); }, kTinySizes, config.memory);
+    if (common.quiet) return;
     fmt::print("{}: {} postures x {} views = {} entries, content {}\n", common.output, set.postures.size(),
                kViewCount, set.postures.size() * kViewCount, content);
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "eval/commands/flags.h"
 #include "eval/pictures.h"
 #include "eval/program.h"
@@ -46,7 +47,7 @@ struct Explain {
                                  ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(experiment.key), frame)
                                  : common.output;
     render::write_png(path, explain_frame(workbench, spec, frame));
-    fmt::print("{}\n", path);
+    if (!common.quiet) fmt::print("{}\n", path);
   }
 
   const ExperimentResult& find(const reports::RunResult& results, const std::string& path) const {
@@ -56,7 +57,7 @@ struct Explain {
       if (experiment_name.empty() || experiment_name == names.back()) return experiment;
     }
     throw Error(path, "experiment", experiment_name.empty() ? "none" : experiment_name,
-                fmt::format("one of {}", fmt::join(names, ", ")));
+                one_of(names, experiment_name));
   }
 
   uint64_t seed_of(const ExperimentResult& experiment, const std::string& path) const {

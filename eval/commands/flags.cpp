@@ -26,6 +26,7 @@ Option CommonFlags::add_output(Command command, const std::string& what) {
 }
 
 void CommonFlags::add_tracker(Command command) {
+  command = command.group("Tracker");
   command.option("--profile", profile, "named configuration of the tracker");
   command.option("--config", config_file,
                  "JSON file with the fields to change; `glovebench list config` shows all");
@@ -39,18 +40,25 @@ void CommonFlags::add_seed(Command command) {
 }
 
 void CommonFlags::add_cameras(Command command) {
-  command.option("--calibration", calibration,
-                 "cameras of the synthetic Kinect (*.json), as they are once their lenses are corrected [its own]");
+  command
+      .option("--calibration", calibration,
+              "cameras of the synthetic Kinect (*.json), as they are once their lenses are corrected [its own]")
+      .rare();
 }
 
 void CommonFlags::add_machine(Command command) {
+  command = command.group("Machine");
   command.option("--threads", threads, "0: all cores; results do not depend on it").in(0, 1024);
-  command.option("--cache", cache_folder,
-                 "folder for databases and color tables [GLOVEBENCH_CACHE or ~/.cache/glovebench]");
-  command.option("--low-memory", low_memory,
-                 "databases that take a ninth of the memory and make their distance fields when these are asked "
-                 "for; results do not depend on it");
-  command.option("-q,--quiet", quiet, "no progress, no messages");
+  command
+      .option("--cache", cache_folder,
+              "folder for databases and color tables [GLOVEBENCH_CACHE or ~/.cache/glovebench]")
+      .rare();
+  command
+      .option("--low-memory", low_memory,
+              "databases that take a ninth of the memory and make their distance fields when these are asked for; "
+              "results do not depend on it")
+      .rare();
+  command.option("-q,--quiet", quiet, "print only errors, and results that go to no file");
 }
 
 TrackerConfig CommonFlags::tracker_config() const {
@@ -91,8 +99,8 @@ Option MountingFlag::add(Command command) {
       "the hand's wrist (WRJ2) in the frame of the arm's flange: X Y Z (m) QW QX QY QZ [Shadow's forearm]");
 }
 
-void LimitsFlag::add(Command command) {
-  command.option(
+Option LimitsFlag::add(Command command) {
+  return command.option(
       "--robot-limits", file,
       "JSON file with the limits of speed, space and time to change; `glovebench list limits` shows all");
 }
@@ -112,6 +120,7 @@ CommandLimits LimitsFlag::limits() const {
 }
 
 Option RobotFlags::add(Command command, const std::string& what) {
+  command = command.group("Robot");
   const Option robot_out = command.option("--robot-out", output, what);
   command
       .option("--robot-mapping", mapping,
@@ -120,11 +129,13 @@ Option RobotFlags::add(Command command, const std::string& what) {
   command
       .option("--robot-arm", arm, "joint angles of the arm: none; pa10, a PA-10-7C; auto, pa10 if it is built in")
       .one_of({"auto", "pa10", "none"});
-  command.option("--base-camera", T_base_camera,
-                 "the camera in the arm's base frame: X Y Z (m) QW QX QY QZ [above the work, looking down]");
-  mounting.add(command);
-  limits.add_coupling(command);
-  limits.add(command);
+  command
+      .option("--base-camera", T_base_camera,
+              "the camera in the arm's base frame: X Y Z (m) QW QX QY QZ [above the work, looking down]")
+      .rare();
+  mounting.add(command).rare();
+  limits.add_coupling(command).rare();
+  limits.add(command).rare();
   return robot_out;
 }
 

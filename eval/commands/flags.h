@@ -59,7 +59,7 @@ struct LimitsFlag {
 
   std::string coupling{to_string(CommandLimits().coupling)};
 
-  void add(Command command);
+  Option add(Command command);
   Option add_coupling(Command command);
   /// Throws: Error.
   CommandLimits limits() const;

@@ -80,12 +80,14 @@ void add_import(Command program) {
       program.subcommand("import", "Make trajectories and posture sets of what others recorded.");
   const Command command = import.subcommand("markers",
                                             "Fit the hand to captured markers or joint positions: joint angles "
-                                            "and pose of every frame, as a trajectory for\n"
+                                            "and pose of every frame, as a trajectory for "
                                             "run and record, or as a posture set for db build. Residuals are "
                                             "written beside it (trajectories/README.md).");
   const auto state = std::make_shared<ImportMarkers>();
   command.option("file", state->files, "capture; several of --format handpose are one set").required();
-  command.option("--format", state->format, trajectories::marker_format_names()).required();
+  command.option("--format", state->format, "of the capture")
+      .one_of(trajectories::marker_format_names())
+      .required();
   command.option("-o,--output", state->output, "file to write (*.json); its name is the trajectory's").required();
   command.option("--layout", state->layout, "JSON file that says where the markers of other names sit");
   command.option("--postures", state->postures, "instead of the trajectory: that many postures that differ most")

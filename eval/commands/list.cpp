@@ -6,10 +6,12 @@
 #include "core/methods/method.h"
 #include "core/robot/command_limits.h"
 #include "eval/commands/flags.h"
+#include "eval/commands/help.h"
 #include "eval/program.h"
 #include "eval/robot_kinematics.h"
 #include "eval/studies/study.h"
 #include "eval/suite.h"
+#include "eval/terminal.h"
 #include "render/noise/noise_model.h"
 #include "render/subjects/subject.h"
 #include "reports/metrics/metric.h"
@@ -79,7 +81,8 @@ void list_mapping(ShadowCoupling coupling) {
 }  // namespace
 
 void add_list(Command program) {
-  const Command list = program.subcommand("list", "Print what the program knows.");
+  const Command list =
+      program.subcommand("list", "Print what the program knows; without a COMMAND, what can be listed.");
   list.subcommand("trajectories", "The ground truths and other movements, with their hashes.")
       .runs(list_trajectories);
   list.subcommand("databases", "The posture databases.").runs(list_databases);
@@ -110,6 +113,7 @@ void add_list(Command program) {
   const Command config = list.subcommand("config", "The tracker's configuration as JSON, as --config takes it.");
   common->add_tracker(config);
   config.runs([common] { fmt::print("{}\n", to_json(common->tracker_config()).dump(2)); });
+  list.runs([list] { fmt::print("What can be listed:\n{}", commands_text(list.text(), terminal_columns())); });
 }
 
 }  // namespace glovebench::eval

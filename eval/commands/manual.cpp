@@ -11,10 +11,6 @@
 namespace glovebench::eval {
 namespace {
 
-bool is_argument(const OptionText& option) {
-  return !option.names.front().starts_with("-");
-}
-
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
   for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
@@ -38,7 +34,7 @@ std::string roff_option(const OptionText& option) {
                      roff(option.value), roff(option.help));
 }
 
-/// All commands under `command` that have an action. `name` includes the parents.
+/// All commands under `command` that have no commands under them. `name` includes the parents.
 std::string roff_commands(const CommandText& command, const std::string& name) {
   std::string page;
   for (const CommandText& subcommand : command.subcommands) {
@@ -46,7 +42,7 @@ std::string roff_commands(const CommandText& command, const std::string& name) {
     if (subcommand.subcommands.empty()) {
       page += fmt::format(".SS {}\n{}\n", roff(full_name), roff(subcommand.description));
       for (const OptionText& option : subcommand.options)
-        if (option.names.back() != "--help") page += roff_option(option);
+        if (!option.names.back().starts_with("--help")) page += roff_option(option);
     }
     page += roff_commands(subcommand, full_name);
   }
@@ -112,7 +108,7 @@ std::string completions(const CommandText& program, const std::vector<std::strin
     if (subcommand != command->subcommands.end()) command = &*subcommand;
     const auto option = std::ranges::find_if(
         command->options, [&](const OptionText& o) { return std::ranges::count(o.names, word) > 0; });
-    before = option == command->options.end() || is_argument(*option) ? nullptr : &*option;
+    before = option == command->options.end() || option->is_argument() ? nullptr : &*option;
   }
   std::string text;
   const auto add = [&](const std::string& word, const std::string& help) {
@@ -124,7 +120,7 @@ std::string completions(const CommandText& program, const std::vector<std::strin
   }
   for (const CommandText& subcommand : command->subcommands) add(subcommand.name, subcommand.description);
   for (const OptionText& option : command->options)
-    for (const std::string& word : is_argument(option) ? option.words : option.names) add(word, option.help);
+    for (const std::string& word : option.is_argument() ? option.words : option.names) add(word, option.help);
   return text;
 }
 

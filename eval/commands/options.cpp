@@ -2,9 +2,11 @@
 #include "eval/commands/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "eval/commands/help.h"
 #include "eval/program.h"
 #include "eval/terminal.h"
 
@@ -21,7 +24,8 @@ namespace glovebench::eval {
 namespace {
 
 constexpr int kWrongCommandLine = 2;
-constexpr int kHelpColumn = 34;
+/// Ends the name of a group whose options are rare; CLI11 keeps nothing else of an option for its user.
+constexpr std::string_view kRare = " (rare)";
 
 /// An empty value usually comes from an unset variable of a script.
 CLI::Validator not_empty() {
@@ -30,14 +34,14 @@ CLI::Validator not_empty() {
       ""};
 }
 
-/// Accepts numbers from `low` to `high`; CLI::Range also accepts text that is no number. `type` is for the help.
-CLI::Validator number_within(double low, double high, std::string_view type) {
+/// Accepts numbers from `low` to `high`; CLI::Range also accepts text that is no number.
+CLI::Validator number_within(double low, double high) {
   return {[=](const std::string& text) -> std::string {
             double value = 0;
             if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return {};
             return fmt::format("found {}, expected a number from {} to {}", printable(text), low, high);
           },
-          fmt::format("{} in [{} - {}]", type, low, high)};
+          fmt::format("[{} - {}]", low, high)};
 }
 
 /// CLI11 would read 010 as 8, and clamp numbers that are too large.
@@ -98,6 +102,8 @@ OptionText text_of(const CLI::Option& option) {
   text.value = CLI::detail::trim_copy(CLI::Formatter().make_option_opts(&option));
   text.help = option.get_description();
   text.words = words_of(option.get_type_name());
+  text.is_rare = option.get_group().ends_with(kRare);
+  text.group = option.get_group().substr(0, option.get_group().size() - (text.is_rare ? kRare.size() : 0));
   return text;
 }
 
@@ -109,12 +115,27 @@ CommandText text_of(const CLI::App& app) {
   return text;
 }
 
-/// The error's message. CLI11 reports a missing subcommand or option before the misspelled one that causes it.
-std::string describe(const CLI::App& program, const CLI::ParseError& error) {
-  const std::vector<std::string> unknown = program.remaining(true);
-  const bool missing = error.get_name() == "RequiredError";
-  return missing && !unknown.empty() ? fmt::format("{}: unknown argument or subcommand", unknown.front())
-                                     : error.what();
+/// For `app` as --help, for `all` as --help-all, which also shows the help of all commands under it.
+std::string help_of(const CLI::App& app, const std::string& name, bool all) {
+  CLI::Formatter formatter;
+  formatter.label("SUBCOMMAND", "COMMAND");
+  std::string help = help_text(text_of(app), formatter.make_usage(&app, name), all, terminal_columns());
+  if (!all) return help;
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    help += "\n" + help_of(*subcommand, name + " " + subcommand->get_name(), all);
+  return help;
+}
+
+/// What is wrong and where help is. CLI11 reports a missing command or option before the misspelled one that causes
+/// it. `name` is the command's with its parents.
+std::string describe(const CLI::App& command, const std::string& name, const CLI::ParseError& error) {
+  const std::vector<std::string> words = command.remaining();
+  const auto unknown = std::ranges::find_if(words, [](const std::string& word) { return word != "--"; });
+  if (unknown != words.end())
+    return fmt::format("{} (see {} --help)", describe_unknown(text_of(command), *unknown), name);
+  if (const auto chosen = command.get_subcommands(); !chosen.empty())
+    return describe(*chosen.front(), name + " " + chosen.front()->get_name(), error);
+  return fmt::format("{} (see {} --help)", error.what(), name);
 }
 
 }  // namespace
@@ -125,7 +146,7 @@ Option Option::required() const {
 }
 
 Option Option::in(double low, double high) const {
-  option_->check(number_within(low, high, option_->get_type_name().starts_with("FLOAT") ? "FLOAT" : "INT"));
+  option_->check(number_within(low, high));
   return *this;
 }
 
@@ -140,7 +161,11 @@ Option Option::not_negative() const {
 }
 
 Option Option::one_of(const std::vector<std::string>& words) const {
-  option_->check(CLI::IsMember(words));
+  const auto problem = [words](const std::string& text) -> std::string {
+    if (std::ranges::find(words, text) != words.end()) return "";
+    return fmt::format("found {}, expected {}", printable(text), glovebench::one_of(words, text));
+  };
+  option_->check(CLI::Validator(problem, fmt::format("{{{}}}", fmt::join(words, ","))));
   return *this;
 }
 
@@ -177,28 +202,39 @@ Option Option::needs(const std::string& other) const {
   return *this;
 }
 
+Option Option::rare() const {
+  option_->group(option_->get_group() + std::string(kRare));
+  return *this;
+}
+
 Command Command::subcommand(const std::string& name, const std::string& description) const {
   app_->require_subcommand(1);
   return {*app_->add_subcommand(name, description), *chosen_};
 }
 
+Command Command::group(const std::string& heading) const {
+  Command command = *this;
+  command.group_ = heading;
+  return command;
+}
+
 template <typename Value>
 Option Command::option(const std::string& names, Value& value, const std::string& help) const {
+  CLI::Option* added = nullptr;
   if constexpr (std::is_same_v<Value, bool>) {
-    return Option(*app_->add_flag(names, value, help));
+    added = app_->add_flag(names, value, help);
   } else if constexpr (std::is_same_v<Value, std::optional<Eigen::Isometry3d>>) {
     const auto read = [names, &value](const std::vector<double>& values) {
       value = rigid_transform(names, values);
     };
-    return Option(
-        *app_->add_option_function<std::vector<double>>(names, read, help)->expected(7)->check(not_empty()));
+    added = app_->add_option_function<std::vector<double>>(names, read, help)->expected(7)->check(not_empty());
   } else {
-    CLI::Option* const added = app_->add_option(names, value, help)->check(not_empty());
+    added = app_->add_option(names, value, help)->check(not_empty());
     if (!is_empty(value)) added->capture_default_str();
     using Number = typename WithoutOptional<Value>::Type;
     if constexpr (std::is_integral_v<Number>) added->check(whole_number<Number>());
-    return Option(*added);
   }
+  return Option(*added->group(group_));
 }
 
 // The types of values.
@@ -222,7 +258,10 @@ CommandText Command::text() const {
 }
 
 void Command::set_action(const Action& action) const {
-  app_->callback([chosen = chosen_, action] { *chosen = action; });
+  if (app_->get_require_subcommand_min() > 0) app_->require_subcommand(0, 1);
+  app_->callback([app = app_, chosen = chosen_, action] {
+    if (app->get_subcommands().empty()) *chosen = action;
+  });
 }
 
 int run_program(int argc, const char* const* argv, const std::function<void(Command)>& add_commands) {
@@ -232,7 +271,10 @@ int run_program(int argc, const char* const* argv, const std::function<void(Comm
       "glovebench");
   program.set_version_flag("--version",
                            fmt::format("glovebench {} ({})", program_info().version, program_info().commit));
-  program.get_formatter()->column_width(kHelpColumn);
+  program.formatter_fn([](const CLI::App* app, const std::string& name, CLI::AppFormatMode mode) {
+    return help_of(*app, name, mode == CLI::AppFormatMode::All);
+  });
+  program.set_help_all_flag("--help-all", "Print also what is rarely needed, and exit");
   Command::Action chosen;
   add_commands({program, chosen});
   try {
@@ -240,7 +282,7 @@ int run_program(int argc, const char* const* argv, const std::function<void(Comm
   } catch (const CLI::Success& e) {
     return program.exit(e);  // --help, --version
   } catch (const CLI::ParseError& e) {
-    say("glovebench: {} (see glovebench --help)\n", describe(program, e));
+    say("glovebench: {}\n", describe(program, program.get_name(), e));
     return kWrongCommandLine;
   }
   return chosen();

@@ -31,6 +31,8 @@ class Option {
   Option comma_separated() const;
   /// `other` must be declared before.
   Option needs(const std::string& other) const;
+  /// The help shows it only with --help-all.
+  Option rare() const;
 
  private:
   CLI::Option* option_;
@@ -42,9 +44,13 @@ struct OptionText {
   std::string value;  ///< as the help shows it: type, range, default, needs
   std::string help;
   std::vector<std::string> words;  ///< allowed values; empty: any
+  std::string group = "Options";   ///< heading in the help
+  bool is_rare = false;
+
+  bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// For man page and completion.
+/// For help, man page and completion.
 struct CommandText {
   std::string name;
   std::string description;
@@ -60,8 +66,11 @@ class Command {
   /// `chosen` receives the action of the command that the user names.
   Command(CLI::App& app, Action& chosen) : app_(&app), chosen_(&chosen) {}
 
-  /// Once a command has subcommands, the user must name one.
+  /// Once a command has subcommands, the user must name one unless the command `runs` by itself. A line of the
+  /// description is a paragraph; lists of commands show the first.
   Command subcommand(const std::string& name, const std::string& description) const;
+  /// The same command, whose options the help shows under `heading`.
+  Command group(const std::string& heading) const;
   /// Adds an option that writes to `value`. `names`: `-o,--output`, or `file` for an argument. An empty value is
   /// an error. The help shows the default unless it is empty or the option required. A bool is a flag; a transform
   /// is X Y Z (m) QW QX QY QZ. The source lists all types.
@@ -89,6 +98,7 @@ class Command {
 
   CLI::App* app_;
   Action* chosen_;
+  std::string group_ = "Options";
 };
 
 /// Returns the exit code; for a wrong command line 2, with one line on stderr.

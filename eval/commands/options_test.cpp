@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <sstream>
 
 #include "core/base/error.h"
 
@@ -13,8 +14,10 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
-/// A program with two commands: `walk`, which has every kind of option, and `rest on`, which has none.
+/// A program with commands: `walk`, which has every kind of option, `rest on`, which has none, and `look`, which
+/// may stand alone or before `up`.
 class Options : public testing::Test {
  protected:
   /// Returns the exit code.
@@ -30,7 +33,9 @@ class Options : public testing::Test {
           walk.option("--seed", seed, "whole").not_negative();
           walk.option("--speed", speed, "a share").in(0, 1);
           walk.option("--gait", gait, "how").one_of({"slow", "fast"});
-          walk.option("--shoes", shoes, "which").needs("--gait");
+          const Command clothes = walk.group("Clothes");
+          clothes.option("--shoes", shoes, "which").needs("--gait");
+          clothes.option("--hat", hat, "which").rare();
           walk.option("--log", log, "file").named_file();
           walk.option("--limit", limit, "whole");
           walk.option("--stops", stops, "several").comma_separated();
@@ -41,7 +46,12 @@ class Options : public testing::Test {
             is_seed_given = walk.given("--seed");
             return 7;
           });
-          program.subcommand("rest", "Stays.").subcommand("on", "As it is.").runs([this] { rested = true; });
+          program.subcommand("rest", "Stays.\nNot for long.").subcommand("on", "As it is.").runs([this] {
+            rested = true;
+          });
+          const Command look = program.subcommand("look", "Sees.");
+          look.subcommand("up", "The sky.").runs([this] { seen = "sky"; });
+          look.runs([this] { seen = "all"; });
         });
     out = testing::internal::GetCapturedStdout();
     err = testing::internal::GetCapturedStderr();
@@ -55,7 +65,7 @@ class Options : public testing::Test {
     return err;
   }
 
-  std::string where = "nowhere", gait = "slow", shoes, log;
+  std::string where = "nowhere", gait = "slow", shoes, hat, log, seen;
   int steps = 3;
   uint64_t seed = 1;
   double speed = 0.5;
@@ -70,12 +80,54 @@ class Options : public testing::Test {
 
 TEST_F(Options, HelpShowsDefaultsUnlessEmptyOrRequired) {
   EXPECT_EQ(run({"walk", "--help"}), 0);
-  EXPECT_THAT(out, AllOf(HasSubstr("where TEXT REQUIRED "), HasSubstr("--steps INT:INT in [0 - 10]=3 "),
-                         HasSubstr("--seed UINT:NONNEGATIVE=1 "), HasSubstr("--speed FLOAT:FLOAT in [0 - 1]=0.5\n"),
+  EXPECT_THAT(out, AllOf(HasSubstr("where TEXT REQUIRED "), HasSubstr("--steps INT:[0 - 10]=3 "),
+                         HasSubstr("--seed UINT:NONNEGATIVE=1 "), HasSubstr("--speed FLOAT:[0 - 1]=0.5 "),
                          HasSubstr("--gait TEXT:{slow,fast}=slow ")));
   EXPECT_THAT(out, AllOf(HasSubstr("--shoes TEXT Needs: --gait "), HasSubstr("--limit INT "),
                          HasSubstr("--stops TEXT ... "), HasSubstr("--offset FLOAT=[1,2] x 2"),
                          HasSubstr("--pose FLOAT x 7 "), HasSubstr("--back ")));
+}
+
+TEST_F(Options, HelpHasGroupsAndFits80Columns) {
+  EXPECT_EQ(run({"walk", "--help"}), 0);
+  EXPECT_THAT(out,
+              testing::StartsWith("Goes.\nUsage: glovebench walk [OPTIONS] where\n\nArguments:\n  where TEXT"));
+  EXPECT_THAT(out, HasSubstr("\nClothes:\n  --shoes TEXT Needs: --gait    which\n"));
+  EXPECT_THAT(out, Not(HasSubstr("--hat"))) << "rare";
+  EXPECT_EQ(run({"walk", "--help-all"}), 0);
+  EXPECT_THAT(out, HasSubstr("\n  --hat TEXT                    which\n"));
+  EXPECT_EQ(run({"--help"}), 0);
+  EXPECT_THAT(out, HasSubstr("\nCommands:\n  walk  Goes.\n  rest  Stays.\n  look  Sees.\n"));
+  EXPECT_EQ(run({"--help-all"}), 0);
+  EXPECT_THAT(out, AllOf(HasSubstr("--hat"), HasSubstr("Usage: glovebench rest on"))) << "all commands";
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+}
+
+TEST_F(Options, SuggestTheNearestWordAndTheHelpOfTheCommand) {
+  EXPECT_EQ(run({"wakl", "home"}), 2);
+  EXPECT_EQ(err, "glovebench: unknown command wakl; did you mean walk? (see glovebench --help)\n");
+  EXPECT_EQ(run({"rest", "no"}), 2);
+  EXPECT_EQ(err, "glovebench: unknown command no (see glovebench rest --help)\n");
+  EXPECT_EQ(run({"rest", "on", "here"}), 2);
+  EXPECT_EQ(err, "glovebench: unexpected argument here (see glovebench rest on --help)\n");
+  EXPECT_EQ(run({"walk", "--setps=3"}), 2);
+  EXPECT_EQ(err, "glovebench: unknown flag --setps; did you mean --steps? (see glovebench walk --help)\n")
+      << "although `where` is missing, too";
+  EXPECT_EQ(run({"--steps", "3", "walk", "home"}), 2);
+  EXPECT_EQ(err, "glovebench: unknown flag --steps (see glovebench --help)\n") << "it is the program's place";
+  EXPECT_EQ(refusal({"--gait", "fats"}),
+            "glovebench: --gait: found fats, expected one of slow, fast; did you mean fast? (see glovebench walk "
+            "--help)\n");
+}
+
+TEST_F(Options, CommandsThatMayStandAlone) {
+  EXPECT_EQ(run({"look"}), 0);
+  EXPECT_EQ(seen, "all");
+  EXPECT_EQ(run({"look", "up"}), 0);
+  EXPECT_EQ(seen, "sky");
+  EXPECT_EQ(run({"look", "ap"}), 2);
+  EXPECT_EQ(err, "glovebench: unknown command ap (see glovebench look --help)\n");
 }
 
 TEST_F(Options, RefuseAnEmptyValue) {
@@ -126,7 +178,7 @@ TEST_F(Options, RefusesValuesOutOfBounds) {
   EXPECT_THAT(refusal({"--limit", "2147483648"}), HasSubstr("--limit: found 2147483648"));
   EXPECT_THAT(refusal({"--limit", "-010"}), HasSubstr("--limit: found -010"));
   EXPECT_THAT(refusal({"--limit", "-2147483649"}), HasSubstr("--limit: found"));
-  EXPECT_THAT(refusal({"--gait", "odd"}), HasSubstr("--gait: odd not in {slow,fast}"));
+  EXPECT_THAT(refusal({"--gait", "odd"}), HasSubstr("--gait: found odd, expected one of slow, fast (see"));
   EXPECT_THAT(refusal({"--log", "-"}), HasSubstr("--log: found -, expected the name of a file or folder"));
   EXPECT_THAT(refusal({"--offset", "1"}), HasSubstr("--offset"));
   EXPECT_THAT(refusal({"--shoes", "red"}), HasSubstr("--gait"));

@@ -31,6 +31,7 @@ struct Record {
     const trajectories::Trajectory recorded =
         record_truth(workbench, source, name, common.tracker_config(), common.seed);
     trajectories::write_trajectory(recorded, common.output);
+    if (common.quiet) return;
     fmt::print("{}: {} frames, recorded with {}, hash {}\n", common.output, recorded.frames.size(), name,
                trajectories::hash(recorded));
   }
@@ -41,7 +42,7 @@ struct Record {
 void add_record(Command program) {
   const Command command = program.subcommand(
       "record",
-      "Make a recorded truth, the paper's protocol: a movement is tracked, and what the tracker said becomes a\n"
+      "Make a recorded truth, the paper's protocol: a movement is tracked, and what the tracker said becomes a "
       "ground truth of its own.");
   const auto state = std::make_shared<Record>();
   state->common.add_output(command, "trajectory file to write (*.json)").required();

@@ -61,7 +61,7 @@ struct Render {
     }
     if (recording) recording->finish();
     if (pictures) pictures->commit();
-    fmt::print("{}: {} frames of {}\n", common.output, count, movement->name);
+    if (!common.quiet) fmt::print("{}: {} frames of {}\n", common.output, count, movement->name);
   }
 
   Trajectory load() const {
@@ -103,7 +103,7 @@ void add_render(Command program) {
   command.option("--truth", state->truth, "which truth of Tr1..Tr5").one_of({"source", "recorded"});
   command
       .option("--format", state->format,
-              "png: color and depth pictures; exr: color, z, label, and with --database the tracker's view;\n"
+              "png: color and depth pictures; exr: color, z, label, and with --database the tracker's view; "
               "fakenect: a recording that libfreenect's fakenect and `glovebench track` play")
       .one_of({"png", "exr", "fakenect"});
   command.option("--noise", state->noise, "depth noise").one_of(names_in(render::depth_noises()));

@@ -40,8 +40,14 @@ struct Reproduce {
                                            [this](const reports::RunResult& so_far) { show_newest(so_far); });
     const std::vector<reports::ClaimVerdict> verdicts =
         reports::judge(reports::claims(), reports::all_measures(outcome.result));
-    if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
     const bool judged = reports::are_claims_judged(outcome.result);
+    if (!common.quiet) print_end(outcome, verdicts, judged);
+    return exit_code_of(reports::count_required(verdicts), options, judged);
+  }
+
+  void print_end(const Reproduction& outcome, const std::vector<reports::ClaimVerdict>& verdicts,
+                 bool judged) const {
+    if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
     if (!options.study.quick && !judged)
       fmt::print("No claim is judged: they are about the paper's configuration, and this is another one.\n\n");
     if (options.study.quick) fmt::print("{}\n", reports::quick_note(outcome.result));
@@ -50,7 +56,6 @@ struct Reproduce {
       fmt::print("{}: {}/summary.md\n", study.title, common.output);
     fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
-    return exit_code_of(reports::count_required(verdicts), options, judged);
   }
 
   static void refuse_twice(const std::string& flag, const std::vector<std::string>& names) {
@@ -60,6 +65,7 @@ struct Reproduce {
 
   /// Shows Figure 4 first, then the newest study. If stdout has no reader, the work goes on and the summary fails.
   void show_newest(const reports::RunResult& so_far) const {
+    if (common.quiet) return;
     const std::string text =
         so_far.studies.empty() ? figure4_text(so_far) : reports::study_markdown(so_far.studies.back());
     std::fputs(text.c_str(), stdout);
@@ -83,10 +89,11 @@ void add_reproduce(Command program) {
   const Command command = program.subcommand(
       "reproduce",
       "Run the paper's experiments, judge its claims, and write the report.\n"
-      "Figures 4 to 6: five trajectories x the databases that hold their grasp, against the recorded truth, the\n"
+      "Figures 4 to 6: five trajectories x the databases that hold their grasp, against the recorded truth, the "
       "source truth, and the source with a second subject's hand in front of the camera. Figures 7 to 9, "
-      "ablations,\n"
-      "and a tracker without depth. Exit code 1: a claim that is required does not hold.\n"
+      "ablations, "
+      "and a tracker without depth.\n"
+      "Exit code 1: a claim that is required does not hold.\n"
       "Exit code 3: one was not measured, although all of Figure 4 was asked for.");
   const auto state = std::make_shared<Reproduce>();
   state->options.study.seeds.clear();
@@ -101,8 +108,10 @@ void add_reproduce(Command program) {
   command.option("--trajectory", state->options.trajectories, "only these in Figure 4, e.g. Tr4")
       .one_of(trajectories::ground_truth_names());
   command.option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed").in(1, 1000);
-  command.option("--all-noise", state->all_gains,
-                 "Figure 4 also with half and double noise gain, and the kinect noise model");
+  command
+      .option("--all-noise", state->all_gains,
+              "Figure 4 also with half and double noise gain, and the kinect noise model")
+      .rare();
   state->robot.add(command, "folder for the robot commands of each experiment").named_file();
   command.runs([state] { return state->run(); });
 }

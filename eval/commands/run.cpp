@@ -61,6 +61,7 @@ struct RunCommand {
     reports::write_report(common.output, result, timings, page_material(workbench, plan, result, estimates),
                           estimates);
     store.finish();
+    if (common.quiet) return;
     fmt::print("{}", reports::to_markdown(reports::detail_summary(result)));
     print_end(timings);
   }
@@ -80,6 +81,7 @@ struct RunCommand {
     common.check_output_folder();
     const Reproduction outcome =
         reproduce(workbench, {options, {}, {{}}, {study_name}}, robot.output_of(workbench), common.output);
+    if (common.quiet) return;
     print_study(outcome.result.studies.front());
     print_end(outcome.timings);
   }
@@ -142,31 +144,34 @@ void add_run(Command program) {
       "run", "Replay a suite, or trajectories, also your own, through the tracker and report the errors.");
   const auto state = std::make_shared<RunCommand>(command);
   state->common.add_output(command, "folder of the report");
-  command.option("study", state->study_name,
-                 "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");
-  command.option("--quick", state->quick, "of a study: a few frames and queries").needs("study");
-  command.option("--suite", state->suite_name,
-                 "experiments that belong together: a name (`glovebench list suites`) or a file (*.json)");
-  command.option("--filter", state->filter, "only experiments with such a name, e.g. 'Tr4_*' (shell wildcards)");
   command.option("--list", state->list, "print the experiments and stop");
   command.option("--dry-run", state->dry_run, "print what would be done and touch nothing");
-  command.option("--trajectory", state->trajectories,
-                 "names (`glovebench list trajectories`) or files (*.json; trajectories/README.md)");
-  command.option("--database", state->databases,
-                 "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)");
-  command.option("--truth", state->truth, "which truth of a named one").one_of({"source", "recorded"});
-  command.option("--noise", state->noise, "depth noise").one_of(names_in(render::depth_noises()));
-  command.option("--gain", state->gain, "factor on the noise's gain").in(0, 100);
-  command.option("--subject", state->subject, "whose hand is in front of the camera (`glovebench list subjects`)")
+  const Command experiments = command.group("Experiments");
+  experiments.option("study", state->study_name,
+                     "instead: a study of the paper, e.g. fig8 (`glovebench list studies`)");
+  experiments.option("--quick", state->quick, "of a study: a few frames and queries").needs("study");
+  experiments.option("--suite", state->suite_name,
+                     "experiments that belong together: a name (`glovebench list suites`) or a file (*.json)");
+  experiments.option("--filter", state->filter,
+                     "only experiments with such a name, e.g. 'Tr4_*' (shell wildcards)");
+  experiments.option("--trajectory", state->trajectories,
+                     "names (`glovebench list trajectories`) or files (*.json; trajectories/README.md)");
+  experiments.option("--database", state->databases,
+                     "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)");
+  experiments.option("--truth", state->truth, "which truth of a named one").one_of({"source", "recorded"});
+  const Command camera = command.group("Camera and hand");
+  camera.option("--noise", state->noise, "depth noise").one_of(names_in(render::depth_noises()));
+  camera.option("--gain", state->gain, "factor on the noise's gain").in(0, 100);
+  camera.option("--subject", state->subject, "whose hand is in front of the camera (`glovebench list subjects`)")
       .in(1, render::kSubjectCount);
-  command
+  state->common.add_seed(camera);
+  camera
       .option("--seeds", state->seed_count,
               "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")
       .in(1, 1000);
+  state->common.add_cameras(camera);
   state->robot.add(command, "folder for the robot commands of each experiment").named_file();
   state->common.add_tracker(command);
-  state->common.add_seed(command);
-  state->common.add_cameras(command);
   state->common.add_machine(command);
   command.runs([state] { state->run(); });
 }

@@ -83,8 +83,9 @@ struct Track {
     });
     if (frames == unusable) refuse();
     finish(output, outputs);
-    fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
-               counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
+    if (!common.quiet)
+      fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
+                 counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
   }
@@ -198,8 +199,10 @@ void add_track(Command program) {
   command.option("--calibration", state->from.calibration,
                  "calibration (*.json) [the recording's; of a Kinect: nominal values]");
   command.option("--frames", state->limit, "stop after that many; 0: none is the last").not_negative();
-  command.option("--every-frame", state->from.every_frame,
-                 "freenect: drop none that comes too fast, for what the fakenect library plays");
+  command
+      .option("--every-frame", state->from.every_frame,
+              "freenect: drop none that comes too fast, for what the fakenect library plays")
+      .rare();
   command
       .option("--database", state->database,
               "name (`glovebench list databases`) or file (*.glovedb, *.csv, *.json)")
@@ -211,8 +214,9 @@ void add_track(Command program) {
               "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)")
       .required();
   state->robot.add(command, "robot commands to write (*.jsonl)");
-  state->bus.add(command, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
-  command
+  const Command robot = command.group("Robot");
+  state->bus.add(robot, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
+  robot
       .option("--robot-topics", state->topics,
               "own, which only `robot-server` hears; controller, those of a robot's controllers, from where the "
               "robot is measured to stand (the arm's, too, unless --robot-arm none)")

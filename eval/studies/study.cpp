@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "eval/program.h"
 #include "eval/sequence_metrics.h"
 #include "trajectories/catalog.h"
@@ -60,12 +61,12 @@ const std::vector<Study>& studies() {
 }
 
 const Study& study(std::string_view name) {
-  std::vector<std::string_view> known;
+  std::vector<std::string> known;
   for (const Study& study : studies()) {
     if (study.name == name) return study;
-    known.push_back(study.name);
+    known.emplace_back(study.name);
   }
-  throw Error("study", "name", std::string(name), fmt::format("one of {}", fmt::join(known, ", ")));
+  throw Error("study", "name", std::string(name), one_of(known, name));
 }
 
 FrameRange frames_of(const StudyOptions& options) {

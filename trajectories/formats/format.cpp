@@ -35,13 +35,13 @@ PostureSet load_posture_set(const std::string& path) {
 const Format& find_marker_format(std::string_view name) {
   for (const Format* format : formats_with(&Format::markers))
     if (format->name == name) return *format;
-  throw Error("--format", "name", quoted_excerpt(name), fmt::format("one of {}", marker_format_names()));
+  throw Error("--format", "name", quoted_excerpt(name), one_of(marker_format_names(), name));
 }
 
-std::string marker_format_names() {
-  std::vector<std::string_view> names;
-  for (const Format* format : formats_with(&Format::markers)) names.push_back(format->name);
-  return fmt::format("{}", fmt::join(names, ", "));
+std::vector<std::string> marker_format_names() {
+  std::vector<std::string> names;
+  for (const Format* format : formats_with(&Format::markers)) names.emplace_back(format->name);
+  return names;
 }
 
 }  // namespace glovebench::trajectories

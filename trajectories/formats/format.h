@@ -59,7 +59,6 @@ PostureSet load_posture_set(const std::string& path);
 
 /// Throws: Error listing the known names.
 const Format& find_marker_format(std::string_view name);
-/// The names, separated by commas.
-std::string marker_format_names();
+std::vector<std::string> marker_format_names();
 
 }  // namespace glovebench::trajectories
