@@ -121,7 +121,9 @@ Table command_latency_table(const RunResult& result, const Timings& timings) {
 }
 
 std::string commands_csv(const RunResult& result) {
-  Json heading = {"trajectory", "database", "truth", "subject", "noise", "noise_factor", "frames"};
+  const std::string run = run_name(result);
+  Json heading = experiment_columns();
+  heading.push_back("frames");
   for (const CommandState state : all_values<CommandState>()) heading.push_back(to_string(state));
   for (const char* column : {"rate_hz", "longest_gap_ms"}) heading.push_back(column);
   for (const Intervention kind : all_values<Intervention>())
@@ -134,11 +136,9 @@ std::string commands_csv(const RunResult& result) {
   std::string csv = csv_line(heading);
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
-    const ExperimentKey& key = experiment.key;
     const CommandResult& commands = *experiment.commands;
-    Json cells = {key.trajectory, key.database,    to_string(key.truth),
-                  key.subject,    key.noise.model, rounded(key.noise.factor),
-                  commands.frames};
+    Json cells = experiment_cells(run, experiment.key);
+    cells.push_back(commands.frames);
     for (const int sent : commands.sent) cells.push_back(sent);
     cells.push_back(rounded_or_null(commands.rate_hz));
     cells.push_back(rounded_or_null(commands.longest_gap_ms));

@@ -47,6 +47,9 @@ int main(int argc, char** argv) {
     result.studies.push_back(example_ablations());
     write_report(argv[1], result, example_timings(), example_material(result, page_scripts()));
     write_report(std::string(argv[1]) + "/small", small_result(), {});
+    RunResult own = small_result();
+    own.experiments.front().key.trajectory = "wave";
+    write_report(std::string(argv[1]) + "/own", own, {}, {page_scripts(), {}, {}});
     const std::string comparison = std::string(argv[1]) + "/comparison";
     ComparisonReport report = full_comparison();
     report.scripts = page_scripts();

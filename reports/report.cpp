@@ -18,18 +18,22 @@ struct NamedFile {
 
 std::vector<NamedFile> other_files(const RunResult& result) {
   const PaperNumbers& paper = paper_numbers();
+  const std::string run = run_name(result);
   std::vector<NamedFile> files = {{"histories/bencher.json", bencher_json(result)},
-                                  {"histories/github_action_benchmark.json", github_action_benchmark_json(result)},
-                                  {"tables/figure4.tex", figure4_latex(result, paper, headline_noise(result))}};
+                                  {"histories/github_action_benchmark.json", github_action_benchmark_json(result)}};
+  if (is_figure4(result))
+    files.push_back({"tables/figure4.tex", figure4_latex(result, paper, headline_noise(result))});
+  else if (!result.experiments.empty())
+    files.push_back({"tables/errors.tex", errors_latex(result)});
   const auto tables = csv_tables(result, paper);
   for (const auto& [name, csv] : tables.items()) files.push_back({"tables/" + name + ".csv", csv});
   for (const ExperimentResult& experiment : result.experiments)
-    files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(experiment)});
+    files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(run, experiment)});
   if (has_commands(result)) files.push_back({"tables/commands.csv", commands_csv(result)});
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
   if (any_was_run(verdicts)) {
     files.push_back({"claims.json", claims_json(verdicts)});
-    files.push_back({"tables/claims.csv", claims_csv(verdicts)});
+    files.push_back({"tables/claims.csv", claims_csv(run, verdicts)});
   }
   return files;
 }

@@ -75,6 +75,22 @@ std::string truth_name(const ExperimentKey& key) {
   return fmt::format("{}/{}", to_string(key.truth), key.trajectory);
 }
 
+std::string run_name(const RunResult& result) {
+  constexpr size_t kDigits = 8;
+  nlohmann::json experiments = nlohmann::json::array();
+  for (const ExperimentResult& experiment : result.experiments) {
+    nlohmann::json seeds = nlohmann::json::array();
+    for (const SeedRun& run : experiment.runs) seeds.push_back({run.seed, run.frames.size()});
+    experiments.push_back({to_string(experiment.key), seeds});
+  }
+  const InputHashes& inputs = result.inputs;
+  const nlohmann::json content = {
+      result.protocol.id(), result.program_version, result.commit,     result.suite,       result.configuration,
+      inputs.truths,        inputs.databases,       inputs.hand_model, inputs.color_table, experiments};
+  const std::string text = content.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return result.commit + "-" + hash_text(text).substr(0, kDigits);
+}
+
 NoiseSetting headline_noise(const RunResult& result) {
   const NoiseSetting paper;
   const bool has_paper =

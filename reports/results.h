@@ -159,6 +159,9 @@ struct RunResult {
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };
+/// Names a run in its tables: "COMMIT-HASH", where the hash is of version, configuration, inputs, seeds and all
+/// else that the results follow from.
+std::string run_name(const RunResult& result);
 /// The paper's noise (gradient x 1) if any experiment has it, else the first one's.
 NoiseSetting headline_noise(const RunResult& result);
 /// Null if there is none.

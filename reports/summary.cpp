@@ -1,6 +1,9 @@
 #include "reports/summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
@@ -13,6 +16,35 @@ std::string mean_with_interval(const ExperimentResult& experiment, std::string_v
   const auto& interval = experiment.interval_of(metric);
   const std::string mean = fixed(experiment.aggregate_of(metric).mean, 2);
   return interval ? fmt::format("{} [{:.2f}, {:.2f}]", mean, interval->low, interval->high) : mean;
+}
+
+/// Removes the columns of names in which all rows agree, but keeps one; returns what was removed.
+std::vector<std::string> remove_common_names(Table& table) {
+  std::vector<std::string> common;
+  for (auto c = static_cast<size_t>(table.name_columns); c-- > 0 && table.name_columns > 1;) {
+    if (table.rows.empty() ||
+        std::ranges::any_of(table.rows, [&](const Row& row) { return row[c] != table.rows.front()[c]; }))
+      continue;
+    common.insert(common.begin(),
+                  table.columns[c].heading + " " + cell_text(table.rows.front()[c], table.columns[c]));
+    table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(c));
+    for (Row& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
+    --table.name_columns;
+  }
+  return common;
+}
+
+/// Makes one column of all names.
+void join_names(Table& table) {
+  const auto count = static_cast<size_t>(table.name_columns);
+  for (Row& row : table.rows) {
+    std::string name;
+    for (size_t c = 0; c < count; ++c) name += (c > 0 ? ", " : "") + cell_text(row[c], table.columns[c]);
+    row.erase(row.begin() + 1, row.begin() + table.name_columns);
+    row.front() = name;
+  }
+  table.columns.erase(table.columns.begin() + 1, table.columns.begin() + table.name_columns);
+  table.name_columns = 1;
 }
 
 std::string truth_cell(const ExperimentKey& key) {
@@ -55,6 +87,41 @@ Table detail_summary(const RunResult& result) {
   return table;
 }
 
+Table headline_table(const RunResult& result) {
+  Table table = experiment_table({"position mm", "posture deg", "rotation deg", "fingertips mm", "coverage %"});
+  for (const ExperimentResult& experiment : result.experiments) {
+    Row& row = table.rows.emplace_back(experiment_names(experiment.key));
+    for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg", "fingertip_error_mm"})
+      row.push_back(fixed(experiment.aggregate_of(metric).mean, 2));
+    row.push_back(fixed(covered_percent(experiment), 1));
+  }
+  return table;
+}
+
+std::string headline_explanation() {
+  return "Mean errors of the tracked frames: position, posture (RMS over the 22 joint angles), rotation, "
+         "fingertips. Coverage: of all frames, lost ones included, those tracked within 50 mm and 30 degrees.";
+}
+
+std::string headline_text(const RunResult& result, size_t columns) {
+  constexpr size_t kMostNames = 2;  // more make a line of their own above the numbers
+  Table table = headline_table(result);
+  const std::vector<std::string> common = remove_common_names(table);
+  const std::vector<std::string> short_headings = {"pos. mm", "post. deg", "rot. deg", "tips mm", "cov. %"};
+  for (size_t c = 0; c < short_headings.size(); ++c)
+    table.columns[static_cast<size_t>(table.name_columns) + c].heading = short_headings[c];
+  const bool is_grouped = static_cast<size_t>(table.name_columns) > kMostNames;
+  if (is_grouped) join_names(table);
+  std::string text = wrapped(headline_explanation(), columns);
+  if (!common.empty()) text += wrapped(fmt::format("All: {}.", fmt::join(common, ", ")), columns);
+  return text + "\n" + to_text(table, is_grouped, columns);
+}
+
+std::string errors_latex(const RunResult& result) {
+  return latex_comment(fmt::format("glovebench run {}: mean errors", run_name(result))) +
+         to_latex(headline_table(result));
+}
+
 std::string study_markdown(const StudyResult& study) {
   std::string text = fmt::format("## {}\n\n", study.title);
   for (const Table& table : study.tables) {
@@ -84,14 +151,17 @@ std::string quick_note(const RunResult& result) {
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper) {
   const NoiseSetting noise = headline_noise(result);
   const std::string note = quick_note(result);
-  std::string text =
-      fmt::format("# glovebench results\n\nglovebench {}, commit {}, protocol {}.\n\n{}", result.program_version,
-                  result.commit, result.protocol.id(), note.empty() ? "" : note + "\n\n");
+  std::string text = fmt::format("# glovebench results\n\nglovebench {}, commit {}, protocol {}, run {}.\n\n{}",
+                                 result.program_version, result.commit, result.protocol.id(), run_name(result),
+                                 note.empty() ? "" : note + "\n\n");
   text += claims_markdown(judge(claims(), all_measures(result)));
-  if (!result.experiments.empty())
+  if (is_figure4(result))
     text +=
         fmt::format("## Figure 4\n\n{} Noise: {} x {}.\n\n{}\nThe paper: {}.\n\n", summary_explanation(),
                     noise.model, noise.factor, to_markdown(figure4_summary(result, paper, noise)), paper.source);
+  else if (!result.experiments.empty())
+    text +=
+        fmt::format("## Mean errors\n\n{}\n\n{}\n", headline_explanation(), to_markdown(headline_table(result)));
   for (const StudyResult& study : result.studies) text += study_markdown(study);
   if (!result.experiments.empty())
     text += fmt::format(

@@ -15,6 +15,15 @@ Row experiment_names(const ExperimentKey& key);
 /// Position error with interval, metrics without joint convention, jitter, latency, lost and false frames.
 Table detail_summary(const RunResult& result);
 
+/// Position, posture, rotation, fingertips and coverage of each experiment.
+Table headline_table(const RunResult& result);
+/// What `headline_table` holds, in plain text.
+std::string headline_explanation();
+/// The headline for a terminal: names that all experiments share stand above the table.
+std::string headline_text(const RunResult& result, size_t columns);
+/// The headline as LaTeX, after a comment that names the run.
+std::string errors_latex(const RunResult& result);
+
 /// Warning for a quick run, as plain text; else empty.
 std::string quick_note(const RunResult& result);
 

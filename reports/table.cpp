@@ -177,7 +177,7 @@ std::string to_latex(const Table& table, const std::string& heading) {
   return latex + "\\bottomrule\n\\end{tabular}\n";
 }
 
-std::string to_text(const Table& table, bool grouped) {
+std::string to_text(const Table& table, bool grouped, size_t columns) {
   std::vector<Texts> lines = {headings_of(table)};
   for (const Row& row : table.rows) lines.push_back(texts_of(table, row));
   const auto is_left = [&](size_t column) {
@@ -188,12 +188,12 @@ std::string to_text(const Table& table, bool grouped) {
   std::vector<size_t> widths = widths_of(lines, first);
   size_t total = std::accumulate(widths.begin(), widths.end(), size_t{0});
   const size_t gaps = widths.size() - 1;
-  const size_t gap = total + 2 * gaps <= kTerminalColumns ? 2 : 1;
-  for (; total + gap * gaps > kTerminalColumns; --total) --*std::ranges::max_element(widths);
+  const size_t gap = total + 2 * gaps <= columns ? 2 : 1;
+  for (; total + gap * gaps > columns; --total) --*std::ranges::max_element(widths);
   std::string text;
   for (size_t l = 0; l < lines.size(); ++l) {
     if (grouped && l > 0 && (l == 1 || lines[l][0] != lines[l - 1][0]))
-      text += shortened(lines[l][0], kTerminalColumns) + "\n";
+      text += shortened(lines[l][0], columns) + "\n";
     std::string line;
     for (size_t c = first; c < lines[l].size(); ++c) {
       const std::string cell = shortened(lines[l][c], widths[c]);
@@ -206,12 +206,14 @@ std::string to_text(const Table& table, bool grouped) {
   return text;
 }
 
-std::string to_csv(const Table& table) {
+std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names) {
   Json heading = Json::array();
+  for (const auto& [column, value] : names) heading.push_back(column);
   for (const Column& column : table.columns) heading.push_back(column.key);
   std::string csv = csv_line(heading);
   for (const Row& row : table.rows) {
     Json cells = Json::array();
+    for (const auto& [column, value] : names) cells.push_back(valid_utf8(value));
     for (const Cell& cell : row) cells.push_back(cell_json(cell));
     csv += csv_line(cells);
   }

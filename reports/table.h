@@ -5,10 +5,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/base/enum_names.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 
@@ -71,9 +73,9 @@ std::string to_html(const Table& table, const std::vector<std::string>& plots = 
 std::string to_latex(const Table& table, const std::string& heading = "");
 /// Aligned for a terminal; the widest columns shrink to fit. `grouped`: the first column becomes a line above its
 /// rows.
-std::string to_text(const Table& table, bool grouped = false);
-/// Keys, then values; numbers to 1e-6.
-std::string to_csv(const Table& table);
+std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
+/// Keys, then values; numbers to 1e-6. `names`: columns that precede, with the value of every row.
+std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});
 
 /// One CSV line of plain values (RFC 4180, but line feeds); null is empty. Text that a spreadsheet takes for a
 /// formula gets a leading apostrophe.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "reports/json_text.h"
 #include "reports/results_json.h"
@@ -13,23 +14,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The errors of Figure 4, with the paper's members.
 struct Headline {
   std::string_view metric;
-  double PaperErrors::*paper;
+  double PaperErrors::*paper;  ///< null: not in the paper
 };
-constexpr std::array<Headline, 3> kHeadlines = {{{"position_error_mm", &PaperErrors::position_mm},
+constexpr std::array<Headline, 4> kHeadlines = {{{"position_error_mm", &PaperErrors::position_mm},
                                                  {"posture_rms_deg", &PaperErrors::posture_deg},
-                                                 {"rotation_error_deg", &PaperErrors::rotation_deg}}};
+                                                 {"rotation_error_deg", &PaperErrors::rotation_deg},
+                                                 {"fingertip_error_mm", nullptr}}};
+/// The errors of Figure 4.
+constexpr auto kPaperHeadlines = std::span(kHeadlines).first<3>();
 
 std::string short_name(const std::string& database) {
   return database.starts_with("DB_") ? database.substr(3) : database;
-}
-
-std::optional<double> covered_percent(const ExperimentResult& experiment) {
-  std::optional<double> percent = experiment.coverage.share();
-  if (percent) *percent *= 100;
-  return percent;
 }
 
 /// At most six columns wide, for errors up to a kilometer.
@@ -56,21 +53,30 @@ std::string table_line(std::string_view trajectory, std::string_view database,
                      cells[3]);
 }
 
-std::string figure4_csv_line(const ExperimentResult& experiment, const PaperErrors* paper) {
-  const ExperimentKey& key = experiment.key;
-  Json cells = {key.trajectory,
-                key.database,
-                to_string(key.truth),
-                key.subject,
-                experiment.runs.size(),
-                experiment.coverage.frames,
-                rounded_or_null(experiment.coverage.share())};
+std::string means_heading(bool with_paper) {
+  Json heading = experiment_columns();
+  for (const char* column : {"seeds", "frames", "coverage"}) heading.push_back(column);
+  for (const Headline& headline : kHeadlines) {
+    for (const char* part : {"mean", "interval_low", "interval_high"})
+      heading.push_back(fmt::format("{}_{}", headline.metric, part));
+    if (with_paper && headline.paper) heading.push_back(fmt::format("{}_paper", headline.metric));
+  }
+  return csv_line(heading);
+}
+
+/// `paper`: null where the paper has only a bar.
+std::string means_line(const std::string& run, const ExperimentResult& experiment, bool with_paper,
+                       const PaperErrors* paper) {
+  Json cells = experiment_cells(run, experiment.key);
+  cells.push_back(experiment.runs.size());
+  cells.push_back(experiment.coverage.frames);
+  cells.push_back(rounded_or_null(experiment.coverage.share()));
   for (const Headline& headline : kHeadlines) {
     const auto& interval = experiment.interval_of(headline.metric);
     cells.push_back(rounded_or_null(experiment.aggregate_of(headline.metric).mean));
     cells.push_back(interval ? Json(rounded(interval->low)) : nullptr);
     cells.push_back(interval ? Json(rounded(interval->high)) : nullptr);
-    cells.push_back(paper ? Json(paper->*headline.paper) : nullptr);
+    if (with_paper && headline.paper) cells.push_back(paper ? Json(paper->*headline.paper) : nullptr);
   }
   return csv_line(cells);
 }
@@ -115,6 +121,25 @@ const std::array<Variant, 3>& figure4_variants() {
                                                    {"source truth", TruthKind::source, 1},
                                                    {"source, second subject", TruthKind::source, 2}}};
   return variants;
+}
+
+std::array<std::string, 3> figure4_databases(std::string_view trajectory) {
+  // Tr1 and Tr2 are pinches, the others power grasps (section IV).
+  const bool is_pinch = trajectory == "Tr1" || trajectory == "Tr2";
+  const bool is_power = trajectory == "Tr3" || trajectory == "Tr4" || trajectory == "Tr5";
+  if (!is_pinch && !is_power) return {};
+  return {is_pinch ? "DB_open_pinch" : "DB_open_power", "DB_open_pinch_power", "DB_20_postures"};
+}
+
+bool is_figure4(const RunResult& result) {
+  const auto is_of_it = [](const ExperimentResult& experiment) {
+    const ExperimentKey& key = experiment.key;
+    return std::ranges::count(figure4_databases(key.trajectory), key.database) > 0 &&
+           std::ranges::any_of(figure4_variants(), [&](const Variant& variant) {
+             return variant.truth == key.truth && variant.subject == key.subject;
+           });
+  };
+  return !result.experiments.empty() && std::ranges::all_of(result.experiments, is_of_it);
 }
 
 std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper,
@@ -180,60 +205,76 @@ std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, co
   for (const Figure4Row& row : figure4_rows(result, paper, noise)) {
     Row& cells = table.rows.emplace_back(Row{row.trajectory, row.database});
     for (const ExperimentResult* experiment : row.variants) {
-      for (const Headline& headline : kHeadlines)
+      for (const Headline& headline : kPaperHeadlines)
         cells.push_back(experiment ? fixed(experiment->aggregate_of(headline.metric).mean, 2) : "-");
       cells.push_back(experiment ? fixed(covered_percent(*experiment), 1) : "-");
     }
-    for (const Headline& headline : kHeadlines)
+    for (const Headline& headline : kPaperHeadlines)
       cells.push_back(row.paper ? fixed(row.paper->*headline.paper, 2) : "-");
   }
-  return to_latex(table, variant_heading());
+  return latex_comment(fmt::format("glovebench run {}: Figure 4, depth noise {} x {}", run_name(result),
+                                   noise.model, noise.factor)) +
+         to_latex(table, variant_heading());
 }
 
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
-  Json heading = {"trajectory", "database", "truth", "subject", "seeds", "frames", "coverage"};
-  for (const Headline& headline : kHeadlines)
-    for (const char* part : {"mean", "interval_low", "interval_high", "paper"})
-      heading.push_back(fmt::format("{}_{}", headline.metric, part));
-  std::string csv = csv_line(heading);
+  const std::string run = run_name(result);
+  std::string csv = means_heading(true);
   for (const Figure4Row& row : figure4_rows(result, paper, noise))
     for (const ExperimentResult* experiment : row.variants)
-      if (experiment) csv += figure4_csv_line(*experiment, row.paper);
+      if (experiment) csv += means_line(run, *experiment, true, row.paper);
   return csv;
 }
 
-std::string frames_csv(const ExperimentResult& experiment) {
+std::string errors_csv(const RunResult& result) {
+  const std::string run = run_name(result);
+  std::string csv = means_heading(false);
+  for (const ExperimentResult& experiment : result.experiments) csv += means_line(run, experiment, false, nullptr);
+  return csv;
+}
+
+std::optional<double> covered_percent(const ExperimentResult& experiment) {
+  std::optional<double> percent = experiment.coverage.share();
+  if (percent) *percent *= 100;
+  return percent;
+}
+
+Json experiment_columns() {
+  return {"run", "experiment", "trajectory", "database", "truth", "subject", "noise", "noise_factor"};
+}
+
+Json experiment_cells(const std::string& run, const ExperimentKey& key) {
+  return {run,         to_string(key),  key.trajectory,           key.database, to_string(key.truth),
+          key.subject, key.noise.model, rounded(key.noise.factor)};
+}
+
+std::string frames_csv(const std::string& run, const ExperimentResult& experiment) {
   const std::vector<std::string> keys = frame_metric_keys();
-  std::string csv = "seed";
-  for (const std::string& column : frame_columns(keys)) csv += "," + column;
-  csv += "\n";
-  for (const SeedRun& run : experiment.runs)
-    for (const FrameRecord& frame : run.frames)
-      csv += fmt::format("{},{}", run.seed, csv_line(frame_row(frame, keys)));
+  Json heading = {"run", "experiment", "seed"};
+  for (const std::string& column : frame_columns(keys)) heading.push_back(column);
+  std::string csv = csv_line(heading);
+  for (const SeedRun& seed_run : experiment.runs) {
+    for (const FrameRecord& frame : seed_run.frames) {
+      Json cells = {run, to_string(experiment.key), seed_run.seed};
+      for (const Json& cell : frame_row(frame, keys)) cells.push_back(cell);
+      csv += csv_line(cells);
+    }
+  }
   return csv;
 }
 
-std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& paper) {
+std::string curve_csv(const std::string& run, const ExperimentResult& experiment, const PaperCurve& paper) {
   std::string csv =
-      "seed,frame,timestamp_us,status,position_error_mm,posture_rms_deg,rotation_error_deg,"
+      "run,experiment,seed,frame,timestamp_us,status,position_error_mm,posture_rms_deg,rotation_error_deg,"
       "paper_position_error_mm,paper_posture_error_deg,paper_rotation_error_deg\n";
-  for (const SeedRun& run : experiment.runs) {
-    for (size_t i = 0; i < run.frames.size(); ++i) {
-      const FrameRecord& frame = run.frames[i];
-      Json cells = {run.seed,
-                    frame.frame,
-                    frame.timestamp_us,
-                    std::string(to_string(frame.status)),
-                    rounded_or_null(frame["position_error_mm"]),
-                    rounded_or_null(frame["posture_rms_deg"]),
-                    rounded_or_null(frame["rotation_error_deg"])};
-      if (i < paper.frames.size()) {
-        const PaperErrors& errors = paper.frames[i];
-        for (const double value : {errors.position_mm, errors.posture_deg, errors.rotation_deg})
-          cells.push_back(value);
-      } else {
-        for (int column = 0; column < 3; ++column) cells.push_back(nullptr);
-      }
+  for (const SeedRun& seed_run : experiment.runs) {
+    for (size_t i = 0; i < seed_run.frames.size(); ++i) {
+      const FrameRecord& frame = seed_run.frames[i];
+      Json cells = {run,         to_string(experiment.key), seed_run.seed,
+                    frame.frame, frame.timestamp_us,        std::string(to_string(frame.status))};
+      for (const Headline& headline : kPaperHeadlines) cells.push_back(rounded_or_null(frame[headline.metric]));
+      for (const Headline& headline : kPaperHeadlines)
+        cells.push_back(i < paper.frames.size() ? Json(paper.frames[i].*headline.paper) : nullptr);
       csv += csv_line(cells);
     }
   }
@@ -241,17 +282,23 @@ std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& pape
 }
 
 Json csv_tables(const RunResult& result, const PaperNumbers& paper) {
+  const std::string run = run_name(result);
   const NoiseSetting noise = headline_noise(result);
-  Json tables = {{"figure4", figure4_csv(result, paper, noise)}};
+  Json tables = Json::object();
+  if (is_figure4(result))
+    tables["figure4"] = figure4_csv(result, paper, noise);
+  else if (!result.experiments.empty())
+    tables["errors"] = errors_csv(result);
   const auto add_curve = [&](const std::string& name, const PaperCurve& curve) {
     const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
     if (const ExperimentResult* experiment = find_experiment(result, key))
-      tables[name] = curve_csv(*experiment, curve);
+      tables[name] = curve_csv(run, *experiment, curve);
   };
   add_curve("figure5", paper.figure_5);
   add_curve("figure6", paper.figure_6);
   for (const StudyResult& study : result.studies)
-    for (const Table& table : study.tables) tables[table.name] = to_csv(table);
+    for (const Table& table : study.tables)
+      tables[table.name] = to_csv(table, {{"run", run}, {"experiment", study.title}});
   return tables;
 }
 

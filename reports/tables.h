@@ -1,7 +1,10 @@
 #pragma once
 
 #include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reports/paper_numbers.h"
@@ -17,6 +20,12 @@ struct Variant {
   int subject;
 };
 const std::array<Variant, 3>& figure4_variants();
+
+/// Figure 4's databases for Tr1 to Tr5: the one with just its grasp first, the largest last. Empty names for
+/// another trajectory.
+std::array<std::string, 3> figure4_databases(std::string_view trajectory);
+/// Whether all experiments, of which there is one or more, are Figure 4's, with any noise.
+bool is_figure4(const RunResult& result);
 
 /// One trajectory with one database; null where not run.
 struct Figure4Row {
@@ -34,17 +43,28 @@ std::string figure4_table(const RunResult& result, const PaperNumbers& paper, co
 
 /// One column per variant, one for the paper's means.
 Table figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
-/// One column per number.
+/// One column per number, after a comment that names the run.
 std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 /// One line per experiment, with intervals and the paper's numbers.
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
+/// As `figure4_csv`, of all experiments and without the paper's numbers.
+std::string errors_csv(const RunResult& result);
 
-/// Every frame: the seed, then frame_columns. Empty cells have no value.
-std::string frames_csv(const ExperimentResult& experiment);
+/// Percent of all frames.
+std::optional<double> covered_percent(const ExperimentResult& experiment);
+
+// Every CSV names run (run_name) and experiment in its first columns.
+
+/// Columns "run" to "noise_factor", and their cells.
+nlohmann::ordered_json experiment_columns();
+nlohmann::ordered_json experiment_cells(const std::string& run, const ExperimentKey& key);
+
+/// Every frame: run, experiment, seed, then frame_columns. Empty cells have no value.
+std::string frames_csv(const std::string& run, const ExperimentResult& experiment);
 /// Errors of Figure 5 or 6 per frame, beside the paper's, which are of another movement.
-std::string curve_csv(const ExperimentResult& experiment, const PaperCurve& paper);
-/// Data of the page's charts as CSV: Figure 4, Figures 5 and 6 if run, studies' tables. "figure4" is
-/// tables/figure4.csv.
+std::string curve_csv(const std::string& run, const ExperimentResult& experiment, const PaperCurve& paper);
+/// Data of the page's charts as CSV: Figure 4 or the errors of other experiments, Figures 5 and 6 if run, studies'
+/// tables. "figure4" is tables/figure4.csv.
 nlohmann::ordered_json csv_tables(const RunResult& result, const PaperNumbers& paper);
 
 }  // namespace glovebench::reports

@@ -47,6 +47,8 @@ TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
 
 TEST(Figure4Latex, HasThePapersNumbers) {
   const std::string latex = figure4_latex(small_result(), paper_numbers(), {});
+  EXPECT_THAT(latex, testing::StartsWith("% glovebench run 0123456789-" + run_name(small_result()).substr(11) +
+                                         ": Figure 4, depth noise gradient x 1\n\\begin{tabular}"));
   EXPECT_THAT(latex, HasSubstr("Tr4 & DB\\_open\\_power & 4.00 & 3.00 & 2.00 & 75.0 & -- & -- & -- & -- & "
                                "-- & -- & -- & 0.0 & 3.88 & 2.60 & 2.70 \\\\\n"));
   EXPECT_THAT(latex, HasSubstr("\\multicolumn{4}{c}{source, second subject} & \\multicolumn{3}{c}{paper} \\\\\n"
@@ -58,38 +60,101 @@ TEST(Figure4Csv, OneLineAnExperiment) {
   const std::vector<std::string> lines = lines_of_table(figure4_csv(small_result(), paper_numbers(), {}));
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
-            "trajectory,database,truth,subject,seeds,frames,coverage,"
+            "run,experiment,trajectory,database,truth,subject,noise,noise_factor,seeds,frames,coverage,"
             "position_error_mm_mean,position_error_mm_interval_low,position_error_mm_interval_high,"
             "position_error_mm_paper,"
             "posture_rms_deg_mean,posture_rms_deg_interval_low,posture_rms_deg_interval_high,posture_rms_deg_paper,"
             "rotation_error_deg_mean,rotation_error_deg_interval_low,rotation_error_deg_interval_high,"
-            "rotation_error_deg_paper");
-  EXPECT_THAT(lines[1], testing::StartsWith("Tr4,DB_open_power,recorded,1,2,4,0.75,4.0,"));
+            "rotation_error_deg_paper,"
+            "fingertip_error_mm_mean,fingertip_error_mm_interval_low,fingertip_error_mm_interval_high");
+  const std::string run = run_name(small_result());
+  EXPECT_THAT(lines[1], testing::StartsWith(run + ",Tr4_DB_open_power_recorded_subject1_gradient_1,Tr4,DB_open_power,"
+                                            "recorded,1,gradient,1.0,2,4,0.75,4.0,"));
   EXPECT_THAT(lines[1], HasSubstr(",3.8814,3.0,"));
-  EXPECT_EQ(lines[2], "Tr4,DB_open_power,source,2,1,2,0.0,,,,3.8814,,,,2.6012,,,,2.6955");
-  EXPECT_EQ(lines[3], "Tr1,DB_20_postures,source,1,0,0,,,,,7.3316,,,,18.0114,,,,11.6754");
+  EXPECT_EQ(lines[2], run + ",Tr4_DB_open_power_source_subject2_gradient_1,Tr4,DB_open_power,source,2,gradient,1.0,"
+                            "1,2,0.0,,,,3.8814,,,,2.6012,,,,2.6955,,,");
+  EXPECT_EQ(lines[3], run + ",Tr1_DB_20_postures_source_subject1_gradient_1,Tr1,DB_20_postures,source,1,gradient,1.0,"
+                            "0,0,,,,,7.3316,,,,18.0114,,,,11.6754,,,");
+}
+
+/// As `small_result`, but the first experiment is of a user's movement.
+RunResult own_result() {
+  RunResult result = small_result();
+  result.experiments.front().key.trajectory = "wave";
+  return result;
+}
+
+TEST(Errors, OfOnesOwnRunHaveNoNumbersOfThePaper) {
+  EXPECT_TRUE(is_figure4(small_result()));
+  EXPECT_FALSE(is_figure4(own_result()));
+  RunResult other_hand = small_result();
+  other_hand.experiments.front().key.subject = 5;
+  EXPECT_FALSE(is_figure4(other_hand));
+  EXPECT_FALSE(is_figure4({}));
+  const std::vector<std::string> lines = lines_of_table(errors_csv(own_result()));
+  ASSERT_EQ(lines.size(), 5u) << "of any noise";
+  EXPECT_THAT(lines[0], testing::Not(HasSubstr("paper")));
+  EXPECT_THAT(lines[1], HasSubstr(",wave_DB_open_power_recorded_subject1_gradient_1,wave,DB_open_power,recorded,1,"));
+  const std::string summary = summary_markdown(own_result(), paper_numbers());
+  EXPECT_THAT(summary, testing::AllOf(HasSubstr("## Mean errors"), testing::Not(HasSubstr("Figure 4"))));
+  EXPECT_THAT(summary, HasSubstr("| wave | DB_open_power | recorded | gradient x 1 | 4.00 | 3.00 | 2.00 | 6.00 | 75.0 |"));
+  EXPECT_THAT(summary, testing::Not(testing::AnyOf(HasSubstr("3.88"), HasSubstr("7.33"))));
+  EXPECT_THAT(errors_latex(own_result()), HasSubstr(": mean errors\n\\begin{tabular}{llllrrrrr}"));
+}
+
+TEST(HeadlineText, NamesWhatTheExperimentsShareAndFits80Columns) {
+  RunResult result = own_result();
+  result.experiments.resize(1);
+  EXPECT_EQ(headline_text(result, 80), R"(
+Mean errors of the tracked frames: position, posture (RMS over the 22 joint
+angles), rotation, fingertips. Coverage: of all frames, lost ones included,
+those tracked within 50 mm and 30 degrees.
+All: database DB_open_power, truth recorded, noise gradient x 1.
+
+trajectory  pos. mm  post. deg  rot. deg  tips mm  cov. %
+wave           4.00       3.00      2.00     6.00    75.0
+)" + 1);
+  for (const RunResult& each : {own_result(), full_result()})
+    for (const std::string& line : lines_of_table(headline_text(each, 80))) EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_THAT(headline_text(own_result(), 80), HasSubstr("\nTr1, DB_20_postures, source, gradient x 1\n"));
+}
+
+TEST(RunName, DiffersWithAnythingThatChangesTheResults) {
+  const std::string name = run_name(small_result());
+  EXPECT_EQ(name, run_name(small_result()));
+  EXPECT_THAT(name, testing::MatchesRegex("0123456789-[0-9a-f]{8}"));
+  RunResult other = small_result();
+  other.configuration["profile"] = "other";
+  EXPECT_NE(run_name(other), name);
+  other = small_result();
+  other.inputs.truths["source/Tr1"] = "00fe";
+  EXPECT_NE(run_name(other), name);
+  other = small_result();
+  other.experiments[0].runs[0].seed = 7;
+  EXPECT_NE(run_name(other), name);
 }
 
 TEST(FramesCsv, LostFramesHaveEmptyCells) {
-  const std::vector<std::string> lines = lines_of_table(frames_csv(small_result().experiments[0]));
+  const std::vector<std::string> lines = lines_of_table(frames_csv("a-1", small_result().experiments[0]));
   ASSERT_EQ(lines.size(), 5u);
-  EXPECT_THAT(lines[0], testing::StartsWith("seed,frame,timestamp_us,status,covered,"));
+  EXPECT_THAT(lines[0], testing::StartsWith("run,experiment,seed,frame,timestamp_us,status,covered,"));
   EXPECT_THAT(lines[1], testing::StartsWith(
-                            "1,0,0,tracked,true,false,false,false,true,20,3.0,1.0,2.0,1.0,1.0,1.0,1.0,,1.0,3.75,"
+                            "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,0,0,tracked,true,false,false,false,true,20,3.0,1.0,2.0,1.0,1.0,1.0,1.0,,1.0,3.75,"
                             "4.5,3.75,1.0,1.0"));
   const auto metrics = std::ssize(frame_metrics());
   EXPECT_EQ(lines[2],
-            "1,1,66666,poor_match,false,false,true,false,false,0" + std::string(static_cast<size_t>(metrics), ','));
-  for (const std::string& line : lines) EXPECT_EQ(std::ranges::count(line, ','), 9 + metrics) << line;
+            "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,1,66666,poor_match,false,false,true,false,false,0" + std::string(static_cast<size_t>(metrics), ','));
+  for (const std::string& line : lines) EXPECT_EQ(std::ranges::count(line, ','), 11 + metrics) << line;
 }
 
 TEST(CurveCsv, StandsBesideThePapersCurve) {
   PaperCurve paper = paper_numbers().figure_5;
   paper.frames.resize(1);
-  const std::vector<std::string> lines = lines_of_table(curve_csv(small_result().experiments[0], paper));
+  const std::vector<std::string> lines = lines_of_table(curve_csv("a-1", small_result().experiments[0], paper));
   ASSERT_EQ(lines.size(), 5u);
-  EXPECT_EQ(lines[1], "1,0,0,tracked,3.0,2.0,1.0,3.48071,1.47e-13,4.35094");
-  EXPECT_EQ(lines[2], "1,1,66666,poor_match,,,,,,") << "lost, and the paper's curve has ended";
+  const std::string names = "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,";
+  EXPECT_EQ(lines[1], names + "1,0,0,tracked,3.0,2.0,1.0,3.48071,1.47e-13,4.35094");
+  EXPECT_EQ(lines[2], names + "1,1,66666,poor_match,,,,,,") << "lost, and the paper's curve has ended";
 }
 
 TEST(Summary, TablesInMarkdown) {

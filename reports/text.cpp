@@ -91,6 +91,13 @@ std::string escape_latex(const std::string& text) {
   return escaped;
 }
 
+std::string latex_comment(const std::string& text) {
+  std::string line = text;
+  std::ranges::replace_if(
+      line, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return "% " + line + "\n";
+}
+
 std::string fixed(const std::optional<double>& value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }

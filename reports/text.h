@@ -14,6 +14,8 @@ std::string escape_xml(const std::string& text);
 /// One cell or line. Escapes brackets only where they make a link.
 std::string escape_markdown(const std::string& text);
 std::string escape_latex(const std::string& text);
+/// A line that LaTeX skips.
+std::string latex_comment(const std::string& text);
 
 /// "-" for no value.
 std::string fixed(const std::optional<double>& value, int digits);

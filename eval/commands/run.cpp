@@ -7,6 +7,7 @@
 #include "eval/pictures.h"
 #include "eval/reproduction.h"
 #include "eval/suite.h"
+#include "eval/terminal.h"
 #include "reports/report.h"
 #include "reports/summary.h"
 #include "trajectories/formats/format.h"
@@ -62,7 +63,8 @@ struct RunCommand {
                           estimates);
     store.finish();
     if (common.quiet) return;
-    fmt::print("{}", reports::to_markdown(reports::detail_summary(result)));
+    fmt::print("{}\nAll metrics, with intervals: {}/summary.md\n",
+               reports::headline_text(result, terminal_columns()), common.output);
     print_end(timings);
   }
 

@@ -202,6 +202,18 @@ def check_comparison(browser, folder):
         expect(panels == changed, f"comparison: {chart} has {panels} lines, {changed} metrics changed")
 
 
+def check_own_run(browser, folder):
+    """A run that is not the paper's has bars of each kind of experiment, and none of the paper's diamonds."""
+    page = folder / "own" / "index.html"
+    open_page(browser, page, "light")
+    check_silence(browser, page, "own run")
+    expect(browser.execute_script("return glovebench.missing") == [], "own run: charts without data")
+    bars, diamonds = browser.execute_script("""
+        const place = document.querySelector('[data-chart="errors-position"]');
+        return ['.mark-rect path', '.mark-symbol path'].map(mark => place.querySelectorAll('svg ' + mark).length);""")
+    expect(bars >= 2 and diamonds == 0, f"own run: {bars} bars and {diamonds} diamonds")
+
+
 def check_print(browser):
     pdf = base64.b64decode(browser.execute_cdp_cmd("Page.printToPDF", {})["data"])
     expect(pdf.startswith(b"%PDF") and len(pdf) > 20_000, f"the printed page has {len(pdf)} bytes")
@@ -248,6 +260,7 @@ def main():
                 expect(light != dark, f"the {what} has the same color in both modes: {light}")
             check_print(browser)
             check_comparison(browser, folder)
+            check_own_run(browser, folder)
             check_without_scripts(browser, page)
         finally:
             browser.quit()

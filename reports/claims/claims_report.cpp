@@ -114,10 +114,17 @@ Json required_json(const RequiredClaims& count) {
           {"not_run", count.not_run}};
 }
 
-Json csv_row(const ClaimVerdict& verdict) {
+Json csv_row(const std::string& run, const ClaimVerdict& verdict) {
   const ClaimDefinition& claim = verdict.claim.definition();
-  Json row = {verdict.claim.id, to_string(verdict.outcome), claim.required, to_string(claim.kind),
-              claim.source,     claim.paper_value,          claim.measure,  to_string(claim.rule)};
+  Json row = {run,
+              verdict.claim.id,
+              to_string(verdict.outcome),
+              claim.required,
+              to_string(claim.kind),
+              claim.source,
+              claim.paper_value,
+              claim.measure,
+              to_string(claim.rule)};
   const auto& measure = verdict.measure;
   row.push_back(measure ? Json(measure->unit) : Json());
   row.push_back(measure ? rounded_or_null(measure->value) : Json());
@@ -187,10 +194,10 @@ std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts) {
                      not_run.empty() ? "" : fmt::format("Not run: {}.\n\n", not_run));
 }
 
-std::string claims_csv(const std::vector<ClaimVerdict>& verdicts) {
+std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& verdicts) {
   std::string csv =
-      "id,outcome,required,kind,source,paper_value,measure,rule,unit,value,value_low,value_high,claim\n";
-  for (const ClaimVerdict& verdict : verdicts) csv += csv_line(csv_row(verdict));
+      "run,id,outcome,required,kind,source,paper_value,measure,rule,unit,value,value_low,value_high,claim\n";
+  for (const ClaimVerdict& verdict : verdicts) csv += csv_line(csv_row(run, verdict));
   return csv;
 }
 

@@ -25,7 +25,7 @@ std::string claims_table(const std::vector<ClaimVerdict>& verdicts);
 /// Section of summary.md; empty if nothing was run.
 std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts);
 /// tables/claims.csv: one line per claim.
-std::string claims_csv(const std::vector<ClaimVerdict>& verdicts);
+std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& verdicts);
 /// claims.json: all verdicts, histories and judging.
 std::string claims_json(const std::vector<ClaimVerdict>& verdicts);
 /// Section of the page, with histories. Claims not run are folded away.

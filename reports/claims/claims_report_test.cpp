@@ -61,9 +61,9 @@ TEST(ClaimsReport, WhatDoesNotHoldIsSaidEverywhere) {
   EXPECT_THAT(claims_section(kFailed), HasSubstr("Is &lt;small&gt;."));
   EXPECT_THAT(claims_section(kFailed), HasSubstr("It is large."));
   EXPECT_EQ(
-      claims_csv(kFailed),
-      "id,outcome,required,kind,source,paper_value,measure,rule,unit,value,value_low,value_high,claim\n"
-      "\"fast, and \"\"small\"\"\",not reproduced,true,reproduction,section IX,,size,below 2.5,mm,3.141593,3.0,"
+      claims_csv("a-1", kFailed),
+      "run,id,outcome,required,kind,source,paper_value,measure,rule,unit,value,value_low,value_high,claim\n"
+      "a-1,\"fast, and \"\"small\"\"\",not reproduced,true,reproduction,section IX,,size,below 2.5,mm,3.141593,3.0,"
       "3.25,Is <small>.\n");
   const auto json = nlohmann::json::parse(claims_json(kFailed));
   EXPECT_EQ(json["required_claim_failed"], true);

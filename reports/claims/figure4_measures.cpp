@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "reports/paper_numbers.h"
+#include "reports/tables.h"
 
 namespace glovebench::reports {
 namespace {
@@ -20,11 +21,10 @@ using Groups = std::array<Group, kTrajectories>;
 std::optional<Groups> find_groups(const RunResult& result, TruthKind truth) {
   Groups groups{};
   for (size_t t = 0; t < kTrajectories; ++t) {
-    // Tr1 and Tr2 are pinches, the others power grasps (section IV).
-    const std::string specific = t < 2 ? "DB_open_pinch" : "DB_open_power";
-    const std::array<std::string, 3> databases = {specific, "DB_open_pinch_power", "DB_20_postures"};
+    const std::string trajectory = "Tr" + std::to_string(t + 1);
+    const std::array<std::string, 3> databases = figure4_databases(trajectory);
     for (size_t d = 0; d < databases.size(); ++d) {
-      groups[t][d] = find_experiment(result, {"Tr" + std::to_string(t + 1), databases[d], truth, 1, {}});
+      groups[t][d] = find_experiment(result, {trajectory, databases[d], truth, 1, {}});
       if (!groups[t][d]) return std::nullopt;
     }
   }

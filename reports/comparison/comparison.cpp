@@ -15,7 +15,7 @@ using nlohmann::json;
 
 ComparedResult compared(const NamedResult& named) {
   const RunResult& result = named.result;
-  return {named.name, result.program_version, result.commit, result.suite};
+  return {named.name, result.program_version, result.commit, result.suite, run_name(result)};
 }
 
 bool have_other_seeds(const Pairing& pairing) {

@@ -76,6 +76,7 @@ struct ComparedResult {
   std::string program_version;
   std::string commit;
   std::string suite;
+  std::string run;  ///< run_name
 };
 
 struct Comparison {

@@ -111,11 +111,12 @@ std::string comparison_json(const ComparisonReport& report) {
 
 std::string comparison_csv(const ComparisonReport& report) {
   std::string csv =
-      "experiment,quantity,unit,verdict,stops,pairs,frames,blocks,baseline,candidate,difference,low,high,"
+      "baseline_run,candidate_run,experiment,quantity,unit,verdict,stops,pairs,frames,blocks,baseline,candidate,"
+      "difference,low,high,"
       "minimum_effect\n";
   for (const ComparisonRow& row : report.comparison.rows) {
     const Json json = row_json(row);
-    Json cells = Json::array();
+    Json cells = {report.comparison.baseline.run, report.comparison.candidate.run};
     for (const auto& [key, value] : json.items()) cells.push_back(value);
     csv += csv_line(cells);
   }

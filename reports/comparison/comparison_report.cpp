@@ -57,7 +57,12 @@ std::string incomparable_markdown(const std::string& message) {
 }
 
 std::string comparison_latex(const ComparisonReport& report) {
-  return to_latex(verdict_first(rows_table(report.comparison.rows)));
+  const Comparison& comparison = report.comparison;
+  const auto named = [](const char* side, const ComparedResult& result) {
+    return latex_comment(fmt::format("{} {}, run {}", side, result_sentence(result), result.run));
+  };
+  return named("baseline", comparison.baseline) + named("candidate", comparison.candidate) +
+         to_latex(verdict_first(rows_table(comparison.rows)));
 }
 
 void require_own_folder(const std::string& folder) {

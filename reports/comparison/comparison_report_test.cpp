@@ -188,18 +188,20 @@ TEST(ComparisonJson, NamesOfAnyBytes) {
 TEST(ComparisonCsv, OneLineARow) {
   const std::vector<std::string> lines = lines_of(comparison_csv(small_comparison()));
   ASSERT_EQ(lines.size(), 7u);
-  EXPECT_EQ(lines[1], "all,position_error_mm,mm,worse,true,234,234,14,3.0,3.25,0.25,0.125,0.375,0.1");
+  EXPECT_EQ(lines[1], "105ec9a-01234567,82ad045-89abcdef,all,position_error_mm,mm,worse,true,234,234,14,3.0,3.25,0.25,0.125,0.375,0.1");
   EXPECT_EQ(
       lines[5],
-      "Tr4_DB_open_power_source_subject1_gradient_1,posture_rms_unfiltered_deg,deg,not enough data,false,0,234,"
+      "105ec9a-01234567,82ad045-89abcdef,Tr4_DB_open_power_source_subject1_gradient_1,posture_rms_unfiltered_deg,deg,not enough data,false,0,234,"
       "0,,,,,,0.0");
-  EXPECT_EQ(std::ranges::count(lines[0], ','), 13);
-  EXPECT_THAT(comparison_csv(hostile_comparison()), HasSubstr("\n\"a<b>&\"\"',|`"));
+  EXPECT_EQ(std::ranges::count(lines[0], ','), 15);
+  EXPECT_THAT(comparison_csv(hostile_comparison()), HasSubstr("89abcdef,\"a<b>&\"\"',|`"));
 }
 
 TEST(ComparisonLatex, Tabular) {
   EXPECT_THAT(comparison_latex(small_comparison()),
-              AllOf(StartsWith("\\begin{tabular}{lllrrrrr}\n\\toprule\n"),
+              AllOf(StartsWith("% baseline ci/baselines/quick: suite quick, glovebench 0.1.0, commit 105ec9a, run "
+                               "105ec9a-01234567\n% candidate out: "),
+                    HasSubstr("\n\\begin{tabular}{lllrrrrr}\n\\toprule\n"),
                     HasSubstr("Tr4 open\\_power, source & rotation\\_error\\_deg & better & 4.000 & 3.500 & "
                               "$-$0.500 & {[}-0.750, -0.250{]} & 0.100 \\\\\n"),
                     HasSubstr("not enough data & -- & -- & -- & -- & 0.000 \\\\\n")));

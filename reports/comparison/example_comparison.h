@@ -32,8 +32,8 @@ inline ComparisonReport small_comparison() {
   const std::string experiment = "Tr4_DB_open_power_source_subject1_gradient_1";
   ComparisonReport report;
   Comparison& comparison = report.comparison;
-  comparison.baseline = {"ci/baselines/quick", "0.1.0", "105ec9a", "quick"};
-  comparison.candidate = {"out", "0.1.0", "82ad045", "quick"};
+  comparison.baseline = {"ci/baselines/quick", "0.1.0", "105ec9a", "quick", "105ec9a-01234567"};
+  comparison.candidate = {"out", "0.1.0", "82ad045", "quick", "82ad045-89abcdef"};
   comparison.seeds = 2;
   comparison.rows = {example_row(std::string(kAllExperiments), "position_error_mm", 3, 0.25, 0.125, Verdict::worse),
                      example_row(experiment, "position_error_mm", 3, 0.5, 0.25, Verdict::worse),

@@ -35,7 +35,7 @@ const distinct = (rows, key) => [...new Set(rows.map(row => row[key]))];
 const isNumber = value => typeof value === 'number';
 const withoutPrefix = name => name.replace(/^DB_/, '');
 
-// Figure 4: a panel for each variant, a group of bars for each trajectory.
+// Means of experiments: a panel for each variant, a group of bars for each trajectory.
 const variants = {'recorded 1': 'recorded truth', 'source 1': 'source truth', 'source 2': 'source, second subject'};
 const databaseRole = name => ({
   DB_open_pinch: 'of the grasp alone', DB_open_power: 'of the grasp alone', DB_open_pinch_power: 'open, pinch, power',
@@ -43,16 +43,20 @@ const databaseRole = name => ({
 })[name] || withoutPrefix(name);
 const roleOrder = ['of the grasp alone', 'open, pinch, power', '20 postures'];
 
-function figure4(metric, title, isFirst) {
+function means(table, metric, title, isFirst) {
   return tables => {
-    const rows = tables.figure4.map(row => ({
+    const noises = new Set(tables[table].map(row => `${row.noise} x ${row.noise_factor}`));
+    const rows = tables[table].map(row => ({
       trajectory: row.trajectory, database: row.database, role: databaseRole(row.database),
-      variant: variants[`${row.truth} ${row.subject}`] || `${row.truth}, subject ${row.subject}`,
+      variant: (variants[`${row.truth} ${row.subject}`] || `${row.truth}, subject ${row.subject}`) +
+          (noises.size > 1 ? `, ${row.noise} x ${row.noise_factor}` : ''),
       mean: row[`${metric}_mean`], low: row[`${metric}_interval_low`], high: row[`${metric}_interval_high`],
       // The paper's truths are recorded ones.
       paper: row.truth === 'recorded' ? row[`${metric}_paper`] : null
     }));
-    const panels = Object.values(variants).filter(variant => rows.some(row => row.variant === variant));
+    const order = Object.values(variants);
+    const panels = [...order.filter(variant => rows.some(row => row.variant === variant)),
+                    ...distinct(rows, 'variant').filter(variant => !order.includes(variant))];
     const roles = [...roleOrder.filter(role => rows.some(row => row.role === role)),
                    ...distinct(rows, 'role').filter(role => !roleOrder.includes(role))];
     const x = {
@@ -295,7 +299,8 @@ const errors = [['position', 'position_error_mm', 'Position error (mm)', 'paper_
 
 const charts = {};
 errors.forEach(([name, metric, title, paperColumn], i) => {
-  charts[`figure4-${name}`] = figure4(metric, title, i === 0);
+  for (const table of ['figure4', 'errors'])
+    charts[`${table}-${name}`] = means(table, metric, title, i === 0);
   for (const figure of ['figure5', 'figure6'])
     charts[`${figure}-${name}`] = curve(figure, metric, title, paperColumn, i === errors.length - 1);
 });

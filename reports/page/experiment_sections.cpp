@@ -33,6 +33,15 @@ Section figure4_section(const RunResult& result, const PaperNumbers& paper, cons
   return {"figure4", "Figure 4: mean errors", html};
 }
 
+Section errors_section(const RunResult& result) {
+  std::string html = "<p>Mean errors with their 95% intervals.</p>\n";
+  for (const CurveError& error : kCurveErrors)
+    html += chart_place(fmt::format("errors-{}", error.name), fmt::format("{} as bars", error.label));
+  html += data_note("errors") + "<p>" + escape_html(headline_explanation()) + "</p>\n" +
+          to_html(headline_table(result));
+  return {"errors", "Mean errors", html};
+}
+
 std::string largest(const std::vector<double>& values) {
   return values.empty() ? "-" : fixed(*std::ranges::max_element(values), 2);
 }
@@ -78,7 +87,8 @@ std::vector<Section> experiment_sections(const RunResult& result, const PaperNum
                                          const std::vector<FrameSheet>& sheets) {
   if (result.experiments.empty()) return {};
   const NoiseSetting noise = headline_noise(result);
-  std::vector<Section> sections = {figure4_section(result, paper, noise)};
+  std::vector<Section> sections = {is_figure4(result) ? figure4_section(result, paper, noise)
+                                                      : errors_section(result)};
   const auto add = [&](const std::string& figure, const std::string& title, const PaperCurve& curve) {
     const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
     add_curve_section(sections, figure, title, find_experiment(result, key), curve, sheets);

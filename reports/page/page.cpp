@@ -111,8 +111,9 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
   const std::vector<Section> sections = all_sections(result, paper, timings, material);
   const std::string note = quick_note(result);
   std::string body =
-      fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}</p>\n",
-                  escape_html(result.program_version), escape_html(result.commit), result.protocol.id()) +
+      fmt::format("<p class=\"provenance\">glovebench {}, commit {}, protocol {}, run {}</p>\n",
+                  escape_html(result.program_version), escape_html(result.commit), result.protocol.id(),
+                  escape_html(run_name(result))) +
       "<noscript><p>The charts are drawn by scripts; the tables hold all of their numbers.</p></noscript>\n" +
       (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n") + contents_list(sections);
   for (const Section& section : sections) body += section_html(section);

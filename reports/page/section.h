@@ -16,7 +16,7 @@ struct Section {
 /// Says where a chart's numbers are.
 std::string data_note(const std::string& table);
 
-/// Figure 4, and Figures 5 and 6 with keyframes, if run.
+/// Figure 4 or the errors of other experiments; Figures 5 and 6 with keyframes, if run.
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
 /// One per study, with charts and tables.

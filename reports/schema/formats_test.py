@@ -19,7 +19,7 @@ import unittest
 
 import jsonschema
 import junitparser
-from pylatexenc.latexwalker import LatexEnvironmentNode, LatexWalker
+from pylatexenc.latexwalker import LatexCommentNode, LatexEnvironmentNode, LatexWalker
 
 BENCHER_SCHEMA = {
     "type": "object",
@@ -111,22 +111,24 @@ class FormatsTest(unittest.TestCase):
 
     def test_csv(self):
         for name in ("comparison/comparison.csv", "tables/figure4.csv", "tables/figure7.csv", "tables/figure8.csv",
-                     "tables/claims.csv"):
+                     "tables/claims.csv", "tables/figure5.csv", "tables/commands.csv", "own/tables/errors.csv"):
             with (self.folder / name).open(newline="") as file:
                 rows = list(csv.reader(file, strict=True))
             self.assertGreater(len(rows), 1)
+            self.assertIn("run", rows[0][0])
             self.assertEqual({len(row) for row in rows}, {len(rows[0])})
 
     def test_latex(self):
-        for name in ("comparison/comparison.tex", "tables/figure4.tex", "small/tables/figure4.tex"):
+        for name in ("comparison/comparison.tex", "tables/figure4.tex", "small/tables/figure4.tex",
+                     "own/tables/errors.tex"):
             text = (self.folder / name).read_text()
             nodes, _, length = LatexWalker(text, tolerant_parsing=False).get_latex_nodes()
             self.assertEqual(length, len(text))
-            tabular = nodes[0]
-            self.assertIsInstance(tabular, LatexEnvironmentNode)
+            self.assertIsInstance(nodes[0], LatexCommentNode)
+            (tabular,) = [node for node in nodes if isinstance(node, LatexEnvironmentNode)]
             self.assertEqual(tabular.environmentname, "tabular")
             # Every row has the columns that the tabular announces; \multicolumn has several at once.
-            columns = len(re.match(r"\\begin\{tabular\}\{([lr]+)\}", text)[1])
+            columns = len(re.search(r"\\begin\{tabular\}\{([lr]+)\}", text)[1])
             for row in re.findall(r"^(.*) \\\\$", text, re.MULTILINE):
                 spanned = sum(int(n) - 1 for n in re.findall(r"\\multicolumn\{(\d+)\}", row))
                 self.assertEqual(len(re.findall(r"(?<!\\)&", row)) + 1 + spanned, columns, row)
