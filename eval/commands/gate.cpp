@@ -7,6 +7,7 @@
 #include "eval/regression/changed_frames.h"
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/gate_rule.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {
@@ -46,14 +47,17 @@ struct Gate {
 
   /// Says what the new baseline changes before making it the baseline.
   int replace(const std::string& folder, const FinishedRun& candidate) const {
+    std::vector<std::string> accepted;
     try {
       const Baseline old = load_baseline(folder);
-      report(old, folder, candidate, compare(old, candidate));
+      accepted = report(old, folder, candidate, compare(old, candidate)).failures;
+      for (const std::string& failure : accepted) fmt::print("ACCEPTED: {}\n", failure);
     } catch (const reports::Incomparable& e) {
       fmt::print("Not compared with an older baseline: {}\n", e.what());
     }
     const reports::NamedResult& run = candidate.results;
-    update_baseline(folder, run, suite_of(run, suite), measured_speed(), load_stage_times(candidate.files));
+    update_baseline(folder, run, suite_of(run, suite), measured_speed(), load_stage_times(candidate.files),
+                    accepted);
     if (run.result.commit.ends_with("-dirty")) {
       fmt::print("warning: built from a tree with changes: nobody else has this program\n");
     }
@@ -65,10 +69,33 @@ struct Gate {
     const Baseline baseline = load_baseline(folder);
     reports::ComparisonReport made = compare(baseline, candidate);
     require_baseline_for_all(made.comparison, folder);
-    const bool is_fine = report(baseline, folder, candidate, made);
-    fmt::print("Gate {} against {}{}\n", is_fine ? "passed" : "failed", folder,
-               output.empty() ? "" : fmt::format(". Report: {}/index.html", output));
-    return is_fine ? 0 : kGateFailed;
+    const reports::GateDecision decision = report(baseline, folder, candidate, made);
+    for (const std::string& failure : decision.failures) fmt::print("FAILED: {}\n", failure);
+    const std::string page = output.empty() ? "" : fmt::format(". Report: {}/index.html", output);
+    if (decision.passed()) {
+      fmt::print("Gate passed against {}{}\n", folder, page);
+      return 0;
+    }
+    explain_failure(decision, folder);
+    fmt::print("Gate failed against {}{}\n", folder, page);
+    return kGateFailed;
+  }
+
+  /// What the failures mean, and how to accept them.
+  void explain_failure(const reports::GateDecision& decision, const std::string& folder) const {
+    const size_t count = decision.failures.size();
+    std::string text = fmt::format("{} {} this change. ", count, count == 1 ? "row stops" : "rows stop");
+    if (decision.has_places)
+      text +=
+          "Worse in places: the rise lies in few blocks of frames, so its interval cannot tell it from chance; but "
+          "on "
+          "these same frames it is larger than what other noise seeds cause. ";
+    text += fmt::format(
+        "To accept it, e.g. for what became better, run `glovebench gate {} --baseline {} --update`{} and commit "
+        "that "
+        "folder: its provenance.json records the accepted rows and the replaced baseline.",
+        candidate_path, folder, suite.empty() ? " (with --suite FILE for a suite of your own)" : "");
+    fmt::print("{}", reports::wrapped(text));
   }
 
   reports::ComparisonReport compare(const Baseline& baseline, const FinishedRun& candidate) const {
@@ -79,10 +106,10 @@ struct Gate {
     return made;
   }
 
-  /// Writes and prints the report; returns whether nothing stops the change. Accuracy is written before a missing
-  /// speed can be an error.
-  bool report(const Baseline& baseline, const std::string& folder, const FinishedRun& candidate,
-              reports::ComparisonReport made) const {
+  /// Writes and prints the report, but not what stops the change. Accuracy is written before a missing speed can be
+  /// an error.
+  reports::GateDecision report(const Baseline& baseline, const std::string& folder, const FinishedRun& candidate,
+                               reports::ComparisonReport made) const {
     if (!output.empty()) {
       made.scripts = page_scripts();
       made.pictures =
@@ -98,8 +125,7 @@ struct Gate {
     if (speed_path.empty() && !baseline.speed.empty())
       fmt::print("warning: no --speed: only the accuracy is gated\n");
     for (const std::string& warning : decision.warnings) fmt::print("warning: {}\n", warning);
-    for (const std::string& failure : decision.failures) fmt::print("FAILED: {}\n", failure);
-    return decision.passed();
+    return decision;
   }
 
   std::vector<reports::SpeedRatio> measured_speed() const {

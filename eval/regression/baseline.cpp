@@ -170,12 +170,14 @@ Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file)
 }
 
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
-                     const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times) {
+                     const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times,
+                     const std::vector<std::string>& accepted) {
   require_whole_suite(run, suite);
   WholeFiles files(folder);  // first, since it finishes an update that a kill interrupted
   const FileSet old(folder);
   if (old.has(kTimings)) throw Error(folder, "baseline", "a run", "a folder of its own");
-  const Json replaced = describe_replaced(old, run);
+  Json replaced = describe_replaced(old, run);
+  if (!replaced.is_null()) replaced["accepted"] = accepted;
   const std::string results = reports::results_json(run.result);
   files.add(kProvenance, provenance_json(run, hash_text(results), times, replaced));
   if (!speed.empty()) files.add(kSpeed, reports::speed_json(speed));

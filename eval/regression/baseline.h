@@ -28,7 +28,7 @@ reports::StageTimes load_stage_times(const FileSet& files);
 ///   results.json      the run that became the baseline
 ///   noise_floor.json  effect of other seeds (glovebench calibrate noise); optional
 ///   speed.json        ratios to the plain implementations; optional
-///   provenance.json   commit, date, compiler, processor, stage times, replaced baseline
+///   provenance.json   commit, date, compiler, processor, stage times, replaced baseline and what was accepted
 ///   manifest.json     the set of results, speed and provenance (core/base/file_set.h); old ones lack it
 struct Baseline {
   FinishedRun run;
@@ -54,10 +54,11 @@ std::string default_baseline_folder(const std::string& suite);
 /// Throws: Error if the run has none or another.
 Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file);
 
-/// Makes a run the baseline, in its folder only; keeps the noise floor.
-/// Throws: Error if the run is not the whole suite, the folder holds a run, or a truth differs from the old
-/// baseline's (then delete that first).
+/// Makes a run the baseline, in its folder only; keeps the noise floor. `accepted`: what would have stopped the
+/// change, for provenance.json. Throws: Error if the run is not the whole suite, the folder holds a run, or a truth
+/// differs from the old baseline's (then delete that first).
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
-                     const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times);
+                     const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times,
+                     const std::vector<std::string>& accepted);
 
 }  // namespace glovebench::eval

@@ -110,7 +110,8 @@ TEST_F(RegressionLong, GatePassesWhatIsTheSameAndStopsWhatIsWorse) {
   const std::string worse = write_changed("worse", [](RunResult& r) { add_position_error(r, 1); });
   const ProgramRun stopped = gate(worse, {"-o", path("stopped")});
   EXPECT_EQ(stopped.exit_code, 1);
-  EXPECT_THAT(stopped.out, HasSubstr("FAILED: all, position_error_mm: worse by 1.00 mm"));
+  EXPECT_THAT(stopped.out, AllOf(HasSubstr("FAILED: all, position_error_mm: worse by 1.00 mm"),
+                                 HasSubstr("\n3 rows stop this change. To accept it"), HasSubstr("--update")));
   EXPECT_THAT(read_file(path("stopped/junit.xml")), HasSubstr("<failure"));
 
   const ProgramRun better = run_glovebench({"compare", worse, path("run")});
@@ -166,6 +167,10 @@ TEST_F(RegressionLong, LostFramesStopAChangeAndMissingOnesAreNamed) {
   EXPECT_EQ(lost.exit_code, 1);
   EXPECT_THAT(lost.out, HasSubstr("FAILED: wave_DB_open_power_source_subject1_gradient_1, uncovered_percent"));
 
+  EXPECT_THAT(lost.out, AllOf(HasSubstr("0 worse, "), HasSubstr(" worse in places, "),
+                              HasSubstr("Worse in places: the rise lies in few blocks")))
+      << "the summary counts what stops";
+
   const ProgramRun missing = gate(write_changed("missing", [](RunResult& r) {
     for (reports::SeedRun& run : r.experiments[0].runs) run.frames.erase(run.frames.begin() + 20);
   }));
@@ -191,6 +196,11 @@ TEST_F(RegressionLong, RefusesWhatIsNotComparableAndSaysWhy) {
   edited.insert(edited.find("\"id\": \"") + 7, "0");
   write_file(path("id/results.json"), edited);
   EXPECT_THAT(refusal(path("id")), HasSubstr("protocol.id: found \"0"));
+  make_baseline();
+  EXPECT_EQ(gate(path("id")).exit_code, 3);
+  write_file(path("baseline/results.json"), edited);
+  EXPECT_EQ(gate(path("run")).exit_code, 3) << "an altered baseline";
+  fs::remove_all(path("baseline"));
   EXPECT_THAT(refusal(write_changed("part", [](RunResult& r) { r.experiments.pop_back(); })),
               HasSubstr("wave_DB_open_pinch"));
   EXPECT_EQ(run_glovebench({"compare", path("run"), path("part"), "--partial"}).exit_code, 0);
@@ -257,6 +267,16 @@ TEST_F(RegressionLong, OnlyAWholeSuiteOnTheSameTruthBecomesTheBaseline) {
   const nlohmann::json provenance = nlohmann::json::parse(read_file(baseline + "/provenance.json"));
   EXPECT_EQ(provenance.at("replaced").at("results_hash"), provenance.at("results_hash"));
   EXPECT_FALSE(provenance.at("times").at("stage_median_ms").empty());
+  EXPECT_TRUE(provenance.at("replaced").at("accepted").empty());
+
+  const ProgramRun accepting = update(write_changed("accepted", [](RunResult& r) { add_position_error(r, 1); }));
+  EXPECT_EQ(accepting.exit_code, 0) << accepting.err;
+  EXPECT_THAT(accepting.out, HasSubstr("ACCEPTED: all, position_error_mm: worse by 1.00 mm"));
+  const auto accepted =
+      nlohmann::json::parse(read_file(baseline + "/provenance.json")).at("replaced").at("accepted");
+  ASSERT_EQ(accepted.size(), 3U);
+  EXPECT_THAT(accepted[0].get<std::string>(), HasSubstr("position_error_mm: worse by 1.00 mm"));
+  EXPECT_EQ(update(path("run")).exit_code, 0);
 
   const ProgramRun refused =
       update(write_changed("edited", [](RunResult& r) { r.inputs.truths.at("source/wave") = "0f"; }));

@@ -176,7 +176,11 @@ std::string comparison_explanation(const Comparison& comparison) {
       "seeds do is for the minimum effect ({}). They say nothing about other movements or hands. {}Better or "
       "worse: "
       "the interval excludes zero and the difference is at least the minimum effect. Same: the whole interval lies "
-      "within the minimum effect. Not enough data: neither.",
+      "within the minimum effect. Worse in places: the interval cannot tell the rise from chance, since it lies in "
+      "few "
+      "blocks; but on these same frames it is twice the minimum effect or more (of a share, once). Not enough "
+      "data: "
+      "none of these.",
       config.block_frames, comparison.seeds, comparison.rows.size(), 100 * config.family_error,
       floor_sentence(comparison), noise);
 }

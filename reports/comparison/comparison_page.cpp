@@ -49,11 +49,8 @@ std::string table_section(const Table& table) {
 
 std::string outcome_tiles(const Comparison& comparison) {
   std::string html = "<div class=\"tiles\">\n";
-  for (const auto& [verdict, style] :
-       {std::pair{Verdict::worse, "worse"}, std::pair{Verdict::better, "better"}, std::pair{Verdict::same, "same"},
-        std::pair{Verdict::not_enough_data, "unsure"}})
-    html += fmt::format("<div class=\"tile {}\"><b>{}</b>{}</div>\n", style,
-                        std::ranges::count(comparison.rows, verdict, &ComparisonRow::verdict), to_string(verdict));
+  for (const auto& [count, verdict, tone] : outcome_counts(comparison))
+    html += fmt::format("<div class=\"tile {}\"><b>{}</b>{}</div>\n", glovebench::to_string(tone), count, verdict);
   return html + "</div>\n";
 }
 

@@ -10,6 +10,8 @@
 namespace glovebench::reports {
 namespace {
 
+constexpr std::string_view kWorseInPlaces = "worse in places";
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
@@ -81,12 +83,23 @@ Table times_table(const StageTimeChanges& times) {
 
 }  // namespace
 
-std::string outcome_line(const ComparisonReport& report) {
+std::vector<OutcomeCount> outcome_counts(const Comparison& comparison) {
   const auto count = [&](Verdict verdict) {
-    return std::ranges::count(report.comparison.rows, verdict, &ComparisonRow::verdict);
+    return std::ranges::count(comparison.rows, verdict, &ComparisonRow::verdict);
   };
-  std::string line = fmt::format("{} worse, {} better, {} same, {} not enough data", count(Verdict::worse),
-                                 count(Verdict::better), count(Verdict::same), count(Verdict::not_enough_data));
+  const long in_places = std::ranges::count_if(comparison.rows, is_worse_in_places);
+  std::vector<OutcomeCount> counts = {{count(Verdict::worse), "worse", Tone::worse}};
+  if (in_places > 0) counts.push_back({in_places, std::string(kWorseInPlaces), Tone::worse});
+  counts.push_back({count(Verdict::better), "better", Tone::better});
+  counts.push_back({count(Verdict::same), "same", Tone::same});
+  counts.push_back({count(Verdict::not_enough_data) - in_places, "not enough data", Tone::unsure});
+  return counts;
+}
+
+std::string outcome_line(const ComparisonReport& report) {
+  std::string line;
+  for (const OutcomeCount& part : outcome_counts(report.comparison))
+    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", part.count, part.verdict);
   if (!report.speed.empty())
     line += fmt::format("; {} of {} speed ratios slower", std::ranges::count(report.speed, true, &SpeedRow::slower),
                         report.speed.size());
@@ -134,8 +147,7 @@ std::string signed_number_text(const std::optional<double>& value) {
 }
 
 std::string verdict_text(const ComparisonRow& row) {
-  const std::string verdict(to_string(row.verdict));
-  return stops(row) && row.verdict != Verdict::worse ? verdict + ", stops" : verdict;
+  return is_worse_in_places(row) ? std::string(kWorseInPlaces) : std::string(to_string(row.verdict));
 }
 
 std::string row_sentence(const ComparisonRow& row) {

@@ -9,7 +9,14 @@
 
 namespace glovebench::reports {
 
-/// "2 worse, 1 better, 33 same, 0 not enough data", then slower stages if speed was measured.
+struct OutcomeCount {
+  long count = 0;
+  std::string verdict;  ///< as in verdict_text
+  Tone tone;
+};
+/// Each row counts once; "worse in places" only if there is such a row.
+std::vector<OutcomeCount> outcome_counts(const Comparison& comparison);
+/// "2 worse, 1 worse in places, 1 better, 33 same, 0 not enough data", then slower stages if speed was measured.
 std::string outcome_line(const ComparisonReport& report);
 
 /// Changed, not judged, or stopping.
@@ -24,7 +31,7 @@ std::string readable_experiment(const std::string& experiment);
 /// At most nine characters; "-" for none. Signed numbers >= 0 have a plus.
 std::string number_text(const std::optional<double>& value);
 std::string signed_number_text(const std::optional<double>& value);
-/// Adds ", stops" where the verdict alone does not stop the change.
+/// The verdict, or "worse in places".
 std::string verdict_text(const ComparisonRow& row);
 
 /// "2.980 -> 3.400 mm, difference +0.420 [+0.300, +0.540], minimum effect 0.100, 234 of 234 frames"

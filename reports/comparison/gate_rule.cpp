@@ -37,11 +37,6 @@ std::string name(const ComparisonRow& row) {
   return fmt::format("{}, {}", row.experiment, row.metric->key);
 }
 
-/// A change that the interval cannot tell from chance lies in a few places, which the page shows.
-std::string how(const ComparisonRow& row) {
-  return row.verdict == Verdict::worse ? "worse by" : "worse in places, up by";
-}
-
 std::string failure_line(const SpeedRow& row) {
   return fmt::format(
       "{}: slower: {:.2f} times as fast as the plain implementation, {:.2f} at best (it was {:.2f}), limit {:.2f}",
@@ -81,6 +76,10 @@ bool stops(const ComparisonRow& row) {
   return row.difference && reaches(*row.difference, sure_effect(row));
 }
 
+bool is_worse_in_places(const ComparisonRow& row) {
+  return stops(row) && row.verdict != Verdict::worse;
+}
+
 double missing_to_stop(const ComparisonRow& row) {
   double enough = sure_effect(row);
   if (row.high) enough = std::min(enough, std::max(row.minimum_effect, *row.high - *row.difference));
@@ -94,8 +93,11 @@ GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& s
   for (const auto& [metric, why] : comparison.uncompared_metrics)
     decision.warnings.push_back(fmt::format("{}: not compared, {}", metric, why));
   for (const ComparisonRow& row : comparison.rows) {
+    const bool in_places = is_worse_in_places(row);
+    decision.has_places |= in_places;
     if (stops(row))
-      decision.failures.push_back(fmt::format("{}: {} {}", name(row), how(row), numbers(row)));
+      decision.failures.push_back(
+          fmt::format("{}: {} {}", name(row), in_places ? "worse in places, up by" : "worse by", numbers(row)));
     else if (row.verdict == Verdict::not_enough_data && row.difference &&
              reaches(*row.difference, row.minimum_effect))
       decision.warnings.push_back(fmt::format("{}: not enough data to tell, up by {}", name(row), numbers(row)));

@@ -29,12 +29,15 @@ double minimum_effect(const Metric& metric, std::string_view experiment, int fra
 Verdict verdict_of(const ComparisonRow& row);
 /// Whether the row is worse, or rose by its sure effect.
 bool stops(const ComparisonRow& row);
+/// Whether the row stops although its interval, over a few blocks of frames, cannot tell the rise from chance.
+bool is_worse_in_places(const ComparisonRow& row);
 /// What must be added to every candidate frame for the row to stop the change. The row has a difference.
 double missing_to_stop(const ComparisonRow& row);
 
 struct GateDecision {
   std::vector<std::string> failures;  ///< one line each: experiment, metric, numbers
   std::vector<std::string> warnings;  ///< possible regressions without enough data, and gaps in the comparison
+  bool has_places = false;            ///< a failure is worse in places
   bool passed() const { return failures.empty(); }
 };
 GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& speed);
