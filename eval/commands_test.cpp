@@ -47,6 +47,32 @@ TEST_F(CommandsLong, LeftHandWithARightDatabase) {
   EXPECT_THAT(tracked.out, HasSubstr("4 of 4 frames tracked"));
 }
 
+TEST_F(CommandsLong, WrongUnitsAreNoticed) {
+  json meters = make_trajectory_json("meters", kFrames), radians = make_trajectory_json("radians", kFrames);
+  for (json& frame : meters["frames"])
+    for (json& coordinate : frame["position_mm"]) coordinate = coordinate.get<double>() / 1000;
+  for (json& frame : radians["frames"])
+    for (json& angle : frame["angles_deg"]) angle = angle.get<double>() / 20;
+  write_file(path("meters.json"), meters.dump());
+  write_file(path("radians.json"), radians.dump());
+  const auto run = [&](const std::string& name, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"run",           "--trajectory", path(name), "--database",
+                                          "DB_open_power", "-o",           path("out")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  };
+  const ProgramRun in_meters = run("meters.json");
+  EXPECT_EQ(in_meters.exit_code, 0) << "a warning, no error";
+  EXPECT_THAT(in_meters.err, AllOf(HasSubstr("warning: meters: most frames lie outside of the working volume"),
+                                   HasSubstr("the positions look like meters")));
+  EXPECT_THAT(in_meters.err,
+              HasSubstr("warning: meters_DB_open_power_source_subject1_gradient_1: none of 4 frames"));
+  EXPECT_THAT(in_meters.out, HasSubstr("meters            -"));
+  EXPECT_EQ(run("meters.json", {"--quiet"}).err, "");
+  EXPECT_THAT(run("radians.json", {"--dry-run"}).err, HasSubstr("warning: radians: no angle exceeds 0.95 degrees"));
+  expect_fine(run("good.json", {"--dry-run"}));
+}
+
 TEST_F(CommandsLong, LowMemoryChangesNoResult) {
   run_trajectory("good.json", "normal");
   run_trajectory("good.json", "low", {"--low-memory"});

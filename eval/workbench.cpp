@@ -12,6 +12,7 @@
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
+#include "trajectories/unit_doubts.h"
 
 namespace glovebench::eval {
 
@@ -76,6 +77,8 @@ std::string Workbench::add_database(const std::string& name_or_file) {
     }
   } else {
     postures = trajectories::load_posture_set(name_or_file);
+    if (const std::string doubt = trajectories::angle_doubt(postures.postures); !config_.quiet && !doubt.empty())
+      say("glovebench: warning: {}: {}\n", name_or_file, doubt);
   }
   const auto& known = trajectories::posture_set_names();
   if (!is_built && std::find(known.begin(), known.end(), postures.name) != known.end()) {

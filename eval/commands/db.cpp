@@ -10,6 +10,7 @@
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
+#include "trajectories/unit_doubts.h"
 
 namespace glovebench::eval {
 namespace {
@@ -22,6 +23,8 @@ struct Build {
     const bool is_file = trajectories::is_posture_file(postures);
     const PostureSet set = is_file ? trajectories::load_posture_set(postures)
                                    : trajectories::posture_set(trajectory_folder(), postures);
+    if (const std::string doubt = trajectories::angle_doubt(set.postures); !common.quiet && !doubt.empty())
+      say("glovebench: warning: {}: {}\n", postures, doubt);
     Workbench workbench = common.workbench();
     Progress progress("building " + set.name, common.quiet);
     const HandModel& model = *workbench.model();

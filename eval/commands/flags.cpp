@@ -15,7 +15,9 @@
 #include "core/methods/method.h"
 #include "core/robot/command_limits.h"
 #include "eval/program.h"
+#include "eval/terminal.h"
 #include "reports/json_text.h"
+#include "trajectories/unit_doubts.h"
 
 namespace glovebench::eval {
 
@@ -83,6 +85,12 @@ Workbench CommonFlags::workbench() const {
     config.calibration = calibration_from_json(calibration_json, "calibration of the run");
   if (!calibration.empty()) config.calibration = load_calibration(calibration).rectified();
   return Workbench(config);
+}
+
+void CommonFlags::warn_of_units(const trajectories::Trajectory& trajectory) const {
+  if (quiet) return;
+  for (const std::string& doubt : trajectories::unit_doubts(trajectory, tracker_config().volume))
+    say("glovebench: warning: {}: {}\n", trajectory.name, doubt);
 }
 
 std::vector<uint64_t> CommonFlags::seeds(int count) const {

@@ -39,6 +39,8 @@ struct CommonFlags {
   /// Throws: Error.
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
+  /// Says on stderr what of the movement looks like a mistake of units.
+  void warn_of_units(const trajectories::Trajectory& trajectory) const;
   /// `count` seeds from `seed` up.
   /// Throws: Error beyond the largest seed.
   std::vector<uint64_t> seeds(int count) const;

@@ -26,6 +26,7 @@ struct Record {
     if (is_file && database.empty())
       throw Error("--database", "name", "nothing", "a database; recording a file needs one");
     const std::string name = !database.empty() ? database : trajectories::databases_of(trajectory).front();
+    common.warn_of_units(source);
     common.left = source.side == Side::left;
     Workbench workbench = common.workbench();
     const trajectories::Trajectory recorded =

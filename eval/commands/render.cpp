@@ -33,6 +33,7 @@ struct Render {
 
   void run() {
     const auto movement = std::make_shared<const Trajectory>(load());
+    common.warn_of_units(*movement);
     common.left = movement->side == Side::left;
     Workbench workbench = common.workbench();
     RunSpec spec;

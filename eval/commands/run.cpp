@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "core/base/error.h"
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
@@ -41,6 +43,9 @@ struct RunCommand {
     common.left = side_of(suite) == Side::left;
     Workbench workbench = common.workbench();
     const Plan plan = plan_suite(workbench, common.tracker_config(), suite, filter);
+    std::set<std::shared_ptr<const trajectories::Trajectory>> movements;
+    for (const RunSpec& spec : plan.specs)
+      if (movements.insert(spec.trajectory).second) common.warn_of_units(*spec.trajectory);
     if (list) return fmt::print("{}", list_experiments(plan));
     if (dry_run) return print_dry_run(workbench, plan);
     require_output();
@@ -63,9 +68,24 @@ struct RunCommand {
                           estimates);
     store.finish();
     if (common.quiet) return;
+    warn_of_lost_hands(result, plan.tracker.volume);
     fmt::print("{}\nAll metrics, with intervals: {}/summary.md\n",
                reports::headline_text(result, terminal_columns()), common.output);
     print_end(timings);
+  }
+
+  void warn_of_lost_hands(const reports::RunResult& result, const WorkingVolume& volume) const {
+    for (const reports::ExperimentResult& experiment : result.experiments) {
+      const reports::Coverage& coverage = experiment.coverage;
+      if (coverage.frames == 0 || coverage.lost < coverage.frames) continue;
+      say("glovebench: warning: {0}: none of {1} frames was tracked. Likely causes: the hand is outside of the "
+          "image or "
+          "of the working volume ({2:g} to {3:g} mm), or the database lacks its postures. To see: glovebench "
+          "explain "
+          "{4} {5} --experiment {0}\n",
+          to_string(experiment.key), coverage.frames, 1000 * volume.z_min, 1000 * volume.z_max, common.output,
+          experiment.runs.front().frames.front().frame);
+    }
   }
 
   /// Runs one part of the reproduction. A cascade on the command line replaces the four of Figure 8.

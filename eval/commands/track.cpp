@@ -83,6 +83,11 @@ struct Track {
     });
     if (frames == unusable) refuse();
     finish(output, outputs);
+    if (!common.quiet && tracked == 0)
+      say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
+          "colors "
+          "other than those of --colors, or a hand outside of the working volume ({:g} to {:g} mm)\n",
+          frames, 1000 * config.volume.z_min, 1000 * config.volume.z_max);
     if (!common.quiet)
       fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
                  counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
