@@ -330,6 +330,9 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
                                  path("cache"), "--output", path("nothing")});
   EXPECT_THAT(text, AllOf(HasSubstr("seeds 1, 2: 160 frames to track"), HasSubstr("DB_open_power: to be built"),
                           HasSubstr("report: " + path("nothing"))));
+  EXPECT_THAT(said({"reproduce", "--dry-run", "--cache", path("cache"), "--output", path("nothing")}),
+              AllOf(HasSubstr("Figure 8: matching cascades"), HasSubstr(" min\n"),
+                    HasSubstr("databases to be built: DB_open_pinch, "), HasSubstr("report: " + path("nothing"))));
   EXPECT_FALSE(fs::exists(path("cache")));
   EXPECT_FALSE(fs::exists(path("nothing")));
 }

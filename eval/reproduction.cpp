@@ -1,6 +1,7 @@
 #include "eval/reproduction.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -25,8 +26,18 @@ using reports::TruthKind;
 
 constexpr const char *kFigure4 = "fig4", *kFigure5 = "fig5", *kFigure6 = "fig6";
 
+// For estimates: CPU times on a Xeon of 2.x GHz.
+constexpr double kFrameCpu_s = 0.03;     ///< to render, track and measure a frame
+constexpr double kQuickStudyCpu_s = 12;  ///< of the mean
+
+std::string about(double seconds) {
+  if (seconds >= 90) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.0f} s", std::max(1.0, seconds));
+}
+
 bool is_wanted(const ReproductionOptions& options, std::string_view part) {
-  return options.only.empty() || std::ranges::find(options.only, part) != options.only.end();
+  if (options.only.empty()) return options.trajectories.empty() || part == kFigure4;
+  return std::ranges::find(options.only, part) != options.only.end();
 }
 
 void refuse_unknown_parts(const std::vector<std::string>& only) {
@@ -111,6 +122,35 @@ Plan plan_reproduction(const ReproductionOptions& options) {
   if (is_wanted(options, kFigure5)) add_curve(plan, options, reports::paper_numbers().figure_5);
   if (is_wanted(options, kFigure6)) add_curve(plan, options, reports::paper_numbers().figure_6);
   return plan;
+}
+
+std::string describe_reproduction(Workbench& workbench, const ReproductionOptions& options) {
+  const Plan plan = plan_reproduction(options);
+  double total_s = 0;
+  std::string text;
+  const auto add_part = [&](std::string_view name, const std::string& what, double seconds) {
+    text += fmt::format("{:<10} {:<50} {:>8}\n", name, what, about(seconds));
+    total_s += seconds;
+  };
+  if (!plan.specs.empty()) {
+    size_t frames = 0;
+    for (const RunSpec& spec : plan.specs) frames += frames_of(spec).size();
+    add_part(is_wanted(options, kFigure4) ? "fig4-fig6" : "fig5, fig6",
+             fmt::format("{} runs, {} frames", plan.specs.size(), frames),
+             kFrameCpu_s * static_cast<double>(frames) / workbench.config().threads);
+  }
+  for (const Study& study : studies()) {
+    if (!is_wanted(options, study.name)) continue;
+    const double seeds = options.study.quick ? 1 : static_cast<double>(options.study.seeds.size());
+    const double cpu_s = options.study.quick ? kQuickStudyCpu_s : study.cpu_s * seeds;
+    add_part(study.name, std::string(study.title), cpu_s / workbench.config().threads);
+  }
+  add_part("together", "", total_s);
+  std::vector<std::string> missing;
+  for (const std::string& name : trajectories::posture_set_names())
+    if (!workbench.has_database(name)) missing.push_back(name);
+  if (!missing.empty()) text += fmt::format("databases to be built: {}\n", fmt::join(missing, ", "));
+  return text;
 }
 
 Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,

@@ -15,7 +15,7 @@ struct ReproductionOptions {
   StudyOptions study;
   std::vector<std::string> trajectories;             ///< of Figure 4; empty: all five
   std::vector<reports::NoiseSetting> noises = {{}};  ///< of Figure 4
-  std::vector<std::string> only;                     ///< parts to run (part_names); empty: all
+  std::vector<std::string> only;  ///< parts to run (part_names); empty: all, or with `trajectories` Figure 4 alone
 };
 
 /// "fig4", "fig5", "fig6" and the studies.
@@ -28,6 +28,9 @@ int exit_code_of(const reports::RequiredClaims& required, const ReproductionOpti
 /// Experiments of Figures 4 to 6.
 /// Throws: Error for an unknown part.
 Plan plan_reproduction(const ReproductionOptions& options);
+
+/// The parts with their work and estimated times, and which databases exist. Builds nothing.
+std::string describe_reproduction(Workbench& workbench, const ReproductionOptions& options);
 
 struct Reproduction {
   reports::RunResult result;

@@ -55,6 +55,20 @@ TEST(Reproduction, QuickOnesAreAStretch) {
   for (const RunSpec& spec : plan.specs) EXPECT_LT(frames_of(spec).size(), 30U);
 }
 
+TEST(Reproduction, TrajectoriesAloneMeanFigure4) {
+  Workbench workbench(test_workbench());
+  ReproductionOptions options = only({});
+  EXPECT_THAT(describe_reproduction(workbench, options),
+              AllOf(HasSubstr("45 runs, 5904 frames"), HasSubstr("\nfig9 "), HasSubstr("\nmonocular "),
+                    HasSubstr("\ntogether ")));
+  options.trajectories = {"Tr4"};
+  EXPECT_THAT(describe_reproduction(workbench, options),
+              AllOf(HasSubstr("9 runs, 1053 frames"), testing::Not(HasSubstr("fig7"))));
+  options.only = {"fig7"};
+  EXPECT_THAT(describe_reproduction(workbench, options),
+              AllOf(HasSubstr("fig7 "), testing::Not(HasSubstr("runs"))));
+}
+
 TEST(Reproduction, ExitCodes) {
   const ReproductionOptions all = only({}), figure4 = only({"fig4"}), figure7 = only({"fig7"});
   ReproductionOptions one_movement = all;

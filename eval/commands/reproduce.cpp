@@ -21,6 +21,7 @@ struct Reproduce {
   ReproductionOptions options;
   int seed_count = 1;
   bool all_gains = false;
+  bool dry_run = false;
   RobotFlags robot;
 
   int run() {
@@ -33,9 +34,13 @@ struct Reproduce {
     options.study.seeds = common.seeds(seed_count);
     if (all_gains) options.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
     plan_reproduction(options);  // checks the names of parts, too
-    common.check_output_folder();
+    if (!dry_run) common.check_output_folder();
 
     Workbench workbench = common.workbench();
+    if (dry_run) {
+      fmt::print("{}report: {}\n", describe_reproduction(workbench, options), common.output);
+      return 0;
+    }
     const Reproduction outcome = reproduce(workbench, options, robot.output_of(workbench), common.output,
                                            [this](const reports::RunResult& so_far) { show_newest(so_far); });
     const std::vector<reports::ClaimVerdict> verdicts =
@@ -102,10 +107,14 @@ void add_reproduce(Command program) {
       .comma_separated();
   command.option("--quick", state->options.study.quick,
                  "a few frames and queries of everything, in under a minute: shows that it runs, judges no claim");
+  command.option("--dry-run", state->dry_run,
+                 "print the parts, their work and about how long they take; touch nothing");
   state->common.add_tracker(command);
   state->common.add_seed(command);
   state->common.add_machine(command);
-  command.option("--trajectory", state->options.trajectories, "only these in Figure 4, e.g. Tr4")
+  command
+      .option("--trajectory", state->options.trajectories,
+              "Figure 4 alone, with only these, e.g. Tr4; with --only also the parts named there")
       .one_of(trajectories::ground_truth_names());
   command.option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed").in(1, 1000);
   command

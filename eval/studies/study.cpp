@@ -51,11 +51,11 @@ std::vector<std::vector<Item>> by_trajectory(const Selection& runs,
 
 const std::vector<Study>& studies() {
   static const std::vector<Study> all = {
-      {"fig7", "Figure 7: tiny images", run_figure7},
-      {"fig8", "Figure 8: matching cascades", run_figure8},
-      {"fig9", "Figure 9: sub-sampling", run_figure9},
-      {"ablations", "What the paper asserts, one change at a time", run_ablations},
-      {"monocular", "Without depth", run_monocular},
+      {"fig7", "Figure 7: tiny images", run_figure7, 100},
+      {"fig8", "Figure 8: matching cascades", run_figure8, 300},
+      {"fig9", "Figure 9: sub-sampling", run_figure9, 200},
+      {"ablations", "What the paper asserts, one change at a time", run_ablations, 300},
+      {"monocular", "Without depth", run_monocular, 100},
   };
   return all;
 }

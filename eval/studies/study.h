@@ -30,6 +30,7 @@ struct Study {
   std::string_view name;   ///< "fig8"
   std::string_view title;  ///< "Figure 8: matching cascades"
   reports::StudyResult (*run)(const StudyContext& context);
+  double cpu_s;  ///< about, of one seed; for estimates
 };
 /// In running order.
 const std::vector<Study>& studies();
