@@ -101,13 +101,15 @@ TEST(Table, EveryCellIsTheSameInEveryFile) {
       const Written written = read_written(folder, table, summary);
       const json in_results = find_table(results, table.name), in_timings = find_table(timings, table.name);
       ASSERT_EQ(written.csv.size(), table.rows.size() + 1);
+      ASSERT_EQ(written.csv[0].size(), table.columns.size() + 2);
+      EXPECT_EQ(written.csv[0][0] + "," + written.csv[0][1], "run,experiment");
       ASSERT_EQ(written.markdown.size(), table.rows.size());
       for (size_t r = 0; r < table.rows.size(); ++r) {
         for (size_t c = 0; c < table.columns.size(); ++c, ++cells) {
           const Column& column = table.columns[c];
-          const std::string& csv = written.csv[r + 1][c];
+          const std::string& csv = written.csv[r + 1][c + 2];
           SCOPED_TRACE(table.name + " " + std::to_string(r) + " " + column.key);
-          EXPECT_EQ(written.csv[0][c], column.key);
+          EXPECT_EQ(written.csv[0][c + 2], column.key);
           const json stored = find_cell(column.is_time ? in_timings : in_results, r, column.key);
           EXPECT_EQ(csv, stored.is_null() ? "" : stored.is_string() ? stored.get<std::string>() : stored.dump());
           EXPECT_EQ(written.markdown[r][c], as_shown(csv, column, table.rows[r][c]));

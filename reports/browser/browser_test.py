@@ -210,7 +210,8 @@ def check_own_run(browser, folder):
     expect(browser.execute_script("return glovebench.missing") == [], "own run: charts without data")
     bars, diamonds = browser.execute_script("""
         const place = document.querySelector('[data-chart="errors-position"]');
-        return ['.mark-rect path', '.mark-symbol path'].map(mark => place.querySelectorAll('svg ' + mark).length);""")
+        const marks = [".mark-rect.role-mark path", ".mark-symbol.role-mark path"];
+        return marks.map(mark => place.querySelectorAll("svg " + mark).length);""")
     expect(bars >= 2 and diamonds == 0, f"own run: {bars} bars and {diamonds} diamonds")
 
 

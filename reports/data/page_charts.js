@@ -68,6 +68,14 @@ function means(table, metric, title, isFirst) {
       {field: 'low', format: '.2f', title: '95% from'}, {field: 'high', format: '.2f', title: 'to'},
       {field: 'paper', format: '.2f'}
     ];
+    const diamonds = {
+      transform: [{filter: 'isValid(datum.paper)'}],
+      mark: {
+        type: 'point', shape: 'diamond', filled: true, size: 80, color: 'var(--ink)', stroke: 'var(--page)',
+        strokeWidth: 1, opacity: 1
+      },
+      encoding: {x, xOffset, tooltip, y: {field: 'paper', type: 'quantitative'}}
+    };
     return {
       data: {values: rows},
       facet: {column: {field: 'variant', sort: panels, title: null, header: isFirst ? {} : {labels: false}}},
@@ -89,14 +97,7 @@ function means(table, metric, title, isFirst) {
             mark: {type: 'rule', color: 'var(--ink)', strokeWidth: 1.2},
             encoding: {x, xOffset, y: {field: 'low', type: 'quantitative'}, y2: {field: 'high'}}
           },
-          {
-            transform: [{filter: 'isValid(datum.paper)'}],
-            mark: {
-              type: 'point', shape: 'diamond', filled: true, size: 80, color: 'var(--ink)', stroke: 'var(--page)',
-              strokeWidth: 1, opacity: 1
-            },
-            encoding: {x, xOffset, tooltip, y: {field: 'paper', type: 'quantitative'}}
-          }
+          ...(rows.some(row => isNumber(row.paper)) ? [diamonds] : [])
         ]
       }
     };
