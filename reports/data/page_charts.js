@@ -47,7 +47,8 @@ function means(table, metric, title, isFirst) {
   return tables => {
     const noises = new Set(tables[table].map(row => `${row.noise} x ${row.noise_factor}`));
     const rows = tables[table].map(row => ({
-      trajectory: row.trajectory, database: row.database, role: databaseRole(row.database),
+      trajectory: row.trajectory, database: row.database,
+      role: table === 'figure4' ? databaseRole(row.database) : withoutPrefix(row.database),
       variant: (variants[`${row.truth} ${row.subject}`] || `${row.truth}, subject ${row.subject}`) +
           (noises.size > 1 ? `, ${row.noise} x ${row.noise_factor}` : ''),
       mean: row[`${metric}_mean`], low: row[`${metric}_interval_low`], high: row[`${metric}_interval_high`],
