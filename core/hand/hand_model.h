@@ -3,34 +3,17 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/recycled_vector.h"
 #include "core/hand/glove.h"
+#include "core/hand/hand_shape.h"
 #include "core/hand/posture.h"
-#include "core/hand/rigged_mesh.h"
 #include "core/hand/skeleton.h"
 
 namespace glovebench {
-
-/// How a subject's hand differs from the mesh of the package.
-struct HandShape {
-  double scale = 1.0;  ///< of the whole hand
-  /// Relative length of each segment: thumb metacarpal, proximal, distal; then proximal, intermediate, distal of
-  /// index, middle, ring, little.
-  std::array<double, 15> segment_scale = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  double patch_border_shift = 0.0;  ///< how far the patch borders lie towards the fingertips, m
-
-  friend bool operator==(const HandShape&, const HandShape&) = default;
-};
-
-/// The second subject: 5% larger, segments +-8%, patch borders shifted by 2 mm.
-HandShape second_subject();
-
-/// The mesh with its segments stretched along their bones and the whole hand scaled, in the bind pose. The mesh is
-/// in the hand frame, with the forearm.
-RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
 /// The hand in one posture, in the hand frame (metres): rooted at the palm, origin midway between the wrist
 /// joint and the middle MCP, -z to the fingertips, +y dorsal.
@@ -46,6 +29,10 @@ class HandModel {
   /// file is missing or is not that file (checksum).
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
+  /// This hand with its sizes multiplied by those of `factors`. Patches stay where they are on the skin; those of a
+  /// hand that is loaded with such a shape lie where its own weights and places have them.
+  HandModel stretched(const HandSizes& factors) const;
+
   PosedHand pose(const Posture& posture) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
   size_t vertex_count() const { return bind_vertices_.size(); }
@@ -59,6 +46,10 @@ class HandModel {
   const std::string& hash() const { return hash_; }
 
  private:
+  /// Sets the bind pose of the right hand and what follows from it.
+  void bind(std::vector<Eigen::Vector3d> vertices, std::span<const Eigen::Isometry3d> T_hand_joint);
+  std::string make_hash(const JointPoses& T_hand_joint) const;
+
   Side side_ = Side::right;
   HandShape shape_;
   Skeleton skeleton_;
