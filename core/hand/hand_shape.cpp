@@ -10,8 +10,8 @@ namespace {
 /// Joint at the base of each segment.
 constexpr std::array<int, kSegmentCount> kStretchedJoint = {1, 2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23};
 
-/// By joint, in the joint's frame: the bone lies along z. What hangs on a fingertip's joint is as wide as the distal
-/// segment.
+/// By joint, in the joint's frame: the bone lies along z. What hangs on a fingertip's joint is as wide as the
+/// distal segment.
 std::array<Eigen::Vector3d, kJointCount> segment_stretch(const HandSizes& sizes) {
   std::array<Eigen::Vector3d, kJointCount> stretch;
   stretch.fill(Eigen::Vector3d::Ones());
@@ -31,15 +31,23 @@ struct PalmStretch {
 
   PalmStretch(const HandSizes& sizes, int joint, double z_wrist) {
     const auto along = [&] {
+      if (joint == 1) return sizes[kThumbPalmLength];
       if (joint == 5 || joint == 6) return sizes[kIndexPalmLength];
       if (joint == 15 || joint == 16) return sizes[kRingPalmLength];
       if (joint == 20 || joint == 21) return sizes[kLittlePalmLength];
       return 1.0;
     }();
-    factors = {sizes[kPalmBreadth], sizes[kPalmThickness], along};
+    const bool is_mcp = joint == 6 || joint == 16 || joint == 21;
+    const double arch = is_mcp ? sizes[kKnuckleArch] : 1;
+    factors = {sizes[kPalmBreadth], arch * sizes[kPalmThickness], along};
     z_shift = (1 - along) * z_wrist;
   }
-  Eigen::Affine3d transform() const { return Eigen::Translation3d(0, 0, z_shift) * Eigen::Scaling(factors); }
+  Eigen::Affine3d transform() const {
+    Eigen::Affine3d T = Eigen::Affine3d::Identity();
+    T.linear().diagonal() = factors;
+    T.translation().z() = z_shift;
+    return T;
+  }
   Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
     return factors.cwiseProduct(p) + z_shift * Eigen::Vector3d::UnitZ();
   }
@@ -52,6 +60,8 @@ const std::array<std::string, kSizeCount>& hand_size_names() {
     std::array<std::string, kSizeCount> all = {"scale",
                                                "palm_breadth",
                                                "palm_thickness",
+                                               "knuckle_arch",
+                                               "thumb_palm_length",
                                                "index_palm_length",
                                                "ring_palm_length",
                                                "little_palm_length"};

@@ -15,7 +15,9 @@ enum HandSize : int {
   kScale,
   kPalmBreadth,
   kPalmThickness,
-  kIndexPalmLength,  ///< from the wrist to the MCP; the middle finger's has no factor
+  kKnuckleArch,      ///< how far the MCPs of index, ring and little lie palmar of the middle finger's
+  kThumbPalmLength,  ///< along the palm, from the wrist to the thumb's first joint
+  kIndexPalmLength,  ///< and to the MCPs; the middle finger's has no factor
   kRingPalmLength,
   kLittlePalmLength,
   kSegmentLengths,  ///< the first of 15
@@ -23,6 +25,8 @@ enum HandSize : int {
   kSizeCount = kSegmentWidths + kSegmentCount,
 };
 using HandSizes = std::array<double, kSizeCount>;
+/// No hand has a size outside of these.
+inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
 
 /// Name of each size as it stands in files, e.g. "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();

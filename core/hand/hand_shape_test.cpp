@@ -73,12 +73,14 @@ TEST(HandShape, a_segments_width_moves_skin_and_no_joint) {
 
 TEST(HandShape, the_palm_stretches_across_and_along_its_rays) {
   const HandModel broad = package_hand().stretched(ones_but(kPalmBreadth, 1.2));
-  EXPECT_NEAR((joint(broad, 6) - joint(broad, 21)).x(), 1.2 * (joint(package_hand(), 6) - joint(package_hand(), 21)).x(),
-              1e-9);
+  EXPECT_NEAR((joint(broad, 6) - joint(broad, 21)).x(),
+              1.2 * (joint(package_hand(), 6) - joint(package_hand(), 21)).x(), 1e-9);
   EXPECT_NEAR(bone(broad, 6), bone(package_hand(), 6), 1e-9);
 
   const HandModel long_index = package_hand().stretched(ones_but(kIndexPalmLength, 1.1));
-  const auto along = [](const HandModel& model, int j) { return (joint(model, kWristJoint) - joint(model, j)).z(); };
+  const auto along = [](const HandModel& model, int j) {
+    return (joint(model, kWristJoint) - joint(model, j)).z();
+  };
   EXPECT_NEAR(along(long_index, 6), 1.1 * along(package_hand(), 6), 1e-9);
   for (const int other : {11, 16, 21}) EXPECT_NEAR(along(long_index, other), along(package_hand(), other), 1e-9);
 }
