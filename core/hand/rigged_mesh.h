@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace glovebench {
@@ -23,6 +24,9 @@ struct RiggedMesh {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< bind pose, by joint index (skeleton.h)
 };
+
+/// Hash of the package's mesh file.
+inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
 /// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20, welded by position. The frame is the
 /// file's. Throws Error if the file is missing, altered (checksum), or cannot be parsed.
