@@ -23,6 +23,8 @@ struct CommonFlags {
   std::string cascade;
   std::string calibration;          ///< file; empty: the synthetic Kinect's own
   nlohmann::json calibration_json;  ///< instead of a file: that of an earlier run
+  std::string hand;                 ///< file; empty: the hand of the package's mesh
+  nlohmann::json hand_json;         ///< instead of a file: that of an earlier run
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -32,6 +34,7 @@ struct CommonFlags {
 
   Option add_output(Command command, const std::string& what);
   void add_tracker(Command command);
+  void add_hand(Command command);
   void add_seed(Command command);
   /// The cameras of the synthetic Kinect.
   void add_cameras(Command command);
@@ -40,6 +43,8 @@ struct CommonFlags {
   /// Defaults < profile < file < command line. Throws Error.
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
+  /// Empty without `hand` and `hand_json`. Throws Error, also for a hand of the other side.
+  std::optional<MeasuredHand> measured_hand() const;
   /// Counted up from `seed`. Throws Error if there are not so many.
   std::vector<uint64_t> seeds(int count) const;
   /// Throws Error if no file can be written to the output folder: before the work, not after it. Makes the folder.

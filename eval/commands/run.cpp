@@ -67,7 +67,7 @@ struct RunCommand {
   /// A part of the reproduction by itself; a cascade on the command line takes the place of Figure 8's four.
   void run_study() {
     for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
-                             "--noise", "--gain", "--subject"})
+                             "--noise", "--gain", "--subject", "--hand"})
       if (command.given(flag))
         throw Error(study_name, "flags", flag, "none of those that say what a study says itself");
     const Study& chosen = study(study_name);
@@ -163,6 +163,7 @@ void add_run(Command program) {
               "noise seeds an experiment, counted up from --seed [a suite: its own seeds]")
       .in(1, 1000);
   state->robot.add(command, "folder for the robot commands of each experiment").named_file();
+  state->common.add_hand(command);
   state->common.add_tracker(command);
   state->common.add_seed(command);
   state->common.add_cameras(command);
