@@ -109,6 +109,7 @@ reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> run
   if (plan.quick) result.configuration["quick"] = true;
   if (const auto cameras = to_json(workbench.calibration()); cameras != to_json(synthetic_calibration()))
     result.configuration["calibration"] = cameras;
+  if (const auto& hand = workbench.config().hand) result.configuration["hand"] = to_json(*hand);
   for (const Experiment& experiment : experiments_of(runs)) result.experiments.push_back(evaluate(experiment));
   return result;
 }

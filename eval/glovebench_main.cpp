@@ -31,6 +31,7 @@ void add_commands(glovebench::eval::Command program) {
   const Command calibrate = program.subcommand("calibrate", "Measure what the tracker or the gate must know.");
   add_calibrate_cameras(calibrate);
   add_calibrate_colors(calibrate);
+  add_calibrate_hand(calibrate);
   add_calibrate_noise(calibrate);
   add_completion(program);
   add_manual(program);

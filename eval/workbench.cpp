@@ -20,15 +20,23 @@ Workbench::Workbench(WorkbenchConfig config) : config_(std::move(config)) {}
 
 std::shared_ptr<const HandModel> Workbench::model() {
   const std::lock_guard lock(mutex_);
-  if (!model_) model_ = std::make_shared<HandModel>(HandModel::load(hand_mesh_path(), config_.side));
+  if (!config_.hand) return package_hand();
+  if (!model_)
+    model_ = std::make_shared<HandModel>(HandModel::load(hand_mesh_path(), config_.side, config_.hand->shape));
   return model_;
+}
+
+std::shared_ptr<const HandModel> Workbench::package_hand() {
+  const std::lock_guard lock(mutex_);
+  if (!package_hand_) package_hand_ = std::make_shared<HandModel>(HandModel::load(hand_mesh_path(), config_.side));
+  return package_hand_;
 }
 
 render::Subject Workbench::subject(int number) {
   const std::lock_guard lock(mutex_);
   const auto known = subjects_.find(number);
   if (known != subjects_.end()) return known->second;
-  return subjects_.emplace(number, render::make_subject(number, hand_mesh_path(), model())).first->second;
+  return subjects_.emplace(number, render::make_subject(number, hand_mesh_path(), package_hand())).first->second;
 }
 
 std::shared_ptr<const ColorTable> Workbench::color_table(ColorSpace space) {
@@ -36,8 +44,8 @@ std::shared_ptr<const ColorTable> Workbench::color_table(ColorSpace space) {
   std::shared_ptr<const ColorTable>& table = color_tables_[space];
   if (!table) {
     const PostureSet postures = trajectories::posture_set(trajectory_folder(), "DB_open_pinch_power");
-    table = std::make_shared<ColorTable>(
-        cached_color_table(config_.cache_folder, model(), synthetic_calibration(), postures.postures, space));
+    table = std::make_shared<ColorTable>(cached_color_table(config_.cache_folder, package_hand(),
+                                                            synthetic_calibration(), postures.postures, space));
   }
   return table;
 }

@@ -3,10 +3,12 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "core/database/database.h"
 #include "core/database/database_cache.h"
+#include "core/hand/hand_file.h"
 #include "core/methods/method.h"
 #include "core/segmentation/color_table.h"
 #include "render/subjects/subject.h"
@@ -16,6 +18,7 @@ namespace glovebench::eval {
 struct WorkbenchConfig {
   std::string cache_folder;
   Side side = Side::right;
+  std::optional<MeasuredHand> hand;  ///< the tracker's; empty: the package's
   int threads = 1;
   DatabaseMemory memory = DatabaseMemory::normal;  ///< of new databases
   bool quiet = false;
@@ -29,8 +32,9 @@ class Workbench {
   explicit Workbench(WorkbenchConfig config);
 
   const WorkbenchConfig& config() const { return config_; }
-  /// The tracker's; also subject 1's.
   std::shared_ptr<const HandModel> model();
+  /// The hand of the package's mesh: subject 1's, and the tracker's unless `hand` is given.
+  std::shared_ptr<const HandModel> package_hand();
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
@@ -58,7 +62,7 @@ class Workbench {
   PostureSet postures_of(const std::string& name) const;
 
   std::recursive_mutex mutex_;
-  std::shared_ptr<const HandModel> model_;
+  std::shared_ptr<const HandModel> model_, package_hand_;
   std::map<int, render::Subject> subjects_;
   std::map<std::string, PostureSet> postures_;  ///< of files, by name
   std::map<std::string, std::shared_ptr<const Database>> databases_;

@@ -1,6 +1,6 @@
 #include "core/hand/hand_model.h"
 
-#include <cstring>
+#include <algorithm>
 
 #include "core/base/hash.h"
 #include "core/hand/rigged_mesh.h"
@@ -8,16 +8,6 @@
 
 namespace glovebench {
 namespace {
-
-/// Joint at the base of each of the 15 segments.
-constexpr std::array<int, 15> kScaledJoint = {1, 2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23};
-
-std::array<double, kJointCount> stretch_by_joint(const HandShape& shape) {
-  std::array<double, kJointCount> stretch;
-  stretch.fill(1.0);
-  for (size_t s = 0; s < kScaledJoint.size(); ++s) stretch[kScaledJoint[s]] = shape.segment_scale[s];
-  return stretch;
-}
 
 constexpr double kForearmLength = 0.06;  // m past the wrist joint
 
@@ -49,9 +39,10 @@ Eigen::Isometry3d hand_frame(const RiggedMesh& mesh) {
   return T_mesh_hand;
 }
 
-RiggedMesh transformed(const Eigen::Isometry3d& T, RiggedMesh mesh) {
-  for (Eigen::Vector3d& p : mesh.vertices) p = T * p;
-  for (Eigen::Isometry3d& joint : mesh.T_mesh_joint) joint = T * joint;
+RiggedMesh in_hand_frame(RiggedMesh mesh) {
+  const Eigen::Isometry3d T_hand_mesh = hand_frame(mesh).inverse();
+  for (Eigen::Vector3d& p : mesh.vertices) p = T_hand_mesh * p;
+  for (Eigen::Isometry3d& joint : mesh.T_mesh_joint) joint = T_hand_mesh * joint;
   return mesh;
 }
 
@@ -60,11 +51,52 @@ void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-std::string model_hash(const GlovedMesh& mesh, const JointPoses& T_hand_joint, Side side) {
-  std::string bytes = side == Side::right ? "right" : "left";
-  for (const Eigen::Vector3d& p : mesh.vertices) bytes.append(reinterpret_cast<const char*>(p.data()), 24);
-  for (const Influence& i : mesh.influences) append(bytes, i);
-  for (const Triangle& t : mesh.triangles) {
+}  // namespace
+
+HandModel HandModel::load(const std::string& mesh_path, Side side, const HandShape& shape) {
+  RiggedMesh mesh = load_rigged_mesh(mesh_path);
+  correct_mcp_centers(mesh);
+  mesh = reshaped(with_forearm(in_hand_frame(mesh), kForearmLength), shape);
+  // A stretched hand has its origin midway between its own joints.
+  mesh = in_hand_frame(mesh);
+  GlovedMesh glove = cut_patches(mesh, patch_scores(mesh, shape.patch_border_shift));
+
+  HandModel model;
+  model.side_ = side;
+  model.shape_ = shape;
+  model.influences_ = std::move(glove.influences);
+  model.triangles_ = std::move(glove.triangles);
+  model.bind(std::move(glove.vertices), mesh.T_mesh_joint);
+  if (side == Side::left) {
+    for (Triangle& t : model.triangles_) std::swap(t.vertices[1], t.vertices[2]);
+  }
+  return model;
+}
+
+HandModel HandModel::stretched(const HandSizes& factors) const {
+  RiggedMesh mesh{bind_vertices_, influences_, {}, {}};
+  for (const Eigen::Isometry3d& T : T_joint_bind_) mesh.T_mesh_joint.push_back(T.inverse());
+  mesh = in_hand_frame(reshaped(mesh, {factors, 0}));
+  HandModel model = *this;
+  for (int i = 0; i < kSizeCount; ++i) model.shape_.sizes[i] *= factors[i];
+  model.bind(std::move(mesh.vertices), mesh.T_mesh_joint);
+  return model;
+}
+
+void HandModel::bind(std::vector<Eigen::Vector3d> vertices, std::span<const Eigen::Isometry3d> T_hand_joint) {
+  JointPoses joints;
+  std::ranges::copy(T_hand_joint, joints.begin());
+  skeleton_ = Skeleton(joints);
+  for (int j = 0; j < kJointCount; ++j) T_joint_bind_[j] = joints[j].inverse();
+  bind_vertices_ = std::move(vertices);
+  hash_ = make_hash(joints);
+}
+
+std::string HandModel::make_hash(const JointPoses& T_hand_joint) const {
+  std::string bytes{to_string(side_)};
+  for (const Eigen::Vector3d& p : bind_vertices_) bytes.append(reinterpret_cast<const char*>(p.data()), 24);
+  for (const Influence& i : influences_) append(bytes, i);
+  for (const Triangle& t : triangles_) {
     append(bytes, t.vertices);
     append(bytes, t.label);
     append(bytes, t.patch);
@@ -73,68 +105,6 @@ std::string model_hash(const GlovedMesh& mesh, const JointPoses& T_hand_joint, S
     bytes.append(reinterpret_cast<const char*>(T.matrix().data()), 16 * sizeof(double));
   }
   return hash_text(bytes);
-}
-
-}  // namespace
-
-HandShape second_subject() {
-  HandShape shape;
-  shape.scale = 1.05;
-  shape.segment_scale = {1.04, 0.93, 1.08, 0.96, 1.07, 0.92, 1.06, 0.95, 1.08, 0.92, 1.05, 1.03, 1.08, 0.94, 0.97};
-  shape.patch_border_shift = 0.002;
-  return shape;
-}
-
-RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape) {
-  const std::array<double, kJointCount> stretch = stretch_by_joint(shape);
-  RiggedMesh result = mesh;
-  std::vector<Eigen::Affine3d> T_new_old(mesh.T_mesh_joint.size());
-  for (size_t j = 0; j < mesh.T_mesh_joint.size(); ++j) {
-    const int parent = joint_parents()[j];
-    if (parent >= 0) {
-      Eigen::Vector3d offset = (mesh.T_mesh_joint[parent].inverse() * mesh.T_mesh_joint[j]).translation();
-      offset.z() *= stretch[parent];
-      result.T_mesh_joint[j].translation() = result.T_mesh_joint[parent] * offset;
-    }
-    T_new_old[j] = result.T_mesh_joint[j] * Eigen::Scaling(1.0, 1.0, stretch[j]) *
-                   Eigen::Affine3d(mesh.T_mesh_joint[j].inverse());
-  }
-  for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Influence& influence = mesh.influences[v];
-    Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 4; ++i) {
-      p += static_cast<double>(influence.weight[i]) * (T_new_old[influence.joint[i]] * mesh.vertices[v]);
-    }
-    result.vertices[v] = shape.scale * p;
-  }
-  for (Eigen::Isometry3d& T : result.T_mesh_joint) T.translation() *= shape.scale;
-  return result;
-}
-
-HandModel HandModel::load(const std::string& mesh_path, Side side, const HandShape& shape) {
-  RiggedMesh mesh = load_rigged_mesh(mesh_path);
-  correct_mcp_centers(mesh);
-  mesh = transformed(hand_frame(mesh).inverse(), mesh);
-  mesh = reshaped(with_forearm(mesh, kForearmLength), shape);
-  // A stretched hand has its origin midway between its own joints.
-  mesh = transformed(hand_frame(mesh).inverse(), mesh);
-  GlovedMesh glove = cut_patches(mesh, patch_scores(mesh, shape.patch_border_shift));
-
-  HandModel model;
-  model.side_ = side;
-  model.shape_ = shape;
-  JointPoses T_hand_joint;
-  std::copy(mesh.T_mesh_joint.begin(), mesh.T_mesh_joint.end(), T_hand_joint.begin());
-  model.hash_ = model_hash(glove, T_hand_joint, side);
-  model.skeleton_ = Skeleton(T_hand_joint);
-  for (int j = 0; j < kJointCount; ++j) model.T_joint_bind_[j] = T_hand_joint[j].inverse();
-  model.bind_vertices_ = std::move(glove.vertices);
-  model.influences_ = std::move(glove.influences);
-  model.triangles_ = std::move(glove.triangles);
-  if (side == Side::left) {
-    for (Triangle& t : model.triangles_) std::swap(t.vertices[1], t.vertices[2]);
-  }
-  return model;
 }
 
 PosedHand HandModel::pose(const Posture& posture) const {

@@ -3,32 +3,17 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/recycled_vector.h"
 #include "core/hand/glove.h"
+#include "core/hand/hand_shape.h"
 #include "core/hand/posture.h"
-#include "core/hand/rigged_mesh.h"
 #include "core/hand/skeleton.h"
 
 namespace glovebench {
-
-/// Differences from the package's mesh.
-struct HandShape {
-  double scale = 1.0;
-  /// relative lengths: thumb metacarpal, proximal, distal; then proximal, intermediate, distal of index to little
-  std::array<double, 15> segment_scale = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  double patch_border_shift = 0.0;  ///< towards the fingertips, m
-
-  friend bool operator==(const HandShape&, const HandShape&) = default;
-};
-
-/// 5% larger, segments +-8%, borders shifted by 2 mm.
-HandShape second_subject();
-
-/// Applies a shape to a mesh with forearm, in the hand frame and bind pose.
-RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
 /// The hand in the hand frame, m: origin midway between the wrist joint and the middle MCP, -z to the fingertips,
 /// +y dorsal.
@@ -44,6 +29,10 @@ class HandModel {
   /// Throws: Error if the file is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
+  /// This hand with its sizes multiplied by those of `factors`. Patches stay where they are on the skin; those of a
+  /// hand that is loaded with such a shape lie where its own weights and places have them.
+  HandModel stretched(const HandSizes& factors) const;
+
   PosedHand pose(const Posture& posture) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
   size_t vertex_count() const { return bind_vertices_.size(); }
@@ -56,6 +45,10 @@ class HandModel {
   const std::string& hash() const { return hash_; }
 
  private:
+  /// Sets the bind pose of the right hand and what follows from it.
+  void bind(std::vector<Eigen::Vector3d> vertices, std::span<const Eigen::Isometry3d> T_hand_joint);
+  std::string make_hash(const JointPoses& T_hand_joint) const;
+
   Side side_ = Side::right;
   HandShape shape_;
   Skeleton skeleton_;

@@ -15,7 +15,6 @@ namespace glovebench {
 namespace {
 
 constexpr uint64_t kLargestMesh = uint64_t{16} << 20;  // bytes
-constexpr const char* kMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
 Eigen::Isometry3d isometry(const aiMatrix4x4& m) {
   Eigen::Matrix4d matrix;
@@ -172,8 +171,8 @@ float Influence::weight_of(int j) const {
 RiggedMesh load_rigged_mesh(const std::string& path) {
   const std::string content = read_file(path, kLargestMesh);
   const std::string hash = hash_text(content);
-  if (hash != kMeshHash) {
-    throw Error(path, "checksum", hash, std::string(kMeshHash) + " (generic-hand/right.glb; run ci/setup)");
+  if (hash != kRiggedMeshHash) {
+    throw Error(path, "checksum", hash, std::string(kRiggedMeshHash) + " (generic-hand/right.glb; run ci/setup)");
   }
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace glovebench {
@@ -23,6 +24,9 @@ struct RiggedMesh {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< by joint (skeleton.h)
 };
+
+/// Hash of the package's mesh file.
+inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
 /// Loads the file of HandModel::load in its own frame, welded by position.
 /// Throws: Error as HandModel::load does.

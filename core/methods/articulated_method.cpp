@@ -2,42 +2,12 @@
 // posture follow the points and the outline of the hand.
 
 #include "core/methods/method.h"
-#include "core/pose/articulated_fit.h"
 #include "core/tracker/hand_look_up.h"
-#include "core/tracker/sighting.h"
+#include "core/tracker/hand_view.h"
 #include "core/tracker/smoothing.h"
 
 namespace glovebench {
 namespace {
-
-constexpr float kDepthStep = 0.010;  ///< m: a point beside a larger one lies on an edge and may be anywhere
-constexpr float kBehindHand = 0.13;  ///< m: what is this much farther than the hand's mean depth is not the hand
-constexpr int kMaskMargin_px = 40;
-
-/// The points of a cloud none of whose four neighbors lies at another depth, or at none.
-RecycledVector<LabeledPoint> points_off_edges(const LabeledCloud& cloud, const DepthImage& depth) {
-  RecycledVector<LabeledPoint> points;
-  points.reserve(cloud.points.size());
-  size_t next = 0;
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      if (cloud.labels(u, v) == 0) continue;
-      const LabeledPoint& point = cloud.points[next++];
-      if (u == 0 || v == 0 || u + 1 == depth.width() || v + 1 == depth.height()) continue;
-      const float z = depth(u, v);
-      const float farthest = std::max(std::max(std::abs(depth(u - 1, v) - z), std::abs(depth(u + 1, v) - z)),
-                                      std::max(std::abs(depth(u, v - 1) - z), std::abs(depth(u, v + 1) - z)));
-      if (farthest <= kDepthStep) points.push_back(point);
-    }
-  }
-  return points;
-}
-
-float mean_depth(std::span<const LabeledPoint> points) {
-  double sum = 0;
-  for (const LabeledPoint& point : points) sum += point.p.z();
-  return static_cast<float>(sum / static_cast<double>(points.size()));
-}
 
 class Articulated : public Method {
  public:
@@ -63,7 +33,7 @@ class Articulated : public Method {
 
   MethodInputs in_;
   ArticulatedFit fit_;
-  HandMask mask_;
+  HandView view_;
 };
 
 RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, const TrackResult* previous,
@@ -99,13 +69,11 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
       coarse_pose(*in_.model, in_.model->pose(mean.posture), mean.R_camera_hand, seen.cloud.points);
 
   observe(Stage::mask);
-  mask_.assign(seen.depth, frame.raw_disparity, label_box(seen.cloud.labels, kMaskMargin_px),
-               mean_depth(seen.cloud.points) + kBehindHand);
-  const RecycledVector<LabeledPoint> points = points_off_edges(seen.cloud, seen.depth);
+  view_.assign(seen, frame.raw_disparity);
 
   observe(Stage::fit);
   const ArticulatedEstimate fitted =
-      fit_({points, mask_, in_.calibration.ir}, starts(result, previous, mean, ray, seen.cloud),
+      fit_({view_.points, view_.mask, in_.calibration.ir}, starts(result, previous, mean, ray, seen.cloud),
            previous == nullptr ? nullptr : &previous->posture_unfiltered);
   result.posture_unfiltered = fitted.pose.posture;
   result.T_camera_hand_unfiltered = fitted.pose.T_camera_hand;

@@ -7,13 +7,12 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/pose/matcher.h"
+#include "core/pose/surface_pull.h"
 
 namespace glovebench {
 namespace {
 
 constexpr double kPointsOfWeights = 1000;  ///< to which weights are normalized
-constexpr double kInside = 1e-3;           ///< smallest barycentric coordinate off an edge
-constexpr double kApart = 1e-5;            ///< m; nearer points define no direction
 /// Information of 1,000 points, per mm^2 of the equations' rows. It is chosen on generated movements so that the
 /// deviations match the errors.
 constexpr double kInformation = 4;
@@ -33,20 +32,6 @@ double evenly_between(const double (&ends)[2], int step, int steps) {
 struct StepWeights {
   double tukey_mm, start_weight, tangential;
 };
-
-double tukey(double distance, double width) {
-  const double share = distance / width, rest = 1 - share * share;
-  return rest > 0 ? rest * rest : 0;
-}
-
-Eigen::Vector3d barycentric(const Surface::Face& face, const Eigen::Vector3f& p) {
-  const Eigen::Vector3d ab = (face.b - face.a).cast<double>(), ac = (face.c - face.a).cast<double>();
-  const Eigen::Vector3d ap = (p - face.a).cast<double>(), normal = ab.cross(ac);
-  const double area = normal.squaredNorm();
-  if (!(area > 0)) return Eigen::Vector3d::Unit(0);
-  const double b = ap.cross(ac).dot(normal) / area, c = ab.cross(ap).dot(normal) / area;
-  return {1 - b - c, b, c};
-}
 
 FaceBodies bodies_of_face(const std::array<uint32_t, 3>& corners, std::span<const BodyShares> shares) {
   FaceBodies face;
@@ -186,18 +171,15 @@ class Run {
     for (size_t i = 0; i < matcher_.closest().size(); ++i) {
       const ClosestPoint& closest = matcher_.closest()[i];
       if (closest.face < 0) continue;
-      const double weight = tukey(1000 * static_cast<double>(closest.distance), weights.tukey_mm);
+      const double weight = tukey_weight(1000 * static_cast<double>(closest.distance), weights.tukey_mm);
       if (weight == 0) continue;
       const Surface::Face& face = matcher_.surface().faces(matcher_.cloud()[i].label)[closest.face];
-      const Eigen::Vector3d q = closest.p_hand.cast<double>();
-      const Eigen::Vector3d apart = matcher_.points_hand()[i].p.cast<double>() - q;
-      const Eigen::Vector3d at = barycentric(face, closest.p_hand);
-      Eigen::Vector3d direction = (face.b - face.a).cross(face.c - face.a).normalized().cast<double>();
-      if (at.minCoeff() < kInside && apart.norm() > kApart) direction = apart.normalized();
+      const SurfacePull found =
+          surface_pull(face, closest, matcher_.points_hand()[i].p, weight * (1 - weights.tangential));
       RowSums pulls;
-      pulls.add({q, direction, 1000 * direction.dot(apart), weight * (1 - weights.tangential)});
-      if (weights.tangential > 0) pulls.add_along_axes(q, 1000 * apart, weight * weights.tangential);
-      sums.add(pulls, bodies_at(faces_[face.triangle], at));
+      pulls.add(found.pull);
+      if (weights.tangential > 0) pulls.add_along_axes(found.pull.q, found.apart_mm, weight * weights.tangential);
+      sums.add(pulls, bodies_at(faces_[face.triangle], found.barycentric));
     }
   }
 

@@ -61,6 +61,7 @@ void add_db(Command program) {
       .required();
   state->common.add_output(build, "database file to write (*.glovedb)").required();
   build.option("--left", state->common.left, "a left hand");
+  state->common.add_hand(build);
   state->common.add_machine(build);
   build.runs([state] { state->run(); });
 

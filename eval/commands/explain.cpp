@@ -34,6 +34,7 @@ struct Explain {
     common.left = truth->side == Side::left;
     common.config_json = results.configuration.at("tracker");
     common.calibration_json = results.configuration.value("calibration", nlohmann::json());
+    common.hand_json = results.configuration.value("hand", nlohmann::json());
     Workbench workbench = common.workbench();
     if (!database_file.empty()) workbench.add_database(database_file);
     const RunSpec spec{.trajectory = truth,

@@ -12,6 +12,7 @@
 #include "core/base/input_file.h"
 #include "core/base/parse_json.h"
 #include "core/base/whole_file.h"
+#include "core/hand/hand_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_limits.h"
 #include "eval/program.h"
@@ -35,6 +36,12 @@ void CommonFlags::add_tracker(Command command) {
   command.option("--method", method, "how to track (`glovebench list methods`) [the configuration's]");
   command.option("--cascade", cascade,
                  "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3, or exact:KEEP");
+}
+
+void CommonFlags::add_hand(Command command) {
+  command.option(
+      "--hand", hand,
+      "the person's hand (*.json, `glovebench calibrate hand`); databases are built of it [the package's]");
 }
 
 void CommonFlags::add_seed(Command command) {
@@ -77,6 +84,7 @@ Workbench CommonFlags::workbench() const {
   WorkbenchConfig config;
   config.cache_folder = cache_folder.empty() ? default_cache_folder() : cache_folder;
   config.side = left ? Side::left : Side::right;
+  config.hand = measured_hand();
   config.threads = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   config.memory = low_memory ? DatabaseMemory::low : DatabaseMemory::normal;
   config.quiet = quiet;
@@ -91,6 +99,17 @@ void CommonFlags::warn_of_units(const trajectories::Trajectory& trajectory) cons
   if (quiet) return;
   for (const std::string& doubt : trajectories::unit_doubts(trajectory, tracker_config().volume))
     say("glovebench: warning: {}: {}\n", trajectory.name, doubt);
+}
+
+std::optional<MeasuredHand> CommonFlags::measured_hand() const {
+  if (!hand_json.is_null()) return hand_from_json(hand_json, "hand of the run");
+  if (hand.empty()) return {};
+  const MeasuredHand measured = load_hand(hand);
+  const Side side = left ? Side::left : Side::right;
+  if (measured.side != side)
+    throw Error(hand, "side", std::string(to_string(measured.side)),
+                fmt::format("{}, the side of the hand that is tracked", to_string(side)));
+  return measured;
 }
 
 std::vector<uint64_t> CommonFlags::seeds(int count) const {

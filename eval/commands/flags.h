@@ -22,6 +22,8 @@ struct CommonFlags {
   std::string cascade;
   std::string calibration;          ///< file; empty: the synthetic Kinect's
   nlohmann::json calibration_json;  ///< likewise
+  std::string hand;                 ///< file; empty: the package's mesh
+  nlohmann::json hand_json;         ///< instead of a file: that of an earlier run
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -31,6 +33,7 @@ struct CommonFlags {
 
   Option add_output(Command command, const std::string& what);
   void add_tracker(Command command);
+  void add_hand(Command command);
   void add_seed(Command command);
   void add_cameras(Command command);
   void add_machine(Command command);
@@ -39,6 +42,9 @@ struct CommonFlags {
   /// Throws: Error.
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
+  /// Empty without `hand` and `hand_json`.
+  /// Throws: Error, also for a hand of the other side.
+  std::optional<MeasuredHand> measured_hand() const;
   /// Says on stderr what of the movement looks like a mistake of units.
   void warn_of_units(const trajectories::Trajectory& trajectory) const;
   /// `count` seeds from `seed` up.

@@ -120,6 +120,7 @@ void add_compare(Command program);
 void add_gate(Command program);
 void add_calibrate_cameras(Command calibrate);
 void add_calibrate_colors(Command calibrate);
+void add_calibrate_hand(Command calibrate);
 void add_calibrate_noise(Command calibrate);
 void add_completion(Command program);
 void add_manual(Command program);

@@ -91,7 +91,7 @@ struct RunCommand {
   /// Runs one part of the reproduction. A cascade on the command line replaces the four of Figure 8.
   void run_study() {
     for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
-                             "--noise", "--gain", "--subject"})
+                             "--noise", "--gain", "--subject", "--hand"})
       if (command.given(flag))
         throw Error(study_name, "flags", flag, "none of those that say what a study says itself");
     const Study& chosen = study(study_name);
@@ -193,6 +193,7 @@ void add_run(Command program) {
       .in(1, 1000);
   state->common.add_cameras(camera);
   state->robot.add(command, "folder for the robot commands of each experiment").named_file();
+  state->common.add_hand(command);
   state->common.add_tracker(command);
   state->common.add_machine(command);
   command.runs([state] { state->run(); });

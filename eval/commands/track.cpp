@@ -228,6 +228,7 @@ void add_track(Command program) {
       .one_of({"own", "controller"})
       .needs("--robot");
   command.option("--left", state->common.left, "a left hand");
+  state->common.add_hand(command);
   state->common.add_tracker(command);
   state->common.add_machine(command);
   command.runs([state] { state->run(); });

@@ -126,7 +126,7 @@ std::unique_ptr<Workbench> make_workbench(Side side) {
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
                                               const reports::RunResult& candidate, const FileSet& baseline_files,
                                               const FileSet& candidate_files) {
-  if (candidate.configuration.contains("calibration")) return {};
+  if (candidate.configuration.contains("calibration") || candidate.configuration.contains("hand")) return {};
   const auto& truths = candidate.inputs.truths;
   StoredEstimates before(baseline_files), after(candidate_files);
   std::map<Side, std::unique_ptr<Workbench>> workbenches;

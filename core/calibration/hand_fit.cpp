@@ -1,0 +1,210 @@
+#include "core/calibration/hand_fit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/calibration/size_equations.h"
+#include "core/pose/matcher.h"
+
+namespace glovebench::calibration {
+namespace {
+
+/// Farther points have no weight, mm: when poses are refined (from, by way of, to), and in the equations of sizes.
+struct Round {
+  double wide_mm, middle_mm, narrow_mm, sizes_mm;
+};
+constexpr std::array<Round, 8> kRounds = {{{25, 16, 12, 12},
+                                           {16, 12, 8, 8},
+                                           {12, 8, 6, 6},
+                                           {12, 6, 4, 5},
+                                           {12, 6, 4, 4},
+                                           {12, 6, 4, 4},
+                                           {12, 6, 4, 4},
+                                           {12, 6, 4, 4}}};
+
+/// Standard deviations between people of scale, palm and segments, percent (hand_dimensions.h names sources).
+constexpr double kScaleSpread = 8, kPalmSpread = 6, kLengthSpread = 6, kWidthSpread = 8;
+/// Of the joints' places in the palm, which no one measures from outside: wide enough to leave them to the
+/// recording.
+constexpr double kArchSpread = 40, kThumbPlaceSpread = 20;
+/// The information of a view's points, per mm^2 of the equations' rows for 1,000 points.
+constexpr double kInformation = 1;
+/// A size whose deviation stays above this share of its spread between people was not seen.
+constexpr double kSeenShare = 0.5;
+constexpr double kMostStep = 5;                                                    ///< percent a round
+constexpr double kShiftStep = 0.0005, kMostShiftStep = 0.001, kMostShift = 0.006;  ///< m
+constexpr double kBorderCut_mm = 3;  ///< a distance counts as at most this when border shifts are compared
+constexpr int kShiftPoints = 3000;   ///< of a view
+
+SizeVector spreads() {
+  SizeVector spread;
+  spread.segment<kSegmentCount>(kSegmentLengths).setConstant(kLengthSpread);
+  spread.segment<kSegmentCount>(kSegmentWidths).setConstant(kWidthSpread);
+  spread.head<kSegmentLengths>().setConstant(kPalmSpread);
+  spread[kScale] = kScaleSpread;
+  spread[kKnuckleArch] = kArchSpread;
+  spread[kThumbPalmLength] = kThumbPlaceSpread;
+  return spread;
+}
+
+class Fit {
+ public:
+  Fit(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh)
+      : views_(views), camera_(camera), mesh_(mesh) {
+    for (const TrackedView& view : views) fit_.poses.push_back(view.pose);
+  }
+
+  HandFit run() {
+    refine_poses(kRounds.front());
+    fit_.residual_before = look_at_patches();
+    for (const Round& round : kRounds) {
+      refine_poses(round);
+      step_sizes(round);
+      step_border_shift();
+    }
+    refine_poses(kRounds.back());
+    fit_.residual = look_at_patches();
+    return fit_;
+  }
+
+ private:
+  HandModel hand() const { return hand(fit_.shape); }
+  HandModel hand(const HandShape& shape) const { return HandModel::load(mesh_.path, mesh_.side, shape); }
+
+  /// Calls work(v) for each view.
+  template <typename Work>
+  void for_each_view(const Work& work) const {
+    tbb::parallel_for(size_t{0}, views_.size(), work);
+  }
+
+  void refine_poses(const Round& round) {
+    FitSchedule schedule;
+    schedule.trial = {1, 0, 500, {round.wide_mm, round.wide_mm}, {0.01, 0.01}, {0.2, 0.2}, true};
+    schedule.rough = {3, 0, 1000, {round.wide_mm, round.middle_mm}, {0.01, 0.005}, {0.1, 0}, true};
+    schedule.fine = {3, 0, 8000, {round.middle_mm, round.narrow_mm}, {0.005, 0.005}, {0, 0}, false};
+    schedule.kept_starts = 1;
+    const ArticulatedFit fit(std::make_shared<const HandModel>(hand()), schedule, Implementation::fast);
+    for_each_view([&](size_t v) {
+      const HandView& seen = views_[v].seen;
+      const ArticulatedEstimate found =
+          fit({seen.points, seen.mask, camera_}, std::span(&fit_.poses[v], 1), nullptr);
+      if (found.status == AlignmentStatus::converged) fit_.poses[v] = found.pose;
+    });
+  }
+
+  void step_sizes(const Round& round) {
+    const HandModel model = hand();
+    const SurfaceMotion motion(model);
+    std::vector<SizeEquations> of_views(views_.size());
+    for_each_view(
+        [&](size_t v) { of_views[v] = size_equations(motion, views_[v], fit_.poses[v], round.sizes_mm); });
+    SizeMatrix H = SizeMatrix::Zero();
+    SizeVector g = SizeVector::Zero();
+    for (const SizeEquations& of_view : of_views) {
+      H += kInformation * of_view.H;
+      g += kInformation * of_view.g;
+    }
+    const SizeVector spread = spreads();
+    for (int size = 0; size < kSizeCount; ++size) {
+      const double information = 1 / (spread[size] * spread[size]);
+      H(size, size) += information;
+      g[size] -= information * 100 * (fit_.shape.sizes[size] - 1);
+    }
+    const Eigen::LDLT<SizeMatrix> solver(H);
+    const SizeVector step = solver.solve(g).cwiseMax(-kMostStep).cwiseMin(kMostStep);
+    const SizeMatrix covariance = solver.solve(SizeMatrix::Identity());
+    for (int size = 0; size < kSizeCount; ++size) {
+      double& factor = fit_.shape.sizes[size];
+      factor = std::clamp(factor * (1 + step[size] / 100), kLeastHandSize, kMostHandSize);
+      const double deviation = std::sqrt(std::max(0.0, covariance(size, size)));
+      fit_.deviation[size] = deviation / 100;
+      fit_.seen[size] = deviation < kSeenShare * spread[size];
+    }
+    for (size_t v = 0; v < views_.size(); ++v) fit_.poses[v] = moved(fit_.poses[v], of_views[v].step(step));
+  }
+
+  /// One step to the least mean square of distances over three shifts (a parabola).
+  void step_border_shift() {
+    std::array<double, 3> cost{};
+    for (int i = 0; i < 3; ++i) {
+      HandShape shape = fit_.shape;
+      shape.patch_border_shift += (i - 1) * kShiftStep;
+      cost[i] = mean_square(hand(shape));
+    }
+    const double slope = (cost[2] - cost[0]) / 2, curvature = cost[0] - 2 * cost[1] + cost[2];
+    const double most = kMostShiftStep / kShiftStep;
+    const double steps = curvature > 0 ? std::clamp(-slope / curvature, -most, most) : (slope > 0 ? -most : most);
+    fit_.shape.patch_border_shift =
+        std::clamp(fit_.shape.patch_border_shift + steps * kShiftStep, -kMostShift, kMostShift);
+  }
+
+  double mean_square(const HandModel& model) const {
+    std::vector<double> sums(views_.size());
+    for_each_view([&](size_t v) {
+      for_each_point(model, v, kShiftPoints, [&](double distance, int) {
+        const double cut_mm = std::min(1000 * distance, kBorderCut_mm);
+        sums[v] += cut_mm * cut_mm / kShiftPoints;
+      });
+    });
+    double sum = 0;
+    for (const double of_view : sums) sum += of_view;
+    return sum / static_cast<double>(views_.size());
+  }
+
+  /// Calls visit(distance from the surface, patch) for each point of a view that has a closest one.
+  template <typename Visit>
+  void for_each_point(const HandModel& model, size_t v, int max_points, const Visit& visit) const {
+    const PosedHand posed = model.pose(fit_.poses[v].posture);
+    Matcher matcher(model, posed, subsample(views_[v].seen.points, max_points), {});
+    matcher.cull(fit_.poses[v].T_camera_hand);
+    matcher.match(fit_.poses[v].T_camera_hand);
+    for (size_t i = 0; i < matcher.closest().size(); ++i) {
+      const ClosestPoint& closest = matcher.closest()[i];
+      if (closest.face < 0) continue;
+      const Surface::Face& face = matcher.surface().faces(matcher.cloud()[i].label)[closest.face];
+      visit(static_cast<double>(closest.distance), model.triangles()[face.triangle].patch);
+    }
+  }
+
+  /// Sets what each patch's points lie off; returns the mean of all, m.
+  double look_at_patches() {
+    const HandModel model = hand();
+    std::vector<std::array<PatchFit, kPatchCount>> of_views(views_.size());
+    for_each_view([&](size_t v) {
+      for_each_point(model, v, kShiftPoints, [&](double distance, int patch) {
+        ++of_views[v][patch].points;
+        of_views[v][patch].residual += distance;
+      });
+    });
+    PatchFit all;
+    for (int p = 0; p < kPatchCount; ++p) {
+      PatchFit& patch = fit_.patches[p] = {};
+      for (const auto& of_view : of_views) {
+        patch.points += of_view[p].points;
+        patch.residual += of_view[p].residual;
+      }
+      all.points += patch.points;
+      all.residual += patch.residual;
+      if (patch.points > 0) patch.residual /= static_cast<double>(patch.points);
+    }
+    check(all.points > 0, "the hand has points in its views");
+    return all.residual / static_cast<double>(all.points);
+  }
+
+  std::span<const TrackedView> views_;
+  const PinholeCamera& camera_;
+  const HandMesh& mesh_;
+  HandFit fit_;
+};
+
+}  // namespace
+
+HandFit fit_hand_shape(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh) {
+  return Fit(views, camera, mesh).run();
+}
+
+}  // namespace glovebench::calibration

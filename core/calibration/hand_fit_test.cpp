@@ -1,0 +1,135 @@
+#include "core/calibration/hand_fit.h"
+
+#include <gmock/gmock.h>
+
+#include "ci/build_paths.h"
+#include "core/base/error.h"
+#include "core/calibration/hand_report.h"
+#include "core/database/test_database.h"
+#include "core/pose/test_alignment.h"
+
+namespace glovebench::calibration {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kViews = 16;
+
+/// A hand that closes, opens and turns before an ideal camera. The fit begins beside the truth, as far as a hand of
+/// other sizes leads the tracker.
+std::vector<TrackedView> filmed(const HandModel& hand) {
+  std::vector<TrackedView> views;
+  render::LabelRenderer renderer;
+  for (int v = 0; v < kViews; ++v) {
+    RandomStream random(1, "hand fit", v, "view");
+    Posture posture = 0.5 * (1 - std::cos(1.3 * v)) * power_posture();
+    for (double& angle : posture) angle += random.uniform(-0.1, 0.1);
+    posture = clamp_to_limits(posture);
+    const Eigen::Isometry3d T =
+        test_pose({0.01 * (v % 3), 0.03, 0.62}, {0.2 + 0.3 * std::sin(0.9 * v), 1.2 * std::sin(0.7 * v), 0.1});
+    const render::HandImages images = renderer.render_ids(hand, hand.pose(posture), kKinect, T);
+    TrackedView& view = views.emplace_back();
+    view.timestamp_us = 66'667 * v;
+    view.seen.points = build_cloud(images.depth, images.label, kKinect, WorkingVolume{}).points;
+    view.seen.mask.assign(images.depth, Image<uint16_t>(640, 480, 900), label_box(images.label, 40), 2.0f);
+    view.pose = {posture, perturbed_by(T, 2, 0.003, v)};
+    for (double& angle : view.pose.posture) angle += random.uniform(-0.08, 0.08);
+    view.pose.posture = clamp_to_limits(view.pose.posture);
+  }
+  return views;
+}
+
+HandFit fit_of(const HandShape& shape) {
+  const HandModel hand = HandModel::load(build_paths::hand_mesh(), Side::right, shape);
+  return fit_hand_shape(filmed(hand), kKinect, {build_paths::hand_mesh(), Side::right});
+}
+
+double worst_seen_percent(const HandFit& fit, const HandShape& truth, int first, int count) {
+  double worst = 0;
+  for (int size = first; size < first + count; ++size)
+    if (fit.seen[size]) worst = std::max(worst, 100 * std::abs(fit.shape.sizes[size] / truth.sizes[size] - 1));
+  return worst;
+}
+
+TEST(HandFitLong, finds_the_sizes_of_another_hand) {
+  HandShape truth = second_subject();
+  truth.sizes[kPalmBreadth] = 1.06;
+  truth.sizes[kLittlePalmLength] = 0.96;
+  truth.sizes[kSegmentWidths + 6] = 1.08;
+  const HandFit fit = fit_of(truth);
+  EXPECT_NEAR(fit.shape.sizes[kScale], 1.05, 0.01);
+  EXPECT_NEAR(fit.shape.sizes[kPalmBreadth], 1.06, 0.02);
+  EXPECT_NEAR(fit.shape.sizes[kLittlePalmLength], 0.96, 0.02);
+  EXPECT_LT(worst_seen_percent(fit, truth, kSegmentLengths, kSegmentCount), 5);
+  EXPECT_LT(worst_seen_percent(fit, truth, kSegmentWidths, kSegmentCount), 5);
+  EXPECT_NEAR(fit.shape.patch_border_shift, 0.002, 0.0007);
+  EXPECT_LT(fit.residual, 0.3 * fit.residual_before);
+}
+
+TEST(HandFitLong, leaves_the_hand_of_the_mesh_as_it_is) {
+  const HandFit fit = fit_of({});
+  for (int size = 0; size < kSizeCount; ++size)
+    EXPECT_NEAR(fit.shape.sizes[size], 1, 0.03) << hand_size_names()[size];
+  EXPECT_NEAR(fit.shape.sizes[kScale], 1, 0.004);
+  EXPECT_NEAR(fit.shape.patch_border_shift, 0, 0.0003);
+}
+
+TEST(HandFitLong, says_which_sizes_it_does_not_see) {
+  // Nothing of the index finger's end is seen: its sizes stay those of the mesh, and the report says so.
+  const HandModel hand = HandModel::load(build_paths::hand_mesh(), Side::right, second_subject());
+  std::vector<TrackedView> views = filmed(hand);
+  for (TrackedView& view : views)
+    std::erase_if(view.seen.points, [](const LabeledPoint& p) { return p.label == patch_labels()[kIndexDistal]; });
+  const HandFit fit = fit_hand_shape(views, kKinect, {build_paths::hand_mesh(), Side::right});
+  EXPECT_FALSE(fit.seen[kSegmentLengths + 5]);
+  EXPECT_TRUE(fit.seen[kScale]);
+  EXPECT_TRUE(fit.seen[kSegmentLengths + 6]);
+  const std::string report = hand_report_markdown(fit, motion_of(views));
+  EXPECT_THAT(report, HasSubstr("index_distal_length"));
+  EXPECT_THAT(report, HasSubstr("patch index_distal is hardly seen"));
+  EXPECT_THAT(report, Not(HasSubstr("patch middle_distal")));
+}
+
+TEST(HandViews, measure_how_a_hand_moves) {
+  std::vector<TrackedView> views(40);
+  for (int v = 0; v < 40; ++v) {
+    views[v].timestamp_us = 100'000 * v;
+    views[v].pose.posture[kIndexPipFlexion] = radians_from_degrees(v % 2 == 0 ? 10 : 80);
+    views[v].pose.T_camera_hand = test_pose({0, 0, 0.7}, {0, 0, 0});
+    if (v >= 20)
+      views[v].pose.T_camera_hand.linear() = views[v].pose.T_camera_hand.linear() *
+                                             Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  }
+  const ShownMotion motion = motion_of(views);
+  EXPECT_EQ(motion.views, 40);
+  EXPECT_NEAR(motion.seconds, 3.9, 1e-9);
+  EXPECT_NEAR(motion.bend_deg[1], 70, 1e-9);
+  EXPECT_NEAR(motion.bend_deg[2], 0, 1e-9);
+  EXPECT_NEAR(motion.turn_deg, degrees_from_radians(0.5), 0.1);
+  EXPECT_EQ(motion_of({}).views, 0);
+}
+
+TEST(HandViews, ask_for_a_hand_that_moves_long_enough) {
+  const auto refusal = [](const ShownMotion& motion) -> std::string {
+    try {
+      require_motion(motion, "dump");
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  };
+  ShownMotion motion{120, 10, 100, {50, 120, 120, 120, 120}};
+  EXPECT_EQ(refusal(motion), "");
+  motion.views = 12;
+  EXPECT_THAT(refusal(motion), AllOf(HasSubstr("dump: tracked frames: found 12"), HasSubstr("about 10 s")));
+  motion = {120, 10, 100, {5, 10, 12, 10, 9}};
+  EXPECT_THAT(refusal(motion),
+              AllOf(HasSubstr("movement of the fingers: found 10"), HasSubstr("opens and closes")));
+  motion = {120, 10, 8, {50, 120, 120, 120, 120}};
+  EXPECT_THAT(refusal(motion), AllOf(HasSubstr("turn of the hand: found 8"), HasSubstr("a hand that turns")));
+}
+
+}  // namespace
+}  // namespace glovebench::calibration

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/pose/articulated_fit.h"
+#include "core/tracker/sighting.h"
+
+namespace glovebench {
+
+/// What a frame shows to the fit of pose and posture.
+struct HandView {
+  RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at the edge of a surface
+  HandMask mask;
+
+  /// The hand of a sighting, which is `tracked`. Keeps its memory.
+  void assign(const Sighting& seen, const Image<uint16_t>& raw_disparity);
+};
+
+}  // namespace glovebench

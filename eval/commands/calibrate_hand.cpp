@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <optional>
+
+#include "core/base/error.h"
+#include "core/base/whole_file.h"
+#include "core/calibration/hand_report.h"
+#include "eval/commands/flags.h"
+#include "eval/commands/track_source.h"
+#include "eval/share.h"
+#include "eval/terminal.h"
+#include "reports/json_text.h"
+
+namespace glovebench::eval {
+namespace {
+
+struct CalibrateHand {
+  CommonFlags common;
+  SourceFlags from;
+  std::string database = "DB_20_postures";
+  std::string colors;  ///< color table; empty: the tracker's own
+  std::string report;  ///< *.json; empty: none
+  int frame_count = 120;
+
+  void run() {
+    check_files();
+    const std::shared_ptr<const ColorTable> own_colors =
+        colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
+    TrackSource source = open_source(from, common.quiet);
+    Workbench workbench = common.workbench();
+    const std::string name = workbench.add_database(database);
+    TrackerConfig config = common.tracker_config();
+    config.method = "articulated";
+    const MethodInputs inputs{config, source.device->calibration(), workbench.model(), workbench.database(name),
+                              own_colors ? own_colors : workbench.color_table(config.segmentation.color_space)};
+    const std::vector<calibration::TrackedView> views = take_views(source, inputs);
+    const calibration::ShownMotion motion = calibration::motion_of(views);
+    require_motion(motion, from.source);
+
+    const calibration::HandMesh mesh{hand_mesh_path(), workbench.config().side};
+    const calibration::HandFit fit = tbb::task_arena(workbench.config().threads).execute([&] {
+      return fit_hand_shape(views, inputs.calibration.ir, mesh);
+    });
+    write_file(common.output, hand_text(measured_hand(fit, mesh.side)));
+    if (!report.empty()) write_file(report, reports::format_json(hand_report_json(fit, motion, from.source)));
+    fmt::print("{}: a {} hand of {} frames\n\n{}", common.output, to_string(mesh.side), views.size(),
+               hand_report_markdown(fit, motion));
+  }
+
+  void check_files() const {
+    if (!report.empty() && !report.ends_with(".json"))
+      throw Error("--report", "file name", report, "the ending .json");
+    require_different_files({{"--output", common.output}, {"--report", report}});
+    for (const std::string& path : {common.output, report})
+      if (!path.empty()) const WholeFile probe(path);  // never committed: nothing stays
+  }
+
+  /// Tracked frames spread over the recording; of a live device the first ones.
+  std::vector<calibration::TrackedView> take_views(TrackSource& source, const MethodInputs& inputs) const {
+    const std::unique_ptr<Method> method = find_method(inputs.config.method).make(inputs);
+    const int64_t all = source.frame_count > 0 ? source.frame_count : frame_count;
+    const int64_t taken = std::min<int64_t>(frame_count, all);
+    std::vector<calibration::TrackedView> views;
+    Progress progress("tracking", common.quiet);
+    for (int64_t number = 0; number < all; ++number) {
+      try {
+        const std::optional<DeviceFrame> frame = source.device->next_frame();
+        if (!frame) break;
+        if (number > 0 && number * taken / all == (number - 1) * taken / all) continue;
+        if (std::optional<calibration::TrackedView> view = calibration::track_view(*frame, *method, inputs))
+          views.push_back(std::move(*view));
+      } catch (const FrameError& e) {
+        if (!common.quiet) say("glovebench: skipped: {}\n", e.what());
+      }
+      progress.show(static_cast<double>(number + 1) / static_cast<double>(all));
+    }
+    return views;
+  }
+};
+
+}  // namespace
+
+void add_calibrate_hand(Command calibrate) {
+  const Command command = calibrate.subcommand(
+      "hand",
+      "Fit the tracker's hand to a person, for --hand: overall size, lengths and widths of segments.\n"
+      "Record about 10 s in which the hand opens, closes and turns (core/calibration/README.md).");
+  const auto state = std::make_shared<CalibrateHand>();
+  command.option("--source", state->from.source, "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect")
+      .required();
+  command.option("--calibration", state->from.calibration,
+                 "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  state->common.add_output(command, "hand to write, for --hand (*.json)").required();
+  command.option("--report", state->report, "sizes, residuals and what was not seen, to write (*.json)");
+  command.option("--database", state->database,
+                 "to track with: name (`glovebench list databases`) or file (*.glovedb, *.csv, *.json)");
+  command.option("--colors", state->colors,
+                 "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
+  command.option("--frames", state->frame_count, "frames to take, spread over the recording").in(30, 1000);
+  command.option("--left", state->common.left, "a left hand");
+  command.option("--config", state->common.config_file, "JSON file with the tracker's fields to change");
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval
