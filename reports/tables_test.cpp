@@ -68,13 +68,16 @@ TEST(Figure4Csv, OneLineAnExperiment) {
             "rotation_error_deg_paper,"
             "fingertip_error_mm_mean,fingertip_error_mm_interval_low,fingertip_error_mm_interval_high");
   const std::string run = run_name(small_result());
-  EXPECT_THAT(lines[1], testing::StartsWith(run + ",Tr4_DB_open_power_recorded_subject1_gradient_1,Tr4,DB_open_power,"
-                                            "recorded,1,gradient,1.0,2,4,0.75,4.0,"));
+  EXPECT_THAT(lines[1],
+              testing::StartsWith(run + ",Tr4_DB_open_power_recorded_subject1_gradient_1,Tr4,DB_open_power,"
+                                        "recorded,1,gradient,1.0,2,4,0.75,4.0,"));
   EXPECT_THAT(lines[1], HasSubstr(",3.8814,3.0,"));
-  EXPECT_EQ(lines[2], run + ",Tr4_DB_open_power_source_subject2_gradient_1,Tr4,DB_open_power,source,2,gradient,1.0,"
-                            "1,2,0.0,,,,3.8814,,,,2.6012,,,,2.6955,,,");
-  EXPECT_EQ(lines[3], run + ",Tr1_DB_20_postures_source_subject1_gradient_1,Tr1,DB_20_postures,source,1,gradient,1.0,"
-                            "0,0,,,,,7.3316,,,,18.0114,,,,11.6754,,,");
+  EXPECT_EQ(lines[2], run +
+                          ",Tr4_DB_open_power_source_subject2_gradient_1,Tr4,DB_open_power,source,2,gradient,1.0,"
+                          "1,2,0.0,,,,3.8814,,,,2.6012,,,,2.6955,,,");
+  EXPECT_EQ(lines[3], run +
+                          ",Tr1_DB_20_postures_source_subject1_gradient_1,Tr1,DB_20_postures,source,1,gradient,1.0,"
+                          "0,0,,,,,7.3316,,,,18.0114,,,,11.6754,,,");
 }
 
 /// As `small_result`, but the first experiment is of a user's movement.
@@ -94,10 +97,12 @@ TEST(Errors, OfOnesOwnRunHaveNoNumbersOfThePaper) {
   const std::vector<std::string> lines = lines_of_table(errors_csv(own_result()));
   ASSERT_EQ(lines.size(), 5u) << "of any noise";
   EXPECT_THAT(lines[0], testing::Not(HasSubstr("paper")));
-  EXPECT_THAT(lines[1], HasSubstr(",wave_DB_open_power_recorded_subject1_gradient_1,wave,DB_open_power,recorded,1,"));
+  EXPECT_THAT(lines[1],
+              HasSubstr(",wave_DB_open_power_recorded_subject1_gradient_1,wave,DB_open_power,recorded,1,"));
   const std::string summary = summary_markdown(own_result(), paper_numbers());
   EXPECT_THAT(summary, testing::AllOf(HasSubstr("## Mean errors"), testing::Not(HasSubstr("Figure 4"))));
-  EXPECT_THAT(summary, HasSubstr("| wave | DB_open_power | recorded | gradient x 1 | 4.00 | 3.00 | 2.00 | 6.00 | 75.0 |"));
+  EXPECT_THAT(summary,
+              HasSubstr("| wave | DB_open_power | recorded | gradient x 1 | 4.00 | 3.00 | 2.00 | 6.00 | 75.0 |"));
   EXPECT_THAT(summary, testing::Not(testing::AnyOf(HasSubstr("3.88"), HasSubstr("7.33"))));
   EXPECT_THAT(errors_latex(own_result()), HasSubstr(": mean errors\n\\begin{tabular}{llllrrrrr}"));
 }
@@ -138,12 +143,14 @@ TEST(FramesCsv, LostFramesHaveEmptyCells) {
   const std::vector<std::string> lines = lines_of_table(frames_csv("a-1", small_result().experiments[0]));
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_THAT(lines[0], testing::StartsWith("run,experiment,seed,frame,timestamp_us,status,covered,"));
-  EXPECT_THAT(lines[1], testing::StartsWith(
-                            "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,0,0,tracked,true,false,false,false,true,20,3.0,1.0,2.0,1.0,1.0,1.0,1.0,,1.0,3.75,"
-                            "4.5,3.75,1.0,1.0"));
+  EXPECT_THAT(lines[1], testing::StartsWith("a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,0,0,tracked,true,"
+                                            "false,false,false,true,20,3.0,1.0,2.0,1.0,1.0,1.0,1.0,,1.0,3.75,"
+                                            "4.5,3.75,1.0,1.0"));
   const auto metrics = std::ssize(frame_metrics());
-  EXPECT_EQ(lines[2],
-            "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,1,66666,poor_match,false,false,true,false,false,0" + std::string(static_cast<size_t>(metrics), ','));
+  EXPECT_EQ(
+      lines[2],
+      "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,1,66666,poor_match,false,false,true,false,false,0" +
+          std::string(static_cast<size_t>(metrics), ','));
   for (const std::string& line : lines) EXPECT_EQ(std::ranges::count(line, ','), 11 + metrics) << line;
 }
 
