@@ -11,6 +11,7 @@ namespace glovebench::trajectories {
 
 // Where things lie under the data folder:
 //   gestures.csv            the gestures that everything is made of (written by hand)
+//   captured.csv            postures of people's hands, from npm handy-work and iwer
 //   scripts/Tr1.json        keyframes of a source trajectory (written by hand)
 //   sources/Tr1.json        source trajectories (generated)
 //   recorded/Tr1.json       recorded trajectories (frozen outputs of the tracker)
@@ -38,6 +39,8 @@ Trajectory recorded_trajectory(const std::string& data_folder, const std::string
 PostureSet posture_set(const std::string& data_folder, const std::string& name);
 /// The gestures that scripts and sets are made of. Throws Error.
 PostureSet load_gestures(const std::string& data_folder);
+/// The postures of people's hands, which the family `captured` is made of. Throws Error.
+PostureSet load_captured_postures(const std::string& data_folder);
 
 struct TrajectoryListing {
   std::string name;

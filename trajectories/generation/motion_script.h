@@ -13,7 +13,7 @@ namespace glovebench::trajectories {
 
 inline constexpr double kFrameRateHz = 15;  ///< of the paper's system
 
-/// What the hand does at one frame; between two keys it moves along the minimum-jerk profile.
+/// What the hand does at one frame; between two keys it moves along the minimum-jerk profile (`value_at`).
 template <typename Value>
 struct Keyframe {
   int frame = 0;
@@ -52,6 +52,21 @@ MotionScript parse_motion_script(std::string_view text, const PostureSet& gestur
 /// The share of the way done when the share `time` of the time is over, both 0..1: the profile with the least jerk
 /// (Flash and Hogan 1985), at rest at both ends.
 double minimum_jerk(double time);
+
+/// The share of the way from a to b: in a straight line, rotations along the shortest turn.
+WristAngles mix(const WristAngles& a, const WristAngles& b, double share);
+Posture mix(const Posture& a, const Posture& b, double share);
+HandPose mix(const HandPose& a, const HandPose& b, double share);
+/// The value at a frame, of keys in the order of their frames; the last one's after it.
+template <typename Value>
+Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
+  size_t next = 1;
+  while (next < keys.size() && keys[next].frame < frame) ++next;
+  if (next >= keys.size()) return keys.back().value;
+  const Keyframe<Value>& a = keys[next - 1];
+  const Keyframe<Value>& b = keys[next];
+  return mix(a.value, b.value, minimum_jerk(static_cast<double>(frame - a.frame) / (b.frame - a.frame)));
+}
 
 /// R_camera_hand of a hand under a camera that looks down on it: at zero the fingers point up in the image and the
 /// back of the hand faces the camera; then turned about the hand's length (roll, camera y), tilted (pitch, camera
