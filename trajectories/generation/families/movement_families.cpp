@@ -150,9 +150,9 @@ std::string movement_families_text() {
   }
   return text +
          fmt::format(
-             "Postures, but the captured ones: DIP {} to {} of PIP; flexions of neighboring fingers drawn with a\n"
-             "correlation of {}; fingers at least {} deg RMS from each gesture; no parts that overlap by over "
-             "{:.0f} mm.\n",
+             "Random postures: DIP {} to {} of PIP; flexions of neighboring fingers drawn with a correlation of "
+             "{};\n"
+             "fingers at least {} deg RMS from each gesture; no parts that overlap by more than {:.0f} mm.\n",
              kDipShare.low, kDipShare.high, kNeighborCorrelation, kGestureDistanceDeg, 1000 * kMostOverlap);
 }
 
