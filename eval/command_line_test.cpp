@@ -99,6 +99,7 @@ TEST_F(CommandLine, StandardOutputIsNoFileWhereSomethingElseIsPrinted) {
       {"reproduce", "--robot-out", "-"},
       {"render", "--trajectory", "Tr4", "-o", "-"},
       {"record", "--trajectory", "Tr4", "--database", "DB_open_power", "-o", "-"},
+      {"generate", "--family", "side", "-o", "-"},
       {"explain", ".", "0", "-o", "-"},
       {"db", "build", "--postures", "DB_open_power", "-o", "-"},
       {"compare", ".", ".", "-o", "-"},

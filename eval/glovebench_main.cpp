@@ -25,6 +25,7 @@ void add_commands(glovebench::eval::Command program) {
   add_explain(program);
   add_db(program);
   add_import(program);
+  add_generate(program);
   add_list(program);
   add_compare(program);
   add_gate(program);

@@ -100,6 +100,10 @@ PostureSet load_gestures(const std::string& data_folder) {
   return load_posture_set((fs::path(data_folder) / "gestures.csv").string());
 }
 
+PostureSet load_captured_postures(const std::string& data_folder) {
+  return load_posture_set((fs::path(data_folder) / "captured.csv").string());
+}
+
 std::vector<std::string> script_names(const std::string& data_folder) {
   return names_in(fs::path(data_folder) / "scripts");
 }

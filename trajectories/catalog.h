@@ -9,8 +9,9 @@
 
 namespace glovebench::trajectories {
 
-// In the data folder: gestures.csv and scripts/Tr1.json (written by hand); sources/Tr1.json and postures/DB_*.json
-// (generated from those); recorded/Tr1.json and recorded/hashes.txt (frozen outputs of the tracker).
+// In the data folder: gestures.csv, captured.csv (postures of people's hands, from npm handy-work and iwer) and
+// scripts/Tr1.json (written by hand); sources/Tr1.json and postures/DB_*.json (generated from those);
+// recorded/Tr1.json and recorded/hashes.txt (frozen outputs of the tracker).
 
 /// The ground truths of section IV.
 const std::vector<std::string>& ground_truth_names();
@@ -32,6 +33,8 @@ Trajectory recorded_trajectory(const std::string& data_folder, const std::string
 PostureSet posture_set(const std::string& data_folder, const std::string& name);
 /// Throws: Error.
 PostureSet load_gestures(const std::string& data_folder);
+/// The postures of people's hands, which the family `captured` is made of. Throws Error.
+PostureSet load_captured_postures(const std::string& data_folder);
 
 struct TrajectoryListing {
   std::string name;

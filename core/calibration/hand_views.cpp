@@ -36,8 +36,8 @@ Eigen::Vector3d view_direction(const ArticulatedPose& pose) {
 
 }  // namespace
 
-std::optional<TrackedView> track_view(const DeviceFrame& frame, Method& method, const MethodInputs& inputs) {
-  const TrackResult result = method.track(frame);
+std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result,
+                                   const MethodInputs& inputs) {
   if (result.status != TrackStatus::tracked) return {};
   TrackedView view;
   view.timestamp_us = frame.depth_timestamp_us;

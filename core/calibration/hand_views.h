@@ -16,8 +16,8 @@ struct TrackedView {
   HandView seen;
   ArticulatedPose pose;  ///< as a hand of other sizes was tracked: where the fit begins
 };
-/// Tracks a frame; empty if the hand is lost. `method` was made of `inputs`.
-std::optional<TrackedView> track_view(const DeviceFrame& frame, Method& method, const MethodInputs& inputs);
+/// What a frame shows of the hand that was tracked in it; empty if it was lost. `inputs`: of the method.
+std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
 /// How a hand moved in the views of it.
 struct ShownMotion {

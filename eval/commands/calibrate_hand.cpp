@@ -62,13 +62,15 @@ struct CalibrateHand {
     const int64_t all = source.frame_count > 0 ? source.frame_count : frame_count;
     const int64_t taken = std::min<int64_t>(frame_count, all);
     std::vector<calibration::TrackedView> views;
+    std::vector<TrackResult> results;
     Progress progress("tracking", common.quiet);
     for (int64_t number = 0; number < all; ++number) {
       try {
         const std::optional<DeviceFrame> frame = source.device->next_frame();
         if (!frame) break;
         if (number > 0 && number * taken / all == (number - 1) * taken / all) continue;
-        if (std::optional<calibration::TrackedView> view = calibration::track_view(*frame, *method, inputs))
+        results.push_back(method->track(*frame, results));
+        if (std::optional<calibration::TrackedView> view = calibration::view_of(*frame, results.back(), inputs))
           views.push_back(std::move(*view));
       } catch (const FrameError& e) {
         if (!common.quiet) say("glovebench: skipped: {}\n", e.what());

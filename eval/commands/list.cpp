@@ -17,6 +17,7 @@
 #include "reports/metrics/metric.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
+#include "trajectories/generation/families/movement_family.h"
 
 namespace glovebench::eval {
 namespace {
@@ -85,6 +86,9 @@ void add_list(Command program) {
       program.subcommand("list", "Print what the program knows; without a COMMAND, what can be listed.");
   list.subcommand("trajectories", "The ground truths and other movements, with their hashes.")
       .runs(list_trajectories);
+  list.subcommand("families", "The families of movements, for `glovebench generate`, with their ranges.").runs([] {
+    fmt::print("{}", trajectories::movement_families_text());
+  });
   list.subcommand("databases", "The posture databases.").runs(list_databases);
   list.subcommand("suites", "Experiments that belong together, for `glovebench run --suite`.").runs(list_suites);
   list.subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.").runs(list_studies);

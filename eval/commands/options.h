@@ -115,6 +115,7 @@ void add_robot_server(Command program);
 void add_explain(Command program);
 void add_db(Command program);
 void add_import(Command program);
+void add_generate(Command program);
 void add_list(Command program);
 void add_compare(Command program);
 void add_gate(Command program);

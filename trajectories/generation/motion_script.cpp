@@ -70,18 +70,6 @@ std::vector<Keyframe<Value>> keys_from(const JsonCursor& field, int frame_count,
   return keys;
 }
 
-/// The channel's value at a frame; `mix(a, b, s)` lies the share s of the way from a to b.
-template <typename Value, typename Mix>
-Value value_at(const std::vector<Keyframe<Value>>& keys, int frame, Mix mix) {
-  size_t next = 1;
-  while (next < keys.size() && keys[next].frame < frame) ++next;
-  if (next == keys.size()) return keys.back().value;
-  const Keyframe<Value>& a = keys[next - 1];
-  const Keyframe<Value>& b = keys[next];
-  const double time = static_cast<double>(frame - a.frame) / (b.frame - a.frame);
-  return mix(a.value, b.value, minimum_jerk(time));
-}
-
 /// Everything that is laid over the keyframes.
 class Restlessness {
  public:
@@ -124,22 +112,11 @@ class Restlessness {
 };
 
 Posture posture_at(const MotionScript& script, int frame) {
-  Posture posture = value_at(script.postures, frame, [](const Posture& a, const Posture& b, double s) -> Posture {
-    return a + s * (b - a);
-  });
-  const WristAngles wrist =
-      value_at(script.wrist, frame, [](const WristAngles& a, const WristAngles& b, double s) -> WristAngles {
-        return {std::lerp(a.flexion, b.flexion, s), std::lerp(a.abduction, b.abduction, s)};
-      });
+  Posture posture = value_at(script.postures, frame);
+  const WristAngles wrist = value_at(script.wrist, frame);
   posture[kWristFlexion] += wrist.flexion;
   posture[kWristAbduction] += wrist.abduction;
   return posture;
-}
-
-HandPose pose_at(const MotionScript& script, int frame) {
-  return value_at(script.poses, frame, [](const HandPose& a, const HandPose& b, double s) -> HandPose {
-    return {a.position + s * (b.position - a.position), a.rotation.slerp(s, b.rotation)};
-  });
 }
 
 }  // namespace
@@ -169,6 +146,18 @@ double minimum_jerk(double time) {
   return time * time * time * (10 + time * (-15 + time * 6));
 }
 
+WristAngles mix(const WristAngles& a, const WristAngles& b, double share) {
+  return {std::lerp(a.flexion, b.flexion, share), std::lerp(a.abduction, b.abduction, share)};
+}
+
+Posture mix(const Posture& a, const Posture& b, double share) {
+  return a + share * (b - a);
+}
+
+HandPose mix(const HandPose& a, const HandPose& b, double share) {
+  return {a.position + share * (b.position - a.position), a.rotation.slerp(share, b.rotation)};
+}
+
 Eigen::Quaterniond hand_rotation(double yaw, double pitch, double roll) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
   // Fingers (hand -z) up in the image (camera -y), back of the hand (hand +y) to the camera (camera -z).
@@ -182,7 +171,7 @@ Trajectory perform(const MotionScript& script) {
   Trajectory trajectory{.name = script.name, .description = script.description, .provenance = {}, .frames = {}};
   for (int f = 0; f < script.frame_count; ++f) {
     const double time_s = f / kFrameRateHz;
-    const HandPose pose = pose_at(script, f);
+    const HandPose pose = value_at(script.poses, f);
     HandFrame& frame = trajectory.frames.emplace_back();
     frame.timestamp_us = std::llround(time_s * 1e6);
     frame.posture = clamp_to_limits(posture_at(script, f) + restlessness.posture_offset(time_s));

@@ -13,7 +13,7 @@ namespace glovebench::trajectories {
 
 inline constexpr double kFrameRateHz = 15;
 
-/// A value at a frame; minimum_jerk interpolates.
+/// A value at a frame; `value_at` interpolates along minimum-jerk profiles.
 template <typename Value>
 struct Keyframe {
   int frame = 0;
@@ -51,6 +51,21 @@ MotionScript parse_motion_script(std::string_view text, const PostureSet& gestur
 
 /// Share of the way done after a share of the time, 0..1 (Flash and Hogan 1985).
 double minimum_jerk(double time);
+
+/// The share of the way from a to b: in a straight line, rotations along the shortest turn.
+WristAngles mix(const WristAngles& a, const WristAngles& b, double share);
+Posture mix(const Posture& a, const Posture& b, double share);
+HandPose mix(const HandPose& a, const HandPose& b, double share);
+/// The value at a frame, of keys in the order of their frames; the last one's after it.
+template <typename Value>
+Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
+  size_t next = 1;
+  while (next < keys.size() && keys[next].frame < frame) ++next;
+  if (next >= keys.size()) return keys.back().value;
+  const Keyframe<Value>& a = keys[next - 1];
+  const Keyframe<Value>& b = keys[next];
+  return mix(a.value, b.value, minimum_jerk(static_cast<double>(frame - a.frame) / (b.frame - a.frame)));
+}
 
 /// R_camera_hand under a camera that looks down, rad. At 0 the fingers point up in the image and the back faces the
 /// camera; roll is about camera y, pitch about x, yaw about z.
