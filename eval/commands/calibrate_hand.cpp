@@ -8,7 +8,7 @@
 #include "core/calibration/hand_report.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/track_source.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/terminal.h"
 #include "reports/json_text.h"
 

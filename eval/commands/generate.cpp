@@ -4,7 +4,7 @@
 #include "core/base/file_set.h"
 #include "core/hand/hand_model.h"
 #include "eval/commands/flags.h"
-#include "eval/share.h"
+#include "eval/program.h"
 #include "eval/terminal.h"
 #include "trajectories/generation/families/movement.h"
 
