@@ -29,7 +29,7 @@ std::vector<TrackedView> filmed(const HandModel& hand) {
     posture = clamp_to_limits(posture);
     const Eigen::Isometry3d T =
         test_pose({0.01 * (v % 3), 0.03, 0.62}, {0.2 + 0.3 * std::sin(0.9 * v), 1.2 * std::sin(0.7 * v), 0.1});
-    const render::HandImages images = renderer.render_ids(hand, hand.pose(posture), kKinect, T);
+    const HandImages images = renderer.render_ids(hand, hand.pose(posture), kKinect, T);
     TrackedView& view = views.emplace_back();
     view.timestamp_us = 66'667 * v;
     view.seen.points = build_cloud(images.depth, images.label, kKinect, WorkingVolume{}).points;
