@@ -83,7 +83,7 @@ struct Track {
     });
     if (frames == unusable) refuse();
     finish(output, outputs);
-    if (!common.quiet && tracked == 0)
+    if (!common.quiet && !failure && tracked == 0)
       say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
           "colors "
           "other than those of --colors, or a hand outside of the working volume ({:g} to {:g} mm)\n",
