@@ -167,7 +167,7 @@ std::vector<Reader> json_readers() {
        to_json(CommandLimits()).dump()},
       {"calibration", [=](auto& text) { calibration_from_text(text, w); },
        to_json(nominal_kinect_calibration()).dump()},
-      {"hand", [=](auto& text) { parse_hand(text, w); }, hand_text(MeasuredHand{.views = 1})},
+      {"hand", [=](auto& text) { parse_hand(text, w); }, hand_text(MeasuredHand{.shape = {}, .views = 1})},
       {"glove colors", [=](auto& text) { calibration::parse_glove_colors(text, w); }, kColors},
       {"trajectory", [=](auto& text) { motion::parse_trajectory(text, w); }, canonical_text(small_trajectory())},
       {"posture set", [=](auto& text) { motion::parse_postures_json(text, w); },
