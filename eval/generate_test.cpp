@@ -50,7 +50,8 @@ TEST_F(GenerateCommand, IsDescribedByTheListOfFamilies) {
   expect_fine(list);
   EXPECT_THAT(list.out,
               AllOf(HasSubstr("side "), HasSubstr("tilt 75 to 105 deg"), HasSubstr("DIP 0.5 to 0.9 of PIP")));
-  EXPECT_THAT(run_glovebench({"generate", "--help"}).out, AllOf(HasSubstr("captured"), HasSubstr("families` prints the ranges")));
+  EXPECT_THAT(run_glovebench({"generate", "--help"}).out,
+              AllOf(HasSubstr("captured"), HasSubstr("families` prints the ranges")));
 }
 
 TEST_F(GenerateCommand, RefusesBadInput) {
