@@ -11,9 +11,11 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/hand/hand_model.h"
 #include "eval/commit.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
+#include "trajectories/generation/families/movement.h"
 
 namespace glovebench::eval {
 namespace {
@@ -104,8 +106,18 @@ std::string default_cache_folder() {
   return "glovebench-cache";
 }
 
+std::optional<trajectories::Trajectory> make_movement(const std::string& name) {
+  const auto movement = trajectories::find_movement(name);
+  if (!movement) return std::nullopt;
+  static const trajectories::MovementMaterial material =
+      trajectories::load_movement_material(trajectory_folder(), HandModel::load(hand_mesh_path()).skeleton());
+  return generate_movement(*movement->family, movement->seed, material);
+}
+
 std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key) {
   const bool recorded = key.truth == reports::TruthKind::recorded;
+  if (auto movement = make_movement(key.trajectory); movement && !recorded)
+    return std::make_shared<const trajectories::Trajectory>(*std::move(movement));
   for (const trajectories::TrajectoryListing& listing : trajectories::list_trajectories(trajectory_folder())) {
     if (listing.name != key.trajectory) continue;
     if ((listing.kind == trajectories::TrajectoryKind::recorded) != recorded) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.
 std::string default_cache_folder();
 
+/// A generated movement by its name ("side_3"). Empty for another name.
+/// Throws: Error if the data folder is damaged.
+std::optional<trajectories::Trajectory> make_movement(const std::string& name);
 /// The built-in truth of an experiment. Null for a user's file.
 /// Throws: Error if the data folder is damaged.
 std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key);

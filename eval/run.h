@@ -35,7 +35,7 @@ struct RunSpec {
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
-  std::string setting = {};  ///< a study's name for it; no effect
+  std::string setting = {};  ///< a study's name for it, or a movement's family; no effect
 };
 
 /// From the true images.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -15,6 +16,7 @@
 #include "eval/program.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
+#include "trajectories/generation/families/movement.h"
 
 namespace glovebench::eval {
 namespace {
@@ -29,6 +31,7 @@ constexpr uint64_t kLargestSuite = uint64_t{1} << 20;  // bytes
 constexpr int64_t kMaxSeed = 4'294'967'295;
 constexpr int kMaxFrame = 1'000'000;
 constexpr double kMaxNoiseFactor = 100;
+constexpr int kMostExperiments = 10'000;
 
 bool is_database_file(const std::string& name) {
   return name.ends_with(kDatabaseEnding) || trajectories::is_posture_file(name);
@@ -49,12 +52,30 @@ FrameRange frames_from(const JsonCursor& field) {
   return range;
 }
 
-SuiteEntry entry_from(const JsonCursor& field, const fs::path& folder) {
-  field.expect_keys({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
-  const std::string trajectory = field["trajectory"].text();
+/// The names of a family's movements: those of consecutive seeds.
+std::vector<std::string> movements_from(const JsonCursor& family_field, const JsonCursor& field) {
+  const std::vector<std::string> known = trajectories::movement_family_names();
+  if (std::ranges::count(known, family_field.text()) == 0)
+    family_field.fail(fmt::format("one of {}", fmt::join(known, ", ")));
+  const trajectories::MovementFamily& family = trajectories::find_movement_family(family_field.text());
+  field.expect_keys({"first", "count"});
+  const int64_t count = field["count"].integer(1, kMostExperiments);
+  const int64_t first = field["first"].integer(0, static_cast<int64_t>(trajectories::kMostMovements) - count + 1);
+  std::vector<std::string> names;
+  for (int64_t i = 0; i < count; ++i) names.push_back(movement_name(family, static_cast<uint64_t>(first + i)));
+  return names;
+}
+
+/// An entry of a suite's file: a trajectory, or movements of a family.
+std::vector<SuiteEntry> entries_from(const JsonCursor& field, const fs::path& folder) {
+  const bool is_family = field.has("family");
+  if (is_family) {
+    field.expect_keys({"family", "movements", "databases"}, {"subject", "noise", "frames"});
+  } else {
+    field.expect_keys({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
+  }
   SuiteEntry entry;
-  entry.trajectory = trajectories::is_trajectory_file(trajectory) ? (folder / trajectory).string() : trajectory;
-  entry.truth = field["truth"].one_of<TruthKind>();
+  entry.truth = is_family ? TruthKind::source : field["truth"].one_of<TruthKind>();
   for (const JsonCursor& item : field["databases"].some_items()) {
     const std::string database = item.text();
     entry.databases.push_back(is_database_file(database) ? (folder / database).string() : database);
@@ -62,7 +83,13 @@ SuiteEntry entry_from(const JsonCursor& field, const fs::path& folder) {
   if (field.has("subject")) entry.subject = static_cast<int>(field["subject"].integer(1, render::kSubjectCount));
   if (field.has("noise")) entry.noise = noise_from(field["noise"]);
   if (field.has("frames")) entry.frames = frames_from(field["frames"]);
-  return entry;
+  std::vector<SuiteEntry> entries;
+  for (const std::string& name :
+       is_family ? movements_from(field["family"], field["movements"]) : std::vector{field["trajectory"].text()}) {
+    entries.push_back(entry);
+    entries.back().trajectory = trajectories::is_trajectory_file(name) ? (folder / name).string() : name;
+  }
+  return entries;
 }
 
 std::vector<uint64_t> seeds_from(const JsonCursor& field) {
@@ -75,19 +102,23 @@ std::vector<uint64_t> seeds_from(const JsonCursor& field) {
   return seeds;
 }
 
-/// A repeated experiment would weigh double.
-void expect_each_once(const JsonItems& experiments, const std::vector<SuiteEntry>& entries) {
-  std::vector<ExperimentKey> seen;
-  for (size_t i = 0; i < entries.size(); ++i) {
-    for (size_t d = 0; d < entries[i].databases.size(); ++d) {
-      const SuiteEntry& entry = entries[i];
-      const ExperimentKey key{entry.trajectory, entry.databases[d], *entry.truth, entry.subject, entry.noise};
-      if (std::ranges::count(seen, key) > 0) {
-        experiments[i]["databases"].items()[d].fail("an experiment that is not yet in the suite");
+/// The experiments of a suite. A repeated one would weigh double.
+std::vector<SuiteEntry> experiments_from(const JsonCursor& field, const fs::path& folder) {
+  std::vector<SuiteEntry> all;
+  std::set<std::string> seen;
+  for (const JsonCursor& item : field.some_items()) {
+    for (const SuiteEntry& entry : entries_from(item, folder)) {
+      for (size_t d = 0; d < entry.databases.size(); ++d) {
+        const ExperimentKey key{entry.trajectory, entry.databases[d], *entry.truth, entry.subject, entry.noise};
+        if (!seen.insert(to_string(key)).second)
+          item["databases"].items()[d].fail("an experiment that is not yet in the suite");
+        if (seen.size() > kMostExperiments)
+          item.fail("one more experiment", fmt::format("at most {} in a suite", kMostExperiments));
       }
-      seen.push_back(key);
+      all.push_back(entry);
     }
   }
+  return all;
 }
 
 /// Loads each trajectory of a plan once.
@@ -109,6 +140,10 @@ class Truths {
 
   static Trajectory load(const SuiteEntry& entry) {
     const std::string& name = entry.trajectory;
+    if (auto movement = make_movement(name)) {
+      if (entry.truth == TruthKind::source) return *std::move(movement);
+      throw Error(name, "truth", "recorded", "source: nothing tracked this movement to record it");
+    }
     if (!trajectories::is_trajectory_file(name)) {
       return entry.truth == TruthKind::recorded ? trajectories::recorded_trajectory(trajectory_folder(), name)
                                                 : trajectories::source_trajectory(trajectory_folder(), name);
@@ -170,6 +205,8 @@ std::vector<SameFrames> experiments_of(Workbench& workbench, const TrackerConfig
   for (const SuiteEntry& entry : suite.entries) {
     RunSpec wanted{truths.get(entry), entry.frames, entry.subject, entry.noise, suite.seeds.front()};
     wanted.tracker = tracker;
+    if (const auto movement = trajectories::find_movement(entry.trajectory))
+      wanted.setting = movement->family->name;
     frames_of(wanted);  // throws if the trajectory lacks them
     for (const std::string& database : entry.databases) {
       wanted.database = names.get(database);
@@ -204,12 +241,8 @@ Suite parse_suite(std::string_view text, const std::string& path) {
   const JsonCursor root(document, path);
   root.expect_keys({"format", "version", "name", "description", "seeds", "experiments"});
   root.expect_format("glovebench-suite", 1);
-  Suite suite{root["name"].name(), root["description"].text(), seeds_from(root["seeds"]), {}};
-  const JsonItems experiments = root["experiments"].some_items();
-  for (const JsonCursor& item : experiments)
-    suite.entries.push_back(entry_from(item, fs::path(path).parent_path()));
-  expect_each_once(experiments, suite.entries);
-  return suite;
+  return {root["name"].name(), root["description"].text(), seeds_from(root["seeds"]),
+          experiments_from(root["experiments"], fs::path(path).parent_path())};
 }
 
 Suite load_suite(const std::string& name_or_file) {

@@ -9,7 +9,7 @@
 namespace glovebench::eval {
 
 struct SuiteEntry {
-  std::string trajectory;                   ///< name or *.json file
+  std::string trajectory;                   ///< name, also of a generated movement, or *.json file
   std::optional<reports::TruthKind> truth;  ///< of a named trajectory; a file must match; empty: either
   std::vector<std::string> databases;       ///< names or files
   int subject = 1;

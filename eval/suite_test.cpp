@@ -7,6 +7,7 @@
 #include "core/base/random.h"
 #include "eval/test_program.h"
 #include "reports/results_json.h"
+#include "trajectories/generation/families/movement_family.h"
 
 namespace glovebench::eval {
 namespace {
@@ -124,6 +125,44 @@ TEST(Suite, RefusesAnExperimentThatCountsTwice) {
   EXPECT_EQ(parse_suite(suite.dump(), "mine.json").entries.size(), 3U) << "another hand, another experiment";
 }
 
+json make_family_suite() {
+  json suite = make_suite();
+  suite["experiments"][2] = {
+      {"family", "side"}, {"movements", {{"first", 3}, {"count", 2}}}, {"databases", {"DB_open_power"}}};
+  return suite;
+}
+
+TEST(Suite, ReadsMovementsOfAFamily) {
+  const Suite suite = parse_suite(make_family_suite().dump(), "folder/mine.json");
+  ASSERT_EQ(suite.entries.size(), 4U);
+  EXPECT_EQ(suite.entries[2].trajectory, "side_3");
+  EXPECT_EQ(suite.entries[3].trajectory, "side_4");
+  EXPECT_EQ(suite.entries[3].truth, reports::TruthKind::source);
+  EXPECT_THAT(suite.entries[3].databases, ElementsAre("DB_open_power"));
+}
+
+TEST(Suite, RefusesMovementsThatDoNotExist) {
+  const auto changed = [](const std::string& place, const json& value) {
+    json suite = make_family_suite();
+    suite[json::json_pointer("/experiments/2" + place)] = value;
+    return refusal_of(suite);
+  };
+  EXPECT_THAT(changed("/family", "sideways"),
+              AllOf(HasSubstr("experiments[2].family: found \"sideways\""), HasSubstr("side,")));
+  EXPECT_THAT(changed("/movements/count", 0), HasSubstr("experiments[2].movements.count: found 0"));
+  EXPECT_THAT(changed("/movements/count", 100'000), HasSubstr("experiments[2].movements.count"));
+  EXPECT_THAT(changed("/movements/first", 1'000'000), HasSubstr("experiments[2].movements.first"));
+  EXPECT_THAT(changed("/movements", json::object()), HasSubstr("experiments[2].movements"));
+  EXPECT_THAT(changed("/trajectory", "Tr4"), HasSubstr("trajectory"));
+  json suite = make_family_suite();
+  suite["experiments"][1] = suite["experiments"][2];
+  suite["experiments"][1]["movements"] = {{"first", 4}, {"count", 1}};
+  EXPECT_THAT(refusal_of(suite), HasSubstr("experiments[2].databases[0]: found \"DB_open_power\", expected an "
+                                           "experiment that is not yet in the suite"));
+  suite["experiments"][1]["movements"] = {{"first", 10}, {"count", 10'000}};
+  EXPECT_THAT(refusal_of(suite), HasSubstr("experiments[1]: found one more experiment, expected at most 10000"));
+}
+
 TEST(Suite, DamagedFilesAreRefusedOrValid) {
   const std::string text = make_suite().dump(1);
   int refused = 0, accepted = 0;
@@ -209,7 +248,7 @@ TEST_F(SuitePlan, FullHoldsFigure4AndQuick) {
   const auto planned = [&](const std::string& suite) {
     return names(plan_suite(workbench, profile("paper"), load_suite(suite), ""));
   };
-  EXPECT_THAT(suite_names(), ElementsAre("full", "quick"));
+  EXPECT_THAT(suite_names(), ElementsAre("families", "full", "quick"));
   const std::set<std::string> full = planned("full"), quick = planned("quick");
   const std::set<std::string> figure4 = names(plan_figure4(profile("paper"), {}));
   EXPECT_EQ(figure4.size(), 45U);
@@ -232,6 +271,19 @@ TEST_F(SuitePlan, ListsTheExperimentsInTheOrderOfTheBaselines) {
       of_baseline.push_back(to_string(experiment.key));
     EXPECT_EQ(planned, of_baseline) << suite;
   }
+}
+
+TEST_F(SuitePlan, FamiliesHoldsTenMovementsOfEach) {
+  Workbench workbench(test_workbench());
+  const Plan planned = plan_suite(workbench, profile("paper"), load_suite("families"), "");
+  std::map<std::string, int> movements;
+  for (const RunSpec& spec : planned.specs) {
+    EXPECT_EQ(frames_of(spec).size(), 100U);
+    EXPECT_TRUE(spec.trajectory->name.starts_with(spec.setting + "_")) << spec.trajectory->name;
+    ++movements[spec.setting];
+  }
+  EXPECT_EQ(movements.size(), trajectories::movement_families().size());
+  for (const auto& [family, count] : movements) EXPECT_EQ(count, 10) << family;
 }
 
 TEST_F(SuitePlan, UnknownNamesAreListed) {

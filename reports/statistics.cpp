@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -73,6 +75,19 @@ Draw draw(const StratumShape& stratum, int block_frames, RandomStream& random) {
     for (int frame = first; frame < end; ++frame) draw.frames.push_back(frame);
   }
   return draw;
+}
+
+/// The probability that |T| < t for Student's T (Abramowitz and Stegun 26.7.3 and 26.7.4).
+double share_within(double t, int degrees_of_freedom) {
+  const double angle = std::atan(t / std::sqrt(degrees_of_freedom));
+  const double cosine = std::cos(angle);
+  const bool is_odd = degrees_of_freedom % 2 == 1;
+  double sum = 0, term = is_odd ? cosine : 1;
+  for (int k = is_odd ? 3 : 2; k <= degrees_of_freedom; k += 2) {
+    sum += term;
+    term *= cosine * cosine * (k - 1) / k;
+  }
+  return is_odd ? (angle + std::sin(angle) * sum) * 2 / std::numbers::pi : std::sin(angle) * sum;
 }
 
 }  // namespace
@@ -183,6 +198,35 @@ std::optional<ConfidenceInterval> stratified_interval(
   interval.high = sorted_percentile(values, (1 + config.level) / 2);
   interval.over = interval.seeds > 1 ? "noise seeds and blocks of frames of these movements"
                                      : "blocks of frames of these movements, one noise seed";
+  return interval;
+}
+
+double student_quantile(double level, int degrees_of_freedom) {
+  check(level > 0 && level < 1 && degrees_of_freedom >= 1, "a quantile has a level between 0 and 1");
+  double low = 0, high = 1e6;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (share_within(middle, degrees_of_freedom) < level ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
+                                                   double level) {
+  constexpr size_t fewest = 5;
+  const std::optional<double> center = mean(values);
+  if (values.size() < fewest || std::ranges::adjacent_find(values, std::not_equal_to<>()) == values.end())
+    return {};
+  double squares = 0;
+  for (const double value : values) squares += (value - *center) * (value - *center);
+  const auto count = static_cast<double>(values.size());
+  const double half =
+      student_quantile(level, static_cast<int>(values.size()) - 1) * std::sqrt(squares / (count - 1) / count);
+  ConfidenceInterval interval;
+  interval.low = *center - half;
+  interval.high = *center + half;
+  interval.level = level;
+  interval.over = over;
   return interval;
 }
 

@@ -44,7 +44,7 @@ struct PckCurve {
 /// Thresholds 0, 1, ... 50 mm. `keypoint_count` includes lost frames, which have no errors.
 PckCurve pck_curve(std::span<const double> errors_mm, size_t keypoint_count);
 
-/// From a percentile bootstrap.
+/// From a percentile bootstrap, or Student's.
 struct ConfidenceInterval {
   double low = 0;
   double high = 0;
@@ -85,6 +85,13 @@ std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
     const BootstrapConfig& config = {});
+
+/// |T| is below it with probability `level`, 0..1.
+double student_quantile(double level, int degrees_of_freedom);
+/// Student's interval of the mean of independent values, which `over` names. Empty for fewer than five, and for
+/// equal ones, which do not tell how others would vary.
+std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
+                                                   double level = 0.95);
 
 /// A kilometer in mm, so that sums of squares from a file stay finite.
 inline constexpr double kLargestError = 1e6;

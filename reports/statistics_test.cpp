@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 #include "core/base/random.h"
@@ -155,6 +156,59 @@ TEST(Statistics, NoStratifiedIntervalOfTooLittle) {
   EXPECT_EQ(stratified_interval(std::vector<StratumShape>{{1, 30}, {1, 44}}, one), std::nullopt) << "2 + 2 blocks";
   EXPECT_EQ(stratified_interval(std::vector<StratumShape>{{1, 60}}, none), std::nullopt);
   EXPECT_TRUE(stratified_interval(std::vector<StratumShape>{{1, 30}, {1, 45}}, one));
+}
+
+TEST(Statistics, StudentQuantilesAreThoseOfTheTables) {
+  for (const auto& [degrees, quantile] :
+       {std::pair{1, 12.706205}, {2, 4.302653}, {4, 2.776445}, {9, 2.262157}, {29, 2.045230}, {1000, 1.962339}})
+    EXPECT_NEAR(student_quantile(0.95, degrees), quantile, 1e-6) << degrees;  // as the tables are rounded
+  EXPECT_NEAR(student_quantile(0.5, 1), 1, 1e-12) << "half of Cauchy's distribution";
+}
+
+TEST(Statistics, AStudentIntervalComputedByHand) {
+  // Mean 3, standard deviation sqrt(2.5), so 3 +- 2.776445 * sqrt(2.5 / 5).
+  const auto interval = student_interval(Values{1, 2, 3, 4, 5}, "movements");
+  ASSERT_TRUE(interval);
+  EXPECT_NEAR(interval->low, 3 - 1.963243, 1e-6);
+  EXPECT_NEAR(interval->high, 3 + 1.963243, 1e-6);
+  EXPECT_EQ(interval->level, 0.95);
+  EXPECT_EQ(interval->over, "movements");
+}
+
+TEST(Statistics, NoStudentIntervalOfTooLittle) {
+  EXPECT_EQ(student_interval({}, "movements"), std::nullopt);
+  EXPECT_EQ(student_interval(Values{1, 2, 3, 4}, "movements"), std::nullopt);
+  EXPECT_EQ(student_interval(Values(10, 100.0), "movements"), std::nullopt) << "all found: no spread to judge by";
+  EXPECT_TRUE(student_interval(Values{1, 1, 1, 1, 2}, "movements"));
+  EXPECT_THROW(student_interval(Values{1, 2, 3, 4, kNaN}, "movements"), std::logic_error);
+}
+
+/// The mean error of one movement of 100 frames at 15 Hz: drifts with a time constant of 2 to 20 s, and noise.
+double simulated_movement(RandomStream& random) {
+  constexpr int frames = 100;
+  const double keep = std::exp(-1 / (15 * random.uniform(2, 20)));
+  double drift = random.normal(), sum = 0;
+  for (int f = 0; f < frames; ++f) {
+    sum += drift + 0.5 * random.normal();
+    drift = keep * drift + std::sqrt(1 - keep * keep) * random.normal();
+  }
+  return sum / frames;
+}
+
+TEST(StatisticsLong, AStudentIntervalOverMovementsHoldsAsOftenAsItSays) {
+  constexpr int draws = 10'000;
+  std::map<size_t, int> held = {{5, 0}, {10, 0}, {30, 0}};
+  for (int draw = 0; draw < draws; ++draw) {
+    RandomStream random(1, "statistics_test", draw, "movements");
+    Values movements;
+    for (int m = 0; m < 30; ++m) movements.push_back(simulated_movement(random));
+    for (auto& [count, times] : held) {
+      const auto interval = student_interval(std::span(movements).first(count), "movements");
+      times += interval->low <= 0 && 0 <= interval->high;
+    }
+  }
+  // The standard deviation of each share is sqrt(0.95 * 0.05 / 10000) = 0.2%.
+  for (const auto& [count, times] : held) EXPECT_NEAR(times, 0.95 * draws, 0.01 * draws) << count << " movements";
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void add_generate(Command program) {
   const Command command = program.subcommand(
       "generate",
       "Make movements of a family, each from a seed of its own (`glovebench list families` prints the ranges).\n"
-      "`run --trajectory` takes the files.");
+      "`run --trajectory` takes the files, and a movement of 100 frames also by its name alone, e.g. side_3.");
   const auto state = std::make_shared<Generate>();
   command.option("--family", state->family_name, "what kind of movement")
       .required()

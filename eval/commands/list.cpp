@@ -38,7 +38,7 @@ void list_databases() {
 }
 
 void list_suites() {
-  for (const std::string& name : suite_names()) fmt::print("{:<6} {}\n", name, load_suite(name).description);
+  for (const std::string& name : suite_names()) fmt::print("{:<8} {}\n", name, load_suite(name).description);
 }
 
 void list_studies() {

@@ -6,6 +6,7 @@
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
 #include "eval/experiment.h"
+#include "eval/family_table.h"
 #include "eval/pictures.h"
 #include "eval/reproduction.h"
 #include "eval/suite.h"
@@ -62,6 +63,7 @@ struct RunCommand {
     reports::RunResult result = results_of(plan, runs, workbench);
     reports::Timings timings = timings_of(runs, threads);
     add_commands(result, timings, runs, robot_output);
+    if (auto families = family_table(runs)) result.studies.push_back(*std::move(families));
     note_resources(timings, start);
     const auto estimates = estimates_of(runs);
     reports::write_report(common.output, result, timings, page_material(workbench, plan, result, estimates),
@@ -69,8 +71,9 @@ struct RunCommand {
     store.finish();
     if (common.quiet) return;
     warn_of_lost_hands(result, plan.tracker.volume);
-    fmt::print("{}\nAll metrics, with intervals: {}/summary.md\n",
-               reports::headline_text(result, terminal_columns()), common.output);
+    if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
+    for (const reports::StudyResult& families : result.studies) fmt::print("{}\n", study_markdown(families));
+    fmt::print("All metrics, with intervals: {}/summary.md\n", common.output);
     print_end(timings);
   }
 
@@ -177,7 +180,7 @@ void add_run(Command program) {
   experiments.option("--filter", state->filter,
                      "only experiments with such a name, e.g. 'Tr4_*' (shell wildcards)");
   experiments.option("--trajectory", state->trajectories,
-                     "names (`glovebench list trajectories`) or files (*.json; trajectories/README.md)");
+                     "names (`glovebench list trajectories`; side_3: of `list families`) or files (*.json)");
   experiments.option("--database", state->databases,
                      "to track against: names (`glovebench list databases`) or files (*.glovedb, *.csv, *.json)");
   experiments.option("--truth", state->truth, "which truth of a named one").one_of({"source", "recorded"});

@@ -254,7 +254,7 @@ TEST_F(RegressionLong, OnlyAWholeSuiteOnTheSameTruthBecomesTheBaseline) {
   const std::map<std::string, std::string> truths = read_folder(trajectory_folder());
   const ProgramRun unknown = run_glovebench({"gate", path("run"), "--baseline", baseline, "--update"});
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.err, HasSubstr("suite: found mine, expected full, quick"));
+  EXPECT_THAT(unknown.err, HasSubstr("suite: found mine, expected families, full, quick"));
   const std::string part = write_changed("half", [](RunResult& r) { r.experiments.pop_back(); });
   EXPECT_EQ(update(part).exit_code, 2);
   EXPECT_FALSE(fs::exists(baseline));

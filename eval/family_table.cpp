@@ -1,0 +1,130 @@
+#include "eval/family_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "eval/experiment.h"
+#include "eval/studies/study.h"
+#include "reports/results.h"
+#include "reports/summary.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::ExperimentKey;
+using reports::FrameRecord;
+
+/// What the table measures, in its order. Metrics are those of tracked frames.
+struct FamilyColumn {
+  std::string_view key;
+  std::string_view heading;
+  bool (*share)(const FrameRecord& frame);  ///< of all frames; null: `key` is a metric
+};
+constexpr std::array<FamilyColumn, 7> kFamilyColumns = {{
+    {"found_percent", "found %", [](const FrameRecord& frame) { return frame.covered; }},
+    {"lost_percent", "lost %", [](const FrameRecord& frame) { return frame.status != TrackStatus::tracked; }},
+    {"false_lost_percent", "wrongly lost %", [](const FrameRecord& frame) { return frame.false_lost; }},
+    {"position_error_mm", "position mm", nullptr},
+    {"rotation_error_deg", "rotation deg", nullptr},
+    {"posture_rms_deg", "posture deg", nullptr},
+    {"fingertip_error_mm", "fingertips mm", nullptr},
+}};
+
+/// The experiments of a family that differ in their movement alone.
+struct FamilyGroup {
+  ExperimentKey key;  ///< its trajectory is the family
+  std::vector<Experiment> movements;
+};
+
+std::vector<FamilyGroup> groups_of(std::span<const MeasuredRun> runs) {
+  std::vector<FamilyGroup> groups;
+  for (const Experiment& experiment : experiments_of(runs)) {
+    ExperimentKey key = experiment.key;
+    key.trajectory = experiment.runs.front()->run.spec.setting;
+    if (key.trajectory.empty()) continue;
+    auto group = std::ranges::find(groups, key, &FamilyGroup::key);
+    if (group == groups.end()) group = groups.insert(group, {key, {}});
+    group->movements.push_back(experiment);
+  }
+  return groups;
+}
+
+/// The mean of a movement over its frames and noise seeds; empty if none has the value.
+std::optional<double> mean_of(const Experiment& movement, const FamilyColumn& column) {
+  std::vector<double> values;
+  for (const MeasuredRun* run : movement.runs) {
+    for (const reports::FrameErrors& errors : run->errors) {
+      if (column.share) {
+        values.push_back(column.share(errors.record) ? 100 : 0);
+      } else if (const auto value = errors.record[column.key]) {
+        values.push_back(*value);
+      }
+    }
+  }
+  return reports::mean(values);
+}
+
+reports::Row row_of(const FamilyGroup& group) {
+  reports::Row row = reports::experiment_names(group.key);
+  int64_t frames = 0;
+  std::vector<std::vector<double>> values(kFamilyColumns.size());
+  for (const Experiment& movement : group.movements) {
+    for (const MeasuredRun* run : movement.runs) frames += std::ssize(run->errors);
+    for (size_t c = 0; c < kFamilyColumns.size(); ++c)
+      if (const auto value = mean_of(movement, kFamilyColumns[c])) values[c].push_back(*value);
+  }
+  const auto position = std::ranges::find(kFamilyColumns, "position_error_mm", &FamilyColumn::key);
+  row.insert(row.end(),
+             {std::ssize(group.movements), frames, std::ssize(values[position - kFamilyColumns.begin()])});
+  for (size_t c = 0; c < kFamilyColumns.size(); ++c) {
+    auto interval = reports::student_interval(values[c], "movements");
+    if (interval && kFamilyColumns[c].share) {
+      interval->low = std::max(interval->low, 0.0);
+      interval->high = std::min(interval->high, 100.0);
+    }
+    std::ranges::copy(cells({reports::mean(values[c]), interval}), std::back_inserter(row));
+  }
+  return row;
+}
+
+reports::Table empty_family_table() {
+  reports::Table table = {
+      "families",
+      "Movements by family",
+      "Each number is the mean over movements of their own means; low and high are the ends of its 95% interval "
+      "(Student's t over movements), so it speaks of other movements of the family. Fewer than five movements have "
+      "none, nor have movements that are all equal; those of shares are cut at 0 and 100%. Found: of all frames, "
+      "those tracked within 50 mm and 30 degrees. Wrongly lost: of all frames, those that the tracker calls lost "
+      "though the whole hand is in view and in the working volume. Errors are of frames that the tracker answers, "
+      "right or wrong, and so of the movements that have such frames (answered).",
+      {{"family", "family"},
+       {"database", "database"},
+       {"truth", "truth"},
+       {"noise", "noise"},
+       {"movements", "movements", 0},
+       {"frames", "frames", 0},
+       {"answered_movements", "answered", 0}},
+      4,
+      {}};
+  for (const FamilyColumn& column : kFamilyColumns) {
+    const int digits = column.share ? 1 : 2;
+    table.columns.push_back({std::string(column.key), std::string(column.heading), digits});
+    for (const char* end : {"low", "high"})
+      table.columns.push_back({fmt::format("{}_{}", column.key, end), end, digits});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::optional<reports::StudyResult> family_table(std::span<const MeasuredRun> runs) {
+  reports::StudyResult result{"families", "Movements by family", {empty_family_table()}, {}};
+  for (const FamilyGroup& group : groups_of(runs)) result.tables[0].rows.push_back(row_of(group));
+  if (result.tables[0].rows.empty()) return std::nullopt;
+  return result;
+}
+
+}  // namespace glovebench::eval
