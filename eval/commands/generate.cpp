@@ -40,7 +40,7 @@ struct Generate {
       progress.show(static_cast<double>(i + 1) / static_cast<double>(seeds.size()));
     }
     files.commit();
-    fmt::print("{}", lines);
+    if (!common.quiet) fmt::print("{}", lines);
   }
 };
 
