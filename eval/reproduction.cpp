@@ -26,7 +26,7 @@ using reports::TruthKind;
 
 constexpr const char *kFigure4 = "fig4", *kFigure5 = "fig5", *kFigure6 = "fig6";
 
-// For estimates: CPU times on a Xeon of 2.x GHz.
+// For estimates: CPU times of one core of a Xeon server.
 constexpr double kFrameCpu_s = 0.03;     ///< to render, track and measure a frame
 constexpr double kQuickStudyCpu_s = 12;  ///< of the mean
 

@@ -55,8 +55,7 @@ FrameRange frames_from(const JsonCursor& field) {
 /// The names of a family's movements: those of consecutive seeds.
 std::vector<std::string> movements_from(const JsonCursor& family_field, const JsonCursor& field) {
   const std::vector<std::string> known = trajectories::movement_family_names();
-  if (std::ranges::count(known, family_field.text()) == 0)
-    family_field.fail(fmt::format("one of {}", fmt::join(known, ", ")));
+  if (std::ranges::count(known, family_field.text()) == 0) family_field.fail(one_of(known, family_field.text()));
   const trajectories::MovementFamily& family = trajectories::find_movement_family(family_field.text());
   field.expect_keys({"first", "count"});
   const int64_t count = field["count"].integer(1, kMostExperiments);

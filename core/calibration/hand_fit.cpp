@@ -31,8 +31,6 @@ constexpr double kScaleSpread = 8, kPalmSpread = 6, kLengthSpread = 6, kWidthSpr
 /// Of the joints' places in the palm, which no one measures from outside: wide enough to leave them to the
 /// recording.
 constexpr double kArchSpread = 40, kThumbPlaceSpread = 20;
-/// The information of a view's points, per mm^2 of the equations' rows for 1,000 points.
-constexpr double kInformation = 1;
 /// A size whose deviation stays above this share of its spread between people was not seen.
 constexpr double kSeenShare = 0.5;
 constexpr double kMostStep = 5;                                                    ///< percent a round
@@ -59,8 +57,8 @@ class Fit {
   }
 
   HandFit run() {
+    fit_.residual_before = Fit(views_, camera_, mesh_).residual_of_mesh();
     refine_poses(kRounds.front());
-    fit_.residual_before = look_at_patches();
     for (const Round& round : kRounds) {
       refine_poses(round);
       step_sizes(round);
@@ -72,6 +70,14 @@ class Fit {
   }
 
  private:
+  /// The mean distance of the points with the sizes of the mesh, after as many rounds of poses as `run` makes, m.
+  double residual_of_mesh() {
+    refine_poses(kRounds.front());
+    for (const Round& round : kRounds) refine_poses(round);
+    refine_poses(kRounds.back());
+    return look_at_patches();
+  }
+
   HandModel hand() const { return hand(fit_.shape); }
   HandModel hand(const HandShape& shape) const { return HandModel::load(mesh_.path, mesh_.side, shape); }
 
@@ -105,8 +111,8 @@ class Fit {
     SizeMatrix H = SizeMatrix::Zero();
     SizeVector g = SizeVector::Zero();
     for (const SizeEquations& of_view : of_views) {
-      H += kInformation * of_view.H;
-      g += kInformation * of_view.g;
+      H += of_view.H;
+      g += of_view.g;
     }
     const SizeVector spread = spreads();
     for (int size = 0; size < kSizeCount; ++size) {
@@ -145,29 +151,36 @@ class Fit {
   double mean_square(const HandModel& model) const {
     std::vector<double> sums(views_.size());
     for_each_view([&](size_t v) {
-      for_each_point(model, v, kShiftPoints, [&](double distance, int) {
+      const int without_face = for_each_point(model, v, kShiftPoints, [&](double distance, int) {
         const double cut_mm = std::min(1000 * distance, kBorderCut_mm);
         sums[v] += cut_mm * cut_mm / kShiftPoints;
       });
+      sums[v] += without_face * kBorderCut_mm * kBorderCut_mm / kShiftPoints;
     });
     double sum = 0;
     for (const double of_view : sums) sum += of_view;
     return sum / static_cast<double>(views_.size());
   }
 
-  /// Calls visit(distance from the surface, patch) for each point of a view that has a closest one.
+  /// Calls visit(distance from the surface, patch) for each point of a view that has a closest face; returns the
+  /// number of points without one.
   template <typename Visit>
-  void for_each_point(const HandModel& model, size_t v, int max_points, const Visit& visit) const {
+  int for_each_point(const HandModel& model, size_t v, int max_points, const Visit& visit) const {
     const PosedHand posed = model.pose(fit_.poses[v].posture);
     Matcher matcher(model, posed, subsample(views_[v].seen.points, max_points), {});
     matcher.cull(fit_.poses[v].T_camera_hand);
     matcher.match(fit_.poses[v].T_camera_hand);
+    int without_face = 0;
     for (size_t i = 0; i < matcher.closest().size(); ++i) {
       const ClosestPoint& closest = matcher.closest()[i];
-      if (closest.face < 0) continue;
+      if (closest.face < 0) {
+        ++without_face;
+        continue;
+      }
       const Surface::Face& face = matcher.surface().faces(matcher.cloud()[i].label)[closest.face];
       visit(static_cast<double>(closest.distance), model.triangles()[face.triangle].patch);
     }
+    return without_face;
   }
 
   /// Sets what each patch's points lie off; returns the mean of all, m.

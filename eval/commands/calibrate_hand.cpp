@@ -44,6 +44,7 @@ struct CalibrateHand {
     });
     write_file(common.output, hand_text(measured_hand(fit, mesh.side)));
     if (!report.empty()) write_file(report, reports::format_json(hand_report_json(fit, motion, from.source)));
+    if (common.quiet) return;
     fmt::print("{}: a {} hand of {} frames\n\n{}", common.output, to_string(mesh.side), views.size(),
                hand_report_markdown(fit, motion));
   }
@@ -101,7 +102,8 @@ void add_calibrate_hand(Command calibrate) {
                  "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
   command.option("--frames", state->frame_count, "frames to take, spread over the recording").in(30, 1000);
   command.option("--left", state->common.left, "a left hand");
-  command.option("--config", state->common.config_file, "JSON file with the tracker's fields to change");
+  command.option("--config", state->common.config_file,
+                 "JSON file with the tracker's fields to change; the method is `articulated`");
   state->common.add_machine(command);
   command.runs([state] { state->run(); });
 }

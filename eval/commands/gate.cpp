@@ -76,24 +76,24 @@ struct Gate {
       fmt::print("Gate passed against {}{}\n", folder, page);
       return 0;
     }
-    explain_failure(decision, folder);
+    explain_failure(decision, folder, baseline.noise_floor.has_value());
     fmt::print("Gate failed against {}{}\n", folder, page);
     return kGateFailed;
   }
 
   /// What the failures mean, and how to accept them.
-  void explain_failure(const reports::GateDecision& decision, const std::string& folder) const {
+  void explain_failure(const reports::GateDecision& decision, const std::string& folder, bool has_floor) const {
     const size_t count = decision.failures.size();
     std::string text = fmt::format("{} {} this change. ", count, count == 1 ? "row stops" : "rows stop");
     if (decision.has_places)
-      text +=
-          "Worse in places: the rise lies in few blocks of frames, so its interval cannot tell it from chance; but "
-          "on "
-          "these same frames it is larger than what other noise seeds cause. ";
+      text += fmt::format(
+          "Worse in places: the rise lies in few blocks of frames, so that no interval can tell it from chance; "
+          "but "
+          "on these same frames it is at least twice (a share of frames: once) {}. ",
+          has_floor ? "what other noise seeds cause" : "the default minimum effect");
     text += fmt::format(
         "To accept it, e.g. for what became better, run `glovebench gate {} --baseline {} --update`{} and commit "
-        "that "
-        "folder: its provenance.json records the accepted rows and the replaced baseline.",
+        "that folder: its provenance.json records the accepted rows and the replaced baseline.",
         candidate_path, folder, suite.empty() ? " (with --suite FILE for a suite of your own)" : "");
     fmt::print("{}", reports::wrapped(text));
   }

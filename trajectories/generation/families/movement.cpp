@@ -164,7 +164,7 @@ Trajectory generate_movement(const MovementFamily& family, uint64_t seed, const 
   const std::vector<Keyframe<HandPose>> poses = pose_keys(family, seed, frame_count);
   const std::vector<Keyframe<Posture>> postures = posture_keys(family, seed, material, frame_count);
   Trajectory movement{.name = movement_name(family, seed),
-                      .description = fmt::format("Generated, seed {}: {}", seed, family.description),
+                      .description = fmt::format("Generated: family {}, seed {}", family.name, seed),
                       .provenance = {},
                       .frames = {}};
   for (int f = 0; f < frame_count; ++f) {

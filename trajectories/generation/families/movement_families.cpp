@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/base/registry.h"
 #include "trajectories/generation/families/movement_family.h"
 
 namespace glovebench::trajectories {
@@ -106,16 +105,12 @@ constexpr std::array kMovementFamilies = {
     captured_family(),
 };
 
-std::string postures_text(const MovementFamily& family) {
-  const std::string time =
-      fmt::format("a posture takes {:.1f} to {:.1f} s", family.posture_s.low, family.posture_s.high);
-  if (family.captured) return time;
+std::string bends_text(const MovementFamily& family) {
+  if (family.captured) return "as captured";
   const auto& [first, second] = family.bends;
-  const std::string bends = first.high == second.high
-                                ? fmt::format("{:.0f} to {:.0f}%", 100 * first.low, 100 * first.high)
-                                : fmt::format("{:.0f} to {:.0f}% and {:.0f} to {:.0f}% by turns", 100 * first.low,
-                                              100 * first.high, 100 * second.low, 100 * second.high);
-  return fmt::format("fingers bent {}; wrist up to {:.0f}% of its limits; {}", bends, 100 * family.wrist, time);
+  const std::string once = fmt::format("{:.0f}-{:.0f}", 100 * first.low, 100 * first.high);
+  if (first.high == second.high) return once;
+  return fmt::format("{}, {:.0f}-{:.0f}", once, 100 * second.low, 100 * second.high);
 }
 
 }  // namespace
@@ -125,35 +120,32 @@ std::span<const MovementFamily> movement_families() {
 }
 
 std::vector<std::string> movement_family_names() {
-  std::vector<std::string> names;
-  for (const MovementFamily& family : kMovementFamilies) names.emplace_back(family.name);
-  return names;
+  return names_in(movement_families());
 }
 
 const MovementFamily& find_movement_family(std::string_view name) {
-  const auto found = std::ranges::find(kMovementFamilies, name, &MovementFamily::name);
-  if (found != kMovementFamilies.end()) return *found;
-  throw Error("movements", "family", quoted_excerpt(name),
-              fmt::format("one of {}", fmt::join(movement_family_names(), ", ")));
+  return find_in(movement_families(), name, "movements", "family");
 }
 
 std::string movement_families_text() {
   std::string text;
-  for (const MovementFamily& family : kMovementFamilies) {
+  for (const MovementFamily& family : kMovementFamilies)
     text += fmt::format("{:<9} {}\n", family.name, family.description);
-    text += fmt::format("{:<9} tilt {:.0f} to {:.0f} deg; {:.2f} to {:.2f} m away, up to {:.0f}% off the axis; ",
-                        "", family.tilt_deg.low, family.tilt_deg.high, family.depth.low, family.depth.high,
-                        100 * family.off_axis);
-    text += fmt::format("peaks {:.2f} to {:.2f} m/s, {:.1f} to {:.1f} rad/s\n", family.speed.low, family.speed.high,
-                        family.turn_rate.low, family.turn_rate.high);
-    text += fmt::format("{:<9} {}\n", "", postures_text(family));
+  text += "\nRanges    tilt,     depth, m   off axis,  peaks, m/s  peaks,     fingers,       wrist,\n";
+  text += "          deg                 %                      rad/s      % bent         %\n";
+  for (const MovementFamily& family : kMovementFamilies) {
+    text +=
+        fmt::format("{:<9} {:<9} {:.2f}-{:.2f}  0-{:<8.0f} {:.2f}-{:.2f}   {:<10} {:<14} {}\n", family.name,
+                    fmt::format("{:.0f}-{:.0f}", family.tilt_deg.low, family.tilt_deg.high), family.depth.low,
+                    family.depth.high, 100 * family.off_axis, family.speed.low, family.speed.high,
+                    fmt::format("{:.1f}-{:.1f}", family.turn_rate.low, family.turn_rate.high), bends_text(family),
+                    family.captured ? "as captured" : fmt::format("0-{:.0f}", 100 * family.wrist));
   }
-  return text +
-         fmt::format(
-             "Random postures: DIP {} to {} of PIP; flexions of neighboring fingers drawn with a correlation of "
-             "{};\n"
-             "fingers at least {} deg RMS from each gesture; no parts that overlap by more than {:.0f} mm.\n",
-             kDipShare.low, kDipShare.high, kNeighborCorrelation, kGestureDistanceDeg, 1000 * kMostOverlap);
+  return text + fmt::format(
+                    "\nRandom postures: DIP {} to {} of PIP; flexions of neighboring fingers drawn with a\n"
+                    "correlation of {}; fingers at least {} deg RMS from each gesture; no parts that overlap\n"
+                    "by more than {:.0f} mm.\n",
+                    kDipShare.low, kDipShare.high, kNeighborCorrelation, kGestureDistanceDeg, 1000 * kMostOverlap);
 }
 
 }  // namespace glovebench::trajectories
