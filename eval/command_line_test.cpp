@@ -162,17 +162,20 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(refusal({"db", "info", path("none.glovedb")}), HasSubstr("none.glovedb"));
   EXPECT_THAT(refusal({"db", "build", "--postures", path("none.csv"), "-o", path("x.glovedb")}),
               HasSubstr("none.csv"));
-  EXPECT_THAT(refusal({"track", "--source", "live", "--database", "DB_open_power", "-o", path("x")}),
+  EXPECT_THAT(refusal({"track", "--source", "live", "--database", "DB_open_power", "-o", path("x.jsonl")}),
               HasSubstr("fakenect:FOLDER"));
-  EXPECT_THAT(
-      refusal({"track", "--source", "fakenect:" + path("none"), "--database", "DB_open_power", "-o", path("x")}),
-      HasSubstr("none"));
-  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x"),
-                       "--calibration", path("none.json")}),
+  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + path("none"), "--database", "DB_open_power", "-o",
+                       path("x.jsonl")}),
+              HasSubstr("none"));
+  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o",
+                       path("x.jsonl"), "--calibration", path("none.json")}),
               HasSubstr("none.json"));
-  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x"),
-                       "--frames", "-1"}),
+  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o",
+                       path("x.jsonl"), "--frames", "-1"}),
               HasSubstr("--frames"));
+  EXPECT_THAT(
+      refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x.cvs")}),
+      HasSubstr("--output: file name: found"));
   EXPECT_THAT(refusal({"record", "--trajectory", good_trajectory(), "-o", path("x.json")}),
               HasSubstr("--database"));
   EXPECT_THAT(refusal({"record", "--trajectory", "Tr4", "--database", "DB_open_power", "-o", path("x")}),
@@ -361,10 +364,11 @@ TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
   expect_flags({"record"}, {tracker, machine, random, {"--output", "--trajectory", "--database"}});
   expect_flags({"render"},
                {tracker, machine, random, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
-  expect_flags({"track"}, {tracker,
-                           machine,
-                           {"--source", "fakenect:", "freenect", "--database", "--output", "--left",
-                            "--calibration", "--frames", "--every-frame"}});
+  expect_flags({"track"},
+               {tracker,
+                machine,
+                {"--source", "fakenect:", "freenect", "--database", "--output", "--left", "--calibration",
+                 "--frames", "--every-frame", "--format", "--overlay", "--page", "--as-fast-as-possible"}});
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});
   expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});

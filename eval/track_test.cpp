@@ -1,5 +1,6 @@
 // Tracks recordings and checks the files.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "core/base/whole_file.h"
 #include "eval/command_test.h"
 #include "eval/test_program.h"
+#include "reports/estimates.h"
 
 namespace glovebench::eval {
 namespace {
@@ -43,6 +46,32 @@ TEST_F(TrackLong, OfADumpEqualsTheRun) {
   ASSERT_EQ(robot.size(), 1U);
   EXPECT_EQ(read_file(path("tracked_robot.jsonl")), robot.begin()->second)
       << "the robot commands hold the posture and the pose of each frame";
+}
+
+TEST_F(TrackLong, WritesCsvPicturesAndAPage) {
+  render_recording("good.json", "dump");
+  const ProgramRun tracked =
+      track("dump", "DB_open_power", "estimates.csv", {"--overlay", path("pictures"), "--page", path("page.html")});
+  expect_fine(tracked);
+  EXPECT_THAT(tracked.out,
+              testing::ContainsRegex("[0-9.]+ frames/s; from frame to estimate [0-9.]+ ms \\(median\\)"));
+  const std::vector<reports::Estimate> estimates = reports::read_estimates(path("estimates.csv"));
+  ASSERT_EQ(estimates.size(), static_cast<size_t>(kFrames));
+  expect_fine(track("dump", "DB_open_power", "estimates.jsonl"));
+  const std::string lines = read_file(path("estimates.jsonl"));
+  const json first = json::parse(lines.substr(0, lines.find('\n')));
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(first.at("position_mm").at(i), 1000 * estimates[0].T_camera_hand.translation()[i], 1e-3);
+  for (int number = 0; number < kFrames; ++number) {
+    const cv::Mat picture = cv::imread(fmt::format("{}/{:06}.png", path("pictures"), number));
+    ASSERT_EQ(picture.size(), cv::Size(640, 480));
+    cv::Mat bones;
+    cv::inRange(picture, cv::Scalar(0, 200, 245), cv::Scalar(10, 220, 255), bones);
+    EXPECT_GT(cv::countNonZero(bones), 100) << "joints and the bones between them are drawn";
+  }
+  EXPECT_THAT(read_file(path("page.html")), AllOf(HasSubstr("track-position"), HasSubstr("index_pip_flexion_deg")));
+  EXPECT_THAT(track("dump", "DB_open_power", "again.csv", {"--overlay", path("pictures")}).err,
+              HasSubstr("pictures: folder: found files in it, expected a new or empty one"));
 }
 
 TEST_F(TrackLong, NamesDamagedFilesAndGoesOn) {

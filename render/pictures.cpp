@@ -77,6 +77,34 @@ ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, co
   return picture;
 }
 
+ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line) {
+  ColorImage picture = color;
+  cv::Mat mat(picture.height(), picture.width(), CV_8UC3, picture.data());
+  constexpr int kShift = 4;  // positions in 1/16 px
+  const auto point = [](const Eigen::Vector2d& px) {
+    return cv::Point(static_cast<int>(std::lround(px.x() * (1 << kShift))),
+                     static_cast<int>(std::lround(px.y() * (1 << kShift))));
+  };
+  const auto draw = [&](const cv::Scalar& shade, int grown) {
+    for (const Stroke& stroke : strokes) {
+      cv::line(mat, point(stroke.from_px), point(stroke.to_px), shade, 1 + grown, cv::LINE_AA, kShift);
+      for (const Eigen::Vector2d& end : {stroke.from_px, stroke.to_px})
+        cv::circle(mat, point(end), (2 << kShift) + (grown << kShift) / 2, shade, cv::FILLED, cv::LINE_AA, kShift);
+    }
+  };
+  draw({0, 0, 0}, 2);
+  draw({static_cast<double>(line[0]), static_cast<double>(line[1]), static_cast<double>(line[2])}, 0);
+  return picture;
+}
+
+ColorImage overlay_text(const ColorImage& color, const std::string& text) {
+  ColorImage picture = color;
+  cv::Mat mat(picture.height(), picture.width(), CV_8UC3, picture.data());
+  for (const auto& [shade, thickness] : {std::pair{0, 3}, std::pair{255, 1}})
+    cv::putText(mat, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(shade), thickness, cv::LINE_AA);
+  return picture;
+}
+
 ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage& other, double range) {
   check(depth.width() == other.width() && depth.height() == other.height(), "depth images have one size");
   constexpr std::array<double, 3> kLess = {33, 102, 172}, kNone = {247, 247, 247}, kMore = {178, 88, 10};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,13 @@ ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far
 ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage& other, double range);
 /// Draws the borders of labels. Images have one size.
 ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line = {255, 255, 255});
+struct Stroke {
+  Eigen::Vector2d from_px, to_px;
+};
+/// Draws lines with a dot at each end and a dark edge, so that they are seen on any background.
+ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line);
+/// Writes a line of ASCII text at the upper left.
+ColorImage overlay_text(const ColorImage& color, const std::string& text);
 std::string encode_png(const ColorImage& image);
 /// `quality`: 0 to 100.
 std::string encode_jpeg(const ColorImage& image, int quality);

@@ -40,18 +40,26 @@ std::string number_cell(double value) {
   return fmt::format(",{}", number_text(value));
 }
 
-std::string line_of(const Estimate& estimate) {
+}  // namespace
+
+std::string estimates_heading() {
+  return fmt::format("{}", fmt::join(columns(), ","));
+}
+
+std::string estimate_csv_line(const Estimate& estimate) {
   std::string line =
       fmt::format("{},{},{},{}", estimate.seed, estimate.frame, estimate.timestamp_us, to_string(estimate.status));
-  if (estimate.status != TrackStatus::tracked) return line + std::string(kColumnCount - kFirstNumber, ',') + "\n";
+  if (estimate.status != TrackStatus::tracked) return line + std::string(kColumnCount - kFirstNumber, ',');
   const Eigen::Vector3d position_mm = estimate.T_camera_hand.translation() * 1000;
   Eigen::Quaterniond q(estimate.T_camera_hand.linear());
   if (q.w() < 0) q.coeffs() = -q.coeffs();  // q and -q are the same rotation; always writes the one with w >= 0
   for (const double value : position_mm) line += number_cell(value);
   for (const double value : {q.w(), q.x(), q.y(), q.z()}) line += number_cell(value);
   for (const double angle : estimate.posture) line += number_cell(degrees_from_radians(angle));
-  return line + "\n";
+  return line;
 }
+
+namespace {
 
 /// One line of the file, read strictly.
 class Line {
@@ -159,8 +167,8 @@ std::string estimates_file(const ExperimentKey& key) {
 }
 
 std::string estimates_csv(const ExperimentEstimates& estimates) {
-  std::string csv = fmt::format("{}\n", fmt::join(columns(), ","));
-  for (const Estimate& estimate : estimates.estimates) csv += line_of(estimate);
+  std::string csv = estimates_heading() + "\n";
+  for (const Estimate& estimate : estimates.estimates) csv += estimate_csv_line(estimate) + "\n";
   return csv;
 }
 

@@ -31,6 +31,9 @@ std::string estimates_file(const ExperimentKey& key);
 /// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, the 22 angles (deg).
 /// Numbers are rounded to 1e-6; a lost frame has empty cells.
 std::string estimates_csv(const ExperimentEstimates& estimates);
+/// The heading and one line of it, without line ends.
+std::string estimates_heading();
+std::string estimate_csv_line(const Estimate& estimate);
 /// Throws: Error naming file, line and column for anything that estimates_csv does not write.
 std::vector<Estimate> read_estimates(const std::string& path);
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);

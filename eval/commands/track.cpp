@@ -6,8 +6,10 @@
 #include <optional>
 #include <thread>
 
+#include "core/adapters/system_time.h"
 #include "core/base/error.h"
 #include "core/base/line_file.h"
+#include "core/base/math.h"
 #include "core/base/whole_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_guard.h"
@@ -16,8 +18,11 @@
 #include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"
 #include "eval/interruption.h"
+#include "eval/program.h"
 #include "eval/terminal.h"
+#include "eval/track_overlay.h"
 #include "render/label_renderer.h"
+#include "reports/page/track_page.h"
 
 namespace glovebench::eval {
 namespace {
@@ -50,14 +55,21 @@ struct Track {
   RobotFlags robot;
   BusFlags bus;
   std::string topics = "own";  ///< to which commands are sent
+  bool is_hurried = false;     ///< plays a recording to a robot as fast as it is tracked
+  std::string format;          ///< of the estimates; empty: by the file's ending
+  std::string overlay, page;   ///< folder of pictures and HTML file; empty: none
 
   // Of the run.
   int frames = 0, unusable = 0, tracked = 0;
-  std::optional<Error> failure;  ///< of the device, or of a command
-  bool is_whole = true;          ///< all commands succeeded and all lines were written
+  std::vector<double> latencies_ms;         ///< of frames that were tracked or lost
+  std::vector<reports::Estimate> for_page;  ///< with `page`
+  std::optional<Error> failure;             ///< of the device, or of a command
+  bool is_whole = true;                     ///< all commands succeeded and all lines were written
 
   void run() {
-    require_different_files({{"--output", common.output}, {"--robot-out", robot.output}});
+    require_different_files({{"--output", common.output}, {"--robot-out", robot.output}, {"--page", page}});
+    const bool writes_csv = is_csv();
+    if (!page.empty()) const WholeFile probe(page);  // never committed: nothing stays
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());
@@ -72,17 +84,30 @@ struct Track {
                    own_colors ? own_colors : workbench.color_table(config.segmentation.color_space),
                    render::label_renderer_factory()});
     RobotSetup setup = robot.setup(workbench);
+    std::optional<TrackOverlay> pictures;
+    if (!overlay.empty()) pictures.emplace(overlay, workbench.model(), source.device->calibration());
     LineFile output(common.output);
+    if (writes_csv) output.append(reports::estimates_heading());
     // After reading all files: opening a pipe may block, and a signal must end that.
     const Interruption interruption;
     setup.arm_start = outputs.arm_start().value_or(setup.arm_start);
     RobotCommander commander(setup);
     const size_t kept_results = static_cast<size_t>(config.smoothing.forget_after);
-    track_all(source, *method, kept_results, output, [&](const TrackResult& result) {
+    const auto start = std::chrono::steady_clock::now();
+    track_all(source, *method, kept_results, [&](int number, const DeviceFrame& frame, const TrackResult& result) {
       if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
+      const reports::Estimate estimate{
+          0, number, result.timestamp_us, result.status, result.posture, result.T_camera_hand};
+      if_it_fails([&] {
+        output.append(writes_csv ? reports::estimate_csv_line(estimate) : estimate_line(number, result));
+        if (pictures) pictures->add(number, frame, result);
+      });
+      if (!page.empty()) for_page.push_back(estimate);
     });
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (frames == unusable) refuse();
     finish(output, outputs);
+    if (!page.empty()) write_file(page, reports::track_page(from.source, for_page, page_scripts()));
     if (!common.quiet && !failure && tracked == 0)
       say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
           "colors "
@@ -91,6 +116,10 @@ struct Track {
     if (!common.quiet)
       fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
                  counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
+    if (!common.quiet && !latencies_ms.empty())
+      fmt::print(messages(), "{:.1f} frames/s; from frame to estimate {:.1f} ms (median), {:.1f} ms (95%)\n",
+                 static_cast<double>(latencies_ms.size()) / spent.count(), *quantile_of(latencies_ms, 0.5),
+                 *quantile_of(latencies_ms, 0.95));
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
   }
@@ -106,8 +135,17 @@ struct Track {
                            .longest_step_s = limits.longest_step_s};
   }
 
-  void track_all(TrackSource& source, Method& method, size_t kept_results, LineFile& output,
-                 const std::function<void(const TrackResult&)>& command_robot) {
+  /// CSV or JSON Lines, from --format or else the ending.
+  bool is_csv() const {
+    if (!format.empty()) return format == "csv";
+    if (common.output.ends_with(".csv")) return true;
+    if (common.output.ends_with(".jsonl") || find_output(common.output).is_stream) return false;
+    throw Error("--output", "file name", common.output, "the ending .jsonl or .csv, or --format");
+  }
+
+  using UseResult = std::function<void(int number, const DeviceFrame& frame, const TrackResult& result)>;
+
+  void track_all(TrackSource& source, Method& method, size_t kept_results, const UseResult& use) {
     Progress progress("tracking", common.quiet);
     StatusLine status(common.quiet || source.frame_count > 0);
     Pace pace;
@@ -118,12 +156,13 @@ struct Track {
       const std::optional<DeviceFrame> frame = next_frame(*source.device);
       if (!frame && frames == number) return;
       if (frame) {
-        if (drives_a_robot && source.frame_count > 0) pace.wait_for(frame->depth_timestamp_us);
+        if (drives_a_robot && source.frame_count > 0 && !is_hurried) pace.wait_for(frame->depth_timestamp_us);
+        const int64_t arrived_us = source.frame_count > 0 ? system_us() : source.arrived_us();
         const TrackResult result = results.emplace_back(method.track(*frame, results));
         if (results.size() == 2 * kept_results)  // not in each frame: an erasure moves the rest
           results.erase(results.begin(), results.begin() + static_cast<ptrdiff_t>(kept_results));
-        command_robot(result);
-        if_it_fails([&] { output.append(estimate_line(number, result)); });
+        latencies_ms.push_back(static_cast<double>(system_us() - arrived_us) / 1000);
+        use(number, *frame, result);
         tracked += result.status == TrackStatus::tracked;
         status.show(result, source.dropped());
       }
@@ -216,8 +255,12 @@ void add_track(Command program) {
                  "color table (`glovebench calibrate colors`) [calibrated from rendered views]");
   command
       .option("-o,--output", state->common.output,
-              "estimates to write, one line of JSON a frame (*.jsonl; -: to standard output)")
+              "estimates to write, a line a frame: JSON (*.jsonl) or CSV (*.csv); -: to standard output")
       .required();
+  command.option("--format", state->format, "of the estimates [by the ending; of streams jsonl]")
+      .one_of({"jsonl", "csv"});
+  command.option("--overlay", state->overlay, "folder for pictures: the tracked hand over the color images");
+  command.option("--page", state->page, "page with the path and the angles, to write (*.html)");
   state->robot.add(command, "robot commands to write (*.jsonl)");
   const Command robot = command.group("Robot");
   state->bus.add(robot, "stream the robot commands: dds[:DOMAIN], as ROS 2 speaks it");
@@ -226,6 +269,10 @@ void add_track(Command program) {
               "own, which only `robot-server` hears; controller, those of a robot's controllers, from where the "
               "robot is measured to stand (the arm's, too, unless --robot-arm none)")
       .one_of({"own", "controller"})
+      .needs("--robot");
+  robot
+      .option("--as-fast-as-possible", state->is_hurried,
+              "command the robot as fast as a recording is tracked, not in the recording's own time")
       .needs("--robot");
   command.option("--left", state->common.left, "a left hand");
   state->common.add_hand(command);

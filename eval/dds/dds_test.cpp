@@ -202,7 +202,7 @@ TEST_F(Dds, TheCommandLineNamesWhatItDoesNotKnow) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   }
   EXPECT_THAT(
-      run_glovebench({"track", "--source", "fakenect:x", "--database", "x", "-o", "x", "--robot", "ros"}).err,
+      run_glovebench({"track", "--source", "fakenect:x", "--database", "x", "-o", "x.jsonl", "--robot", "ros"}).err,
       HasSubstr("--robot: middleware: found ros, expected dds or dds:DOMAIN"));
 }
 

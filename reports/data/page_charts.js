@@ -295,6 +295,35 @@ function differences(tables, experiment) {
   };
 }
 
+// The page of `track`: columns over time, a panel for each group, a line for each column.
+function track(panelOf, lineOf, title, width) {
+  return tables => {
+    const start = tables.track[0].timestamp_us;
+    const rows = tables.track.map(row => ({...row, time: (row.timestamp_us - start) / 1e6}));
+    const columns = Object.keys(rows[0]).filter(key => panelOf(key));
+    const values = columns.flatMap(column => rows.map(
+        row => ({time: row.time, frame: row.frame, value: row[column], panel: panelOf(column), line: lineOf(column)})));
+    const names = distinct(values, 'line');
+    return {
+      data: {values}, spacing: 10, resolve: {scale: {y: 'independent'}},
+      facet: {row: {field: 'panel', sort: null, title: null, header: {labelOrient: 'top', labelAnchor: 'start'}}},
+      spec: {
+        width, height: 110, mark: {type: 'line', strokeWidth: 1.6},
+        encoding: {
+          x: {field: 'time', type: 'quantitative', title: 'time (s)'},
+          y: {field: 'value', type: 'quantitative', title, scale: {zero: false}, axis: {minExtent: 34, tickCount: 4}},
+          color: {field: 'line', sort: names, scale: {domain: names, range: seriesColors}, legend: names.length > 1 ? {title: null} : null}
+        }
+      }
+    };
+  };
+}
+
+const angleKind = key => /abduction/.test(key)                 ? 'abduction'
+                         : /_dip_|thumb_ip_/.test(key)        ? 'flexion of the end joint (DIP, IP)'
+                         : /_pip_|thumb_mcp_/.test(key)       ? 'flexion of the middle joint (PIP, thumb MCP)'
+                                                              : 'flexion of the base joint (MCP, thumb CMC, wrist)';
+
 const errors = [['position', 'position_error_mm', 'Position error (mm)', 'paper_position_error_mm'],
                 ['posture', 'posture_rms_deg', 'Posture error (deg)', 'paper_posture_error_deg'],
                 ['rotation', 'rotation_error_deg', 'Rotation error (deg)', 'paper_rotation_error_deg']];
@@ -313,6 +342,9 @@ charts['figure7-rank'] = lines('figure7', {
 });
 charts['figure8'] = figure8;
 charts['differences'] = differences;
+charts['track-position'] = track(key => (key.match(/^position_(.)_mm$/) || [])[1], () => 'position', 'mm', 760);
+charts['track-angles'] = track(key => (key.match(/^([a-z]+)_.*_deg$/) || [])[1],
+                               angleKind, 'deg', 760);
 const factor = {x: 'factor', group: 'truth', xTitle: 'sub-sampling factor', xBase: 2, width: 260};
 charts['figure9-position'] = lines('figure9', {
   ...factor, y: 'position_error_mm', low: 'position_error_mm_low', high: 'position_error_mm_high',

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/estimates.h"
+
+namespace glovebench::reports {
+
+/// A page in one file: counts of each status, the hand's path and its angles over time. `scripts` as in
+/// PageMaterial; without them there are no charts.
+std::string track_page(const std::string& title, const std::vector<Estimate>& estimates,
+                       const std::vector<std::string>& scripts);
+
+}  // namespace glovebench::reports
