@@ -71,14 +71,26 @@ std::string row_html(const ClaimVerdict& verdict) {
       escape_html(measured_text(verdict)), escape_html(rule_text(verdict)));
 }
 
-std::string table_html(const std::vector<ClaimVerdict>& verdicts, bool not_run) {
+/// The claims with one of the outcomes, in the order of the outcomes; empty if there are none.
+std::string table_html(const std::vector<ClaimVerdict>& verdicts, const std::vector<ClaimOutcome>& outcomes) {
   std::string html =
       "<div class=\"scroll\"><table class=\"claims\">\n<thead><tr>"
       "<th class=\"name\">outcome</th><th class=\"name\">claim</th><th class=\"name\">paper</th>"
       "<th>measured</th><th>holds if</th></tr></thead>\n<tbody>\n";
-  for (const ClaimVerdict& verdict : verdicts)
-    if ((verdict.outcome == ClaimOutcome::not_run) == not_run) html += row_html(verdict);
-  return html + "</tbody></table></div>\n";
+  std::string rows;
+  for (const ClaimOutcome outcome : outcomes)
+    for (const ClaimVerdict& verdict : verdicts)
+      if (verdict.outcome == outcome) rows += row_html(verdict);
+  return rows.empty() ? "" : html + rows + "</tbody></table></div>\n";
+}
+
+std::string folded_html(const std::vector<ClaimVerdict>& verdicts, std::string_view title,
+                        const std::vector<ClaimOutcome>& outcomes) {
+  const std::string table = table_html(verdicts, outcomes);
+  if (table.empty()) return "";
+  const auto count = std::ranges::count_if(
+      verdicts, [&](const ClaimVerdict& verdict) { return std::ranges::count(outcomes, verdict.outcome) > 0; });
+  return fmt::format("<details><summary>{}: {}</summary>\n{}</details>\n", title, count, table);
 }
 
 std::string judging_html() {
@@ -92,14 +104,14 @@ std::string judging_html() {
 }  // namespace
 
 std::string claims_section(const std::vector<ClaimVerdict>& verdicts) {
-  const auto not_run = std::ranges::count(verdicts, ClaimOutcome::not_run, &ClaimVerdict::outcome);
-  std::string html = fmt::format("<h2>Claims</h2>\n<p>{}. {}. {}</p>\n", escape_html(count_text(verdicts)),
-                                 escape_html(required_text(verdicts)), escape_html(judging_text()));
-  if (std::ssize(verdicts) > not_run) html += table_html(verdicts, false);
-  if (not_run > 0)
-    html +=
-        fmt::format("<details><summary>Not run: {}</summary>\n{}</details>\n", not_run, table_html(verdicts, true));
-  return html + judging_html();
+  const std::string html = fmt::format("<h2>Claims</h2>\n<p>{}. {}. {}</p>\n", escape_html(count_text(verdicts)),
+                                       escape_html(required_text(verdicts)), escape_html(judging_text()));
+  return html +
+         table_html(verdicts,
+                    {ClaimOutcome::not_reproduced, ClaimOutcome::not_consistent, ClaimOutcome::inconclusive}) +
+         folded_html(verdicts, "Hold", {ClaimOutcome::reproduced, ClaimOutcome::consistent}) +
+         folded_html(verdicts, "Withdrawn", {ClaimOutcome::withdrawn}) +
+         folded_html(verdicts, "Not run", {ClaimOutcome::not_run}) + judging_html();
 }
 
 }  // namespace glovebench::reports

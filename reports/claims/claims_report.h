@@ -28,7 +28,7 @@ std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts);
 std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& verdicts);
 /// claims.json: all verdicts, histories and judging.
 std::string claims_json(const std::vector<ClaimVerdict>& verdicts);
-/// Section of the page, with histories. Claims not run are folded away.
+/// Section of the page, with histories: those that failed or are open, the rest folded.
 std::string claims_section(const std::vector<ClaimVerdict>& verdicts);
 
 }  // namespace glovebench::reports

@@ -77,6 +77,18 @@ TEST(ClaimsReport, WhatHoldsHasNoExcuse) {
     EXPECT_THAT(text, Not(HasSubstr("It is large.")));
 }
 
+TEST(ClaimsReport, TheSectionBeginsWithWhatFailedAndFoldsTheRest) {
+  const std::string html = claims_section(
+      {example_verdict(ClaimOutcome::reproduced, kLarge), kNotRunClaim[0], kFailed[0], kNotRunClaim[0]});
+  const size_t failed = html.find("verdict worse\">not reproduced"),
+               folded = html.find("<summary>Hold: 1</summary>");
+  ASSERT_NE(failed, std::string::npos);
+  ASSERT_NE(folded, std::string::npos);
+  EXPECT_LT(failed, folded);
+  EXPECT_LT(folded, html.find("<summary>Not run: 2</summary>"));
+  EXPECT_THAT(html, Not(HasSubstr("Withdrawn")));
+}
+
 TEST(ClaimsReport, HistoriesAreTold) {
   const std::string html = claims_section(kFailed);
   for (const char* text : {"History: changed once", "<b>2026-01-02, commit 0123456</b>: First written.",

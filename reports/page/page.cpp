@@ -70,13 +70,11 @@ Section environment_section(const Timings& timings) {
 
 std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& paper, const Timings& timings,
                                   const PageMaterial& material) {
-  std::vector<Section> sections;
+  std::vector<Section> sections = experiment_sections(result, paper, material.sheets);
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
   // A quick run judges no claims, but shows the section of a whole run.
   if (any_was_run(verdicts) || !quick_note(result).empty())
     sections.push_back({"claims", "Claims", claims_section(verdicts)});
-  for (Section& section : experiment_sections(result, paper, material.sheets))
-    sections.push_back(std::move(section));
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));
   if (!result.experiments.empty()) sections.push_back(metrics_section(result));
   if (has_commands(result)) sections.push_back(command_section(result, timings));
