@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <vector>
 
-#include "core/base/error.h"
-#include "core/base/whole_file.h"
 #include "render/pictures.h"
 
 namespace glovebench::eval {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr Rgb kOutline = {255, 255, 255}, kBones = {255, 210, 0};
 constexpr double kNearest = 0.05;  // m; nearer joints have no place in the image
@@ -33,19 +29,13 @@ std::vector<render::Stroke> bones_of(const PosedHand& posed, const Eigen::Isomet
 
 }  // namespace
 
-TrackOverlay::TrackOverlay(const std::string& folder, std::shared_ptr<const HandModel> hand,
+TrackOverlay::TrackOverlay(const std::string& path, std::shared_ptr<const HandModel> hand,
                            const RgbdCalibration& calibration)
-    : folder_(folder), hand_(std::move(hand)), calibration_(calibration) {
-  std::error_code error;
-  if (fs::exists(folder_, error) && !fs::is_empty(folder_, error))
-    throw Error(folder_, "folder", error ? "a file" : "files in it", "a new or empty one");
-  make_folders(folder_);
-}
+    : sink_(open_picture_sink(path)), hand_(std::move(hand)), calibration_(calibration) {}
 
 void TrackOverlay::add(int number, const DeviceFrame& frame, const TrackResult& result) {
   const std::string caption = fmt::format("frame {}  {}", number, to_string(result.status));
-  render::write_png(fmt::format("{}/{:06}.png", folder_, number),
-                    render::overlay_text(picture(frame, result), caption));
+  sink_->add(number, frame.depth_timestamp_us, render::overlay_text(picture(frame, result), caption));
 }
 
 ColorImage TrackOverlay::picture(const DeviceFrame& frame, const TrackResult& result) {

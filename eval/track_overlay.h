@@ -1,30 +1,32 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "core/hand/hand_model.h"
 #include "core/kinect/device.h"
 #include "core/tracker/track_result.h"
+#include "eval/picture_sink.h"
 #include "render/label_renderer.h"
 
 namespace glovebench::eval {
 
-/// Writes the frames of a recording with the tracked hand over them, its outline and joints, to PNG files.
+/// Draws the tracked hand over the color images of a recording: its outline and joints.
 class TrackOverlay {
  public:
-  /// Throws: Error unless `folder` is new or empty.
-  TrackOverlay(const std::string& folder, std::shared_ptr<const HandModel> hand,
-               const RgbdCalibration& calibration);
+  /// `path`: as open_picture_sink.
+  /// Throws: Error.
+  TrackOverlay(const std::string& path, std::shared_ptr<const HandModel> hand, const RgbdCalibration& calibration);
 
-  /// Writes FOLDER/000042.png. A lost frame shows why it was lost.
+  /// A lost frame shows why it was lost.
   /// Throws: Error.
   void add(int number, const DeviceFrame& frame, const TrackResult& result);
+  void finish() { sink_->finish(); }
 
  private:
   ColorImage picture(const DeviceFrame& frame, const TrackResult& result);
 
-  std::string folder_;
+  std::unique_ptr<PictureSink> sink_;
   std::shared_ptr<const HandModel> hand_;
   RgbdCalibration calibration_;
   render::LabelRenderer renderer_;

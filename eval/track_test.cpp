@@ -74,6 +74,25 @@ TEST_F(TrackLong, WritesCsvPicturesAndAPage) {
               HasSubstr("pictures: folder: found files in it, expected a new or empty one"));
 }
 
+TEST_F(TrackLong, WritesAVideo) {
+  render_recording("good.json", "dump");
+  expect_fine(track("dump", "DB_open_power", "estimates.csv", {"--overlay", path("hand.mp4")}));
+  EXPECT_EQ(read_file(path("hand.mp4")).substr(4, 4), "ftyp");
+  EXPECT_FALSE(fs::exists(path("hand.partial.mp4")));
+  const std::string frames = path("frames");
+  fs::create_directory(frames);
+  ASSERT_EQ(std::system(fmt::format("ffmpeg -loglevel error -i {} {}/%d.png", path("hand.mp4"), frames).c_str()),
+            0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(frames), fs::directory_iterator()), kFrames);
+  ProgramSetting without;
+  without.environment = {{"PATH", path("nowhere")}};
+  EXPECT_THAT(refusal(run_glovebench({"track", "--source", "fakenect:" + path("dump"), "--database",
+                                      "DB_open_power", "-o", path("again.csv"), "--overlay", path("again.mp4")},
+                                     without)),
+              HasSubstr("ffmpeg: program: found No such file or directory"));
+  EXPECT_FALSE(fs::exists(path("again.mp4")));
+}
+
 TEST_F(TrackLong, NamesDamagedFilesAndGoesOn) {
   render_recording("good.json", "dump");
   expect_fine(track("dump", "DB_open_power", "whole.jsonl"));

@@ -106,7 +106,7 @@ struct Track {
     });
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (frames == unusable) refuse();
-    finish(output, outputs);
+    finish(output, outputs, pictures ? &*pictures : nullptr);
     if (!page.empty()) write_file(page, reports::track_page(from.source, for_page, page_scripts()));
     if (!common.quiet && !failure && tracked == 0)
       say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
@@ -177,9 +177,10 @@ struct Track {
 
   /// Names the files of a session, even if its device failed. A session that lost a line keeps an older file and
   /// leaves its own lines beside it; the message says where.
-  void finish(LineFile& output, RobotOutputs& outputs) {
+  void finish(LineFile& output, RobotOutputs& outputs, TrackOverlay* pictures) {
     if_it_fails([&] { outputs.finish(is_whole); });
     if (is_whole) if_it_fails([&] { output.finish(); });
+    if (is_whole && pictures) if_it_fails([&] { pictures->finish(); });
     if (is_whole) return;
     std::string message = failure->what();
     for (const std::string& lines : {output.kept(), outputs.kept()})
@@ -259,7 +260,8 @@ void add_track(Command program) {
       .required();
   command.option("--format", state->format, "of the estimates [by the ending; of streams jsonl]")
       .one_of({"jsonl", "csv"});
-  command.option("--overlay", state->overlay, "folder for pictures: the tracked hand over the color images");
+  command.option("--overlay", state->overlay,
+                 "the tracked hand over the color images: folder for pictures, or video (*.mp4)");
   command.option("--page", state->page, "page with the path and the angles, to write (*.html)");
   state->robot.add(command, "robot commands to write (*.jsonl)");
   const Command robot = command.group("Robot");

@@ -1,0 +1,152 @@
+#include "eval/picture_sink.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/whole_file.h"
+#include "render/pictures.h"
+
+namespace glovebench::eval {
+namespace {
+
+namespace fs = std::filesystem;
+
+class PictureFolder : public PictureSink {
+ public:
+  explicit PictureFolder(const std::string& folder) : folder_(folder) {
+    std::error_code error;
+    if (fs::exists(folder, error) && !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
+      throw Error(folder, "folder", fs::is_directory(folder, error) ? "files in it" : "a file",
+                  "a new or empty one");
+    make_folders(folder);
+  }
+  void add(int number, int64_t, const ColorImage& picture) override {
+    render::write_png(fmt::format("{}/{:06}.png", folder_, number), picture);
+  }
+
+ private:
+  std::string folder_;
+};
+
+[[noreturn]] void fail_ffmpeg(const std::string& found) {
+  throw Error("ffmpeg", "program", found, "one that writes MP4 (Debian: ffmpeg), or a folder for the pictures");
+}
+
+/// A running ffmpeg that takes raw pictures on its standard input.
+class Encoder {
+ public:
+  Encoder(const std::string& path, int width, int height, double frame_rate) {
+    const std::string size = fmt::format("{}x{}", width, height), rate = fmt::format("{:.3f}", frame_rate);
+    std::vector<std::string> words = {"ffmpeg",   "-y",      "-loglevel", "error",     "-f",         "rawvideo",
+                                      "-pix_fmt", "rgb24",   "-s",        size,        "-framerate", rate,
+                                      "-i",       "-",       "-c:v",      "libx264",   "-crf",       "20",
+                                      "-pix_fmt", "yuv420p", "-movflags", "faststart", path};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    std::array<int, 2> pipe_ends{};
+    if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) fail_ffmpeg(std::strerror(errno));
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, pipe_ends[0], STDIN_FILENO);
+    const int error = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    close(pipe_ends[0]);
+    input_ = pipe_ends[1];
+    if (error != 0) {
+      close(input_);
+      fail_ffmpeg(std::strerror(error));
+    }
+  }
+  ~Encoder() { wait(); }
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+
+  void add(const ColorImage& picture) {
+    const auto* bytes = reinterpret_cast<const char*>(picture.data());
+    const Written written = write_all(input_, {bytes, picture.size() * sizeof(Rgb)});
+    if (written.error != 0) fail_ffmpeg(std::strerror(written.error));
+  }
+  void finish() {
+    if (const int status = wait(); status != 0) fail_ffmpeg(fmt::format("exit status {}", status));
+  }
+
+ private:
+  /// Ends the input. Returns the exit status; 0 if it has been waited for.
+  int wait() {
+    if (process_ == 0) return 0;
+    close(input_);
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0)
+      if (errno != EINTR) break;
+    process_ = 0;
+    return status;
+  }
+
+  pid_t process_ = 0;
+  int input_ = -1;
+};
+
+class Video : public PictureSink {
+ public:
+  explicit Video(const std::string& path)
+      : path_(path), partial_(path.substr(0, path.size() - 4) + ".partial.mp4") {
+    const WholeFile probe(path);  // never committed: nothing stays
+  }
+  ~Video() override {
+    encoder_.reset();
+    std::error_code ignored;
+    if (!is_finished_) fs::remove(partial_, ignored);
+  }
+
+  void add(int, int64_t timestamp_us, const ColorImage& picture) override {
+    if (encoder_) return encoder_->add(picture);
+    if (!first_) {
+      first_ = picture;
+      first_us_ = timestamp_us;
+      return;
+    }
+    start(1e6 / static_cast<double>(timestamp_us - first_us_));
+    encoder_->add(picture);
+  }
+  void finish() override {
+    if (!encoder_ && first_) start(1);
+    if (!encoder_) return;
+    encoder_->finish();
+    is_finished_ = true;
+    fs::rename(partial_, path_);
+  }
+
+ private:
+  void start(double frame_rate) {
+    encoder_.emplace(partial_, first_->width(), first_->height(), std::clamp(frame_rate, 1.0, 240.0));
+    encoder_->add(*first_);
+  }
+
+  std::string path_, partial_;
+  std::optional<ColorImage> first_;  ///< waits for the second, whose time gives the rate
+  int64_t first_us_ = 0;
+  std::optional<Encoder> encoder_;
+  bool is_finished_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<PictureSink> open_picture_sink(const std::string& path) {
+  if (path.ends_with(".mp4")) return std::make_unique<Video>(path);
+  return std::make_unique<PictureFolder>(path);
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/base/image.h"
+
+namespace glovebench::eval {
+
+/// Takes the pictures of a sequence.
+class PictureSink {
+ public:
+  virtual ~PictureSink() = default;
+  /// Numbers and times rise; all pictures have one size.
+  /// Throws: Error.
+  virtual void add(int number, int64_t timestamp_us, const ColorImage& picture) = 0;
+  /// Makes the file whole.
+  /// Throws: Error.
+  virtual void finish() {}
+};
+
+/// A folder of PNG files, FOLDER/000042.png, or a video (*.mp4) with the rate of its first two pictures, which the
+/// program ffmpeg encodes. A video stays FILE.partial.mp4 until `finish`.
+/// Throws: Error unless the folder is new or empty.
+std::unique_ptr<PictureSink> open_picture_sink(const std::string& path);
+
+}  // namespace glovebench::eval
