@@ -306,12 +306,12 @@ function track(panelOf, lineOf, title, width) {
     const names = distinct(values, 'line');
     return {
       data: {values}, spacing: 10, resolve: {scale: {y: 'independent'}},
-      facet: {row: {field: 'panel', sort: null, title: null, header: {labelOrient: 'top', labelAnchor: 'start'}}},
+      facet: {row: {field: 'panel', sort: distinct(values, 'panel'), title: null, header: {labelOrient: 'top', labelAnchor: 'start'}}},
       spec: {
         width, height: 110, mark: {type: 'line', strokeWidth: 1.6},
         encoding: {
           x: {field: 'time', type: 'quantitative', title: 'time (s)'},
-          y: {field: 'value', type: 'quantitative', title, scale: {zero: false}, axis: {minExtent: 34, tickCount: 4}},
+          y: {field: 'value', type: 'quantitative', title, scale: {zero: false}, axis: {minExtent: 34, tickCount: 4, format: '~g'}},
           color: {field: 'line', sort: names, scale: {domain: names, range: seriesColors}, legend: names.length > 1 ? {title: null} : null}
         }
       }

@@ -142,9 +142,9 @@ std::string movement_families_text() {
                     family.captured ? "as captured" : fmt::format("0-{:.0f}", 100 * family.wrist));
   }
   return text + fmt::format(
-                    "\nRandom postures: DIP {} to {} of PIP; flexions of neighboring fingers drawn with a\n"
-                    "correlation of {}; fingers at least {} deg RMS from each gesture; no parts that overlap\n"
-                    "by more than {:.0f} mm.\n",
+                    "\nRandom postures: DIP {} to {} of PIP; flexions of neighboring fingers drawn with\n"
+                    "a correlation of {}; fingers at least {} deg RMS from each gesture; no parts\n"
+                    "that overlap by more than {:.0f} mm.\n",
                     kDipShare.low, kDipShare.high, kNeighborCorrelation, kGestureDistanceDeg, 1000 * kMostOverlap);
 }
 
