@@ -9,11 +9,11 @@
 
 namespace glovebench {
 
-/// What the robot shall do.
+/// What the robot does.
 enum class CommandState {
-  following,  ///< go to the targets
-  holding,    ///< hand not seen: stay at the last targets
-  stopped,    ///< not seen for long: stay, then start slowly
+  following,  ///< goes to the targets
+  holding,    ///< hand not seen: stays at the last targets
+  stopped,    ///< not seen for long: stays, later starts slowly
 };
 constexpr auto names_of(CommandState) {
   return std::to_array<std::string_view>({"following", "holding", "stopped"});
@@ -47,7 +47,7 @@ constexpr auto names_of(Intervention) {
 }
 static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1, "each value has a name");
 
-/// How often each kind happened, at most once a command.
+/// Number of commands with each kind.
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }
