@@ -1,6 +1,6 @@
 #pragma once
 
-// Conversions to and from OpenCV.
+// Conversions from and to OpenCV.
 
 #include <opencv2/calib3d.hpp>
 
