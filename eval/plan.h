@@ -9,8 +9,8 @@ namespace glovebench::eval {
 
 struct Plan {
   TrackerConfig tracker;       ///< for all runs
-  std::vector<RunSpec> specs;  ///< runs of the same frames are neighbors
-  std::string suite = {};      ///< the suite's name; empty if none
+  std::vector<RunSpec> specs;  ///< with runs of the same frames in sequence
+  std::string suite = {};      ///< empty: none
   bool quick = false;          ///< few frames; no conclusions
 };
 
