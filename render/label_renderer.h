@@ -8,10 +8,10 @@
 
 namespace glovebench::render {
 
-/// Draws from 0.05 to 10 m, without back faces. Serves one thread at a time.
+/// Draws from 0.05 to 10 m, without back faces, for one thread at a time.
 class LabelRenderer : public ViewRenderer {
  public:
-  /// Throws: Error if OpenGL is missing.
+  /// Throws: Error without OpenGL.
   LabelRenderer();
   ~LabelRenderer() override;
 
@@ -26,7 +26,7 @@ class LabelRenderer : public ViewRenderer {
 };
 
 ViewRendererFactory label_renderer_factory();
-/// Hash of the sources that determine a database (ci/source_hash.cmake).
+/// Of the sources that determine a database (ci/source_hash.cmake).
 std::string database_source_hash();
 
 }  // namespace glovebench::render
