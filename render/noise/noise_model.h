@@ -11,8 +11,8 @@
 
 namespace glovebench::render {
 
-/// Variance per
-/// grad z| of `gradient`, m px: 1.4 mm standard deviation at 45 degrees and 0.7 m (Nguyen et al. 2012). Not tuned.
+/// Variance per |grad z| of `gradient`, m px: 1.4 mm standard deviation at 45 degrees and 0.7 m (Nguyen et al.
+/// 2012). Not tuned.
 inline constexpr double kGradientGain = 0.0014 * 0.0014 / (0.7 / 575.816);
 
 struct KinectNoiseConfig {

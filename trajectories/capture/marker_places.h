@@ -14,7 +14,7 @@ namespace glovebench::trajectories {
 
 inline constexpr int kPalm = -1;  ///< in place of a joint: the hand frame
 
-/// True for WebXR's names of joint centers; other points lie on the skin.
+/// Points with WebXR's names are joint centers; others lie on the skin.
 inline constexpr int kWebxrJointCount = kForearmJoint;  ///< without the forearm
 bool is_webxr_joint(const std::string& name);
 /// Joint centers, without frames.
