@@ -43,7 +43,7 @@ struct Settings {
 
 /// A frame and each stage's result.
 struct BenchFrame {
-  HandFrame hand;             ///< the truth
+  HandFrame hand;
   render::RgbdImages images;  ///< without noise
   DeviceFrame device;
   FrameTrace trace;
@@ -66,7 +66,7 @@ struct BenchData {
   DatabaseCache cache() const;
 };
 
-/// Makes `data`, before benchmarks.
+/// Makes `data`.
 /// Throws: Error.
 void prepare(const Settings& settings);
 const BenchData& data();

@@ -14,13 +14,13 @@ struct Measured {
 };
 using Measurements = std::map<std::string, Measured>;
 
-/// Compares STAGE/ENGINE with STAGE/fast in one process.
+/// Compares STAGE/ENGINE with STAGE/fast.
 struct EngineRatio {
   std::string stage, engine;
   bool missing = false;                  ///< numbers are 0
   double seconds = 0, fast_seconds = 0;  ///< medians
-  double ratio = 0;                      ///< of the medians
-  double low = 0, high = 0;              ///< over repetitions
+  double ratio = 0;
+  double low = 0, high = 0;  ///< over repetitions
 };
 /// By stage, plain first.
 std::vector<EngineRatio> engine_ratios(const Measurements& measurements);

@@ -26,7 +26,7 @@ struct LabelErrors {
   int interior = 0;    ///< glove pixels whose 8 neighbors have the same true label
   int interior_missed = 0;
   int interior_mislabeled = 0;
-  std::array<int, kColorCount + 1> glove_of{}, missed_of{};  ///< per color
+  std::array<int, kColorCount + 1> glove_of{}, missed_of{};
 
   /// Of labeled pixels; 0 without any.
   double wrong_share() const;

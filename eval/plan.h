@@ -18,14 +18,13 @@ struct Figure4Options {
   std::vector<std::string> trajectories;  ///< empty: all five
   std::vector<uint64_t> seeds = {1};
   std::vector<reports::NoiseSetting> noises = {{}};
-  FrameRange frames;  ///< per trajectory
+  FrameRange frames;
 };
 /// Each ground truth with the databases that contain its grasp: recorded truth, source truth, source truth with
 /// subject 2.
 /// Paper: Figure 4.
 Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options);
 
-/// One line per experiment.
 std::string list_experiments(const Plan& plan);
 
 /// Experiments, seeds, frames, and which databases exist. Builds nothing.

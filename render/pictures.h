@@ -7,7 +7,6 @@
 
 namespace glovebench::render {
 
-/// On black.
 ColorImage picture_of_labels(const LabelImage& labels);
 /// Warm: near; black: no value. z_near < z_far, m.
 ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far);

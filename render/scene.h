@@ -13,9 +13,9 @@ namespace glovebench::render {
 struct Material {
   Eigen::Vector3f albedo = Eigen::Vector3f::Zero();  ///< linear RGB, 0..1
   float gloss = 0;                                   ///< of the highlight, 0..1
-  float shininess = 20;                              ///< of the highlight
-  float pattern = 0;                                 ///< relative amplitude, 0..1
-  float pattern_size = 0.01f;                        ///< m
+  float shininess = 20;
+  float pattern = 0;           ///< relative amplitude, 0..1
+  float pattern_size = 0.01f;  ///< m
 };
 
 /// Materials 1..kColorCount are the glove's colors.

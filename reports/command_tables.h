@@ -11,7 +11,6 @@ bool has_commands(const RunResult& result);
 
 /// For the tables below, which have a row for each experiment.
 std::string command_explanation();
-/// Count, rate and states.
 Table command_stream_table(const RunResult& result);
 /// Changed or refused commands by reason; no rows without any.
 Table command_intervention_table(const RunResult& result);

@@ -42,11 +42,11 @@ const std::array<CommandErrorInfo, 4>& command_error_infos();
 /// Over all seeds.
 struct CommandResult {
   int frames = 0;
-  std::array<int, kCountOf<CommandState>> sent{};  ///< per state
-  std::optional<double> rate_hz;                   ///< by time stamps
-  std::optional<double> longest_gap_ms;            ///< between commands
-  Interventions interventions;                     ///< of guard and arm
-  CommandErrors errors;                            ///< of `following` commands
+  std::array<int, kCountOf<CommandState>> sent{};
+  std::optional<double> rate_hz;  ///< by time stamps
+  std::optional<double> longest_gap_ms;
+  Interventions interventions;  ///< of guard and arm
+  CommandErrors errors;         ///< of `following` commands
   Jerk jerk, truth_jerk;
 
   friend bool operator==(const CommandResult&, const CommandResult&) = default;

@@ -30,7 +30,6 @@ struct PaperCascade {
   double time_ms = 0;
 };
 
-/// Numbers that the paper prints.
 struct PaperNumbers {
   std::string source;
   PaperCurve figure_5;

@@ -14,7 +14,6 @@ std::string escape_xml(const std::string& text);
 /// One cell or line. Escapes brackets only in links.
 std::string escape_markdown(const std::string& text);
 std::string escape_latex(const std::string& text);
-/// A line that LaTeX skips.
 std::string latex_comment(const std::string& text);
 
 /// "-" without value.

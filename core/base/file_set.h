@@ -14,11 +14,8 @@
 
 namespace glovebench {
 
-// Sets: files of one folder that change together (core/base/README.md). A write
-//   1. writes and syncs the new files in FOLDER/.staged/,
-//   2. replaces manifest.json by a rename,
-//   3. moves the staged files to their places and removes others.
-// After a crash the next writer finishes step 3.
+// Sets: files of one folder that change together (core/base/README.md). manifest.json is replaced before the new
+// files move from FOLDER/.staged/; after a crash the next writer moves them.
 
 inline constexpr const char* kManifest = "manifest.json";
 /// Bytes: about 1.7 million files.

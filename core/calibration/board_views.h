@@ -18,7 +18,6 @@ struct LeftOut {
   std::string reason;
 };
 
-/// The board as a camera saw it.
 struct BoardViews {
   int width_px = 0, height_px = 0;
   std::vector<BoardView> views;

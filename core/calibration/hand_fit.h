@@ -9,13 +9,11 @@
 
 namespace glovebench::calibration {
 
-/// The mesh to fit, and its side.
 struct HandMesh {
   std::string path;
   Side side = Side::right;
 };
 
-/// Fit of one patch.
 struct PatchFit {
   int64_t points = 0;
   double residual = 0;  ///< mean distance of points from the surface, m

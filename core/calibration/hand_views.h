@@ -10,7 +10,6 @@
 
 namespace glovebench::calibration {
 
-/// A frame with a tracked hand.
 struct TrackedView {
   int64_t timestamp_us = 0;
   HandView seen;

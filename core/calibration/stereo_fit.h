@@ -8,10 +8,10 @@
 namespace glovebench::calibration {
 
 struct StereoFit {
-  CameraFit ir, rgb;               ///< each camera alone
-  RgbdCalibration calibration;     ///< fitted to the pairs
-  double error_px = 0;             ///< RMS over all corners
-  std::vector<std::string> pairs;  ///< view names
+  CameraFit ir, rgb;            ///< each camera alone
+  RgbdCalibration calibration;  ///< fitted to the pairs
+  double error_px = 0;          ///< RMS over all corners
+  std::vector<std::string> pairs;
   std::vector<double> pair_errors_px;
   std::vector<LeftOut> left_out;  ///< pairs above misfit_limit
   /// Standard errors of T_rgb_ir, from the pairs.

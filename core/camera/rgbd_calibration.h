@@ -37,7 +37,6 @@ struct RgbdCalibration {
   }
 };
 
-/// The calibration of the synthetic Kinect.
 RgbdCalibration synthetic_calibration();
 
 /// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right. Real colors are some

@@ -22,7 +22,7 @@ struct DatabaseHeader {
   Side side = Side::right;
   std::string input_hash;
   DatabaseMemory memory = DatabaseMemory::normal;
-  double field_cap_share = 0;  ///< see ViewConfig
+  double field_cap_share = 0;
   std::set<int> sizes_px;
 };
 

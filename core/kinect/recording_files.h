@@ -8,7 +8,6 @@
 
 namespace glovebench {
 
-/// Files of a recording (recording.h).
 enum class RecordedKind : char { depth = 'd', color = 'r', accelerometer = 'a' };
 
 struct RecordedName {

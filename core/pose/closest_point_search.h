@@ -29,9 +29,9 @@ struct GroupScratch {
 /// Counts over all calls.
 struct SearchWork {
   int64_t groups = 0;
-  int64_t nearest = 0;   ///< distinct nearest faces per group
-  int64_t measured = 0;  ///< faces measured
-  int64_t boxes = 0;     ///< face boxes tested
+  int64_t nearest = 0;  ///< distinct nearest faces per group
+  int64_t measured = 0;
+  int64_t boxes = 0;
 };
 
 /// The results of `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`), faster. An object

@@ -36,7 +36,6 @@ class ArmSolver {
   virtual std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const = 0;
 };
 
-/// An arm with the hand mounted.
 struct MountedArm {
   const ArmSolver* solver = nullptr;  ///< must outlive this
   Eigen::Isometry3d T_flange_wrist;   ///< mount of the forearm

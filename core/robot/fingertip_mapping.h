@@ -20,7 +20,6 @@ class FingertipMapping {
   /// Flags a joint if the direct mapping's flag remains or the fit moved the joint to a limit.
   /// Throws: Error if an angle is not finite.
   ShadowHandTargets map(const Posture& posture);
-  /// Forgets the last posture.
   void reset() { last_.setZero(); }
 
  private:

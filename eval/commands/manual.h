@@ -8,7 +8,6 @@
 
 namespace glovebench::eval {
 
-/// For man(1).
 std::string man_page(const CommandText& program, const std::string& version);
 
 /// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty: the shell completes file names.

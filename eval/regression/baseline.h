@@ -24,12 +24,8 @@ std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files)
 /// Empty without times.
 reports::StageTimes load_stage_times(const FileSet& files);
 
-/// What changes are gated against, in a committed folder:
-///   results.json      the run that became the baseline
-///   noise_floor.json  effect of other seeds (glovebench calibrate noise); optional
-///   speed.json        ratios to the plain implementations; optional
-///   provenance.json   commit, date, compiler, processor, stage times, replaced baseline, accepted changes
-///   manifest.json     the set of results, speed and provenance (core/base/file_set.h); old ones lack it
+/// The folder of files that ci/README.md lists ("Baselines"). Noise floor and speed are optional; old folders lack
+/// manifest.json.
 struct Baseline {
   FinishedRun run;
   std::optional<reports::NoiseFloor> noise_floor;
@@ -41,7 +37,7 @@ Baseline load_baseline(const std::string& folder);
 
 /// What is read back.
 struct Provenance {
-  std::string results_hash;  ///< of results.json
+  std::string results_hash;
   reports::StageTimes times;
 };
 /// Throws: Error(where, field, found, expected).

@@ -20,7 +20,6 @@ struct Estimated {
   std::optional<reports::ConfidenceInterval> interval;
 };
 
-/// Over all values.
 std::optional<double> mean(const Sample& sample);
 Estimated estimate_mean(const Sample& sample);
 

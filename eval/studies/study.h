@@ -63,7 +63,6 @@ Runs run_settings(const StudyContext& context, const std::vector<Setting>& setti
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
                    const std::vector<std::string>& databases, Implementation implementation,
                    const std::vector<std::string>& trajectories = {});
-/// For tables.
 std::string times_explanation();
 
 /// Of one setting and database, by trajectory, then seed.

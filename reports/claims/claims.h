@@ -20,7 +20,6 @@ struct Rule {
   friend bool operator==(const Rule&, const Rule&) = default;
 };
 using glovebench::to_string;
-/// As in claims.json.
 constexpr auto names_of(Rule::Kind) {
   return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});
 }

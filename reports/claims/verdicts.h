@@ -37,11 +37,7 @@ bool are_claims_judged(const RunResult& result);
 /// Of Figures 4 to 6 and the studies, as far as run; none if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
 
-/// Verdicts in the order of the claims. A claim
-/// - does not hold if the number or the whole interval breaks the rule;
-/// - holds if number and whole interval, if any, satisfy it;
-/// - is inconclusive if only part of the interval does, or number or interval is missing or invalid (not finite,
-/// wrong order).
+/// In the order of the claims, by the rules of reports/README.md ("Claims").
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
 /// Outcomes of required claims that are not withdrawn.

@@ -19,7 +19,6 @@ std::string data_note(const std::string& table);
 /// Figure 4 or other experiments' errors; Figures 5 and 6 with keyframes, if run.
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
-/// With charts and tables.
 std::vector<Section> study_sections(const RunResult& result);
 
 /// Keyframes of a curve; place and slider of one frame for data/page_frames.js.

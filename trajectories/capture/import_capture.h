@@ -34,7 +34,6 @@ PostureSet postures_of(const HandFit& fit, const std::string& name, size_t count
 /// A CSV with a line for each frame.
 std::string residual_table(const HandFit& fit);
 
-/// A summary in one line.
 std::string summary(const HandFit& fit);
 
 }  // namespace glovebench::trajectories

@@ -66,7 +66,7 @@ class DdsWriter {
       : topic_(topic),
         writer_(participant.make_writer(participant.make_topic(DdsType<Message>::descriptor(), topic))) {}
 
-  /// `source_ns`: source time since 1970.
+  /// `source_ns`: since 1970.
   void write(const Message& message, int64_t source_ns) const {
     checked_dds(DdsType<Message>::write(writer_, message, source_ns), topic_, "a message to be sent");
   }
@@ -99,7 +99,7 @@ class DdsOtherWriters {
   std::vector<std::string> topics_;
   dds_instance_handle_t own_ = 0;
   dds_entity_t publications_;
-  std::map<dds_instance_handle_t, std::string> writers_;  ///< others, and their topics
+  std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with topics
 };
 
 /// A reader ignores messages of further writers.
@@ -108,7 +108,6 @@ inline constexpr size_t kMostWriters = 64;
 /// Such ignored messages since the process began.
 int64_t dds_messages_of_too_many();
 
-/// Finds the process of each writer.
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}

@@ -24,7 +24,7 @@ struct DdsServerOptions {
 };
 
 struct DdsServerSummary {
-  std::string text;  ///< one line
+  std::string text;
   int64_t lost_log_lines = 0;
 };
 

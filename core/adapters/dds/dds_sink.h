@@ -30,8 +30,8 @@ class DdsSink : public RobotCommandSink {
   /// Waits up to 1 s until listeners have everything.
   void finish() override;
 
-  int64_t sent() const { return sent_; }  ///< commands
-  int listeners() const;                  ///< least of all topics
+  int64_t sent() const { return sent_; }
+  int listeners() const;  ///< least of all topics
 
  private:
   DdsParticipant participant_;

@@ -15,7 +15,6 @@ namespace glovebench::trajectories {
 inline constexpr int kMovementFrames = 100;            ///< of a movement known by name
 inline constexpr uint64_t kMostMovements = 1'000'000;  ///< largest seed
 
-/// What movements are made from.
 struct MovementMaterial {
   PostureSet gestures;                              ///< random postures keep away from them
   PostureSet captured;                              ///< for captured families
@@ -33,7 +32,6 @@ Trajectory generate_movement(const MovementFamily& family, uint64_t seed, const 
 
 /// "side_3": the movement of a family and a seed.
 std::string movement_name(const MovementFamily& family, uint64_t seed);
-/// A movement by its name.
 struct NamedMovement {
   const MovementFamily* family = nullptr;
   uint64_t seed = 0;

@@ -74,7 +74,6 @@ constexpr auto names_of(Receipt) {
 }
 static_assert(kCountOf<Receipt> == static_cast<int>(Receipt::accepted) + 1, "each value has a name");
 
-/// A server's command to its joints.
 struct RobotState {
   int64_t clock_us = 0;  ///< monotonic
   CommandState state = CommandState::stopped;

@@ -21,16 +21,14 @@ struct ServerTime {
 };
 
 struct Arrival {
-  uint64_t sender = 0;    ///< identifies a process
-  int64_t source_ns = 0;  ///< DDS's source time
-  int64_t now_us = 0;     ///< reception, monotonic
+  uint64_t sender = 0;  ///< identifies a process
+  int64_t source_ns = 0;
+  int64_t now_us = 0;  ///< reception, monotonic
 };
 
 /// Decides which messages a server follows: good, fresh ones of one owner, in time order.
 /// core/adapters/dds/README.md ("The server") has the rules. Reads no clock.
-/// A message is stale if it is older than `silence_s` or comes within 0.1 s after a gap. A stream is `starting` for
-/// 0.2 s at its begin, after a gap, and after a jump of its sender's clock. A gap, or a jump of the owner's clock,
-/// releases the owner and ends its goals.
+/// A gap of ticks, or a jump of the owner's clock, releases the owner and ends its goals.
 class CommandStream {
  public:
   /// `topics`: how many.
@@ -54,7 +52,7 @@ class CommandStream {
   int64_t count(Receipt receipt) const { return receipts_[static_cast<size_t>(receipt)]; }
 
  private:
-  /// Delays on one topic of one sender.
+  /// On one topic of one sender.
   struct Delays {
     std::deque<std::pair<int64_t, int64_t>> smallest;  ///< of each second: start, smallest delay, us
     std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time, us

@@ -30,10 +30,10 @@ class LogWriter {
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
-    uint64_t done = 0;       ///< written or lost up to this line
-    uint64_t durable = 0;    ///< lines after `failed`, up to this one, are on the disk; 0: device or pipe
-    uint64_t failed = 0;     ///< this or an earlier line may be lost
-    int64_t lost = 0;        ///< lines
+    uint64_t done = 0;     ///< written or lost up to this line
+    uint64_t durable = 0;  ///< lines after `failed`, up to this one, are on the disk; 0: device or pipe
+    uint64_t failed = 0;   ///< this or an earlier line may be lost
+    int64_t lost = 0;
     std::string failure;     ///< the first
     bool misplaced = false;  ///< the file was removed, renamed or cut
   };

@@ -11,13 +11,13 @@
 
 namespace glovebench {
 
-/// A received message, for the log (core/adapters/dds/README.md).
+/// For the log (core/adapters/dds/README.md).
 struct ReceivedLine {
   int64_t time_us = 0;  ///< reception, system time
   std::string_view topic;
   Receipt receipt = Receipt::accepted;
-  int64_t stamp_ns = 0;   ///< of its header
-  int64_t source_us = 0;  ///< DDS's source time
+  int64_t stamp_ns = 0;  ///< of its header
+  int64_t source_us = 0;
 };
 
 /// JSON without the line's end; angles rounded to 1e-6 degrees; `time_us` is system time.
@@ -40,7 +40,6 @@ std::optional<LoggedState> last_state(std::string_view log, const std::vector<st
 /// Throws: Error if it has other joints, or a minimum above its maximum.
 std::optional<JointInterval> last_interval(std::string_view log, const std::vector<std::string>& names,
                                            const std::string& path);
-/// A state's time and age as text.
 std::string age_text(const LoggedState& state, int64_t now_us);
 /// Default of `max_age_s`; a failed server is restarted sooner.
 inline constexpr double kMaxLogAge = 600;
