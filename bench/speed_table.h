@@ -22,7 +22,7 @@ struct EngineRatio {
   double ratio = 0;
   double low = 0, high = 0;  ///< over repetitions
 };
-/// By stage, plain first.
+/// Ratios by stage, plain first.
 std::vector<EngineRatio> engine_ratios(const Measurements& measurements);
 
 /// Compares a stage's time with the least for reading its bytes.

@@ -20,7 +20,7 @@ struct CommandStream {
 };
 CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
                             const CommandLimits& limits);
-/// Of a perfect tracker.
+/// Results of a perfect tracker.
 std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
 /// Compares commands with the truth's at equal time stamps. Errors are of `following` commands; jerk needs four in

@@ -28,17 +28,17 @@ struct LabelErrors {
   int interior_mislabeled = 0;
   std::array<int, kColorCount + 1> glove_of{}, missed_of{};
 
-  /// Of labeled pixels; 0 without any.
+  /// Share of labeled pixels; 0 without any.
   double wrong_share() const;
-  /// Of glove pixels, at least one.
+  /// Share of glove pixels, of which there must be one.
   double missed_share() const;
   double mislabeled_share() const;
-  /// Of interior, and of all other glove pixels; at least one.
+  /// Shares of interior and of all other glove pixels, of which there must be one.
   double interior_mislabeled_share() const;
   double border_mislabeled_share() const;
   /// 0 for an unseen color.
   double missed_share_of(int color) const;
-  /// By missed share.
+  /// The color with the largest missed share.
   int worst_color() const;
   LabelErrors& operator+=(const LabelErrors& other);
 };

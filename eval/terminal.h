@@ -24,7 +24,7 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// Of stdout, at least 60; 80 without a terminal.
+/// Width of stdout, at least 60; 80 without a terminal.
 size_t terminal_columns();
 
 /// Lets each `Progress` log a line every `interval` s if stderr is no terminal.

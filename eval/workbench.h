@@ -40,7 +40,7 @@ class Workbench {
   const RgbdCalibration& calibration() const { return config_.calibration; }
   /// For the synthetic Kinect's cameras, whatever `calibration` is: colors do not depend on geometry.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
-  /// By the name of its postures.
+  /// The database of a posture set's name.
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
   /// Registers a database (*.glovedb) or postures (*.csv, *.json) and returns its name; returns other text
@@ -51,14 +51,14 @@ class Workbench {
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// For inspection of stages.
+  /// A tracker whose stages can be inspected.
   /// Throws: Error if another method is configured.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 
  private:
   WorkbenchConfig config_;
   DatabaseCache database_cache() const;
-  /// Of the program's data or an added file.
+  /// From the program's data or an added file.
   PostureSet postures_of(const std::string& name) const;
 
   std::recursive_mutex mutex_;

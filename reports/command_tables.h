@@ -9,7 +9,7 @@ namespace glovebench::reports {
 
 bool has_commands(const RunResult& result);
 
-/// For the tables below, which have a row for each experiment.
+/// Explains the tables below, which have a row for each experiment.
 std::string command_explanation();
 Table command_stream_table(const RunResult& result);
 /// Changed or refused commands by reason; no rows without any.
@@ -21,7 +21,7 @@ Table command_latency_table(const RunResult& result, const Timings& timings);
 
 /// tables/commands.csv, without times.
 std::string commands_csv(const RunResult& result);
-/// For summary.md; empty without commands.
+/// The section of summary.md; empty without commands.
 std::string commands_markdown(const RunResult& result);
 
 }  // namespace glovebench::reports

@@ -98,7 +98,7 @@ struct ExperimentResult {
   std::vector<SeedRun> runs;
   // Computed by `summarize`, or passed through.
   Coverage coverage;
-  /// By frame_metrics(), over all frames and seeds with a value.
+  /// In the order of frame_metrics(), over all frames and seeds with a value.
   std::vector<Aggregate> aggregates = std::vector<Aggregate>(frame_metrics().size());
   std::vector<std::optional<ConfidenceInterval>> intervals =
       std::vector<std::optional<ConfidenceInterval>>(frame_metrics().size());  ///< of the means

@@ -9,11 +9,11 @@
 
 namespace glovebench::reports {
 
-/// Of a frame, in results.json and CSV files.
+/// Columns of a frame in results.json and CSV files.
 std::vector<std::string> frame_columns(std::span<const std::string> metric_keys);
 nlohmann::ordered_json frame_row(const FrameRecord& frame, std::span<const std::string> metric_keys);
 
-/// As in reports/schema/results.schema.json, with the protocol's metrics that this program knows. Values are
+/// Follows reports/schema/results.schema.json, with the protocol's metrics that this program knows. Values are
 /// rounded to 1e-6; equal results give equal bytes.
 std::string results_json(const RunResult& result);
 void write_results(const std::string& path, const RunResult& result);

@@ -52,7 +52,7 @@ struct Table {
 
   friend bool operator==(const Table&, const Table&) = default;
 };
-/// For people; without rows.
+/// An empty table for people.
 Table table_of(const std::vector<std::string>& headings, int name_columns = 1);
 
 /// Throws: std::logic_error for an unknown key.
@@ -71,7 +71,8 @@ std::string to_markdown(const Table& table);
 std::string to_html(const Table& table, const std::vector<std::string>& plots = {});
 /// A booktabs tabular to \input. `heading`: LaTeX rows above the headings, such as to span columns.
 std::string to_latex(const Table& table, const std::string& heading = "");
-/// For a terminal; the widest columns shrink to fit. `grouped`: the first column becomes a line above its rows.
+/// Text for a terminal; the widest columns shrink to fit. `grouped`: the first column becomes a line above its
+/// rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
 /// Keys, then values to 1e-6. `names`: columns in front, with the value of every row.
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});

@@ -30,7 +30,7 @@ struct Timings {
   std::string commit;
   std::string date;  ///< ISO 8601, UTC
   double wall_s = 0;
-  /// Of the process, since experiments run side by side.
+  /// The whole process's, since experiments run side by side.
   std::optional<double> peak_memory_mb;
   std::vector<ExperimentTiming> experiments;
 };

@@ -9,7 +9,7 @@ namespace glovebench::trajectories {
 
 /// Without spaces, tabs and carriage returns at the ends.
 std::string_view trimmed(std::string_view text);
-/// In a line.
+/// Largest number of cells in a line.
 inline constexpr size_t kMostCells = 1000;
 /// Trimmed parts; after kMostCells the rest is one part.
 std::vector<std::string_view> split(std::string_view text, char separator);

@@ -54,7 +54,7 @@ std::string canonical_text(const Trajectory& trajectory);
 /// Throws: Error.
 void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
-/// Of the canonical file; identifies a truth in results.
+/// Hash of the canonical file; identifies a truth in results.
 std::string hash(const Trajectory& trajectory);
 
 }  // namespace glovebench::trajectories

@@ -14,7 +14,7 @@ namespace glovebench {
 /// "?" replaces unprintable bytes.
 std::string printable(std::string_view text);
 
-/// In quotes, escaped as in JSON.
+/// An excerpt in quotes, escaped as in JSON.
 std::string quoted_excerpt(std::string_view text);
 
 /// A value; only the kind of an array or object.

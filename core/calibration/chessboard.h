@@ -22,7 +22,7 @@ void check_chessboard(const Chessboard& board, const std::string& where);
 /// Inner corners row by row, uv_px. A picture does not tell which end of the board comes first.
 using Corners = std::vector<Eigen::Vector2d>;
 
-/// In the board's frame, z = 0.
+/// Inner corners in the board's frame, z = 0.
 std::vector<Eigen::Vector3d> corners_on(const Chessboard& board);
 
 /// Subpixel accuracy; empty unless the whole board is visible.

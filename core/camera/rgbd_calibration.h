@@ -29,7 +29,7 @@ struct RgbdCalibration {
   LensDistortion ir_lens = {}, rgb_lens = {};                  ///< the device's
 
   bool has_lens() const { return !(ir_lens.is_none() && rgb_lens.is_none()); }
-  /// For rectified images.
+  /// The same without lenses, for rectified images.
   RgbdCalibration rectified() const {
     RgbdCalibration calibration = *this;
     calibration.ir_lens = calibration.rgb_lens = {};

@@ -24,7 +24,7 @@ TinyImages make_tiny_images(const LabelImage& labels, const Square& square, cons
 /// Paper: equation (2).
 float distance(const Database& database, int entry, const LabelImage& query);
 
-/// For every entry.
+/// `distance` of every entry.
 std::vector<float> distances(const Database& database, const LabelImage& query);
 
 struct LookUpTrace {

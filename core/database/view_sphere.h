@@ -33,10 +33,10 @@ struct HandImages {
 class ViewRenderer {
  public:
   virtual ~ViewRenderer() = default;
-  /// Of the nearest surfaces, 0 elsewhere.
+  /// Labels of the nearest surfaces, 0 elsewhere.
   virtual LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                    const Eigen::Isometry3d& T_camera_hand) = 0;
-  /// Of the nearest surfaces.
+  /// Labels, patches and depth of the nearest surfaces.
   virtual HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                 const Eigen::Isometry3d& T_camera_hand) = 0;
 };

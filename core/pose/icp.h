@@ -33,7 +33,7 @@ struct Alignment {
 };
 
 RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
-/// By the smallest stride that leaves at most `max_points`.
+/// Takes the smallest stride that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
 /// The given rotation; centers the camera-facing faces on the cloud.

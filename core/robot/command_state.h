@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// What the robot does.
+/// The robot's task.
 enum class CommandState {
   following,  ///< goes to the targets
   holding,    ///< hand not seen: stays at the last targets

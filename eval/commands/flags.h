@@ -77,7 +77,7 @@ struct FileFlag {
   std::string flag;
   std::string path;  ///< empty: none
 };
-/// For all files that a command writes or could overwrite.
+/// Checks all files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
 

@@ -50,7 +50,7 @@ struct OptionText {
   bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// For help, man page and completion.
+/// A command as help, man page and completion show it.
 struct CommandText {
   std::string name;
   std::string description;

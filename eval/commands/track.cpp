@@ -51,7 +51,7 @@ struct Track {
   BusFlags bus;
   std::string topics = "own";  ///< to which commands are sent
 
-  // Of the run.
+  // State of the run.
   int frames = 0, unusable = 0, tracked = 0;
   std::optional<Error> failure;  ///< of the device, or of a command
   bool is_whole = true;          ///< all commands succeeded and all lines were written

@@ -35,7 +35,7 @@ struct Baseline {
 /// Throws: Incomparable without a baseline, or if its results were changed by hand; Error.
 Baseline load_baseline(const std::string& folder);
 
-/// What is read back.
+/// The part of provenance.json that is read back.
 struct Provenance {
   std::string results_hash;
   reports::StageTimes times;

@@ -32,7 +32,7 @@ struct Study {
   reports::StudyResult (*run)(const StudyContext& context);
   double cpu_s;  ///< of one seed, roughly
 };
-/// In running order.
+/// All studies in running order.
 const std::vector<Study>& studies();
 /// Throws: Error listing known names.
 const Study& study(std::string_view name);
@@ -65,7 +65,7 @@ Runs time_settings(const StudyContext& context, const std::vector<Setting>& sett
                    const std::vector<std::string>& trajectories = {});
 std::string times_explanation();
 
-/// Of one setting and database, by trajectory, then seed.
+/// Runs of one setting and database, by trajectory, then seed.
 using Selection = std::vector<const MeasuredRun*>;
 /// At least one. `runs` must outlive the result.
 Selection select(const Runs& runs, std::string_view setting, std::string_view database);
@@ -75,7 +75,7 @@ Sample sample_of(const Selection& runs,
 Sample sample_of(const Selection& runs, std::string_view metric);
 /// [trajectory][seed].
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs);
-/// Of a stage (empty: whole frames), all frames and runs.
+/// Times of a stage (empty: of whole frames), all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
 

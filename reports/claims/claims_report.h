@@ -22,13 +22,13 @@ std::string judging_text();
 
 /// At most 120 columns; then `if_not` of claims that do not hold.
 std::string claims_table(const std::vector<ClaimVerdict>& verdicts);
-/// For summary.md; empty if nothing was run.
+/// The section of summary.md; empty if nothing was run.
 std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts);
 /// tables/claims.csv: a line for each claim.
 std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& verdicts);
 /// claims.json: verdicts, histories and judging.
 std::string claims_json(const std::vector<ClaimVerdict>& verdicts);
-/// For the page, with histories. Folds away claims that were not run.
+/// The page's section, with histories. Folds away claims that were not run.
 std::string claims_section(const std::vector<ClaimVerdict>& verdicts);
 
 }  // namespace glovebench::reports

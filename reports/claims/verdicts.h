@@ -37,7 +37,7 @@ bool are_claims_judged(const RunResult& result);
 /// Of Figures 4 to 6 and the studies, as far as run; none if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
 
-/// In the order of the claims, by the rules of reports/README.md ("Claims").
+/// Judges in the order of the claims, by the rules of reports/README.md ("Claims").
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
 /// Outcomes of required claims that are not withdrawn.

@@ -47,7 +47,7 @@ class DdsParticipant {
   dds_entity_t entity() const { return entity_; }
 
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
-  /// As in ROS 2: reliable, volatile, the last 10.
+  /// Writes as ROS 2 does: reliable, volatile, the last 10.
   dds_entity_t make_writer(dds_entity_t topic) const;
   /// Reliable, volatile. After `max_waiting` messages senders wait, so a flood pushes out no other's message.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;

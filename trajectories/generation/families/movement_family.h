@@ -47,7 +47,7 @@ struct MovementFamily {
   bool captured = false;       ///< postures of people instead of random ones
 };
 
-/// In the order of lists.
+/// All families in the order of lists.
 std::span<const MovementFamily> movement_families();
 std::vector<std::string> movement_family_names();
 /// Throws: Error listing known names.

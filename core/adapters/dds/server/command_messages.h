@@ -88,7 +88,7 @@ inline constexpr const char* kBaseFrame = "base_link";
 const std::vector<std::string>& hand_trajectory_names();
 const std::vector<std::string>& wrist_trajectory_names();
 const std::vector<std::string>& hand_joint_names();
-/// From base to flange.
+/// Names from base to flange.
 const std::vector<std::string>& arm_joint_names();
 
 /// Throws: Error for times outside ROS's 0 to 2^31 s.

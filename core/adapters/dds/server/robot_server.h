@@ -52,7 +52,7 @@ class RobotServer {
   /// Throws: Error if the start is farther outside, or the limits have problems.
   RobotServer(const CommandLimits& limits, const ServedRobot& robot, const StartPlace& start);
 
-  /// For topics of the server's joints.
+  /// Takes a message on a topic of the server's joints.
   Receipt receive(RobotTopic topic, const ros::JointTrajectory& message, const Arrival& arrival);
   Receipt receive(RobotTopic topic, const ros::PoseStamped& message, const Arrival& arrival);
   /// The joints' next state; time must have advanced. `may_move`: false holds them.

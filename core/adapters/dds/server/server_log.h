@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// For the log (core/adapters/dds/README.md).
+/// A received message in the log (core/adapters/dds/README.md).
 struct ReceivedLine {
   int64_t time_us = 0;  ///< reception, system time
   std::string_view topic;
