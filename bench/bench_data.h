@@ -20,30 +20,30 @@ struct Movement {
   std::vector<HandFrame> frames;
 };
 
-/// Every 19th frame of the five source trajectories, on which the robust alignment's width was chosen.
+/// Every 19th frame of the five source trajectories; the robust alignment's width was chosen on them.
 std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
 
-/// 70 fixed frames of ten random movements; nothing is tuned on them.
+/// 70 fixed frames of ten random movements, for no tuning.
 std::vector<Movement> held_out_movements(const std::string& trajectory_folder);
 
-/// GLOVEBENCH_CACHE, else the user's cache folder, else a new temporary one.
+/// GLOVEBENCH_CACHE, the user's cache folder or a new temporary one.
 /// Throws: Error.
 std::string default_cache_folder();
-/// Only this user can access it.
+/// Private to this user.
 /// Throws: Error.
 std::string new_temporary_folder();
 
 struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";
-  std::string frames = "tuned";  ///< "tuned" or "held-out"
-  /// Frames whose true labels make the color table: "same" or "other".
+  std::string frames = "tuned";  ///< or "held-out"
+  /// Frames whose labels make the color table: "same" or "other".
   std::string colors = "same";
 };
 
 /// A frame and each stage's result.
 struct BenchFrame {
-  HandFrame hand;             ///< the truth
+  HandFrame hand;
   render::RgbdImages images;  ///< without noise
   DeviceFrame device;
   FrameTrace trace;
@@ -66,21 +66,21 @@ struct BenchData {
   DatabaseCache cache() const;
 };
 
-/// Makes `data`, before any benchmark.
+/// Makes `data`.
 /// Throws: Error.
 void prepare(const Settings& settings);
 const BenchData& data();
 
-/// Shown if the build lacks a library; no failure.
+/// Shown for a library that the build lacks.
 inline constexpr const char* kMissing = "missing";
 
 /// Adds a counter: time for one of `count` items.
 void set_time_each(benchmark::State& state, const std::string& name, size_t count);
 
-/// Least bytes touched for one item.
+/// Least bytes for one item.
 struct BytesTouched {
-  double near = 0;  ///< in the core's caches
-  double far = 0;   ///< behind them
+  double near = 0;  ///< in caches
+  double far = 0;   ///< behind caches
 };
 inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";
 void set_bytes_touched(benchmark::State& state, const BytesTouched& touched);

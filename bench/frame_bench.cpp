@@ -1,4 +1,4 @@
-// Tracking one device frame: the whole, and what each stage takes of it.
+// Tracking one device frame: the whole, and each stage.
 
 #include <chrono>
 #include <map>
@@ -12,14 +12,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Adds up the wall time of each stage.
+/// Sums the wall time of each stage.
 class StageTimes {
  public:
   void begin(Stage stage) {
     end();
     current_ = stage;
   }
-  /// Of the stage that runs.
+  /// Ends the running stage, if any.
   void end() {
     const Clock::time_point now = Clock::now();
     if (current_) seconds_[*current_] += std::chrono::duration<double>(now - start_).count();

@@ -136,7 +136,7 @@ void set_both_errors(benchmark::State& state, const Align& align_posed) {
   state.counters["frames"] = static_cast<double>(data().frames.size());
 }
 
-/// Of the robust alignment with weights of so many percent of the textbook's width.
+/// Errors of the robust alignment; the argument is the width of its weights in percent of the textbook's.
 void robust_errors(benchmark::State& state) {
   const IcpConfig config = config_of("robust", Implementation::fast, 1000);
   set_both_errors(state, [&](const BenchFrame& frame, const PosedHand& posed) {

@@ -8,33 +8,32 @@
 namespace glovebench::bench {
 
 struct Measured {
-  std::map<int64_t, double> seconds;  ///< CPU time for one item, by repetition
+  std::map<int64_t, double> seconds;  ///< CPU time for an item, by repetition
   bool missing = false;
-  double near_bytes = 0, far_bytes = 0;  ///< for one item; 0: unknown
+  double near_bytes = 0, far_bytes = 0;  ///< for an item; 0: unknown
 };
 using Measurements = std::map<std::string, Measured>;
 
-/// STAGE/ENGINE compared with STAGE/fast in one process.
+/// Compares STAGE/ENGINE with STAGE/fast.
 struct EngineRatio {
   std::string stage, engine;
   bool missing = false;                  ///< numbers are 0
   double seconds = 0, fast_seconds = 0;  ///< medians
-  double ratio = 0;                      ///< of the medians
-  double low = 0, high = 0;              ///< over repetitions
+  double ratio = 0;
+  double low = 0, high = 0;  ///< over repetitions
 };
-/// By stage, plain first.
+/// Ratios by stage, plain first.
 std::vector<EngineRatio> engine_ratios(const Measurements& measurements);
 
-/// A stage's time compared with the least for reading its bytes.
+/// Compares a stage's time with the least for reading its bytes.
 struct StageFloor {
   std::string benchmark;
   double bytes = 0;
   double floor_seconds = 0;
   double seconds = 0;  ///< median
 };
-/// Benchmarks of the first caches, and of memory behind them.
 inline const std::string kNearBandwidth = "read_bandwidth/near", kFarBandwidth = "read_bandwidth/far";
-/// Empty unless both bandwidths were measured.
+/// Empty without both bandwidths.
 std::vector<StageFloor> stage_floors(const Measurements& measurements);
 
 std::string ratio_lines(const std::vector<EngineRatio>& ratios);

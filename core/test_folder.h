@@ -1,7 +1,5 @@
 #pragma once
 
-// Folders for tests.
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -18,7 +18,7 @@ struct ColorTableConfig {
   std::vector<render::Lighting> lightings = calibration_lightings();
   ColorModel model;
 };
-/// For comparison: one lighting (strength 1, 4500 K), no relighting.
+/// For comparison: one lighting (strength 1, 4500 K) without relighting.
 ColorTableConfig one_lighting(ColorSpace space);
 
 /// Calibrates from rendered, labeled views of the gloved hand.
@@ -29,8 +29,7 @@ ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCa
 /// Hash of the sources behind `calibrate_colors`.
 std::string color_table_source_hash();
 
-/// With all lightings; cached in `folder` by the hash of inputs and sources. A damaged or outdated file is
-/// replaced.
+/// With all lightings; cached in `folder` by the hash of inputs and sources. Replaces a damaged or outdated file.
 ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space = ColorSpace::yuv);

@@ -12,22 +12,22 @@
 
 namespace glovebench::eval {
 
-/// Robot commands for tracker results, as `track` sends them.
+/// Robot commands as `track` sends them.
 struct CommandStream {
-  std::vector<RobotCommand> commands;  ///< in time order, at most one per result
-  std::vector<double> command_ms;      ///< processor time, one per result
+  std::vector<RobotCommand> commands;  ///< in time order, at most one a result
+  std::vector<double> command_ms;      ///< processor time by result
   Interventions interventions;
 };
 CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
                             const CommandLimits& limits);
-/// What a perfect tracker answers.
+/// Results of a perfect tracker.
 std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
-/// Compares commands with the truth's at equal time stamps. Errors use `following` commands; jerk needs four in a
-/// row.
+/// Compares commands with the truth's at equal time stamps. Errors are of `following` commands; jerk needs four in
+/// a row.
 class CommandMeasurement {
  public:
-  /// `frames`: all of the pass, with or without commands.
+  /// `frames`: all of the pass.
   void add(const CommandStream& stream, const CommandStream& of_truth, int frames);
   reports::CommandResult result() const;
 
@@ -50,7 +50,7 @@ class CommandMeasurement {
 };
 
 struct RobotOutput {
-  std::string folder = {};  ///< JSON Lines, one file per run; empty: none
+  std::string folder = {};  ///< of JSON Lines, a file for each run; empty: none
   RobotSetup setup = {};
   CommandLimits limits = {};
   nlohmann::json configuration = {};  ///< for the results; null: none

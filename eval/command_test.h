@@ -17,7 +17,7 @@ namespace glovebench::eval {
 /// A folder with good.json (right hand) and left.json.
 class CommandTest : public testing::Test {
  protected:
-  static constexpr int kFrames = 4;  ///< per trajectory
+  static constexpr int kFrames = 4;  ///< a trajectory
 
   void SetUp() override {
     folder_ = test_folder();

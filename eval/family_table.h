@@ -8,8 +8,8 @@
 
 namespace glovebench::eval {
 
-/// The errors of generated movements by family, as a table: a row for each family, database, hand and noise, with
-/// means over movements and their 95% intervals (Student's t over movements). Empty if no run is of a family.
+/// Errors of generated movements: a row for each family, database, hand and noise, with means and Student's 95%
+/// intervals over movements. Empty without such runs.
 std::optional<reports::StudyResult> family_table(std::span<const MeasuredRun> runs);
 
 }  // namespace glovebench::eval

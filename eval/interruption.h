@@ -4,8 +4,8 @@
 
 namespace glovebench::eval {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program; SIGHUP
-/// never does. nohup keeps working.
+/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program. nohup
+/// keeps working.
 class Interruption {
  public:
   Interruption();

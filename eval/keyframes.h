@@ -10,13 +10,13 @@
 
 namespace glovebench::eval {
 
-/// The IR camera, cropped and scaled to a tile that holds the glove of every frame. Needs a frame.
-/// Units: tile size in px.
+/// The IR camera, cropped and scaled to a tile with the glove of every frame, at least one.
+/// Units: px of the tile.
 PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,
                             int tile_width, int tile_height);
 
-/// Two tiles per frame, without noise: true hand in color, and estimated minus true depth. `estimates` are of one
-/// seed, one per frame; a lost frame shows the true hand in gray.
+/// Two tiles a frame, without noise: the true hand in color, and estimated minus true depth. `estimates`: one seed,
+/// one a frame; a lost frame shows the true hand in gray.
 /// Paper: pictures under Figures 5 and 6.
 reports::FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
                                      std::span<const HandFrame> frames,

@@ -15,43 +15,43 @@ namespace glovebench::eval {
 /// For tests: strength 0.5 to 2, 3000 to 6500 K, new directions.
 std::vector<render::Lighting> held_out_lightings();
 
-/// Label errors of a color table, in IR pixels. Glove pixels without color are left out; labels count inside the
+/// Label errors of a color table, in IR pixels. Leaves out glove pixels without color; labels count inside the
 /// working volume only.
 struct LabelErrors {
   int glove = 0;       ///< true glove pixels
-  int missed = 0;      ///< glove pixels without a label
+  int missed = 0;      ///< of these, without a label
   int labeled = 0;     ///< pixels with a label
   int wrong = 0;       ///< pixels with a false label
   int mislabeled = 0;  ///< glove pixels without the true label
   int interior = 0;    ///< glove pixels whose 8 neighbors have the same true label
   int interior_missed = 0;
   int interior_mislabeled = 0;
-  std::array<int, kColorCount + 1> glove_of{}, missed_of{};  ///< per color
+  std::array<int, kColorCount + 1> glove_of{}, missed_of{};
 
-  /// Of labeled pixels; 0 if there are none.
+  /// Share of labeled pixels; 0 without any.
   double wrong_share() const;
-  /// Of glove pixels; there must be some.
+  /// Share of glove pixels, of which there must be one.
   double missed_share() const;
   double mislabeled_share() const;
-  /// Of interior pixels, and of all other glove pixels; there must be some.
+  /// Shares of interior and of all other glove pixels, of which there must be one.
   double interior_mislabeled_share() const;
   double border_mislabeled_share() const;
-  /// 0 if the color is not seen.
+  /// 0 for an unseen color.
   double missed_share_of(int color) const;
-  /// By missed share.
+  /// The color with the largest missed share.
   int worst_color() const;
   LabelErrors& operator+=(const LabelErrors& other);
 };
 
-/// After labeling: nothing (the paper), majority_filter or surface_majority.
+/// After labeling: none (the paper), majority_filter or surface_majority.
 enum class LabelFilter { none, majority, surface };
 
-/// Labels one frame as the paper does, then filters.
+/// Labels as the paper does, then filters.
 LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& frame,
                          const RgbdCalibration& calibration, const ColorTable& table,
                          LabelFilter filter = LabelFilter::none);
 
-/// [lighting][table], over the same four frames of Tr1 and Tr4, with the paper's noise.
+/// [lighting][table], over four frames of Tr1 and Tr4, with the paper's noise.
 std::vector<std::vector<LabelErrors>> measure_label_errors(
     Workbench& workbench, int subject, std::span<const render::Lighting> lightings,
     std::span<const std::shared_ptr<const ColorTable>> tables);

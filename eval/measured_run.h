@@ -9,7 +9,7 @@ namespace glovebench::eval {
 
 struct MeasuredRun {
   Run run;
-  std::vector<reports::FrameErrors> errors;  ///< one per frame
+  std::vector<reports::FrameErrors> errors;  ///< by frame
 };
 
 /// `subject`: the rendered hand.

@@ -6,12 +6,12 @@
 
 namespace glovebench::eval {
 
-/// Chart scripts, sheets of Figures 5 and 6 if they were run, and the worst frames (paper's method only).
-/// Throws: Error if the program's data are missing.
+/// Chart scripts, sheets of Figures 5 and 6 if run, and the worst frames (paper's method only).
+/// Throws: Error without the program's data.
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// All tracker stages of one frame, tracked alone, so without the filter.
+/// All tracker stages of one frame, tracked alone and so without filter.
 /// Throws: Error if the frame does not exist or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
 

@@ -9,8 +9,8 @@ namespace glovebench::eval {
 
 struct Plan {
   TrackerConfig tracker;       ///< for all runs
-  std::vector<RunSpec> specs;  ///< runs of the same frames are neighbors
-  std::string suite = {};      ///< the suite's name; empty if none
+  std::vector<RunSpec> specs;  ///< with runs of the same frames in sequence
+  std::string suite = {};      ///< empty: none
   bool quick = false;          ///< few frames; no conclusions
 };
 
@@ -18,14 +18,13 @@ struct Figure4Options {
   std::vector<std::string> trajectories;  ///< empty: all five
   std::vector<uint64_t> seeds = {1};
   std::vector<reports::NoiseSetting> noises = {{}};
-  FrameRange frames;  ///< per trajectory
+  FrameRange frames;
 };
 /// Each ground truth with the databases that contain its grasp: recorded truth, source truth, source truth with
 /// subject 2.
 /// Paper: Figure 4.
 Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options);
 
-/// One line per experiment.
 std::string list_experiments(const Plan& plan);
 
 /// Experiments, seeds, frames, and which databases exist. Builds nothing.

@@ -13,7 +13,7 @@ namespace glovebench::eval {
 
 struct ProgramInfo {
   std::string version;
-  std::string commit;  ///< "unknown" if not built from a checkout; "-dirty" after changes
+  std::string commit;  ///< "unknown" outside a checkout; "-dirty" after changes
 };
 const ProgramInfo& program_info();
 
@@ -26,16 +26,16 @@ std::string share_folder();
 std::string hand_mesh_path();
 std::string trajectory_folder();
 std::string suite_folder();
-/// Chart scripts in running order, each after its license.
+/// Chart scripts in running order, with licenses.
 /// Throws: Error if one is missing.
 std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.
 std::string default_cache_folder();
 
-/// A generated movement by its name ("side_3"). Empty for another name.
+/// A generated movement by name ("side_3"); empty for other names.
 /// Throws: Error if the data folder is damaged.
 std::optional<trajectories::Trajectory> make_movement(const std::string& name);
-/// The built-in truth of an experiment. Null for a user's file.
+/// An experiment's built-in truth; null for a user's file.
 /// Throws: Error if the data folder is damaged.
 std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key);
 

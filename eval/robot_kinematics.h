@@ -8,22 +8,22 @@
 
 namespace glovebench::eval {
 
-/// Fingertip errors of a mapping, in the hand frame.
+/// A mapping's fingertip errors, hand frame.
 /// Units: m; `largest_step` rad.
 struct MappingErrors {
   int postures = 0;
   std::array<double, 5> tip_mean{}, tip_max{};  ///< thumb to little
-  int pinches = 0;                              ///< thumb and finger closer than `kPinch`
+  int pinches = 0;                              ///< thumb and finger within `kPinch`
   double gap_mean = 0, gap_max = 0;             ///< |robot's gap - human's|; 0 without pinches
-  double largest_step = 0;                      ///< of a joint between successive postures
+  double largest_step = 0;                      ///< of a joint, between successive postures
 };
-inline constexpr double kPinch = 0.02;  ///< m; fingertips (ends of bones) this close touch
+inline constexpr double kPinch = 0.02;  ///< m; such fingertips (ends of bones) touch
 
 using Mapping = std::function<ShadowHandTargets(const Posture&)>;
-/// For a right hand and at least one posture.
+/// Right hand; at least one posture.
 MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture>& postures, const Mapping& map);
 
-/// Printed by `glovebench list mapping`: all posture sets and source trajectories, both mappings.
+/// For `glovebench list mapping`: all posture sets and source trajectories, both mappings.
 std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling);
 
 }  // namespace glovebench::eval

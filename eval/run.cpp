@@ -37,7 +37,7 @@ class StageTimer {
     for (size_t i = 0; i < in_this_frame_.size(); ++i)
       if (in_this_frame_[i]) stage_ms_[i].push_back(*in_this_frame_[i]);
   }
-  /// Of the stages that ever began.
+  /// Times of the stages that ever began.
   std::vector<reports::StageTiming> take_stages() {
     std::vector<reports::StageTiming> stages;
     for (const Stage stage : all_values<Stage>()) {
@@ -65,7 +65,7 @@ class StageTimer {
   double start_ = 0, frame_start_ = 0;
 };
 
-/// Whether a tracker could track this frame: most of the visible glove is in the working volume, has enough pixels
+/// True if a tracker could track this frame: most of the visible glove is in the working volume, has enough pixels
 /// and does not touch the image border.
 bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config) {
   int within = 0, beyond = 0;
@@ -93,7 +93,7 @@ render::SyntheticKinectConfig kinect_config(const RunSpec& spec) {
   return config;
 }
 
-/// Whether specs that share images also share device frames.
+/// True if specs that share images also share device frames.
 bool share_noise(const RunSpec& a, const RunSpec& b) {
   return a.noise == b.noise && a.seed == b.seed;
 }

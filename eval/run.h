@@ -19,7 +19,7 @@ namespace glovebench::eval {
 
 struct FrameRange {
   int first = 0;             ///< >= 0
-  std::optional<int> count;  ///< >= 1; empty: all that follow
+  std::optional<int> count;  ///< >= 1; empty: all others
 
   friend bool operator==(const FrameRange&, const FrameRange&) = default;
 };
@@ -35,16 +35,16 @@ struct RunSpec {
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
-  std::string setting = {};  ///< a study's name for it, or a movement's family; no effect
+  std::string setting = {};  ///< a study's name for it, or a movement's family; without effect
 };
 
-/// From the true images.
+/// What the true images show.
 struct Sight {
-  std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
-  bool trackable = false;  ///< enough glove in the working volume, none cut by the image border
+  std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
+  bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
 };
 
-/// A tracker's answers, one per frame. measured_run.h computes the errors.
+/// A tracker's answers by frame; measured_run.h computes errors.
 struct Run {
   RunSpec spec;
   std::vector<TrackResult> answers;
@@ -63,10 +63,10 @@ bool share_images(const RunSpec& a, const RunSpec& b);
 
 struct RunOptions {
   int threads = 1;
-  RunStore* store = nullptr;  ///< loads the runs that it holds; stores the others
+  RunStore* store = nullptr;  ///< loads stored runs, stores others
 };
-/// Renders, adds noise and tracks; keeps the order of `specs`. Trackers get device frames and calibration only.
-/// Only times depend on `threads`. Neighbors that share images are rendered once.
+/// Renders, adds noise and tracks, in the order of `specs`. Trackers get only device frames and calibration.
+/// `threads` change only times. Neighbors that share images are rendered once.
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 

@@ -10,12 +10,12 @@ namespace glovebench::eval {
 
 /// Lossless CBOR, without the spec.
 std::string to_bytes(const Run& run);
-/// Empty if `bytes` are no run.
+/// Empty for other bytes.
 std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec);
 
 /// Lossless CBOR.
 std::string to_bytes(const reports::StudyResult& study);
-/// Empty if `bytes` are no study.
+/// Empty for other bytes.
 std::optional<reports::StudyResult> study_from_bytes(const std::string& bytes);
 
 }  // namespace glovebench::eval

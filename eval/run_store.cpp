@@ -27,7 +27,7 @@ constexpr uint64_t kLargestContent = uint64_t{256} << 20;  // bytes: a million f
 constexpr const char* kMark = "/.unfinished";
 constexpr const char* kDone = ".finished-";  // prefix of a mark that is being removed
 
-/// Whether the path still leads to the open file.
+/// True if the path still leads to the open file.
 bool is_still_there(int descriptor, const std::string& path) {
   struct stat opened {
   }, present{};

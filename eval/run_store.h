@@ -6,31 +6,30 @@
 
 namespace glovebench::eval {
 
-/// Folder of a run in progress: locked, marked as unfinished, with finished parts, so the same command resumes
+/// The folder of a run in progress: locked, marked as unfinished, with finished parts. The same command resumes
 /// after a crash and writes the same bytes.
-///
-/// FOLDER/.unfinished/ is the mark. It holds `lock` (flock) and one file per part: a line with program hash, key
+/// FOLDER/.unfinished/ is the mark. It holds `lock` (flock) and a file for each part: a line with program hash, key
 /// and checksum, then the content.
 class RunStore {
  public:
   /// Throws: Error if another run holds the folder or it cannot be written.
   explicit RunStore(const std::string& folder);
-  /// Removes a new mark unless `begin` was called.
+  /// Removes a new mark, unless `begin` was called.
   ~RunStore();
   RunStore(const RunStore&) = delete;
   RunStore& operator=(const RunStore&) = delete;
 
-  /// From here on the mark stays until `finish`.
+  /// Keeps the mark until `finish`.
   void begin();
 
-  /// The part that this program stored, else empty. Removes a useless file; stderr says so once. Thread-safe.
+  /// A part that this program stored, else empty. Removes a useless file; stderr says so once. Thread-safe.
   std::optional<std::string> load(const std::string& key) const;
   /// Thread-safe.
   /// Throws: Error if it cannot be written.
   void save(const std::string& key, const std::string& content) const;
 
-  /// Removes mark and parts in one step.
-  /// Throws: Error if that fails.
+  /// Removes mark and parts at once.
+  /// Throws: Error.
   void finish();
 
  private:
@@ -44,7 +43,7 @@ class RunStore {
   mutable std::once_flag told_;  ///< about a useless file
 };
 
-/// Throws: reports::Incomparable for an unfinished run; Error if that is unknown.
+/// Throws: reports::Incomparable for an unfinished run, Error if that is unknown.
 void require_finished(const std::string& folder);
 
 }  // namespace glovebench::eval

@@ -13,11 +13,9 @@
 
 #include "core/tracker/track_result.h"
 
-// The terminal of a person: its width, and messages on stderr.
-
 namespace glovebench::eval {
 
-/// Drops text that nobody can read (full or closed pipe, lost terminal), so work never stops.
+/// Drops text that nobody can read (full or closed pipe, lost terminal): work never stops.
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
@@ -26,11 +24,10 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// Of stdout, 60 or more; 80 if it is no terminal.
+/// Width of stdout, at least 60; 80 without a terminal.
 size_t terminal_columns();
 
-/// Lets every `Progress` also log a line per `interval` where stderr is no terminal.
-/// Units: s.
+/// Lets each `Progress` log a line every `interval` s if stderr is no terminal.
 void log_progress(double interval);
 
 /// A bar for work over two seconds. Silent unless stderr is a terminal or `log_progress` was called. Thread-safe.
@@ -55,14 +52,14 @@ class Progress {
   int last_percent_ = -1;
 };
 
-/// Tracking status; the caller provides the clock.
+/// Tracking status. Reads no clock.
 class LiveStatus {
  public:
   static constexpr size_t kFrames = 60;  ///< two seconds
 
-  /// `time` of the result: s, never decreasing.
+  /// `time`: s, never decreasing.
   void add(double time, const TrackResult& result);
-  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped"; unknown values are dashes.
+  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped"; dashes for unknown values.
   std::string line(int dropped) const;
 
  private:
@@ -74,7 +71,7 @@ class LiveStatus {
   std::deque<Moment> moments_;
 };
 
-/// Twice a second; silent unless stderr is a terminal.
+/// At 2 Hz; silent unless stderr is a terminal.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);

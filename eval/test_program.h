@@ -69,7 +69,7 @@ struct ProgramSetting {
   _exit(127);
 }
 
-/// With the files of its output.
+/// A running program and the files of its output.
 struct StartedProgram {
   pid_t process = -1;
   std::string out;
@@ -100,7 +100,7 @@ inline ProgramRun run_program(const std::vector<std::string>& command, const Pro
   return finish_program(start_program(command, setting));
 }
 
-/// With the tests' cache.
+/// Starts glovebench with the tests' cache.
 inline StartedProgram start_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
   arguments.insert(arguments.begin(), build_paths::program("glovebench"));
   setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());

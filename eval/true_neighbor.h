@@ -16,16 +16,14 @@ struct TrueNeighbor {
 };
 
 /// Finds the entry with the smallest mean vertex distance to a true hand; ties go to the smaller entry.
-///
 /// Hands are compared at one origin and along one ray, which a look-up cannot see: the smallest rotation turns the
 /// ray through the middle of the bounding square (an entry's `box_ray`) to the optical axis.
-///
-/// `model` is the database's hand; both must outlive the search. Immutable, shared between threads.
+/// `model`: the database's hand; both must outlive the search. Immutable, shared between threads.
 class TrueNeighborSearch {
  public:
   TrueNeighborSearch(const HandModel& model, const Database& database);
 
-  /// The whole hand must be in front of the camera.
+  /// The hand must be in front of the camera.
   TrueNeighbor nearest(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                        const PinholeCamera& camera) const;
   /// Plain: every vertex of every entry.
@@ -33,7 +31,7 @@ class TrueNeighborSearch {
                              const PinholeCamera& camera) const;
 
  private:
-  /// Vertices, turned so that the hand's ray is the optical axis; origin at the hand's.
+  /// Vertices with the hand's ray turned to the optical axis; hand origin.
   Eigen::Matrix3Xd seen_along_ray(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                                   const PinholeCamera& camera) const;
   /// Centroids of the patches' vertices.
@@ -41,9 +39,9 @@ class TrueNeighborSearch {
   int posture_of(int entry) const { return entry / kViewCount; }
 
   const HandModel& model_;
-  std::vector<Eigen::Matrix3d> R_ray_hand_;      ///< per entry
-  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< per posture, m
-  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< per posture, m
+  std::vector<Eigen::Matrix3d> R_ray_hand_;      ///< by entry
+  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< by posture, m
+  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< by posture, m
   std::vector<int> patch_of_vertex_;
   Eigen::VectorXd vertex_weights_;  ///< equal, sum 1
   Eigen::VectorXd patch_weights_;   ///< vertex shares, sum 1

@@ -26,32 +26,32 @@ struct WorkbenchConfig {
   RgbdCalibration calibration = synthetic_calibration();
 };
 
-/// Shared by all experiments; made or loaded on first use. Thread-safe.
+/// What experiments share; made or loaded on first use. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);
 
   const WorkbenchConfig& config() const { return config_; }
   std::shared_ptr<const HandModel> model();
-  /// The hand of the package's mesh: subject 1's, and the tracker's unless `hand` is given.
+  /// Subject 1's hand, and the tracker's unless `hand` is given.
   std::shared_ptr<const HandModel> package_hand();
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
   /// For the synthetic Kinect's cameras, whatever `calibration` is: colors do not depend on geometry.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
-  /// By the name of its posture set.
+  /// The database of a posture set's name.
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
   /// Registers a database (*.glovedb) or postures (*.csv, *.json) and returns its name; returns other text
   /// unchanged.
   /// Throws: Error for another hand, other views or a taken name.
   std::string add_database(const std::string& name_or_file);
-  /// Whether `database(name)` builds nothing.
+  /// True if `database(name)` builds nothing.
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// For the inspection of stages.
+  /// A tracker whose stages can be inspected.
   /// Throws: Error if another method is configured.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 

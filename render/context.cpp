@@ -18,7 +18,7 @@ std::mutex& driver() {
   return mutex;
 }
 
-/// Whether this thread holds it.
+/// True if this thread holds it.
 thread_local bool draws = false;
 
 /// The one place where Mesa is configured. It reads the variables when the first context is made. What a user's

@@ -10,14 +10,14 @@ namespace glovebench::render {
 class Context {
  public:
   /// Makes it current.
-  /// Throws: Error if OpenGL refuses it.
+  /// Throws: Error if OpenGL refuses.
   Context();
-  /// It must be current in this thread.
+  /// Must be current in this thread.
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Waits for the thread that draws.
+  /// Waits for the drawing thread.
   void make_current() const;
   void release() const;
 

@@ -21,7 +21,7 @@ std::string encode_exr(const FrameLayers& layers, const std::string& where);
 /// Throws: Error.
 void write_exr(const std::string& path, const FrameLayers& layers);
 /// Colors are exact.
-/// Throws: Error if the file is not from `write_exr`.
+/// Throws: Error for other files than `write_exr`'s.
 FrameLayers read_exr(const std::string& path);
 /// Throws: Error naming `where`.
 FrameLayers parse_exr(const std::string& content, const std::string& where);

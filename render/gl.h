@@ -18,8 +18,8 @@ namespace glovebench::render::gl {
 inline constexpr double kNear = 0.05;
 inline constexpr double kFar = 10.0;
 
-/// From camera to clip coordinates, with the image's top row first and pixel centers at +0.5. Front faces become
-/// clockwise (glFrontFace(GL_CW)).
+/// From camera to clip coordinates, top row first, pixel centers at +0.5. Front faces become clockwise
+/// (glFrontFace(GL_CW)).
 Eigen::Matrix4f projection(const PinholeCamera& camera);
 
 /// A compiler error is a broken invariant.
@@ -50,7 +50,7 @@ class Framebuffer {
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
 
-  /// Makes textures if the size changed.
+  /// Makes textures for a new size.
   void bind(int width, int height);
   GLuint texture(int attachment) const { return textures_[attachment]; }
   /// Copies pixels, top row first.

@@ -8,16 +8,16 @@
 
 namespace glovebench::render {
 
-/// Triangles for drawing; a vertex on a border is repeated for each patch.
+/// Triangles for drawing. Each patch has its own vertices at borders.
 struct HandMesh {
   std::vector<uint32_t> source;   ///< vertex of the hand
   std::vector<uint8_t> labels;    ///< 1..kColorCount
   std::vector<uint8_t> patches;   ///< patch + 1
-  std::vector<uint32_t> indices;  ///< three a triangle, in the hand's order
+  std::vector<uint32_t> indices;  ///< in the hand's order
 };
 HandMesh make_hand_mesh(std::span<const Triangle> triangles);
 
-/// Repeats values of the hand's vertices for the mesh.
+/// The hand's values for the mesh's vertices.
 std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, std::span<const Eigen::Vector3f> values);
 
 /// Area-weighted unit normals, outward, hand frame.

@@ -8,10 +8,10 @@
 
 namespace glovebench::render {
 
-/// Draws from 0.05 to 10 m, without back faces. Serves one thread at a time.
+/// Draws from 0.05 to 10 m, without back faces, for one thread at a time.
 class LabelRenderer : public ViewRenderer {
  public:
-  /// Throws: Error if OpenGL is missing.
+  /// Throws: Error without OpenGL.
   LabelRenderer();
   ~LabelRenderer() override;
 

@@ -11,11 +11,11 @@ namespace glovebench::render {
 /// A distant lamp and ambient light of one color, without shadows.
 struct Lighting {
   Eigen::Vector3d direction_to_light = {-0.3, -0.4, -0.87};  ///< camera frame, length > 0
-  double strength = 1.0;                                     ///< 1: a surface facing the lamp emits its albedo, > 0
-  double temperature_k = 5000;                               ///< 2000..10000; the camera is balanced for 5000 K
-  double ambient_share = 0.35;                               ///< of the strength, [0, 1]
+  double strength = 1.0;        ///< > 0; at 1 a surface facing the lamp emits its albedo
+  double temperature_k = 5000;  ///< 2000..10000; the camera is balanced for 5000 K
+  double ambient_share = 0.35;  ///< of the strength, [0, 1]
 
-  /// One problem per line.
+  /// One a line.
   std::vector<std::string> problems() const;
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };

@@ -9,9 +9,8 @@
 
 namespace glovebench::render {
 
-/// On black.
 ColorImage picture_of_labels(const LabelImage& labels);
-/// Warm is near, black has no value; z_near < z_far, m.
+/// Warm: near; black: no value. z_near < z_far, m.
 ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far);
 /// `other` minus `depth`: blue at -`range` (m), white at 0, orange at +`range`; gray where one has no value, dark
 /// where both have none. Images have one size.
@@ -28,8 +27,7 @@ ColorImage overlay_text(const ColorImage& color, const std::string& text);
 std::string encode_png(const ColorImage& image);
 /// `quality`: 0 to 100.
 std::string encode_jpeg(const ColorImage& image, int quality);
-/// Writes the whole file or nothing.
-/// Throws: Error.
+/// Throws: Error; then no file is written.
 void write_png(const std::string& path, const ColorImage& image);
 
 struct Panel {
@@ -37,10 +35,10 @@ struct Panel {
   ColorImage image;
 };
 
-/// Scales panels by nearest pixel into rows of `columns` cells on dark gray.
+/// Scales panels (nearest pixel) into rows of `columns` cells on dark gray.
 ColorImage montage(const std::vector<Panel>& panels, int columns, int cell_width, int cell_height);
 
-/// The whole image if nothing is labeled.
+/// The whole image without labels.
 ColorImage crop_to_labels(const ColorImage& image, const LabelImage& labels, int margin);
 
 }  // namespace glovebench::render

@@ -19,15 +19,15 @@ struct RgbdImages {
 };
 
 /// Draws a hand in a scene from a Kinect's two cameras, without shadows. Color is the mean of 2x2 samples, depth
-/// and truth are one. Serves one thread at a time.
+/// and truth are one. For one thread at a time.
 class RgbdRenderer {
  public:
-  /// Throws: Error if OpenGL is missing.
+  /// Throws: Error without OpenGL.
   RgbdRenderer(const RgbdCalibration& calibration, Subject subject, const SceneConfig& scene);
   ~RgbdRenderer();
 
   RgbdImages render(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand, const Lighting& lighting);
-  /// True labels in the RGB camera's pixels.
+  /// True labels in RGB pixels.
   LabelImage render_color_labels(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
   const RgbdCalibration& calibration() const { return calibration_; }
 

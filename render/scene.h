@@ -13,9 +13,9 @@ namespace glovebench::render {
 struct Material {
   Eigen::Vector3f albedo = Eigen::Vector3f::Zero();  ///< linear RGB, 0..1
   float gloss = 0;                                   ///< of the highlight, 0..1
-  float shininess = 20;                              ///< of the highlight
-  float pattern = 0;                                 ///< relative amplitude, 0..1
-  float pattern_size = 0.01f;                        ///< m
+  float shininess = 20;
+  float pattern = 0;           ///< relative amplitude, 0..1
+  float pattern_size = 0.01f;  ///< m
 };
 
 /// Materials 1..kColorCount are the glove's colors.
@@ -41,18 +41,18 @@ struct SurfaceMesh {
 
 struct SceneConfig {
   Shader shader = Shader::first_subject;
-  bool clutter = true;             ///< objects on the table in similar colors
+  bool clutter = true;             ///< objects in similar colors on the table
   bool clutter_in_volume = false;  ///< one more box, in the working volume (z 0.90 m)
 };
 
-/// Surroundings in the IR camera's frame: table top, 1.0 m x 0.74 m at 1.06 m, and floor at 1.78 m.
+/// Surroundings in the IR camera's frame: table top (1.0 m x 0.74 m at 1.06 m) and floor at 1.78 m.
 struct Scene {
   SurfaceMesh surroundings;
   std::vector<Material> materials;  ///< kMaterialCount
 };
 Scene make_scene(const SceneConfig& config);
 
-/// The bare forearm, 200 mm, at this hand's cuff in any posture, in the forearm joint's frame.
+/// The bare forearm, 200 mm, at the hand's cuff in any posture; forearm joint's frame.
 SurfaceMesh make_forearm(const PosedHand& hand);
 
 }  // namespace glovebench::render

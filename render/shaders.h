@@ -4,7 +4,7 @@
 
 namespace glovebench::render {
 
-/// Attributes: position, normal, material, patch, pattern position, in the object frame.
+/// Attributes: position, normal, material, patch, pattern position, object frame.
 extern const char* const kSceneVertexShader;
 /// Writes label, patch and metric z.
 extern const char* const kTruthShader;

@@ -16,18 +16,18 @@ struct SyntheticKinectConfig {
   NoiseConfig noise;
   uint64_t seed = 1;
   std::string sequence;  ///< names the noise streams
-  int first_frame = 0;   ///< number in the sequence, which selects its noise
+  int first_frame = 0;   ///< in the sequence, selects its noise
 };
 
 /// Adds color noise, depth noise and 11-bit disparity.
-/// Throws: Error if the noise is impossible.
+/// Throws: Error for impossible noise.
 DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                               const NoiseConfig& noise, const FrameKey& key);
 
-/// A Kinect before a rendered hand. Serves one thread at a time.
+/// A Kinect before a rendered hand, for one thread at a time.
 class SyntheticKinect : public Device {
  public:
-  /// Throws: Error if OpenGL is missing or the configuration impossible.
+  /// Throws: Error without OpenGL or for an impossible configuration.
   SyntheticKinect(const RgbdCalibration& calibration, Subject subject, std::vector<HandFrame> frames,
                   SyntheticKinectConfig config);
 

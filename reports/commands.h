@@ -14,10 +14,10 @@
 
 namespace glovebench::reports {
 
-/// RMS jerk: smaller is smoother (Flash and Hogan 1985). Mostly noise in a tracked hand, so compare it with the
+/// RMS jerk: smaller is smoother (Flash and Hogan 1985). Mostly noise in a tracked hand; compare it with the
 /// truth's.
 struct Jerk {
-  std::optional<double> joints_deg_s3;  ///< robot hand's 24 joints
+  std::optional<double> joints_deg_s3;  ///< 24 joints of the robot hand
   std::optional<double> position_m_s3;  ///< of the hand's origin
 
   friend bool operator==(const Jerk&, const Jerk&) = default;
@@ -26,14 +26,14 @@ struct Jerk {
 /// Differences from the truth's commands.
 struct CommandErrors {
   Aggregate joints_deg;    ///< RMS over the robot hand's 24 joints
-  Aggregate position_mm;   ///< of the hand's origin
-  Aggregate rotation_deg;  ///< of the hand: geodesic
-  Aggregate arm_deg;       ///< RMS over arm joints, where both have some
+  Aggregate position_mm;   ///< hand's origin
+  Aggregate rotation_deg;  ///< of the hand, geodesic
+  Aggregate arm_deg;       ///< RMS over arm joints, where both exist
 
   friend bool operator==(const CommandErrors&, const CommandErrors&) = default;
 };
 struct CommandErrorInfo {
-  std::string_view key;  ///< with its unit
+  std::string_view key;  ///< with unit
   std::string_view heading;
   Aggregate CommandErrors::*value;
 };
@@ -42,11 +42,11 @@ const std::array<CommandErrorInfo, 4>& command_error_infos();
 /// Over all seeds.
 struct CommandResult {
   int frames = 0;
-  std::array<int, kCountOf<CommandState>> sent{};  ///< per state
-  std::optional<double> rate_hz;                   ///< by time stamps
-  std::optional<double> longest_gap_ms;            ///< between two commands
-  Interventions interventions;                     ///< of guard and arm
-  CommandErrors errors;                            ///< of `following` commands
+  std::array<int, kCountOf<CommandState>> sent{};
+  std::optional<double> rate_hz;  ///< by time stamps
+  std::optional<double> longest_gap_ms;
+  Interventions interventions;  ///< of guard and arm
+  CommandErrors errors;         ///< of `following` commands
   Jerk jerk, truth_jerk;
 
   friend bool operator==(const CommandResult&, const CommandResult&) = default;

@@ -20,7 +20,7 @@ struct Estimate {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m
 };
 
-/// Every frame of an experiment, seed after seed.
+/// Frames of an experiment, seed after seed.
 struct ExperimentEstimates {
   ExperimentKey key;
   std::vector<Estimate> estimates;
@@ -29,7 +29,7 @@ struct ExperimentEstimates {
 /// "estimates/EXPERIMENT.csv".
 std::string estimates_file(const ExperimentKey& key);
 /// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, the 22 angles (deg).
-/// Numbers are rounded to 1e-6; a lost frame has empty cells.
+/// Rounded to 1e-6; a lost frame has empty cells.
 std::string estimates_csv(const ExperimentEstimates& estimates);
 /// The heading and one line of it, without line ends.
 std::string estimates_heading();

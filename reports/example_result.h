@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// Other errors are plain multiples of the given ones.
+/// Other errors are multiples of these.
 inline FrameRecord example_frame(int index, double position_mm, double posture_deg, double rotation_deg) {
   FrameRecord frame;
   frame.frame = index;
@@ -24,7 +24,7 @@ inline FrameRecord example_frame(int index, double position_mm, double posture_d
   frame["position_error_mm"] = position_mm;
   frame["rotation_error_deg"] = rotation_deg;
   frame["posture_rms_deg"] = posture_deg;
-  frame["posture_rms_hidden_deg"].reset();  // nothing hidden
+  frame["posture_rms_hidden_deg"].reset();  // nothing is hidden
   frame["vertex_error_mm"] = frame["joint_error_mm"] = position_mm * 1.25;
   frame["fingertip_error_mm"] = position_mm * 1.5;
   return frame;

@@ -89,7 +89,7 @@ inline StudyResult example_figure8() {
            {"figure8.tiny_time_share", "", 1.02, {}, true}}};
 }
 
-/// Some cells are empty; one claim is inconclusive, one does not hold.
+/// With empty cells, an inconclusive claim and one that does not hold.
 inline std::vector<StudyResult> example_studies() {
   return {example_figure7(), example_figure8()};
 }

@@ -14,7 +14,6 @@ struct PaperErrors {
   double rotation_deg = 0;
 };
 
-/// A per-frame curve and its mean.
 /// Paper: Figures 5 and 6.
 struct PaperCurve {
   std::string trajectory;
@@ -23,7 +22,6 @@ struct PaperCurve {
   std::vector<PaperErrors> frames;
 };
 
-/// One cascade with one database.
 /// Paper: Figure 8.
 struct PaperCascade {
   std::string database;
@@ -32,7 +30,6 @@ struct PaperCascade {
   double time_ms = 0;
 };
 
-/// Numbers that the paper prints.
 struct PaperNumbers {
   std::string source;
   PaperCurve figure_5;
@@ -46,7 +43,7 @@ struct PaperNumbers {
   const PaperErrors* mean_of(const std::string& trajectory, const std::string& database) const;
 };
 
-/// From reports/data/paper_numbers.json.
+/// reports/data/paper_numbers.json.
 const PaperNumbers& paper_numbers();
 /// Throws: Error naming `where` and the field.
 PaperNumbers parse_paper_numbers(const std::string& text, const std::string& where);

@@ -10,18 +10,9 @@
 
 namespace glovebench::reports {
 
-/// Writes a run's folder and returns the names of its files:
-///   results.json   everything (reports/schema/results.schema.json)
-///   config.json    effective configuration
-///   summary.md     the tables
-///   index.html     tables, charts, pictures in one file
-///   timings.json   what differs from run to run
-///   claims.json    verdicts on the paper's claims, if any was run
-///   tables/        CSV and LaTeX of figures, frames, commands, claims, studies
-///   histories/     for services that keep a history
-///   estimates/     one file per experiment
-/// Only timings.json, the page's latencies, studies' tables and claims depend on more than the results.
-/// The files are one set (core/base/file_set.h) that replaces an older report's as a whole.
+/// Writes a run's folder (reports/README.md lists the files) and returns the files' names. Only timings.json, the
+/// page's latencies, studies' tables and claims depend on more than the results. The files are one set
+/// (core/base/file_set.h) that replaces an older report's as a whole.
 /// Throws: Error if the folder cannot be written; an older report then stays.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const PageMaterial& material = {},

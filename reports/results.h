@@ -23,8 +23,8 @@ struct FrameRecord {
   TrackStatus status = TrackStatus::no_hand;
   bool covered = false;        ///< tracked, errors under 50 mm and 30 degrees
   bool false_tracked = false;  ///< reported as tracked, but not covered
-  bool false_lost = false;     ///< reported as lost, but the hand could be tracked
-  bool ambiguous = false;      ///< matches' rotations spread over more than 60 degrees
+  bool false_lost = false;     ///< reported as lost, though trackable
+  bool ambiguous = false;      ///< rotations of the matches differ by more than 60 degrees
   bool converged = false;      ///< of the alignment
   int icp_iterations = 0;
 
@@ -43,8 +43,8 @@ constexpr auto names_of(TruthKind) {
 using glovebench::to_string;
 
 struct NoiseSetting {
-  std::string model = "gradient";  ///< name in `glovebench list noises`; "gradient" is the paper's
-  double factor = 1;               ///< of the noise's gain
+  std::string model = "gradient";  ///< as in `glovebench list noises`
+  double factor = 1;               ///< on the noise's gain
 
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
 };
@@ -54,7 +54,7 @@ struct ExperimentKey {
   std::string trajectory;  ///< "Tr4"
   std::string database;    ///< "DB_open_power"
   TruthKind truth = TruthKind::recorded;
-  int subject = 1;  ///< hand in front of the camera; 1 is the tracker's
+  int subject = 1;  ///< rendered hand; 1: the tracker's
   NoiseSetting noise;
 
   friend bool operator==(const ExperimentKey&, const ExperimentKey&) = default;
@@ -62,7 +62,7 @@ struct ExperimentKey {
 /// Names files: "Tr4_DB_open_power_recorded_subject1_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
-/// Consecutive frames with one noise seed.
+/// Consecutive frames under one noise seed.
 struct SeedRun {
   uint64_t seed = 0;
   std::vector<FrameRecord> frames;
@@ -82,7 +82,7 @@ struct Coverage {
   friend bool operator==(const Coverage&, const Coverage&) = default;
 };
 
-/// Of a sequence; empty where the trajectory never rests or moves.
+/// Empty where the trajectory never rests or moves.
 struct SequenceMetrics {
   std::optional<double> jitter_position_mm;
   std::optional<double> jitter_rotation_deg;
@@ -96,9 +96,9 @@ Coverage count_coverage(const std::vector<SeedRun>& runs);
 struct ExperimentResult {
   ExperimentKey key;
   std::vector<SeedRun> runs;
-  // Computed by `summarize`, or passed through it.
+  // Computed by `summarize`, or passed through.
   Coverage coverage;
-  /// Both in the order of frame_metrics(), over all frames and seeds with a value.
+  /// In the order of frame_metrics(), over all frames and seeds with a value.
   std::vector<Aggregate> aggregates = std::vector<Aggregate>(frame_metrics().size());
   std::vector<std::optional<ConfidenceInterval>> intervals =
       std::vector<std::optional<ConfidenceInterval>>(frame_metrics().size());  ///< of the means
@@ -116,11 +116,11 @@ struct ExperimentResult {
 ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
                            const BootstrapConfig& bootstrap = {});
 
-/// What a result's numbers mean. Results are comparable in shared metrics; all else must be equal.
+/// The meaning of a result's numbers. Comparable results share all but metric_keys.
 struct Protocol {
   int metric_definitions = 1;            ///< raised when a metric changes its meaning
   std::vector<std::string> joint_order;  ///< the 22 angles
-  std::vector<std::string> metric_keys;  ///< of frames; other versions may have others
+  std::vector<std::string> metric_keys;  ///< of frames; versions differ
   std::string association;               ///< of estimates and truths: "by time stamp, exact"
 
   std::string id() const;  ///< hash of the above
@@ -128,13 +128,13 @@ struct Protocol {
 };
 Protocol make_protocol(std::string association);
 
-/// Two results of different protocol, truth, database or frames. Leads to exit code 3.
+/// Two results of different protocol, truth, database or frames (exit code 3).
 class Incomparable : public Error {
  public:
   using Error::Error;
 };
 
-/// Content hashes. They are not in the protocol, so that part of a run compares with the whole.
+/// Content hashes, outside the protocol, so that part of a run compares with the whole.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
   std::map<std::string, std::string> databases;  ///< Database::content_hash by name
@@ -146,11 +146,11 @@ struct InputHashes {
 /// "source/Tr4".
 std::string truth_name(const ExperimentKey& key);
 
-/// All that a run found; equal whenever the same commit runs again.
+/// All that a run found; the same commit gives equal results.
 struct RunResult {
   Protocol protocol;
   InputHashes inputs;
-  std::string suite;  ///< name; empty if none
+  std::string suite;  ///< empty: none
   std::string program_version;
   std::string commit;
   nlohmann::json configuration = nlohmann::json::object();  ///< effective
@@ -159,12 +159,12 @@ struct RunResult {
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };
-/// Names a run in its tables: "COMMIT-HASH", where the hash is of version, configuration, inputs, seeds and all
-/// else that the results follow from.
+/// Names a run in its tables: "COMMIT-HASH", with the hash of version, configuration, inputs, seeds and all else
+/// behind the results.
 std::string run_name(const RunResult& result);
 /// The paper's noise (gradient x 1) if any experiment has it, else the first one's.
 NoiseSetting headline_noise(const RunResult& result);
-/// Null if there is none.
+/// Null without it.
 const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key);
 
 }  // namespace glovebench::reports

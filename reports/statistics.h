@@ -12,15 +12,15 @@
 
 namespace glovebench::reports {
 
-// Of an empty set, statistics are an empty optional.
+// Statistics of an empty set are empty.
 // Throws: std::logic_error for a value that is not finite.
 
 std::optional<double> mean(std::span<const double> values);
 std::optional<double> rms(std::span<const double> values);
-/// `share` in 0..1. Interpolates linearly at rank share * (n - 1) of the sorted values.
+/// `share`: 0..1. Interpolates linearly at rank share * (n - 1).
 std::optional<double> percentile(std::span<const double> values, double share);
 
-/// In the metric's unit; all empty if count is 0.
+/// Empty if count is 0.
 struct Aggregate {
   int count = 0;
   std::optional<double> mean;
@@ -50,37 +50,37 @@ struct ConfidenceInterval {
   double high = 0;
   double level = 0;      ///< share of resampled means inside
   int seeds = 0;         ///< resampled
-  int blocks = 0;        ///< resampled, of consecutive frames
+  int blocks = 0;        ///< of consecutive frames, resampled
   int block_frames = 0;  ///< per block
-  /// What was resampled, in words.
+  /// What was resampled.
   std::string over;
 
   friend bool operator==(const ConfidenceInterval&, const ConfidenceInterval&) = default;
 };
 
 struct BootstrapConfig {
-  int block_frames = 15;  ///< >= 1; successive frames are not independent
+  int block_frames = 15;  ///< >= 1; successive frames depend on each other
   int resamples = 2000;   ///< >= 1
   double level = 0.95;    ///< in (0, 1)
   uint64_t seed = 1;
 };
-/// Interval of the mean over seeds (rows) and frames (columns; empty if lost). Resamples seeds and blocks of
-/// frames together, since seeds share the movement. Empty for fewer than two blocks or no values.
+/// Interval of the mean over seeds (rows) and frames (columns; empty if lost). Resamples seeds and blocks of frames
+/// together, since seeds share the movement. Empty for fewer than two blocks or no values.
 std::optional<ConfidenceInterval> confidence_interval(
     const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config = {});
 
-/// A fixed part, e.g. a trajectory, whose seeds and frames are resampled.
+/// A fixed part, such as a trajectory, whose seeds and frames are resampled.
 struct StratumShape {
   int seeds = 1;   ///< >= 1
   int frames = 0;  ///< >= 0
 };
-/// One resample of a stratum, with repetitions.
+/// One resample of a stratum.
 struct Draw {
   std::vector<int> seeds;
   std::vector<int> frames;
 };
-/// Interval of a statistic over strata; resamples seeds and blocks of frames in each. `statistic` gets one draw
-/// per stratum and may be empty. Empty if it always is, or for fewer than five blocks in all.
+/// Interval of a statistic over strata; resamples seeds and blocks of frames in each. `statistic` gets a draw for
+/// each stratum and may be empty. Empty if it always is, or for fewer than five blocks in all.
 std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
@@ -88,12 +88,12 @@ std::optional<ConfidenceInterval> stratified_interval(
 
 /// |T| is below it with probability `level`, 0..1.
 double student_quantile(double level, int degrees_of_freedom);
-/// Student's interval of the mean of independent values, which `over` names. Empty for fewer than five, and for
-/// equal ones, which do not tell how others would vary.
+/// Student's interval of the mean of independent values. Empty for fewer than five, and for equal ones, which do
+/// not tell how others would vary.
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
                                                    double level = 0.95);
 
-/// A kilometer in mm, so that sums of squares from a file stay finite.
+/// A kilometer in mm: sums of squares from a file stay finite.
 inline constexpr double kLargestError = 1e6;
 
 nlohmann::ordered_json aggregate_json(const Aggregate& aggregate);

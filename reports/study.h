@@ -10,10 +10,10 @@
 
 namespace glovebench::reports {
 
-/// A number that a claim may be about.
+/// A number for claims.
 struct Measure {
   std::string name;  ///< "figure9.position_rise_share"
-  std::string unit;  ///< "mm", "deg"; "" for a ratio or count
+  std::string unit;  ///< "mm", "deg"; "": ratio or count
   std::optional<double> value;
   std::optional<ConfidenceInterval> interval;
   bool is_time = false;  ///< see Column
@@ -21,7 +21,7 @@ struct Measure {
   friend bool operator==(const Measure&, const Measure&) = default;
 };
 
-/// Result of one study: a figure of the paper, or a question about it.
+/// A figure of the paper, or a question about it.
 struct StudyResult {
   std::string name;   ///< "fig8"
   std::string title;  ///< "Figure 8: matching cascades"
@@ -31,7 +31,7 @@ struct StudyResult {
   friend bool operator==(const StudyResult&, const StudyResult&) = default;
 };
 
-/// Null if there is none.
+/// Null without it.
 const Table* find_table(const std::vector<StudyResult>& studies, std::string_view name);
 const Measure* find_measure(const std::vector<StudyResult>& studies, std::string_view name);
 

@@ -16,8 +16,8 @@ nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies)
 /// Throws: Error for anything that studies_json does not write.
 std::vector<StudyResult> read_studies(const JsonCursor& json);
 
-/// Checks writers' invariants: unique names that no other report's file has, one cell per column, at least one
-/// naming column and none of them a time, at most six digits.
+/// Checks invariants: unique names that no other file of a report has, one cell a column, at least one naming
+/// column and none of them a time, at most six digits.
 void check_studies(const std::vector<StudyResult>& studies);
 
 }  // namespace glovebench::reports

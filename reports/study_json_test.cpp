@@ -44,7 +44,7 @@ std::string study_error(const std::function<void(json&)>& change) {
   }
   return "no error";
 }
-/// Whether writers refuse a study after this change.
+/// True if writers refuse a study after this change.
 bool is_refused(const std::function<void(StudyResult&)>& change) {
   std::vector<StudyResult> studies = {small_study()};
   change(studies[0]);

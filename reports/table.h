@@ -17,13 +17,13 @@ namespace glovebench::reports {
 struct Column {
   std::string key;       ///< with unit, for CSV and JSON: "posture_error_deg"; empty in tables for people
   std::string heading;   ///< with unit, for people
-  int digits = 2;        ///< for people; CSV and JSON have more
-  bool is_time = false;  ///< differs from run to run: goes to timings.json, not results.json
+  int digits = 2;        ///< for people
+  bool is_time = false;  ///< goes to timings.json instead of results.json
 
   friend bool operator==(const Column&, const Column&) = default;
 };
 
-/// Also class names of the page's style.
+/// Class names in the page's style.
 enum class Tone { better, worse, same, unsure };
 constexpr auto names_of(Tone) {
   return std::to_array<std::string_view>({"better", "worse", "same", "unsure"});
@@ -43,42 +43,42 @@ Cell cell(const std::optional<double>& value);
 
 /// A row has one cell per column.
 struct Table {
-  std::string name;  ///< of its file: tables/NAME.csv
+  std::string name;  ///< of the file: tables/NAME.csv
   std::string title;
-  std::string explanation;  ///< of the columns, in plain text
+  std::string explanation;  ///< of the columns, plain text
   std::vector<Column> columns;
   int name_columns = 1;  ///< the first columns name a row
   std::vector<Row> rows;
 
   friend bool operator==(const Table&, const Table&) = default;
 };
-/// For people; without rows.
+/// An empty table for people.
 Table table_of(const std::vector<std::string>& headings, int name_columns = 1);
 
-/// An unknown key is a broken invariant.
+/// Throws: std::logic_error for an unknown key.
 int column_index(const Table& table, std::string_view key);
 
-/// For people: the column's digits, "-" for no value.
+/// For people: the column's digits, "-" without value.
 std::string cell_text(const Cell& cell, const Column& column);
-/// For JSON and CSV: numbers rounded to 1e-6.
+/// For JSON and CSV, rounded to 1e-6.
 nlohmann::ordered_json cell_json(const Cell& cell);
 
 // Each format has all columns and escapes all text.
 
 /// "Better" and "worse" are bold.
 std::string to_markdown(const Table& table);
-/// `plots`: one SVG per row, after the names.
+/// `plots`: an SVG for each row, after the names.
 std::string to_html(const Table& table, const std::vector<std::string>& plots = {});
-/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings, e.g. to span columns.
+/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings, such as to span columns.
 std::string to_latex(const Table& table, const std::string& heading = "");
-/// Aligned for a terminal; the widest columns shrink to fit. `grouped`: the first column becomes a line above its
+/// Text for a terminal; the widest columns shrink to fit. `grouped`: the first column becomes a line above its
 /// rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
-/// Keys, then values; numbers to 1e-6. `names`: columns that precede, with the value of every row.
+/// Keys, then values to 1e-6. `names`: columns in front, with the value of every row.
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});
 
-/// One CSV line of plain values (RFC 4180, but line feeds); null is empty. Text that a spreadsheet takes for a
-/// formula gets a leading apostrophe.
+/// A CSV line of plain values (RFC 4180, but line feeds); null is empty. Text that a spreadsheet takes for a
+/// formula gets an apostrophe in front.
 std::string csv_line(const nlohmann::ordered_json& cells);
 
 }  // namespace glovebench::reports

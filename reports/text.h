@@ -6,27 +6,26 @@
 
 namespace glovebench::reports {
 
-// After escaping, text from outside, e.g. a name, is only text.
+// Escaped text from outside is only text.
 
 std::string escape_html(const std::string& text);  ///< also SVG
 /// XML 1.0; characters that it cannot hold become U+FFFD.
 std::string escape_xml(const std::string& text);
-/// One cell or line. Escapes brackets only where they make a link.
+/// One cell or line. Escapes brackets only in links.
 std::string escape_markdown(const std::string& text);
 std::string escape_latex(const std::string& text);
-/// A line that LaTeX skips.
 std::string latex_comment(const std::string& text);
 
-/// "-" for no value.
+/// "-" without value.
 std::string fixed(const std::optional<double>& value, int digits);
 
 inline constexpr size_t kTerminalColumns = 120;
-/// In UTF-8 characters, each taken as one column.
+/// UTF-8 characters, one column each.
 size_t text_width(std::string_view text);
 /// Cuts the middle, since names differ at their ends.
 std::string shortened(const std::string& text, size_t columns);
-/// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces; the first is to
-/// stand behind as many columns.
+/// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces; the first has
+/// room for as many in front.
 std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
 
 }  // namespace glovebench::reports

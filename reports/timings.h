@@ -10,14 +10,14 @@ namespace glovebench::reports {
 
 struct StageTiming {
   std::string stage;
-  std::vector<double> frame_ms;  ///< one per frame
+  std::vector<double> frame_ms;  ///< by frame
 };
 
 struct ExperimentTiming {
   ExperimentKey key;
   double wall_s = 0;
   std::vector<StageTiming> stages;
-  std::vector<double> command_ms = {};  ///< device frame to robot command, one per frame
+  std::vector<double> command_ms = {};  ///< device frame to robot command, by frame
 };
 
 /// What differs from run to run.
@@ -30,12 +30,12 @@ struct Timings {
   std::string commit;
   std::string date;  ///< ISO 8601, UTC
   double wall_s = 0;
-  /// Of the process, since experiments run side by side. Empty if unknown.
+  /// The whole process's, since experiments run side by side.
   std::optional<double> peak_memory_mb;
   std::vector<ExperimentTiming> experiments;
 };
 
-/// Statistics per stage, of robot commands also the 99th percentile, and times of studies.
+/// Statistics of stages, the 99th percentile of robot commands, and times of studies.
 std::string timings_json(const Timings& timings, const std::vector<StudyResult>& studies = {});
 
 }  // namespace glovebench::reports

@@ -9,23 +9,21 @@
 
 namespace glovebench::trajectories {
 
-// In the data folder: gestures.csv, captured.csv (postures of people's hands, from npm handy-work and iwer) and
-// scripts/Tr1.json (written by hand); sources/Tr1.json and postures/DB_*.json (generated from those);
-// recorded/Tr1.json and recorded/hashes.txt (frozen outputs of the tracker).
+// The data folder; README.md lists its files.
 
 /// The ground truths of section IV.
 const std::vector<std::string>& ground_truth_names();
 /// "pinch" or "power".
 /// Throws: Error for another name.
 std::string grasp_of(std::string_view trajectory);
-/// The databases that contain its grasp, the grasp-specific one first.
+/// Those with its grasp, the grasp-specific one first.
 /// Throws: Error for another name.
 std::vector<std::string> databases_of(std::string_view trajectory);
 const std::vector<std::string>& posture_set_names();
 
 std::string trajectory_path(const std::string& data_folder, TrajectoryKind kind, const std::string& name);
 
-/// Throws: Error listing the known names or naming the file's fault; name and kind must match the place.
+/// Throws: Error listing known names or naming the file's fault; name and kind must match the place.
 Trajectory source_trajectory(const std::string& data_folder, const std::string& name);
 Trajectory recorded_trajectory(const std::string& data_folder, const std::string& name);
 
@@ -33,7 +31,8 @@ Trajectory recorded_trajectory(const std::string& data_folder, const std::string
 PostureSet posture_set(const std::string& data_folder, const std::string& name);
 /// Throws: Error.
 PostureSet load_gestures(const std::string& data_folder);
-/// The postures of people's hands, which the family `captured` is made of. Throws Error.
+/// Postures of people's hands, for the family `captured`.
+/// Throws: Error.
 PostureSet load_captured_postures(const std::string& data_folder);
 
 struct TrajectoryListing {
@@ -44,8 +43,8 @@ struct TrajectoryListing {
 /// Sorted.
 std::vector<std::string> script_names(const std::string& data_folder);
 
-/// Lists sources first, each kind by name; opens no file.
-/// Throws: Error if there are no sources.
+/// Sources first, each kind by name; opens no file.
+/// Throws: Error without sources.
 std::vector<TrajectoryListing> list_trajectories(const std::string& data_folder);
 
 }  // namespace glovebench::trajectories

@@ -11,12 +11,12 @@
 namespace glovebench::trajectories {
 
 std::string in_quotes(std::string_view text);
-/// The names of angle_infos() as a JSON array.
+/// The names of angle_infos().
 std::string joint_order_json();
 /// Throws: Error unless it lists the names of angle_infos().
 void expect_joint_order(const JsonCursor& field);
 
-/// 22 angles in degrees, to 0.001, as a JSON array.
+/// 22 angles in degrees, to 0.001.
 std::string angles_json(const Posture& posture);
 /// 22 angles in degrees, within limits.
 Posture angles_from(const JsonCursor& field);
@@ -29,7 +29,7 @@ void expect_new_name(const std::string& name, std::set<std::string>& names, cons
 PostureSet parse_postures_json(std::string_view text, const std::string& where);
 PostureSet parse_postures_csv(std::string_view text, const std::string& set_name, const std::string& where);
 
-/// The canonical file, which parsing reproduces byte for byte.
+/// The canonical file; parsing reproduces it byte for byte.
 /// Throws: Error if it could not be read back.
 std::string canonical_text(const PostureSet& set);
 void write_posture_set(const PostureSet& set, const std::string& path);

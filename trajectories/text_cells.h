@@ -7,14 +7,14 @@
 
 namespace glovebench::trajectories {
 
-/// Removes spaces, tabs and carriage returns at the ends.
+/// Without spaces, tabs and carriage returns at the ends.
 std::string_view trimmed(std::string_view text);
 /// Largest number of cells in a line.
 inline constexpr size_t kMostCells = 1000;
-/// The trimmed parts; after kMostCells the rest is one part.
+/// Trimmed parts; after kMostCells the rest is one part.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// Trimmed lines without a byte order mark. An empty text is one empty line.
+/// Trimmed lines without byte order mark. An empty text is one empty line.
 class Lines {
  public:
   explicit Lines(std::string_view text);

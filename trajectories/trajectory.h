@@ -21,26 +21,26 @@ struct Provenance {
   std::string source;
   std::string source_hash;
   std::string database;
-  std::string database_hash;  ///< of its inputs
+  std::string database_hash;  ///< of inputs
   std::string profile;
   std::string profile_hash;  ///< of the effective configuration
 
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
-/// A ground truth: a movement of the hand before the camera.
+/// A ground truth: how the hand moves before the camera.
 struct Trajectory {
   std::string name;
   std::string description;
   Side side = Side::right;
   TrajectoryKind kind = TrajectoryKind::source;
   std::optional<Provenance> provenance;  ///< for `recorded` only
-  std::vector<HandFrame> frames;         ///< at least one, in time order
+  std::vector<HandFrame> frames;         ///< in time order, not empty
 };
 
 inline constexpr int64_t kMaxTimestampUs = 1'000'000'000'000'000;  ///< 31 years
 inline constexpr double kMaxPositionMm = 10'000;                   ///< of each coordinate, either sign
-/// Largest deviation from unit length in a file; quaternions are normalized.
+/// Largest deviation from unit length in a file; reading normalizes.
 inline constexpr double kQuaternionNormTolerance = 1e-3;
 
 /// Parses the JSON of README.md.

@@ -26,12 +26,12 @@ struct TrajectoryProperties {
   double wrist_flexion_range = 0;    ///< rad
   double wrist_abduction_range = 0;  ///< rad
   std::vector<GraspTransition> transitions;
-  int longest_open_hold = 0;   ///< consecutive frames
-  int longest_grasp_hold = 0;  ///< consecutive frames
-  int settled_frames = 0;      ///< settled at either
+  int longest_open_hold = 0;   ///< frames
+  int longest_grasp_hold = 0;  ///< frames
+  int settled_frames = 0;      ///< at either end
 };
 
-/// Root mean square over the finger angles, rad.
+/// RMS over the finger angles, rad.
 double finger_distance(const Posture& a, const Posture& b);
 
 /// Largest finger_distance of a settled frame.
@@ -41,7 +41,7 @@ inline constexpr double kTransitionEnd = 0.15;
 
 TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, const Posture& grasp);
 
-/// Markdown, one row for each trajectory.
+/// Markdown, a row for each trajectory.
 std::string properties_table(const std::vector<Trajectory>& trajectories,
                              const std::vector<TrajectoryProperties>& properties);
 

@@ -9,12 +9,12 @@
 
 namespace glovebench::trajectories {
 
-// Valid values that are most likely a mistake of units: one sentence each, that names the likely cause.
+// A sentence for each likely mistake of units in valid values.
 
-/// Empty unless the angles, which files hold in degrees, look like radians.
+/// Empty unless angles look like radians; files hold degrees.
 std::string angle_doubt(std::span<const Posture> postures);
 
-/// `angle_doubt`, and whether more than half of the frames lie nearer or farther than the working volume.
+/// `angle_doubt`, and if more than half of the frames lie outside the working volume's depths.
 std::vector<std::string> unit_doubts(const Trajectory& trajectory, const WorkingVolume& volume);
 
 }  // namespace glovebench::trajectories

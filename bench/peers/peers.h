@@ -10,16 +10,15 @@
 #include "core/pose/closest_point.h"
 #include "core/pose/icp.h"
 
-// Other libraries, each on one thread (bench/README.md). Constants are null if the build lacks them
-// (GLOVEBENCH_PEERS).
+// Other libraries, each on one thread (bench/README.md). Null without GLOVEBENCH_PEERS.
 
 namespace glovebench::bench {
 
-/// Brute force over fields of one size as inner products.
+/// Brute force over one size's fields as inner products.
 class LookUpPeer {
  public:
   virtual ~LookUpPeer() = default;
-  /// The `keep` nearest entries of each query, best first; ties in any order. Every query has glove pixels.
+  /// The `keep` nearest entries of each query, best first; ties in any order. Each query has glove pixels.
   virtual std::vector<RecycledVector<Match>> operator()(std::span<const LabelImage> queries, int keep) = 0;
 };
 /// `database` must outlive the peer.
@@ -38,7 +37,7 @@ class ClosestPointPeer {
 using MakeClosestPointPeer = std::unique_ptr<ClosestPointPeer> (*)(const Surface& surface);
 extern const MakeClosestPointPeer kEmbree, kCgal;
 
-/// Aligns points with the centers of the faces seen at the start, without colors.
+/// Aligns points with the centers of faces seen at the start, without colors.
 using AlignPeer = Alignment (*)(const Surface& surface, std::span<const LabeledPoint> points,
                                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 extern const AlignPeer kPcl;

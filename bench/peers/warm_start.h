@@ -6,10 +6,10 @@
 
 namespace glovebench::bench {
 
-/// Starts a search at the point's last face, or at that of the previous point of its color.
+/// Starts a search at the point's last face, or at the previous point's of its color.
 class WarmStart {
  public:
-  /// The point on that face; face -1 if there is none. `last`: the point's last answer, or face -1.
+  /// The point on that face; face -1 without one. `last`: the point's last answer.
   ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
     const int face = last.face >= 0 ? last.face : faces_[point.label];
     if (face < 0) return {};

@@ -1,7 +1,5 @@
 #pragma once
 
-// For tests of parsers.
-
 #include <array>
 #include <string>
 
@@ -9,7 +7,8 @@
 
 namespace glovebench {
 
-/// The text with one random damage: changed, lost or repeated bytes, a cut, or a hostile JSON value.
+/// For tests of parsers: the text with one random damage (bytes changed, lost or repeated, a cut, a hostile JSON
+/// value).
 inline std::string damaged_text(std::string text, RandomStream& random) {
   static const std::array<std::string, 7> kHostile = {"null", "-1", "1e999", "[[[[", "NaN", "18446744073709551615",
                                                       "{}"};

@@ -95,7 +95,7 @@ void write_new_file(const std::string& path, std::string_view content, const std
   if (error != 0) throw Error(place, "file", std::strerror(error), "room to write it whole");
 }
 
-/// Nothing if there is no manifest.
+/// Empty without a manifest.
 /// Throws: Error if it is not a regular file or is unreadable.
 std::optional<Manifest> own_manifest(const std::string& folder) {
   file_in_place(folder + "/" + kManifest);

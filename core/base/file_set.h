@@ -14,16 +14,11 @@
 
 namespace glovebench {
 
-// Sets: files of one folder that change together (core/base/README.md). A write
-//
-//   1. writes and syncs the new files in FOLDER/.staged/,
-//   2. replaces manifest.json by a rename,
-//   3. moves the staged files to their places and removes others.
-//
-// After a crash the next writer finishes step 3.
+// Sets: files of one folder that change together (core/base/README.md). manifest.json is replaced before the new
+// files move from FOLDER/.staged/; after a crash the next writer moves them.
 
 inline constexpr const char* kManifest = "manifest.json";
-/// Bytes; enough for 1.7 million files.
+/// Bytes: about 1.7 million files.
 inline constexpr uint64_t kLargestManifest = uint64_t{256} << 20;
 
 /// A missing, changed or damaged file.
@@ -34,37 +29,37 @@ class BrokenSet : public Error {
 
 struct ManifestEntry {
   uint64_t bytes = 0;
-  std::string hash;  ///< core/base/hash.h
+  std::string hash;
 };
-/// By the file's path in the folder.
+/// Entries by path in the folder.
 using Manifest = std::map<std::string, ManifestEntry>;
 
 /// Throws: Error beyond `max_bytes`.
 std::string manifest_json(const Manifest& manifest, uint64_t max_bytes = kLargestManifest);
-/// Throws: Error, also if a name leads out of the folder.
+/// Throws: Error; also for a name that leads out of the folder.
 Manifest parse_manifest(const std::string& text, const std::string& where);
-/// Nothing if the folder has none.
+/// Empty if the folder has none.
 /// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
 
-/// Reads files of one state of the folder.
+/// Reads files that belong to one state of the folder.
 class FileSet {
  public:
-  /// Throws: Error if the manifest is unreadable.
+  /// Throws: Error for an unreadable manifest.
   explicit FileSet(std::string folder) : folder_(std::move(folder)), manifest_(read_manifest(folder_)) {}
 
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// Whether the manifest names the file or, without a manifest, it exists.
+  /// True if the manifest names the file or, without a manifest, it exists.
   bool has(const std::string& name) const;
-  /// Throws: BrokenSet if it differs from the manifest; Error if it is unreadable or too large.
+  /// Throws: BrokenSet if it differs from the manifest, Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
 
   struct Found {
     std::string content;
-    bool is_changed = false;  ///< the content differs from the manifest
+    bool is_changed = false;  ///< differs from the manifest
   };
-  /// Reads a file that may differ from the manifest, or not be in it.
+  /// Reads a file that may differ from the manifest or be missing there.
   /// Throws: Error.
   Found find(const std::string& name, uint64_t max_bytes) const;
   /// Throws: BrokenSet.
@@ -79,7 +74,7 @@ class FileSet {
   std::optional<Manifest> manifest_;
 };
 
-/// Locks a folder for one writer, if the file system can.
+/// Locks a folder for one writer, where the file system can.
 /// Throws: Error if another process holds it for over 10 s.
 class FolderLock {
  public:
@@ -92,7 +87,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Writes a set; holds a FolderLock. Unnamed files stay, and without `commit` all files stay.
+/// Writes a set under a FolderLock. Unnamed files stay; without `commit` all stay.
 /// Throws: Error, from every function.
 class WholeFiles {
  public:
@@ -106,7 +101,7 @@ class WholeFiles {
   /// permissions that all files share.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
   void remove(const std::string& name);
-  /// The added files, in order.
+  /// The added files in order.
   const std::vector<std::string>& names() const { return added_; }
   void commit();
 
@@ -115,7 +110,7 @@ class WholeFiles {
   FolderLock lock_;
   Manifest manifest_;
   std::vector<std::string> added_, removed_;
-  mode_t mode_ = 0644;  ///< of a new manifest
+  mode_t mode_ = 0644;  ///< a new manifest's
   bool is_committed_ = false;
 };
 

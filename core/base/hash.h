@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// 128-bit XXH3 as 32 hexadecimal digits. It detects damage, not attacks.
+/// 128-bit XXH3 in hexadecimal. Detects damage, not attacks.
 std::string hash_bytes(std::span<const std::byte> bytes);
 std::string hash_text(std::string_view text);
 /// Throws: Error if the file is unreadable.

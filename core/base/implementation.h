@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// Two implementations with equal results: `plain` follows the paper line by line, `fast` is for use.
+/// Equal results: `plain` follows the paper line by line, `fast` is for use.
 enum class Implementation { plain, fast };
 constexpr auto names_of(Implementation) {
   return std::to_array<std::string_view>({"plain", "fast"});

@@ -9,13 +9,13 @@
 
 namespace glovebench {
 
-/// An open file; its name may go to another file meanwhile.
+/// An open file, even if its name moves to another.
 class InputFile {
  public:
   enum class Kind { regular, regular_or_pipe };
 
   /// Waits for the writer of a pipe.
-  /// Throws: Error, also for devices, sockets and folders.
+  /// Throws: Error; also for devices, sockets and folders.
   explicit InputFile(const std::string& path, Kind kind = Kind::regular_or_pipe);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -24,7 +24,7 @@ class InputFile {
   /// Bytes (0 in /proc); empty for a pipe.
   std::optional<uint64_t> size() const { return size_; }
   int descriptor() const { return descriptor_; }
-  /// Throws: Error if size or time of change are not those at opening.
+  /// Throws: Error if size or time of change differ from those at opening.
   void require_unchanged() const;
   /// Returns the number of bytes, 0 at the end.
   /// Throws: Error.
@@ -40,7 +40,7 @@ class InputFile {
 // Largest files that are read (core/README.md), bytes.
 /// Trajectories and posture sets.
 inline constexpr uint64_t kLargestMovement = uint64_t{64} << 20;
-/// Results and estimates of some million frames.
+/// Some million frames.
 inline constexpr uint64_t kLargestResults = 256'000'000;
 /// Times, ratios, noise floors.
 inline constexpr uint64_t kLargestSmallFile = 16'000'000;
@@ -49,7 +49,7 @@ inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// As `read_file`, but refuses pipes: their writer may never come.
+/// The same without pipes, whose writer may never come.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

@@ -18,7 +18,7 @@ namespace glovebench {
 class JsonItems;
 class JsonMembers;
 
-/// Reads a JSON value strictly. The document and `where` must outlive the cursor.
+/// Reads a JSON value strictly. Document and `where` must outlive the cursor.
 /// Throws: Error(where, "frames[17].angles_deg[3]", found, expected) for missing or unknown keys and for wrong
 /// kinds or ranges.
 class JsonCursor {
@@ -28,7 +28,7 @@ class JsonCursor {
   JsonCursor(const nlohmann::json& value, std::string&& where, std::string path = "") = delete;
   JsonCursor(nlohmann::json&& value, const std::string& where, std::string path = "") = delete;
 
-  /// Requires all `required` keys and no others but `optional` ones.
+  /// Requires all `required` keys; allows `optional` ones alone.
   void expect_keys(std::initializer_list<std::string_view> required,
                    std::initializer_list<std::string_view> optional = {}) const {
     expect_keys({required.begin(), required.end()}, {optional.begin(), optional.end()});
@@ -40,7 +40,7 @@ class JsonCursor {
   JsonMembers members() const;
 
   JsonItems items() const;
-  /// At least one.
+  /// Requires at least one.
   JsonItems some_items() const;
   JsonItems items(size_t count) const;
 
@@ -49,7 +49,7 @@ class JsonCursor {
   bool is_integer() const { return value_->is_number_integer(); }
   std::string text() const;
   void expect_text(std::string_view expected) const;
-  /// A text that passes `is_name`.
+  /// Requires `is_name`.
   std::string name() const;
   template <Named Enum>
   Enum one_of() const {
@@ -64,7 +64,7 @@ class JsonCursor {
   int64_t integer(int64_t min, int64_t max) const;
   int count() const { return static_cast<int>(integer(0, std::numeric_limits<int>::max())); }
   uint64_t unsigned_integer() const;
-  /// Three numbers, in -most..most if that is given.
+  /// Each in -most..most, if given.
   Eigen::Vector3d vector3(std::optional<double> most = {}) const;
 
   const nlohmann::json& value() const { return *value_; }
@@ -84,7 +84,7 @@ class JsonCursor {
   friend class JsonMembers;
 };
 
-/// An array. It makes a cursor only on access, which saves memory.
+/// An array that makes cursors on access, to save memory.
 class JsonItems {
  public:
   explicit JsonItems(const JsonCursor& array) : array_(array) {}

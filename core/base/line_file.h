@@ -7,23 +7,23 @@
 
 namespace glovebench {
 
-/// Writes lines that cannot be made again (core/base/README.md): to NAME.partial, or NAME.partial-2 and so on,
-/// which `finish` renames to NAME. The constructor opens streams.
+/// Writes lines that cannot be made again (core/base/README.md) to NAME.partial, or NAME.partial-2 and so on;
+/// `finish` renames it to NAME. The constructor opens streams.
 class LineFile {
  public:
   /// Throws: Error.
   explicit LineFile(const std::string& path);
-  /// Removes the partial file if it has no lines.
+  /// Removes a partial file without lines.
   ~LineFile();
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Adds the line end; writes nothing more after an error.
+  /// Adds the line end. After an error nothing more is written.
   /// Throws: Error naming the partial file.
   void append(std::string_view line);
-  /// Throws: Error naming the partial file, also if it lacks a line.
+  /// Throws: Error naming the partial file; also if it lacks a line.
   void finish();
-  /// As "3 lines in NAME.partial"; empty if none are there.
+  /// "3 lines in NAME.partial"; empty without lines.
   std::string kept() const;
 
  private:

@@ -16,7 +16,7 @@ class MappedMemory {
   /// Zeros, in large pages if possible.
   /// Throws: std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// Maps a file for reading. It may be replaced (WholeFile) but not changed: access to missing bytes ends the
+  /// Maps a file for reading. It may be replaced (WholeFile), but access to bytes that were cut off ends the
   /// process (SIGBUS).
   /// Throws: Error.
   static MappedMemory of_file(const std::string& path);
@@ -27,16 +27,16 @@ class MappedMemory {
   MappedMemory(MappedMemory&& other) noexcept;
   MappedMemory& operator=(MappedMemory&& other) noexcept;
 
-  /// Frees a file's pages wholly in this range; an access reads them again. No effect on `zeros`.
+  /// Frees a file's pages wholly in this range until the next access. No effect on `zeros`.
   void release(size_t offset, size_t bytes) const;
-  /// Turns off read-ahead for this range of a file.
+  /// Turns off read-ahead.
   void expect_random_reads(size_t offset, size_t bytes) const;
 
   /// Throws: Error if the file was changed since `of_file`.
   void require_unchanged() const;
 
   std::span<const uint8_t> bytes() const { return {data_, size_}; }
-  /// Not for memory from `of_file`.
+  /// Not after `of_file`.
   std::span<uint8_t> writable() { return {data_, size_}; }
 
  private:

@@ -7,10 +7,10 @@
 
 namespace glovebench {
 
-/// Deeper nesting is an error, since it takes the stack.
+/// Limit of nesting, which takes the stack.
 inline constexpr size_t kDeepestNesting = 64;
 
-/// A document may take kJsonBytes of memory, plus this for each byte of text. Our files need 3 to 10.
+/// Memory that a document may take, plus a number for each byte of text. Our files need 3 to 10.
 inline constexpr uint64_t kJsonBytes = uint64_t{8} << 20;
 inline constexpr uint64_t kJsonBytesPerByte = 12;
 inline constexpr uint64_t kCborBytesPerByte = 64;

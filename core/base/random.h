@@ -14,9 +14,8 @@ class RandomStream {
   uint64_t bits();
   /// Uniform in [0, 1).
   double uniform();
-  /// Uniform in [low, high).
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Standard normal by Box-Muller: equal on every platform.
+  /// Standard normal (Box-Muller), equal on every platform.
   double normal();
   /// Uniform in 0..count-1.
   uint64_t index(uint64_t count);

@@ -6,11 +6,10 @@
 
 namespace glovebench {
 
-/// Memory of at least `bytes`, aligned to 64 bytes, from this thread's store or the heap.
+/// At least `bytes`, aligned to 64, from this thread's store or the heap.
 /// Throws: std::bad_alloc.
 void* take_memory(size_t bytes);
-/// Gives memory from `take_memory(bytes)` to this thread's store of up to 64 MiB, which is off with the address
-/// sanitizer.
+/// Gives memory back to this thread's store of up to 64 MiB (none under the address sanitizer).
 void give_memory(void* memory, size_t bytes) noexcept;
 
 template <typename T>
@@ -31,7 +30,7 @@ struct RecyclingAllocator {
   friend bool operator==(const RecyclingAllocator&, const RecyclingAllocator&) { return true; }
 };
 
-/// A vector for data of one frame. It reuses the memory of earlier frames.
+/// A vector for data of one frame; reuses the memory of earlier frames.
 template <typename T>
 using RecycledVector = std::vector<T, RecyclingAllocator<T>>;
 

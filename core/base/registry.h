@@ -11,14 +11,14 @@
 
 namespace glovebench {
 
-/// The entry of the file X_KIND.cpp, whose name, if it has one, is X.
+/// The entry that X_KIND.cpp defines; X is its name, if it has one.
 template <typename Entry>
 Entry named(std::string_view name, Entry entry) {
   if constexpr (requires { entry.name; }) check(entry.name == name, "an entry has the name of its file");
   return entry;
 }
 
-/// The names of a registry's entries (glovebench_registry in CMakeLists.txt), sorted.
+/// Sorted names of a registry's entries (glovebench_registry in CMakeLists.txt).
 template <typename Entry>
 std::vector<std::string> names_in(std::span<const Entry> entries) {
   std::vector<std::string> names;
@@ -26,7 +26,7 @@ std::vector<std::string> names_in(std::span<const Entry> entries) {
   return names;
 }
 
-/// Throws: Error that names the place, the field and the known names.
+/// Throws: Error with place, field and known names.
 template <typename Entry>
 const Entry& find_in(std::span<const Entry> entries, std::string_view name, const char* where, const char* field) {
   const auto found = std::ranges::find(entries, name, &Entry::name);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Whether sanitizers are on: GCC has macros, Clang has __has_feature.
+// GCC has macros, Clang has __has_feature.
 #ifndef __has_feature
 #define __has_feature(feature) 0
 #endif

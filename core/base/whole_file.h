@@ -11,10 +11,10 @@
 
 namespace glovebench {
 
-/// Where an output goes (core/base/README.md): to a file, or to a stream (device, pipe, "-", /dev/fd/3).
+/// Where an output goes (core/base/README.md): a file, or a stream (device, pipe, "-", /dev/fd/3).
 struct OutputTarget {
   bool is_stream = false;
-  int descriptor = -1;  ///< if the stream is already open
+  int descriptor = -1;  ///< of a stream that is already open
   std::string path;
   std::optional<struct stat> older = {};  ///< if the file exists
 };
@@ -22,11 +22,11 @@ struct OutputTarget {
 /// Throws: Error for a folder or a circle of links.
 OutputTarget find_output(const std::string& path);
 
-/// Waits for the reader of a named pipe.
+/// Waits for a pipe's reader.
 /// Throws: Error naming `path`.
 int open_stream(const OutputTarget& target, const std::string& path);
 
-/// Creates a new file with the older one's mode and, if permitted, owner. Returns -1 and sets errno on failure.
+/// Creates a file with the older one's mode and, if permitted, owner. Returns -1 and sets errno on failure.
 int create_like(const std::optional<struct stat>& older, const std::string& new_path, mode_t mode = 0644);
 
 struct Written {
@@ -35,16 +35,16 @@ struct Written {
 };
 Written write_all(int descriptor, std::string_view content);
 
-/// Makes content survive a power failure, but not in streams. Returns 0 or errno.
+/// Makes content survive a power failure (not in streams). Returns 0 or errno.
 int sync_file(int descriptor);
 
 /// Creates and syncs a folder and its parents; "" is the current one.
 /// Throws: Error.
 void make_folders(const std::string& folder);
-/// Makes new names survive a power failure, if the file system can.
+/// Makes new names survive a power failure, where the file system can.
 /// Throws: Error if the disk fails.
 void sync_folder(const std::string& folder);
-/// The folder of a path; "." for a plain name.
+/// "." for a plain name.
 std::string folder_above(const std::string& path);
 
 /// Writes a file whole (core/base/README.md): to a temporary name, which `commit` syncs and renames. Without
@@ -52,7 +52,7 @@ std::string folder_above(const std::string& path);
 /// Throws: Error, from every function.
 class WholeFile {
  public:
-  /// `mode`: of a new file.
+  /// `mode`: a new file's.
   explicit WholeFile(const std::string& path, mode_t mode = 0644);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
@@ -61,7 +61,7 @@ class WholeFile {
   void append(std::string_view content);
   /// Reserves zeros on the disk for an empty file and maps them for writing. Not for streams.
   MappedMemory map(uint64_t bytes);
-  /// Afterwards content and name survive a power failure.
+  /// Makes content and name survive a power failure.
   void commit();
 
  private:
@@ -73,7 +73,7 @@ class WholeFile {
 
 void write_file(const std::string& path, std::string_view content);
 
-/// Removes temporary files of killed writers, if `is_such` accepts the target's name. Locked ones are in use and
+/// Removes temporary files of killed writers, if `is_such` accepts the target's name. Files in use are locked and
 /// stay.
 void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 

@@ -10,7 +10,7 @@
 namespace glovebench::calibration {
 
 struct BoardView {
-  std::string name;  ///< file name without ending, or number in the recording
+  std::string name;  ///< without ending, or number in the recording
   Corners corners;
 };
 struct LeftOut {
@@ -18,23 +18,22 @@ struct LeftOut {
   std::string reason;
 };
 
-/// The board as one camera saw it.
 struct BoardViews {
   int width_px = 0, height_px = 0;
   std::vector<BoardView> views;
   std::vector<LeftOut> left_out;
-  std::vector<std::string> changed = {};  ///< recorded files that were changed later
+  std::vector<std::string> changed = {};  ///< recorded files that differ from the manifest
 };
 
-/// Called before each picture; `done` counts those before it.
+/// Called before each picture, with `done` before it.
 using Looked = std::function<void(size_t done, size_t count)>;
 
 /// Decodes an image file to gray.
 /// Throws: Error naming `path` if it is no image or exceeds kMostPixels.
 Image<uint8_t> decode_gray(std::string_view content, const std::string& path);
 
-/// Finds the board in a folder of images, or in at most `most` color images, evenly spaced, of `fakenect:FOLDER`.
-/// Throws: Error if there is no picture or their sizes differ.
+/// Finds the board in a folder of images, or in at most `most` evenly spaced color images of `fakenect:FOLDER`.
+/// Throws: Error without pictures, or if sizes differ.
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked = {});
 
 }  // namespace glovebench::calibration

@@ -30,7 +30,7 @@ void require_views(size_t count, const std::vector<LeftOut>& left_out, const std
               fmt::format("at least {}, tilted in different ways", kFewestViews));
 }
 
-/// Whether the board's normal is tilted against the optical axis.
+/// True if the board's normal is tilted against the optical axis.
 bool is_tilted(const cv::Mat& rotation_vector) {
   cv::Mat R;
   cv::Rodrigues(rotation_vector, R);

@@ -10,11 +10,11 @@ namespace glovebench::calibration {
 
 /// Largest error of a kept view or pair: three times the median, at least 0.5 px. `errors_px` is not empty.
 double misfit_limit(const std::vector<double>& errors_px);
-/// Throws: Error naming `where` if the RMS error exceeds 2 px.
+/// Throws: Error naming `where` above an RMS error of 2 px.
 void require_fit(double error_px, const std::string& where);
 LeftOut misfit(const std::string& name, double error_px, double limit_px);
 
-/// The coefficients of LensDistortion that are fitted.
+/// Which coefficients of LensDistortion are fitted.
 enum class LensModel { none, radial, full };  ///< none; k1, k2, k3; all five
 constexpr auto names_of(LensModel) {
   return std::to_array<std::string_view>({"none", "radial", "full"});
@@ -28,7 +28,7 @@ struct CameraFit {
   double error_px = 0;
   std::vector<BoardView> views;
   std::vector<double> view_errors_px;
-  int tilted = 0;  ///< views with the board tilted by more than 10 degrees
+  int tilted = 0;  ///< views with a tilt over 10 degrees
   std::vector<LeftOut> left_out;
 };
 

@@ -17,16 +17,15 @@ struct Chessboard {
   friend bool operator==(const Chessboard&, const Chessboard&) = default;
 };
 
-/// Throws: Error naming `where` and the field.
 void check_chessboard(const Chessboard& board, const std::string& where);
 
-/// Inner corners row by row, uv_px. One picture cannot tell which end of the board comes first.
+/// Inner corners row by row, uv_px. A picture does not tell which end of the board comes first.
 using Corners = std::vector<Eigen::Vector2d>;
 
-/// Corners in the board's frame, z = 0.
+/// Inner corners in the board's frame, z = 0.
 std::vector<Eigen::Vector3d> corners_on(const Chessboard& board);
 
-/// All inner corners with subpixel accuracy, if the whole board is visible.
+/// Subpixel accuracy; empty unless the whole board is visible.
 std::optional<Corners> find_corners(const Image<uint8_t>& gray, const Chessboard& board);
 
 /// Reverses corners whose rows run opposite to those of `reference`, the same board from a nearby camera.

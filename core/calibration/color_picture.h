@@ -6,8 +6,7 @@
 
 namespace glovebench::calibration {
 
-/// Draws a picture for checking a color table by eye: views beside their labels, and the (U, V) plane with the
-/// table's regions, the pixels and the fitted Gaussians.
+/// Views beside their labels, and the (U, V) plane with the table's regions, pixels and Gaussians.
 ColorImage color_picture(std::span<const VolumeView> views, const ColorSamples& samples, const GloveColorFit& fit,
                          const ColorTable& table);
 

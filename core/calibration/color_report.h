@@ -12,23 +12,23 @@ namespace glovebench::calibration {
 
 /// How well a table separates a recording's colors. Index 0 is "not glove" or "no label".
 struct ColorSeparation {
-  /// [true color][table's label], as shares of a row; empty without pixels. Pixels of a color are drawn from its
-  /// Gaussian with camera noise.
+  /// [true color][table's label], shares of a row; empty without pixels. Pixels are drawn from the color's Gaussian
+  /// with camera noise.
   std::array<std::optional<std::array<double, kColorCount + 1>>, kColorCount + 1> confusion;
   std::array<int, kColorCount + 1> nearest{};              ///< label
   std::array<double, kColorCount + 1> nearest_distance{};  ///< chroma
-  /// Distance of the centers over the sum of both deviations along it.
+  /// Distance of centers over the sum of both deviations along it.
   std::array<double, kColorCount + 1> nearest_deviations{};
-  double unlabeled_share = 0;        ///< of glove and mixed pixels
-  double mixed_unlabeled_share = 0;  ///< 0 without mixed pixels
+  double unlabeled_share = 0;        ///< glove and mixed pixels
+  double mixed_unlabeled_share = 0;  ///< 0 without such
 };
 ColorSeparation separate_colors(const ColorSamples& samples, const GloveColorFit& fit, const ColorTable& table);
 
-/// One sentence for each problem with the colors or the recording.
+/// A sentence for each problem.
 std::vector<std::string> color_warnings(const ColorSamples& samples, const GloveColorFit& fit,
                                         const ColorSeparation& separation);
 
-/// The keys are listed in README.md.
+/// README.md lists the keys.
 nlohmann::ordered_json color_report_json(const ColorSamples& samples, const GloveColorFit& fit,
                                          const ColorSeparation& separation, const std::string& recording);
 std::string color_report_markdown(const ColorSamples& samples, const GloveColorFit& fit,

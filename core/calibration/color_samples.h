@@ -13,7 +13,7 @@ struct SampleConfig {
   WorkingVolume volume;
   RegistrationConfig registration;
   double surface_step = 0.02;  ///< depth step that separates surfaces, m, > 0
-  int beyond_stride = 16;      ///< keep every nth pixel, >= 1
+  int beyond_stride = 16;      ///< keeps every nth pixel, >= 1
 };
 
 struct ColorSample {
@@ -29,7 +29,7 @@ struct MixedSample {
   bool other_is_inside = false;
 };
 
-/// A frame in the IR camera's pixels; `inside` is 1 for a colored pixel with depth in the volume.
+/// A frame in IR pixels; `inside` is 1 for a colored pixel with depth in the volume.
 struct VolumeView {
   ColorImage color;
   Image<uint8_t> inside;
@@ -49,9 +49,9 @@ class ColorSamples {
   /// Even pixels more than kCutOffMargin behind the volume.
   const std::vector<ColorSample>& beyond() const { return beyond_; }
   const std::vector<MixedSample>& mixed() const { return mixed_; }
-  /// All colored pixels in the volume.
+  /// Colored pixels in the volume.
   int64_t inside_pixels() const { return inside_pixels_; }
-  /// Camera noise: standard deviation of the green channel; 0 without pixels in the volume.
+  /// Standard deviation of the green channel by noise; 0 without pixels in the volume.
   double noise_gray() const;
 
  private:

@@ -11,56 +11,56 @@
 
 namespace glovebench::calibration {
 
-/// The default model, which relights little because a recording shows its light.
+/// Relights little, because a recording shows its light.
 ColorModel recorded_color_model();
 
 struct GloveColorConfig {
   double min_luma = 16;                       ///< darker pixels are unsure, 0..255
   double glove_distance = 3.5;                ///< deviations within which a pixel has the color, > 0
-  double other_distance = 6.0;                ///< beyond this distance it is not glove, between both it is unsure
-  int64_t min_pixels = 200;                   ///< even pixels of a color; fewer are an error
-  int64_t few_pixels = 2000;                  ///< fewer give a warning
-  int few_frames = 3;                         ///< fewer give a warning
-  bool mixed_pixels = true;                   ///< label mixed pixels by their larger part
-  ColorModel model = recorded_color_model();  ///< `not_glove_prior` is measured instead
+  double other_distance = 6.0;                ///< deviations beyond which it does not; unsure in between
+  int64_t min_pixels = 200;                   ///< even pixels that a color must have
+  int64_t few_pixels = 2000;                  ///< even pixels, else a warning
+  int few_frames = 3;                         ///< likewise
+  bool mixed_pixels = true;                   ///< labels mixed pixels by their larger part
+  ColorModel model = recorded_color_model();  ///< `not_glove_prior` is measured
 };
 
 /// A color as a Gaussian in the chroma plane.
 struct GloveColor {
-  Chroma seed = Chroma::Zero();  ///< under the recording's light
+  Chroma seed = Chroma::Zero();  ///< in the recording's light
   Chroma center = Chroma::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< without camera noise
   double reach = 0;                                      ///< largest distance of `center` from `seed`
   std::array<double, 5> lumas{};                         ///< 10, 30, 50, 70, 90% quantiles of Y
   double weight = 0;                                     ///< share of the even pixels in the volume
   int64_t pixels = 0;                                    ///< even pixels
-  int frames = 0;                                        ///< frames that show it
+  int frames = 0;
 };
 
-/// Results of classify that are no color.
+/// Results of `classify` besides colors.
 inline constexpr uint8_t kNotGlove = 0, kUnsure = 255;
 
 struct GloveColorFit {
-  RecordedLight light;  ///< from the seeds to the recording
+  RecordedLight light;  ///< changes the seeds to the recording
   double noise_gray = 0;
   GloveColorConfig config;
   std::array<GloveColor, kColorCount + 1> colors;
-  std::vector<GloveColor> others;                      ///< frequent in the volume, such as skin
-  int64_t glove = 0, other = 0, unsure = 0;            ///< even pixels in the volume
-  int64_t beyond = 0, beyond_like_glove = 0;           ///< pixels beyond the volume
-  std::array<int64_t, kColorCount + 1> beyond_like{};  ///< by color
+  std::vector<GloveColor> others;             ///< frequent in the volume, such as skin
+  int64_t glove = 0, other = 0, unsure = 0;   ///< even pixels in the volume
+  int64_t beyond = 0, beyond_like_glove = 0;  ///< pixels behind the volume
+  std::array<int64_t, kColorCount + 1> beyond_like{};
 
-  /// The most probable color if within `glove_distance`, else kNotGlove or kUnsure. Dark pixels are unsure.
+  /// The most probable color within `glove_distance`, else kNotGlove or kUnsure; kUnsure for dark pixels.
   uint8_t classify(const Rgb& rgb) const;
 };
 
-/// Fits the light, the glove's colors and other frequent colors by expectation maximization. A center stays nearer
-/// to its own seed than to any other.
+/// Fits light, glove colors and other frequent colors by expectation maximization. A center stays nearest to its
+/// own seed.
 /// Throws: Error naming `where` if frames, the hand or colors are missing.
 GloveColorFit fit_glove_colors(const ColorSamples& samples, const ColorSeeds& seeds, const std::string& where,
                                const GloveColorConfig& config = {});
 
-/// Builds the table from classified pixels, without clutter in the glove's colors beyond the volume.
+/// Builds the table from classified pixels, except clutter in the glove's colors behind the volume.
 ColorTable build_color_table(const ColorSamples& samples, const GloveColorFit& fit,
                              ColorSpace space = ColorSpace::yuv);
 

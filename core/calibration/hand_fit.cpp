@@ -28,8 +28,7 @@ constexpr std::array<Round, 8> kRounds = {{{25, 16, 12, 12},
 
 /// Standard deviations between people of scale, palm and segments, percent (hand_dimensions.h names sources).
 constexpr double kScaleSpread = 8, kPalmSpread = 6, kLengthSpread = 6, kWidthSpread = 8;
-/// Of the joints' places in the palm, which no one measures from outside: wide enough to leave them to the
-/// recording.
+/// The same for the joints' places in the palm, which no survey measures: wide, so that the recording decides.
 constexpr double kArchSpread = 40, kThumbPlaceSpread = 20;
 /// A size whose deviation stays above this share of its spread between people was not seen.
 constexpr double kSeenShare = 0.5;

@@ -9,31 +9,29 @@
 
 namespace glovebench::calibration {
 
-/// The mesh and side of the hand that is fitted.
 struct HandMesh {
   std::string path;
   Side side = Side::right;
 };
 
-/// How the points of one patch lie to the fitted hand.
 struct PatchFit {
   int64_t points = 0;
-  double residual = 0;  ///< mean distance, m
+  double residual = 0;  ///< mean distance of points from the surface, m
 };
 
 struct HandFit {
   HandShape shape;
   HandSizes deviation{};                     ///< standard deviation of each size
-  std::array<bool, kSizeCount> seen{};       ///< the recording tells more of the size than people's differences do
+  std::array<bool, kSizeCount> seen{};       ///< true if the recording tells more than statistics of people
   std::vector<ArticulatedPose> poses;        ///< one a view
-  double residual_before = 0, residual = 0;  ///< mean distance of the points: as the mesh is, and as fitted, m
+  double residual_before = 0, residual = 0;  ///< mean distance of points from the mesh and from the fitted hand, m
   std::array<PatchFit, kPatchCount> patches{};
 };
 
-/// Fits the sizes of a hand to views of it, together with its pose and posture in each: rounds of poses refined
-/// with the hand as it is, then one Gauss-Newton step of all sizes with poses and postures eliminated (Schur), then
-/// the shift of the patch borders. Sizes that the views do not show stay near those of the mesh. Uses the threads
-/// of the caller's TBB arena; the result does not depend on their number.
+/// Fits the sizes of a hand, with pose and posture in each view. Each round refines the poses, then takes one
+/// Gauss-Newton step of all sizes with poses and postures eliminated (Schur), then shifts the patch borders. Sizes
+/// that the views do not show stay near the mesh's. Uses the caller's TBB arena; results do not depend on its
+/// threads.
 HandFit fit_hand_shape(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh);
 
 }  // namespace glovebench::calibration

@@ -10,24 +10,23 @@
 
 namespace glovebench::calibration {
 
-/// A frame in which the hand was tracked.
 struct TrackedView {
   int64_t timestamp_us = 0;
   HandView seen;
-  ArticulatedPose pose;  ///< as a hand of other sizes was tracked: where the fit begins
+  ArticulatedPose pose;  ///< tracked with other sizes; the fit starts here
 };
-/// What a frame shows of the hand that was tracked in it; empty if it was lost. `inputs`: of the method.
+/// The view of a frame; empty if the hand was lost. `inputs`: of the method.
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
-/// How a hand moved in the views of it.
+/// How the hand moved over the views.
 struct ShownMotion {
   int views = 0;
-  double seconds = 0;                ///< from the first to the last
-  double turn_deg = 0;               ///< the largest angle between two directions from which the hand is seen
-  std::array<double, 5> bend_deg{};  ///< thumb to little: how far the two middle joints bend and stretch together
+  double seconds = 0;                ///< from the first view to the last
+  double turn_deg = 0;               ///< largest angle between two directions of view
+  std::array<double, 5> bend_deg{};  ///< thumb to little: range of the two middle joints' bending
 };
 ShownMotion motion_of(std::span<const TrackedView> views);
-/// Throws Error, naming `where`, unless there are enough views, the fingers open and close, and the hand turns.
+/// Throws: Error naming `where` unless there are enough views, the fingers open and close, and the hand turns.
 void require_motion(const ShownMotion& motion, const std::string& where);
 
 }  // namespace glovebench::calibration

@@ -1,7 +1,5 @@
 #pragma once
 
-// Conversions to and from OpenCV.
-
 #include <opencv2/calib3d.hpp>
 
 #include "core/calibration/camera_fit.h"

@@ -9,7 +9,7 @@ namespace glovebench::calibration {
 
 /// The change of light and camera between seeds and recording.
 struct RecordedLight {
-  Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< on linear R, G, B; G = 1
+  Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< on linear R, G, B; 1 for G
   /// Factor on the chroma: > 1 in weak light, < 1 with haze or reflections.
   double saturation = 1;
 };

@@ -8,22 +8,22 @@
 namespace glovebench::calibration {
 
 struct StereoFit {
-  CameraFit ir, rgb;               ///< each camera alone
-  RgbdCalibration calibration;     ///< fitted to the pairs
-  double error_px = 0;             ///< RMS over all corners of all pairs
-  std::vector<std::string> pairs;  ///< view names
+  CameraFit ir, rgb;            ///< each camera alone
+  RgbdCalibration calibration;  ///< fitted to the pairs
+  double error_px = 0;          ///< RMS over all corners
+  std::vector<std::string> pairs;
   std::vector<double> pair_errors_px;
   std::vector<LeftOut> left_out;  ///< pairs above misfit_limit
-  /// Standard errors of T_rgb_ir over the pairs.
+  /// Standard errors of T_rgb_ir, from the pairs.
   double translation_error = 0;  ///< m
   double rotation_error = 0;     ///< rad
 };
 
-/// Fits each camera alone, then both to views of the same name, which must show the board in the same place.
-/// Throws: Error as fit_camera does, or if too few pairs fit or T_rgb_ir is too large for one device.
+/// Fits each camera alone, then both to views of the same name, which must show the board in one place.
+/// Throws: Error as fit_camera, and if too few pairs fit or T_rgb_ir is too large for one device.
 StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board, LensModel lens);
 
-/// The keys are listed in README.md.
+/// README.md lists the keys.
 nlohmann::json report_json(const StereoFit& fit, const Chessboard& board);
 std::string report_text(const StereoFit& fit);
 

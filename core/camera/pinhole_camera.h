@@ -4,12 +4,12 @@
 
 namespace glovebench {
 
-/// The largest images that are read: a small file cannot claim much memory.
+/// Limits on images: a small file cannot claim much memory.
 inline constexpr int kMostSide_px = 4096;
-inline constexpr int kMostPixels = 1 << 21;  // 1920x1080 and a little more
+inline constexpr int kMostPixels = 1 << 21;  // a little over 1920x1080
 
-/// A camera without distortion. Axes: x right, y down, z forward. Pixel centers are integers, as in OpenCV: the
-/// image spans [-0.5, width - 0.5).
+/// A camera without distortion. Axes: x right, y down, z forward. Pixel centers are integers: the image spans
+/// [-0.5, width - 0.5).
 struct PinholeCamera {
   int width = 640;
   int height = 480;
@@ -22,8 +22,7 @@ struct PinholeCamera {
   Eigen::Vector2d project(const Eigen::Vector3d& p_camera) const {
     return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
   }
-  /// Point at a pixel and depth z.
-  /// Units: m.
+  /// Point at a pixel and depth z, m.
   Eigen::Vector3d back_project(double u_px, double v_px, double z) const {
     return {(u_px - cx) / fx * z, (v_px - cy) / fy * z, z};
   }
@@ -31,14 +30,14 @@ struct PinholeCamera {
   friend bool operator==(const PinholeCamera&, const PinholeCamera&) = default;
 };
 
-/// Distortion of a lens: Brown's model in OpenCV's order.
+/// Brown's lens model in OpenCV's order.
 struct LensDistortion {
   double k1 = 0, k2 = 0;  ///< radial
   double p1 = 0, p2 = 0;  ///< tangential
   double k3 = 0;          ///< radial
 
   bool is_none() const { return *this == LensDistortion{}; }
-  /// Maps a point of the plane z = 1 from pinhole to lens.
+  /// Maps from pinhole to lens, in the plane z = 1.
   Eigen::Vector2d distort(const Eigen::Vector2d& xy) const {
     const double x = xy.x(), y = xy.y(), r2 = xy.squaredNorm();
     const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));

@@ -6,7 +6,7 @@
 namespace glovebench {
 
 struct RegistrationConfig {
-  /// A pixel gets no color if another surface is this much nearer on its RGB ray, m, > 0.
+  /// A surface this much nearer on the RGB ray hides a pixel, m, > 0.
   double occlusion_tolerance = 0.015;
 };
 
@@ -14,11 +14,11 @@ struct RegistrationConfig {
 /// Paper: section III-A.
 struct RegisteredImage {
   ColorImage color;          ///< in IR pixels
-  Image<uint8_t> has_color;  ///< 1 if the RGB camera sees the depth pixel, else 0
+  Image<uint8_t> has_color;  ///< 1 if the RGB camera sees the pixel, else 0
 };
 
-/// Maps colors to the depth image; inputs are rectified. Pixels without depth, outside the RGB image or hidden from
-/// the RGB camera get no color.
+/// Maps colors to the depth image; inputs are rectified. Pixels without depth, outside the RGB image or hidden get
+/// no color.
 RegisteredImage register_color(const DepthImage& depth, const ColorImage& color, const RgbdCalibration& calibration,
                                const RegistrationConfig& config);
 

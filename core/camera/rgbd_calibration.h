@@ -10,8 +10,8 @@
 
 namespace glovebench {
 
-/// A Kinect's calibrated depth: z = 1 / (a * raw + b), with raw 11-bit disparity. With baseline B, focal length f
-/// (px) and disparity d at infinity, a = -1 / (8 f B) and b = d / (8 f B).
+/// A Kinect's calibrated depth: z = 1 / (a * raw + b), raw: 11-bit disparity. With baseline B, focal length f (px)
+/// and disparity d at infinity, a = -1 / (8 f B), b = d / (8 f B).
 struct DisparityLine {
   double a_per_m = 0;  ///< below 0
   double b_per_m = 0;  ///< above 0
@@ -19,17 +19,17 @@ struct DisparityLine {
   friend bool operator==(const DisparityLine&, const DisparityLine&) = default;
 };
 
-/// A Kinect's stereo calibration. The frame "camera" is that of the IR (depth) camera.
+/// A Kinect's stereo calibration. "camera" is the IR (depth) camera.
 /// Paper: section III-A.
 struct RgbdCalibration {
   PinholeCamera ir;
   PinholeCamera rgb;
   Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< p_rgb = T_rgb_ir * p_ir, m
-  std::optional<DisparityLine> disparity = std::nullopt;       ///< none: as in kinect/disparity.h
-  LensDistortion ir_lens = {}, rgb_lens = {};                  ///< of the device's images
+  std::optional<DisparityLine> disparity = std::nullopt;       ///< empty: as in kinect/disparity.h
+  LensDistortion ir_lens = {}, rgb_lens = {};                  ///< the device's
 
   bool has_lens() const { return !(ir_lens.is_none() && rgb_lens.is_none()); }
-  /// For rectified images, which trackers take.
+  /// The same without lenses, for rectified images.
   RgbdCalibration rectified() const {
     RgbdCalibration calibration = *this;
     calibration.ir_lens = calibration.rgb_lens = {};
@@ -37,7 +37,6 @@ struct RgbdCalibration {
   }
 };
 
-/// The calibration of the synthetic Kinect.
 RgbdCalibration synthetic_calibration();
 
 /// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right. Real colors are some
@@ -55,7 +54,7 @@ nlohmann::json to_json(const RgbdCalibration& calibration);
 
 inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes
 
-/// The content of a file, which gives the same calibration bit for bit.
+/// The text of a file with the same calibration, bit for bit.
 std::string calibration_text(const RgbdCalibration& calibration);
 /// Throws: Error.
 RgbdCalibration load_calibration(const std::string& path);

@@ -14,33 +14,32 @@ struct WorkingVolume {
   double z_max = 0.95;  ///< m, > z_min; the synthetic table is at 1.06
 };
 
-/// Glove pixels outside the volume, but within this distance, count as cut off, m.
+/// Glove pixels this near the volume count as cut off, m.
 inline constexpr double kCutOffMargin = 0.05;
 
 struct LabeledPoint {
-  Eigen::Vector3f p;  ///< m; in a cloud, camera frame
+  Eigen::Vector3f p;  ///< m, camera frame in a cloud
   uint8_t label = 0;  ///< 1..kColorCount
 };
 
-/// The labeled point cloud C, in row-major order of its pixels.
+/// The labeled point cloud C, in row-major order of pixels.
 /// Paper: equation 1.
 struct LabeledCloud {
   RecycledVector<LabeledPoint> points;
-  LabelImage labels;        ///< labels of the pixels in `points`, 0 elsewhere
-  int labeled_outside = 0;  ///< glove pixels with depth outside the working volume
-  int labeled_cut_off = 0;  ///< of these, those within kCutOffMargin
+  LabelImage labels;        ///< those of `points`, 0 elsewhere
+  int labeled_outside = 0;  ///< glove pixels with depth outside the volume
+  int labeled_cut_off = 0;  ///< of these, within kCutOffMargin
 };
 
-/// The glove pixels with a depth in the volume.
+/// Takes glove pixels with depth in the volume.
 /// Paper: equation 1.
 LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, const PinholeCamera& camera,
                          const WorkingVolume& volume);
 
-/// Pixel counts of connected components, largest first. Connected are 8-neighbors whose depths differ by at most
-/// `depth_step`.
-/// Units: m.
+/// Pixel counts of connected components, largest first. Neighbors (8) connect if depths differ by at most
+/// `depth_step`, m.
 RecycledVector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
-/// Keeps the largest component; not in the paper.
+/// Keeps the largest component (not in the paper).
 LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step);
 
 }  // namespace glovebench

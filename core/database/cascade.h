@@ -16,7 +16,7 @@ struct CascadeStage {
 using Cascade = std::vector<CascadeStage>;
 
 /// Reads "16:500,64:3"; "exact:3" means "64:3".
-/// Throws: Error on a malformed or impossible stage.
+/// Throws: Error for a malformed or impossible stage.
 Cascade parse_cascade(std::string_view text);
 std::string to_string(const Cascade& cascade);
 

@@ -19,8 +19,7 @@
 namespace glovebench {
 namespace {
 
-/// Of the text that input_hash makes. What the builder makes of the same inputs has a hash of its own
-/// (content_hash).
+/// Version of the text that input_hash hashes; content_hash covers what the builder makes of the inputs.
 constexpr int kInputsVersion = 1;
 
 PinholeCamera view_camera(const ViewConfig& views) {

@@ -14,7 +14,7 @@ inline constexpr std::string_view kDatabaseEnding = ".glovedb";
 struct DatabaseCache {
   std::string folder;
   ViewRendererFactory renderers;
-  std::string source_hash;  ///< of the building code
+  std::string source_hash;  ///< building code's
   int threads = 1;
   DatabaseMemory memory = DatabaseMemory::normal;
   std::function<void(const std::string&)> message = [](const std::string&) {};

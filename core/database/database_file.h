@@ -14,7 +14,7 @@
 
 namespace glovebench {
 
-/// Other versions are refused.
+/// The only version that is read.
 inline constexpr int kDatabaseVersion = 5;
 
 struct DatabaseHeader {
@@ -22,18 +22,18 @@ struct DatabaseHeader {
   Side side = Side::right;
   std::string input_hash;
   DatabaseMemory memory = DatabaseMemory::normal;
-  double field_cap_share = 0;  ///< see ViewConfig
+  double field_cap_share = 0;
   std::set<int> sizes_px;
 };
 
-/// A part of the file, hashed by pieces in parallel.
+/// A part of the file, hashed in pieces in parallel.
 struct Section {
   enum class Kind { box_rays, labels, fields };
 
   Kind kind = Kind::box_rays;
-  int size_px = 0;  ///< 0: for all sizes
+  int size_px = 0;  ///< 0: all sizes
   uint64_t offset = 0;
-  uint64_t bytes = 0;        ///< 0: fields of low memory, only hashed
+  uint64_t bytes = 0;        ///< 0: fields in low memory, only hashed
   uint64_t piece_bytes = 0;  ///< of kPieceEntries entries
 
   std::string name() const;
@@ -43,8 +43,8 @@ struct SizeSections {
   Section fields;  ///< [entry][color][pixel]
 };
 
-/// The bytes of a database, little-endian: magic, length and checksum of a JSON header, the header, then sections
-/// of whole pages, each followed by at least kBehind zero bytes.
+/// A database's bytes, little-endian: magic, length and checksum of a JSON header, the header, then sections of
+/// whole pages, each followed by at least kBehind zero bytes.
 class DatabaseLayout {
  public:
   static constexpr uint64_t kBehind = 64;
@@ -59,15 +59,15 @@ class DatabaseLayout {
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
   int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
-  /// In file order, including fields that are not stored.
+  /// The sections in file order, with fields that are not stored.
   std::vector<Section> sections() const;
   /// Hash of angles, box rays, labels and fields, equal for both memory modes.
   std::string content_hash() const;
 
   /// Writes the header with the sections' hashes.
   void seal(MappedMemory& file);
-  /// Checks the sections of these sizes and makes the rows of their fields.
-  /// Throws: Error naming `path` if a hash or a value is wrong.
+  /// Checks the sections of these sizes and makes rows of their fields.
+  /// Throws: Error naming `path` for a wrong hash or value.
   std::map<int, FieldRows> read_sections(const MappedMemory& file, const std::string& path,
                                          std::span<const int> sizes_px) const;
 

@@ -7,24 +7,24 @@
 
 namespace glovebench {
 
-/// Stored distances are in 1/kFieldScale px: a straight chamfer step is 3, a diagonal one 4.
+/// Stored distances are in 1/kFieldScale px; a straight step is 3, a diagonal one 4.
 inline constexpr int kFieldScale = 3;
 
-/// Computes the distance of each pixel to the nearest one of `color` by two-pass chamfering, at most `cap`, also if
-/// the color is absent.
+/// Distance of each pixel to the nearest one of `color` by two-pass chamfering; `cap` at most, also without the
+/// color.
 /// Paper: section III-B.
 void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 
-/// `last` is excluded.
+/// Half-open.
 struct RowRange {
   int first = 0, last = 0;
 };
 
-/// The same, faster: relaxes whole rows at once.
+/// The same, faster: relaxes whole rows.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
-/// The same for the rows `wanted`; other values are undefined.
+/// The same for rows `wanted`; others are undefined.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
-/// The fields of all colors, one behind the other.
+/// The fields of all colors in turn.
 void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields);
 
 }  // namespace glovebench

@@ -11,8 +11,8 @@
 
 namespace glovebench {
 
-/// `low` stores no fields, holds minima over up to 8 x 8 pixels instead of 4 x 4, and makes fields from the labels
-/// during a look-up. Matches are the same.
+/// `low` stores no fields, holds minima over up to 8 x 8 pixels (not 4 x 4), and makes fields from labels during a
+/// look-up. Matches are the same.
 enum class DatabaseMemory { normal, low };
 constexpr auto names_of(DatabaseMemory) {
   return std::to_array<std::string_view>({"normal", "low"});
@@ -23,22 +23,22 @@ struct WeightedRow {
   uint16_t weight;
 };
 
-/// The distance fields of one size, arranged for a search over all entries: blocks of 64 entries, a row for each
-/// color and cell, a value for each entry. A cell of large images is 4 x 4 or 8 x 8 pixels and holds their minimum,
-/// which makes sums over cells lower bounds.
+/// The distance fields of one size for a search over all entries: blocks of 64 entries, a row for each color and
+/// cell, a value for each entry. In large images a cell is 4 x 4 or 8 x 8 pixels and holds their minimum, so that
+/// sums over cells are lower bounds.
 class FieldRows {
  public:
-  static constexpr int kBlock = 64;            ///< entries; a row is a cache line
+  static constexpr int kBlock = 64;            ///< entries: a cache line
   static constexpr int kLargestExact = 24;     ///< px; larger sizes hold cell minima
   static constexpr int kLargestFinePool = 32;  ///< px; larger sizes have 8 x 8 cells in low memory
 
   /// Rows are 0 until `put`.
   FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value);
-  /// Writes entries from `first` on, kColorCount * size * size values each; threads may put different ones. The
+  /// Writes entries from `first` on, kColorCount * size * size values each. Threads may put different ones. The
   /// last entry also fills its block.
   void put(int first, std::span<const uint8_t> fields);
 
-  /// Sums over rows are distances, not bounds.
+  /// Sums over rows are distances instead of bounds.
   bool exact() const { return pool_ == 1; }
   size_t block_count() const { return block_count_; }
   /// kColorCount times the cells.

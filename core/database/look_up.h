@@ -11,11 +11,11 @@ namespace glovebench {
 
 struct Match {
   int entry = 0;
-  float error = 0;  ///< equation (2) in the last stage, px
+  float error = 0;  ///< equation (2) of the last stage, px
 };
 
 struct TinyImages {
-  RecycledVector<LabelImage> images;  ///< one for each stage
+  RecycledVector<LabelImage> images;  ///< by stage
 };
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade);
 
@@ -28,25 +28,25 @@ float distance(const Database& database, int entry, const LabelImage& query);
 std::vector<float> distances(const Database& database, const LabelImage& query);
 
 struct LookUpTrace {
-  /// best first; one list for each stage with glove pixels
+  /// best first, by stage with glove pixels
   std::vector<std::vector<int>> kept;
 };
 
-/// A way to search. All give the same matches and the same trace: X_look_up.cpp in core/database/look_ups defines
+/// A way to search; all give the same matches and trace. X_look_up.cpp in core/database/look_ups defines
 /// `LookUpEntry X_look_up()`.
 struct LookUpEntry {
   std::string_view name;         ///< X
   std::string_view description;  ///< one line
-  /// As `look_up` below.
+  /// As `look_up`.
   RecycledVector<Match> (*look_up)(const Database& database, const TinyImages& query, const Cascade& cascade,
                                    LookUpTrace* trace);
 };
-/// All of that folder, sorted by name.
+/// Sorted by name.
 std::span<const LookUpEntry> look_ups();
 
-/// Ranks in each stage what the previous one kept: best first, equal errors by entry number. Empty without glove
-/// pixels. `name`: of `look_ups`; all give the same result.
-/// Throws: Error if no look-up has the name.
+/// Each stage ranks what the previous one kept: best first, equal errors by entry number. Empty without glove
+/// pixels. `name`: of `look_ups`.
+/// Throws: Error for an unknown name.
 /// Paper: section III-B.
 RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
                               std::string_view name = "fast", LookUpTrace* trace = nullptr);

@@ -7,23 +7,23 @@
 
 namespace glovebench {
 
-/// Distances of low-memory entries to one query. Fields are made color by color, only until the entry is too far.
+/// Distances of low-memory entries to one query. Makes fields color by color, until the entry is too far.
 class MadeDistances {
  public:
   /// Throws: Error if the query's size is not loaded.
   MadeDistances(const Database& database, const LabelImage& query);
 
-  /// The sum over the query's glove pixels, 1/kFieldScale px, or any number above `limit` if it exceeds that.
+  /// The sum over glove pixels, 1/kFieldScale px, or any number above `limit` if it is larger.
   uint32_t sum(int entry, uint32_t limit) const;
 
  private:
-  /// The query's pixels of one color.
+  /// One color's pixels of the query.
   struct Part {
     uint8_t color = 0;
     size_t pixels = 0;
     RowRange rows_px;
-    RecycledVector<FieldChunk> chunks;   ///< of a field of this color alone
-    RecycledVector<WeightedRow> bounds;  ///< rows that sum to a lower bound
+    RecycledVector<FieldChunk> chunks;   ///< in this color's field
+    RecycledVector<WeightedRow> bounds;  ///< sum to a lower bound
   };
 
   const Database& database_;

@@ -14,7 +14,7 @@ namespace glovebench {
 
 struct SectionContent {
   std::string hash;
-  /// found and expected, if a value is invalid
+  /// found and expected, for an invalid value
   std::optional<std::pair<std::string, std::string>> fault;
 };
 
@@ -23,8 +23,8 @@ struct DatabaseContent {
   std::map<int, FieldRows> rows;
 };
 
-/// Hashes sections and checks their values; makes and hashes fields that are not stored. `load` also makes rows of
-/// the fields and keeps a normal database resident. Uses the caller's TBB arena.
+/// Hashes sections and checks their values; makes and hashes fields that are not stored. `load` also makes rows and
+/// keeps a normal database resident. Uses the caller's TBB arena.
 DatabaseContent look_at_sections(const DatabaseLayout& layout, const MappedMemory& file,
                                  std::span<const Section> sections, bool load);
 

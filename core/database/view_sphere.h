@@ -12,14 +12,14 @@
 
 namespace glovebench {
 
-inline constexpr int kCameraPositions = 42;   ///< icosahedron subdivided once (section III)
+inline constexpr int kCameraPositions = 42;   ///< once subdivided icosahedron (section III)
 inline constexpr int kInPlaneRotations = 18;  ///< 20 degrees apart
 inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;  ///< 756
 
-/// Unit vectors to the corners and edge midpoints of an icosahedron.
+/// Unit vectors to an icosahedron's corners and edge midpoints.
 std::vector<Eigen::Vector3d> camera_directions();
 
-/// R_view_hand, cameras looking at the hand origin. View = position * 18 + rotation.
+/// R_view_hand of cameras that look at the hand origin. View = position * 18 + rotation.
 const std::vector<Eigen::Matrix3d>& view_rotations();
 
 /// The hand alone; 0 elsewhere.
@@ -29,7 +29,7 @@ struct HandImages {
   DepthImage depth;      ///< z, m
 };
 
-/// Draws views of the hand; belongs to one thread.
+/// Draws views of the hand, for one thread.
 class ViewRenderer {
  public:
   virtual ~ViewRenderer() = default;

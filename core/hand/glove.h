@@ -50,15 +50,15 @@ struct GlovedMesh {
 
 /// Patches of one color lie far apart, also in a fist; front and back of the palm differ.
 const std::array<uint8_t, kPatchCount>& patch_labels();
-/// The patches that each angle moves; bit p is patch p.
+/// Bit p: the angle moves patch p.
 const std::array<uint32_t, kAngleCount>& patches_moved();
 
 using PatchScores = std::array<double, kPatchCount>;
-/// How strongly each vertex belongs to each patch. `mesh` is in the hand frame, with forearm; `border_shift` is
-/// towards the fingertips, m.
+/// How strongly each vertex belongs to each patch. `mesh`: hand frame, with forearm; `border_shift`: towards the
+/// fingertips, m.
 std::vector<PatchScores> patch_scores(const RiggedMesh& mesh, double border_shift);
 
-/// Cuts triangles where the largest interpolated score changes; the mesh stays closed.
+/// Cuts triangles where the largest interpolated score changes. The mesh stays closed.
 GlovedMesh cut_patches(const RiggedMesh& mesh, const std::vector<PatchScores>& scores);
 
 }  // namespace glovebench

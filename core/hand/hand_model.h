@@ -15,22 +15,22 @@
 
 namespace glovebench {
 
-/// The hand in the hand frame, m: origin midway between the wrist joint and the middle MCP, -z to the fingertips,
-/// +y dorsal.
+/// The hand in the hand frame, m: origin midway between wrist joint and middle MCP, -z to the fingertips, +y
+/// dorsal.
 struct PosedHand {
   RecycledVector<Eigen::Vector3f> vertices;
   JointPoses T_hand_joint;
 };
 
-/// The gloved hand: kinematics, linear blend skinning and a closed mesh.
+/// The gloved hand: kinematics, linear blend skinning, closed mesh.
 class HandModel {
  public:
   /// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20.
   /// Throws: Error if the file is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
-  /// This hand with its sizes multiplied by those of `factors`. Patches stay where they are on the skin; those of a
-  /// hand that is loaded with such a shape lie where its own weights and places have them.
+  /// This hand with sizes multiplied by `factors`. Patches keep their places on the skin, whereas `load` with such
+  /// a shape derives them anew.
   HandModel stretched(const HandSizes& factors) const;
 
   PosedHand pose(const Posture& posture) const;
@@ -38,14 +38,14 @@ class HandModel {
   size_t vertex_count() const { return bind_vertices_.size(); }
   const std::vector<Influence>& influences() const { return influences_; }
   Side side() const { return side_; }
-  /// The right hand's; the left hand mirrors it.
+  /// The right hand's; a left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const HandShape& shape() const { return shape_; }
   /// Hash of cut mesh, weights and skeleton.
   const std::string& hash() const { return hash_; }
 
  private:
-  /// Sets the bind pose of the right hand and what follows from it.
+  /// Sets the right hand's bind pose and what follows from it.
   void bind(std::vector<Eigen::Vector3d> vertices, std::span<const Eigen::Isometry3d> T_hand_joint);
   std::string make_hash(const JointPoses& T_hand_joint) const;
 

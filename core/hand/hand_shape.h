@@ -7,45 +7,45 @@
 
 namespace glovebench {
 
-/// The sizes in which hands differ, as factors on those of the package's mesh. `kScale` is of the whole hand; all
-/// others are relative to it. Segments: metacarpal, proximal and distal of the thumb; proximal, intermediate and
-/// distal of index, middle, ring and little.
+/// Sizes in which hands differ: factors on the package's mesh. `kScale` is of the whole hand, others are relative
+/// to it. Segments: metacarpal, proximal, distal of the thumb; proximal, intermediate, distal of index, middle,
+/// ring, little.
 inline constexpr int kSegmentCount = 15;
 enum HandSize : int {
   kScale,
   kPalmBreadth,
   kPalmThickness,
-  kKnuckleArch,      ///< how far the MCPs of index, ring and little lie palmar of the middle finger's
-  kThumbPalmLength,  ///< along the palm, from the wrist to the thumb's first joint
-  kIndexPalmLength,  ///< and to the MCPs; the middle finger's has no factor
+  kKnuckleArch,      ///< how far the MCPs of index, ring and little lie palmar of the middle one
+  kThumbPalmLength,  ///< from wrist to the thumb's first joint, along the palm
+  kIndexPalmLength,  ///< to the MCP; likewise below, the middle finger has none
   kRingPalmLength,
   kLittlePalmLength,
-  kSegmentLengths,  ///< the first of 15
+  kSegmentLengths,  ///< the first of kSegmentCount
   kSegmentWidths = kSegmentLengths + kSegmentCount,
   kSizeCount = kSegmentWidths + kSegmentCount,
 };
 using HandSizes = std::array<double, kSizeCount>;
-/// No hand has a size outside of these.
+/// Bounds of all hands.
 inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
 
-/// Name of each size as it stands in files, e.g. "index_proximal_length".
+/// Names in files, such as "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();
 
-/// How a person's gloved hand differs from the mesh of the package.
+/// How a person's gloved hand differs from the package's mesh.
 struct HandShape {
   HandSizes sizes = [] {
     HandSizes ones;
     ones.fill(1);
     return ones;
   }();
-  double patch_border_shift = 0;  ///< how far the patch borders lie towards the fingertips, m
+  double patch_border_shift = 0;  ///< of the patch borders towards the fingertips, m
 };
 
-/// The second subject: 5% larger, segments +-8% longer or shorter, patch borders shifted by 2 mm.
+/// The second subject: 5% larger, segments +-8%, patch borders shifted by 2 mm.
 HandShape second_subject();
 
-/// The mesh with the whole hand scaled, its palm and segments stretched. The mesh is in the hand frame, in the bind
-/// pose, with the forearm. `shape.patch_border_shift` is of no account.
+/// Scales the hand and stretches palm and segments. Ignores `shape.patch_border_shift`. `mesh`: hand frame, bind
+/// pose, with forearm.
 RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
 }  // namespace glovebench

@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// The 22 joint angles, rad; degrees in files.
+/// The 22 joint angles, rad (degrees in files).
 /// Paper: section III.
 inline constexpr int kAngleCount = 22;
 using Posture = Eigen::Matrix<double, kAngleCount, 1>;
@@ -38,8 +38,8 @@ enum Angle : int {
   kLittleDipFlexion,
 };
 
-/// The name in files and limits of a human hand. Positive flexion bends to the palm, positive abduction turns to
-/// the thumb; zero is straight and in line with the palm.
+/// Name in files, and limits of a human hand. Positive flexion bends to the palm, positive abduction turns to the
+/// thumb; zero is straight and in line with the palm.
 struct AngleInfo {
   std::string_view name;
   double min_deg;
@@ -49,7 +49,7 @@ const std::array<AngleInfo, kAngleCount>& angle_infos();
 
 Posture posture_from_degrees(const std::array<double, kAngleCount>& degrees);
 Posture clamp_to_limits(const Posture& posture);
-/// Root mean square over the angles, rad.
+/// RMS over the angles, rad.
 double posture_distance(const Posture& a, const Posture& b);
 
 enum class Side { right, left };

@@ -20,7 +20,7 @@ struct Influence {
 /// A closed triangle mesh in bind pose, m.
 struct RiggedMesh {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<Influence> influences;               ///< one for each vertex
+  std::vector<Influence> influences;               ///< by vertex
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise from outside
   std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< by joint (skeleton.h)
 };
@@ -29,10 +29,10 @@ struct RiggedMesh {
 inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
 /// Loads the file of HandModel::load in its own frame, welded by position.
-/// Throws: Error as HandModel::load does.
+/// Throws: Error as HandModel::load.
 RiggedMesh load_rigged_mesh(const std::string& path);
 
-/// Replaces the cap at the wrist of a mesh in the hand frame by a forearm of `length` m, blended in over +-12 mm.
+/// Replaces the cap at the wrist by a forearm of `length` m, blended in over +-12 mm. `hand`: hand frame.
 RiggedMesh with_forearm(const RiggedMesh& hand, double length);
 
 }  // namespace glovebench

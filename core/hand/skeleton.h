@@ -14,33 +14,32 @@ inline constexpr int kJointCount = 26;
 inline constexpr int kWristJoint = 0;
 inline constexpr int kForearmJoint = 25;
 
-/// WebXR names; the last is "forearm".
+/// WebXR names and "forearm".
 /// Throws: Error for an unknown name.
 const std::string& joint_name(int joint);
 int joint_index(const std::string& webxr_name);
 /// -1: attached to the palm.
 const std::array<int, kJointCount>& joint_parents();
-/// The joint that an angle turns.
 int joint_of_angle(int angle);
 /// Thumb to little.
 const std::array<int, 5>& fingertip_joints();
 
 using JointPoses = std::array<Eigen::Isometry3d, kJointCount>;
 
-/// The kinematic tree of the right hand. A joint's rotation in its parent is R_zero_before * R_y(abduction) *
-/// R_x(-flexion) * R_zero_after. At zero, fingers point to -z of the hand frame, and the thumb's base keeps its
-/// bind orientation.
+/// The right hand's kinematic tree. A joint's rotation in its parent is R_zero_before * R_y(abduction) *
+/// R_x(-flexion) * R_zero_after. At zero, fingers point to -z of the hand frame; the thumb's base keeps its bind
+/// orientation.
 class Skeleton {
  public:
   Skeleton() = default;
   explicit Skeleton(const JointPoses& T_hand_joint_bind);
 
   JointPoses pose(const Posture& posture) const;
-  /// The right-handed unit axis of each angle in the hand frame.
+  /// Unit axis of each angle, right-handed, hand frame.
   std::array<Eigen::Vector3d, kAngleCount> axes(const JointPoses& T_hand_joint) const;
   const Posture& bind_posture() const { return bind_posture_; }
 
-  /// A joint's position in its parent's frame, or else the hand frame, m.
+  /// A joint's position in its parent's frame (without parent: hand frame), m.
   const Eigen::Vector3d& offset(int joint) const { return joints_.at(joint).offset; }
   void set_offset(int joint, const Eigen::Vector3d& offset) { joints_.at(joint).offset = offset; }
 

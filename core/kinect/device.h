@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// A Kinect's frame, which is all that the tracker sees.
+/// A Kinect's frame, all that the tracker sees.
 struct DeviceFrame {
   Image<uint16_t> raw_disparity;  ///< 640x480, 11 bits, 2047: no value
   ColorImage color;               ///< 640x480, not registered
@@ -22,13 +22,13 @@ class FrameError : public Error {
   using Error::Error;
 };
 
-/// A source of frames with depth and color paired by time.
+/// A source of frames; depth and color are paired by time.
 class Device {
  public:
   virtual ~Device() = default;
   virtual const RgbdCalibration& calibration() const = 0;
-  /// The next frame, or nothing at the end.
-  /// Throws: FrameError if this frame alone is unusable; another Error if the device fails.
+  /// Empty at the end.
+  /// Throws: FrameError if only this frame is unusable, another Error if the device fails.
   virtual std::optional<DeviceFrame> next_frame() = 0;
 };
 

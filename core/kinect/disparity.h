@@ -9,23 +9,22 @@
 
 namespace glovebench {
 
-/// The formula of Kinect v1: z_mm = 345489 / (1089.41 - raw), from f 575.816 px, baseline 75 mm and steps of 1/8
-/// px.
+/// Kinect v1: z_mm = 345489 / (1089.41 - raw), from f 575.816 px, baseline 75 mm and steps of 1/8 px.
 inline constexpr uint16_t kNoDisparity = 2047;
-inline constexpr uint16_t kMaxDisparity = 1083;  ///< beyond, the formula is useless
+inline constexpr uint16_t kMaxDisparity = 1083;  ///< beyond it the formula is useless
 
-/// Depth in m; 0 above kMaxDisparity.
+/// m; 0 above kMaxDisparity.
 float depth_from_disparity(uint16_t raw);
 /// The nearest step; kNoDisparity if z (m) is not finite, not positive or out of range.
 uint16_t disparity_from_depth(double z);
 
-/// The same by a calibration, or by the formula without one. Depth outside 0..54 m, the formula's range, is none.
+/// The same by a calibration, else by the formula. No depth outside the formula's 0..54 m.
 using OptionalLine = std::optional<DisparityLine>;
 float depth_from_disparity(uint16_t raw, const OptionalLine& line);
 uint16_t disparity_from_depth(double z, const OptionalLine& line);
 
 DepthImage depth_from_disparity(const Image<uint16_t>& raw);
-/// Depth beyond `z_max` (m) becomes 0.
+/// Drops depth beyond `z_max` (m).
 DepthImage depth_from_disparity(const Image<uint16_t>& raw, const OptionalLine& line,
                                 double z_max = std::numeric_limits<double>::infinity());
 

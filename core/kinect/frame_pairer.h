@@ -10,11 +10,10 @@
 
 namespace glovebench {
 
-/// The Kinect's 60 MHz clock, whose 32 bits wrap around every 71.6 s.
+/// The Kinect's 60 MHz clock; its 32 bits wrap every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
-/// Turns ticks into microseconds without wraps. Successive stamps, of one or both streams, must be less than 35.8 s
-/// apart.
+/// Turns ticks into microseconds without wraps. Successive stamps must be less than 35.8 s apart.
 class TickClock {
  public:
   TickClock() = default;
@@ -27,7 +26,7 @@ class TickClock {
     started_ = true;
     first_us_.reset();
     ticks_ += static_cast<int32_t>(ticks - static_cast<uint32_t>(ticks_));
-    const bool rounds_up = ticks_ % kTicksPerMicrosecond < 0;  // rounds down, also below zero
+    const bool rounds_up = ticks_ % kTicksPerMicrosecond < 0;  // below zero, too
     return ticks_ / kTicksPerMicrosecond - rounds_up;
   }
 
@@ -38,17 +37,16 @@ class TickClock {
 };
 
 struct PairingRules {
-  int64_t max_gap_us = 50'000;                              ///< largest in a pair
-  int64_t restart_us = 1'000'000;                           ///< a step back by more is a restart of the clock
+  int64_t max_gap_us = 50'000;                              ///< in a pair
+  int64_t restart_us = 1'000'000;                           ///< a larger step back is a restart of the clock
   size_t max_waiting = std::numeric_limits<size_t>::max();  ///< of each kind
 };
 
-/// Pairs each depth image with the color image nearest in time, the earlier of two equally near. A depth image
-/// waits for the first color image not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait,
-/// or `finish`. Color images are copied.
-///
-/// Pairs come in order of time. An image that is not later than its kind's last one is dropped. At a restart of the
-/// clock, waiting images are dropped instead, and times go back.
+/// Pairs each depth image with the color image nearest in time, the earlier of two. A depth image waits for a color
+/// image that is not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`. Color
+/// images are copied.
+/// Pairs come in order of time. An image not later than its kind's last one is dropped. A restart of the clock
+/// drops waiting images instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:
@@ -74,7 +72,7 @@ class FramePairer {
     pair_up();
     if (colors_.size() > rules_.max_waiting) colors_.pop_front();
   }
-  /// Pairs what waits; no more images follow.
+  /// Pairs the waiting images; no more follow.
   void finish() {
     finished_ = true;
     pair_up();
@@ -87,7 +85,7 @@ class FramePairer {
   }
 
   int unpaired() const { return unpaired_; }
-  /// Dropped images that were not later.
+  /// Dropped images: not later than their kind's last.
   int went_back() const { return went_back_; }
 
  private:

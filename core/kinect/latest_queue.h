@@ -7,14 +7,14 @@
 
 namespace glovebench {
 
-/// The newest values, oldest first. Dropped values count as late only after the first `pop`. Not thread-safe.
+/// The newest values, oldest first. Counts dropped values as late only after the first `pop`. Not thread-safe.
 template <typename T>
 class LatestQueue {
  public:
   explicit LatestQueue(size_t capacity) : capacity_(capacity) {}
 
   void push(T value) { values_.push_back(std::move(value)); }
-  /// Call after each push, unless the sender waits for room.
+  /// Call after each push, unless the sender waits.
   void drop_oldest() {
     for (; is_overfull(); late_ += asked_) values_.pop_front();
   }

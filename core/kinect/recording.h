@@ -10,17 +10,15 @@
 
 namespace glovebench {
 
-/// A recording is a folder in the format of libfreenect's fakenect, with two more files:
-///
+/// A recording: a folder as of libfreenect's fakenect, and two more files:
 ///     INDEX.txt                         file names, one a line, in order of arrival
 ///     d-SECONDS.MICROS-TICKS.pgm        "P5 640 480 65535", raw disparity, 16-bit little-endian
 ///     r-SECONDS.MICROS-TICKS.ppm        "P6 640 480 255", RGB
 ///     a-SECONDS.MICROS-TICKS.dump       accelerometer, ignored
 ///     calibration.json                  rgbd_calibration.h
 ///     manifest.json                     core/base/file_set.h; optional
-///
-/// SECONDS.MICROS is the arrival by the computer's clock. TICKS is the time of the image by the device's clock
-/// (TickClock). Its time stamp is that of its ticks, in the round that fits the arrival best.
+/// SECONDS.MICROS is the arrival by the computer's clock, TICKS the image's time by the device's (TickClock). An
+/// image's time stamp is that of its ticks, in the round nearest to the arrival.
 
 /// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
@@ -36,7 +34,7 @@ class RecordingDevice : public Device {
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
-  /// Dropped images with the time stamp of the one before.
+  /// Dropped images whose time stamp repeats.
   int repeated_count() const { return repeated_count_; }
   /// Calibration and index, if they differ from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }
@@ -55,17 +53,17 @@ class RecordingDevice : public Device {
   int repeated_count_ = 0;
 };
 
-/// Writes frames as a recording, which plays back equal if each color image is the nearest to its depth image.
+/// Writes frames as a recording. It plays back equal if each color image is the nearest to its depth image.
 class RecordingWriter {
  public:
   /// Throws: Error if the folder has a recording or cannot be written.
   RecordingWriter(const std::string& folder, const RgbdCalibration& calibration);
 
-  /// Depth time stamps must rise; an equal color time stamp means the same image.
+  /// Depth time stamps must rise. An equal color time stamp means the same image.
   /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
-  /// Makes the folder a recording. Without it all frames are lost: not for live cameras.
-  /// Throws: Error if there are no frames.
+  /// Makes the folder a recording; without it all frames are lost.
+  /// Throws: Error without frames.
   void finish();
 
  private:

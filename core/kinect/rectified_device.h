@@ -10,18 +10,18 @@
 
 namespace glovebench {
 
-/// Throws: Error if the distortion folds the image, so that it cannot be undone.
+/// Throws: Error if the distortion folds the image and cannot be undone.
 void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens);
 
-/// Undistorts images of the camera's size. Pixels from outside the image are empty.
+/// Undistorts images of the camera's size. Pixels from outside are empty.
 class Rectification {
  public:
-  /// Throws: Error, as `require_unfolded`.
+  /// Throws: Error as `require_unfolded`.
   Rectification(const PinholeCamera& camera, const LensDistortion& lens);
 
-  /// Takes the nearest pixel, to mix no surfaces. Empty pixels are 2047.
+  /// Nearest pixel, to mix no surfaces. Empty pixels are 2047.
   Image<uint16_t> operator()(const Image<uint16_t>& raw_disparity) const;
-  /// Interpolates between pixels. Empty pixels are black.
+  /// Interpolated. Empty pixels are black.
   ColorImage operator()(const ColorImage& color) const;
 
  private:
@@ -34,7 +34,7 @@ class Rectification {
 
 class RectifiedDevice : public Device {
  public:
-  /// Throws: Error, as `require_unfolded`.
+  /// Throws: Error as `require_unfolded`.
   explicit RectifiedDevice(std::unique_ptr<Device> device);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
@@ -43,10 +43,10 @@ class RectifiedDevice : public Device {
  private:
   std::unique_ptr<Device> device_;
   RgbdCalibration calibration_;
-  std::optional<Rectification> ir_, rgb_;  ///< made with the first frame
+  std::optional<Rectification> ir_, rgb_;  ///< made at the first frame
 };
 
-/// Rectifies the device if its calibration has a lens.
+/// Rectifies a device whose calibration has a lens.
 std::unique_ptr<Device> without_lens_distortion(std::unique_ptr<Device> device);
 
 }  // namespace glovebench

@@ -9,13 +9,13 @@
 
 namespace glovebench {
 
-/// A square in continuous image coordinates; a pixel extends 0.5 px from its center.
+/// In continuous image coordinates; a pixel extends 0.5 px from its center.
 struct ImageSquare {
   Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
   double side_px = 0;
 };
 ImageSquare image_square(const Square& square);
-/// Around the projected points. Empty if there are none or one is behind the camera.
+/// Around the projected points. Empty without any or if one is behind the camera.
 std::optional<ImageSquare> projected_square(std::span<const Eigen::Vector3f> points_hand,
                                             const Eigen::Isometry3d& T_camera_hand, const PinholeCamera& camera);
 
@@ -24,8 +24,8 @@ struct BoxPlacement {
   int iterations = 0;
   bool converged = false;  ///< to 0.01 px
 };
-/// The position at which the points project into `observed`. Empty if the square is empty, or so large that points
-/// fall behind the camera.
+/// The position whose projected points fill `observed`. Empty for an empty square, or one so large that points fall
+/// behind the camera.
 std::optional<BoxPlacement> place_in_square(std::span<const Eigen::Vector3f> points_hand,
                                             const Eigen::Matrix3d& R_camera_hand, const ImageSquare& observed,
                                             const PinholeCamera& camera);

@@ -1,4 +1,4 @@
-// Included once for each instruction set (Highway); the guard toggles with it.
+// Included for each instruction set (Highway); the guard toggles.
 #if defined(GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H
 #undef GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H
@@ -55,7 +55,7 @@ HWY_INLINE Mask all(Mask a, Mask b, Mask c) {
   return hn::And(a, hn::And(b, c));
 }
 
-/// Repeats the operations of `closest_on_triangle`: another rounding could select another face.
+/// Repeats `closest_on_triangle` exactly: other rounding could select another face.
 HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& face) {
   const Vectors a = set(face.a), b = set(face.b), c = set(face.c), ab = set(face.ab), ac = set(face.ac);
   const Vectors ap = p - a, bp = p - b, cp = p - c;
@@ -65,7 +65,7 @@ HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& fa
   const Floats vc = cross(d1, d4, d3, d2), vb = cross(d5, d2, d1, d6), va = cross(d3, d6, d5, d4);
   const Floats zero = hn::Zero(kFloats), d43 = hn::Sub(d4, d3), d56 = hn::Sub(d5, d6);
 
-  // In the order of the tests; earlier ones win.
+  // Earlier tests win.
   const Mask at_a = hn::And(hn::Le(d1, zero), hn::Le(d2, zero));
   const Mask at_b = hn::And(hn::Ge(d3, zero), hn::Le(d4, d3));
   const Mask on_ab = all(hn::Le(vc, zero), hn::Ge(d1, zero), hn::Le(d3, zero));
@@ -91,7 +91,7 @@ HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& fa
   return choose(at_a, a, result);
 }
 
-/// The nearest face so far to each point.
+/// Nearest faces so far.
 struct Nearest {
   Floats squared;
   Ints face;
@@ -101,7 +101,7 @@ struct Nearest {
       : squared(hn::Set(kFloats, kInfinity)),
         face(hn::Set(kInts, -1)),
         p{hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)} {}
-  /// Takes a nearer face, or an equally near one with a smaller index; ignores NaN.
+  /// Takes a nearer face; of equally near ones the smaller index. Ignores NaN.
   HWY_INLINE void consider(const Vectors& points, const FacePackets::Face& candidate) {
     const Vectors closest = closest_on_face(points, candidate), apart = closest - points;
     const Floats distance2 = dot(apart, apart);

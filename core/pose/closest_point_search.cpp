@@ -136,7 +136,7 @@ class GroupSearch {
     }
     return listed;
   }
-  /// Whether the face was not measured and its box is within `limit` of any point.
+  /// True if the face was not measured and its box is within `limit` of any point.
   HWY_INLINE int is_near(int32_t face, Floats limit) const {
     const Boxes<FacePackets::kFaces>& boxes = color_.face_boxes[face / FacePackets::kFaces];
     const int i = face % FacePackets::kFaces;

@@ -11,36 +11,36 @@ namespace glovebench {
 
 /// Neighboring points of one color, searched together.
 struct PointGroup {
-  static constexpr int kPoints = 16;  ///< at most; fewer with shorter vectors
+  static constexpr int kPoints = 16;  ///< at most; fewer for short vectors
 
   int32_t points[kPoints];   ///< indices, padded with the last
-  int32_t nearest[kPoints];  ///< nearest faces of the last call, without repeats, in FacePackets::faces
+  int32_t nearest[kPoints];  ///< nearest faces of the last call, each once, in FacePackets::faces
   int count = 0;
   int nearest_count = 0;  ///< 0 before the first call
   uint8_t label = 0;
 };
 
 struct GroupScratch {
-  RecycledVector<uint8_t> is_measured;  ///< for each face; 0 between groups
+  RecycledVector<uint8_t> is_measured;  ///< by face; 0 between groups
   RecycledVector<int32_t> candidates;   ///< in FacePackets::faces
   RecycledVector<float> doubt;          ///< rounding error of each distance, m
 };
 
-/// Work over all calls.
+/// Counts over all calls.
 struct SearchWork {
   int64_t groups = 0;
-  int64_t nearest = 0;   ///< distinct nearest faces of each group
-  int64_t measured = 0;  ///< faces measured
-  int64_t boxes = 0;     ///< face boxes tested
+  int64_t nearest = 0;  ///< distinct nearest faces per group
+  int64_t measured = 0;
+  int64_t boxes = 0;
 };
 
-/// Gives the results of `closest_points_plain` bit for bit (for very thin faces within `rounding_blur`), faster.
-/// One object serves one set of points that moves little between calls; later calls do not allocate.
+/// The results of `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`), faster. An object
+/// serves one set of points that moves little between calls; later calls do not allocate.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;
   explicit ClosestPointSearch(const Surface& surface) { start(surface); }
-  /// Copies another surface. Points start at their last faces, if these are left.
+  /// Copies another surface. Points start at their last faces that are left.
   void start(const Surface& surface);
   /// Valid until the next call.
   const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);

@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// Boxes for SIMD, with bounds on rounding.
+/// Boxes for SIMD, with bounds of rounding.
 template <int kCount>
 struct alignas(64) Boxes {
   float low[3][kCount], high[3][kCount];  ///< [axis][box], m
@@ -16,7 +16,7 @@ struct alignas(64) Boxes {
   float blur[kCount];                     ///< `rounding_blur`, 1/m
 };
 
-/// The faces of one color in packets of consecutive ones.
+/// One color's faces in packets.
 struct FacePackets {
   static constexpr int kFaces = 8;     ///< per packet
   static constexpr int kPackets = 16;  ///< per group, for the widest vectors
@@ -27,8 +27,8 @@ struct FacePackets {
     int32_t face;        ///< in Surface::faces
   };
 
-  RecycledVector<Face> faces;                    ///< the last is repeated to fill its packet
-  RecycledVector<Boxes<kFaces>> face_boxes;      ///< one for each packet; padding is very far
+  RecycledVector<Face> faces;                    ///< padded with the last
+  RecycledVector<Boxes<kFaces>> face_boxes;      ///< one per packet; padding is very far
   RecycledVector<Boxes<kPackets>> packet_boxes;  ///< padding is very far
   float slack = 0;                               ///< rounding error of a corner, m
 
@@ -36,7 +36,7 @@ struct FacePackets {
   void assign(std::span<const Surface::Face> surface_faces);
 };
 
-/// By rounding, the closest point of a thin face may lie outside it by blur * D^2, where D is the point's distance.
+/// Rounding may place the closest point of a thin face outside it by blur * D^2, D being the point's distance.
 /// Infinite for a face without area.
 float rounding_blur(const Surface::Face& face);
 

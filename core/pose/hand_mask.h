@@ -9,20 +9,20 @@
 
 namespace glovebench {
 
-/// `right` and `bottom` are excluded.
+/// Half-open.
 struct PixelBox {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 /// Around the labeled pixels, within the image; empty without any.
 PixelBox label_box(const LabelImage& labels, int margin);
 
-/// Pixels that may show the hand: near ones and those without depth. The others store the offset to their nearest
-/// one (Danielsson 1980, off by at most 1 px).
+/// Pixels that may show the hand: near ones and those without depth. Others store the offset to the nearest of them
+/// (Danielsson 1980, within 1 px).
 class HandMask {
  public:
-  /// The hand is nearer than `farthest`, m.
+  /// `farthest`: limit of the hand's depth, m.
   void assign(const DepthImage& depth, const Image<uint16_t>& raw_disparity, const PixelBox& box, float farthest);
-  /// From a position to the nearest mask pixel, px. Empty if it is within 1 px or the mask is empty.
+  /// From a position to the nearest mask pixel, px. Empty within 1 px or without a mask.
   std::optional<Eigen::Vector2d> way_back_px(const Eigen::Vector2d& uv_px) const;
 
  private:

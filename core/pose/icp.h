@@ -13,12 +13,12 @@ namespace glovebench {
 
 struct IcpConfig {
   std::string algorithm = "horn";    ///< a name of `alignments`
-  int max_points = 1000;             ///< largest number, by uniform stride, >= 3
+  int max_points = 1000;             ///< at most, by uniform stride, >= 3
   int subsampling_factor = 0;        ///< every nth point (Figure 9), >= 0; 0: by `max_points`
   int max_iterations = 100;          ///< >= 1
-  double convergence_share = 1e-3;   ///< stop when the mean distance changes by a smaller share, > 0
-  bool cull_each_iteration = false;  ///< false: once, before the first iteration (the paper)
-  Implementation implementation = Implementation::fast;  ///< of the closest-point search; equal results
+  double convergence_share = 1e-3;   ///< stops when the mean distance changes by a smaller share, > 0
+  bool cull_each_iteration = false;  ///< false: only before the first iteration (the paper)
+  Implementation implementation = Implementation::fast;  ///< of the closest-point search
   bool color_sensitive = true;                           ///< false: any color
 };
 
@@ -33,28 +33,28 @@ struct Alignment {
 };
 
 RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
-/// With the smallest n that leaves at most `max_points`.
+/// Takes the smallest stride that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
-/// The given rotation, with the center of the camera-facing faces on the cloud's.
+/// The given rotation; centers the camera-facing faces on the cloud.
 /// Paper: section III-C.
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points);
 
-/// An alignment: X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`.
+/// X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`.
 struct AlignmentEntry {
   std::string_view name;         ///< X
   std::string_view description;  ///< one line
-  /// `points`: at least 3, camera frame, m, with the labels under which a surface keeps its faces. `config` limits
-  /// the iterations.
+  /// `points`: at least 3, camera frame, m, with the labels of the surface's faces. `config` limits the iterations.
   Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                      const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 };
-/// All of that folder, sorted by name.
+/// Sorted by name.
 std::span<const AlignmentEntry> alignments();
 
-/// Aligns a part of the cloud by the configured alignment: each point to the closest visible triangle of its color.
-/// Throws: Error if no alignment has the name.
+/// Aligns with a part of the cloud by the configured alignment, each point to the closest visible triangle of its
+/// color.
+/// Throws: Error for an unknown alignment.
 /// Paper: section III-C, equation (3).
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);

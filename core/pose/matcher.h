@@ -9,14 +9,14 @@
 
 namespace glovebench {
 
-/// Finds closest points on the camera-facing faces in each iteration of an alignment.
+/// Finds closest points on camera-facing faces, for an alignment.
 class Matcher {
  public:
   /// `model` and `hand` must outlive it. `cloud`: camera frame, m, with the surface's labels.
   Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
           const IcpConfig& config);
 
-  /// Keeps the faces that face the camera at this pose.
+  /// Keeps the faces that face the camera.
   void cull(const Eigen::Isometry3d& T_camera_hand);
   /// Call after `cull`.
   void match(const Eigen::Isometry3d& T_camera_hand);

@@ -22,7 +22,7 @@ bool is_near(const ArmJoints& a, const ArmJoints& b) {
 }  // namespace
 
 const std::array<ArmJointInfo, kArmJointCount>& arm_joint_infos() {
-  // Of the PA-10-7C as it is commonly given; the speeds are not verified.
+  // The PA-10-7C as commonly given; the speeds are not verified.
   static constexpr std::array<ArmJointInfo, kArmJointCount> infos = {{
       {"S1", -177, 177, 57, 0.315, -90},
       {"S2", -94, 94, 57, 0, 90},

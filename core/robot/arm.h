@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// The arm that carries the hand: a Mitsubishi PA-10-7C.
+/// The arm that carries the hand, a Mitsubishi PA-10-7C.
 inline constexpr int kArmJointCount = 7;
 /// Joint angles from base to flange.
 /// Units: rad.
@@ -32,20 +32,19 @@ Eigen::Isometry3d arm_flange_pose(const ArmJoints& joints);
 class ArmSolver {
  public:
   virtual ~ArmSolver() = default;
-  /// Joint angles within the limits, near `start`; nothing if none were found.
+  /// Joint angles within the limits, near `start`; empty if none were found.
   virtual std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const = 0;
 };
 
-/// An arm and how it carries the hand.
 struct MountedArm {
   const ArmSolver* solver = nullptr;  ///< must outlive this
-  Eigen::Isometry3d T_flange_wrist;   ///< mount of the hand's forearm
+  Eigen::Isometry3d T_flange_wrist;   ///< mount of the forearm
 
   /// The frame of WRJ2.
   Eigen::Isometry3d T_base_wrist(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_wrist; }
 };
 
-/// Elbow up, the flange 0.6 m ahead of the base, looking down.
+/// Elbow up, flange 0.6 m ahead of the base, looking down.
 inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, 1.04, 1.5708};
 
 /// Solves in small steps between poses, so that joint angles never jump.
@@ -54,7 +53,7 @@ class ArmFollower {
   explicit ArmFollower(std::shared_ptr<const ArmSolver> solver, const ArmJoints& start = kArmAtRest)
       : solver_(std::move(solver)), joints_(start) {}
 
-  /// Moves the flange to a pose; returns false and stays if it is out of reach.
+  /// Moves the flange to a pose. Returns false and stays if it is out of reach.
   bool follow(const Eigen::Isometry3d& T_base_flange);
   const ArmJoints& joints() const { return joints_; }
 

@@ -4,20 +4,21 @@
 
 namespace glovebench {
 
-/// What a guard knows, and so which fingertips it limits.
+/// What a guard knows of the robot.
 enum class GuardedPart {
-  robot,  ///< all joints and `T_base_hand`: fingertips in the base frame
-  hand,   ///< only the hand's joints: speeds of fingertips in the forearm's frame
-  arm,    ///< only the wrist (WRJ2), as `T_base_hand`: all points within kShadowWristReach
+  robot,  ///< all joints and `T_base_hand`: limits fingertips in the base frame
+  hand,   ///< the hand's joints: limits speeds of fingertips in the forearm's frame
+  arm,    ///< the wrist (WRJ2) as `T_base_hand`: limits all points within kShadowWristReach
 };
 
-/// Makes commands safe for every sink (core/robot/README.md). Reads no clock. Whatever the input, in the output
-/// - values are finite and rotations valid; joints are within limits, J1 and J2 follow ShadowCoupling, motors fit
-///   their joints; hand and fingertips are in the workspace (with an arm, to 0.1 mm);
-/// - time stamps rise, and frame stamps do not go back unless the stream had stopped;
-/// - joints, hand, fingertips and arm keep their speed limits between time stamps, of which at most
-///   `longest_step_s` counts; one factor slows all;
-/// - nothing moves unless the state is `following`.
+/// Makes commands safe for every sink (core/robot/README.md). Reads no clock. For any input, the output has these
+/// properties:
+/// - Values are finite, rotations valid, joints within limits. J1 and J2 follow ShadowCoupling; motors fit their
+///   joints. Hand and fingertips are in the workspace (with an arm, to 0.1 mm).
+/// - Time stamps rise. Frame stamps go back only after the stream had stopped.
+/// - Joints, hand, fingertips and arm keep their speed limits between time stamps, of which `longest_step_s` counts
+///   at most. One factor slows all.
+/// - Nothing moves unless the state is `following`.
 /// Safe commands pass bit for bit. The first targets pass anywhere, unless `start_from` was called. With an arm,
 /// `T_base_hand` is where its joints take the hand.
 class CommandGuard {
@@ -28,24 +29,23 @@ class CommandGuard {
                         std::optional<MountedArm> arm = std::nullopt);
 
   /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling.
-  /// Throws: Error unless values are finite and within limits, J1 is not above J2, and a guard with an arm gets its
-  /// joints.
+  /// Throws: Error unless values are finite and within limits, J1 is not above J2, and the joints of an arm are
+  /// given.
   void start_from(const RobotTargets& measured);
 
-  /// The safe command, at the command's own time; nothing if time did not advance.
+  /// The safe command, at the command's own time; empty if time did not advance.
   std::optional<RobotCommand> guard(const RobotCommand& command) { return guard(command, command.timestamp_us); }
-  /// The same at `now_us`, of a monotonic clock. A sender's stamp that goes back is refused unless the stream had
-  /// stopped.
+  /// The same at `now_us`, of a monotonic clock. A stale command counts only if the stream had stopped.
   std::optional<RobotCommand> guard(const RobotCommand& command, int64_t now_us);
-  /// The command at `now_us` if none came; nothing if time did not advance.
+  /// The command at `now_us` if none came; empty if time did not advance.
   std::optional<RobotCommand> tick(int64_t now_us);
 
-  /// The state at a time if nothing arrives before.
+  /// The state at a time without further commands.
   CommandState state_at(int64_t now_us) const;
   /// Interventions since the guard was made. `RobotCommand::interventions` counts those since the last sent
   /// command.
   const Interventions& interventions() const { return total_; }
-  /// For an arm alone, the workspace is smaller by kShadowWristReach on all sides.
+  /// For an arm alone, the workspace is kShadowWristReach smaller on all sides.
   const CommandLimits& limits() const { return limits_; }
 
  private:
@@ -60,11 +60,11 @@ class CommandGuard {
   std::optional<MountedArm> arm_;
   Interventions total_, pending_;
   CommandState state_ = CommandState::stopped;
-  std::optional<RobotTargets> goal_;  ///< of the last good command, within limits
+  std::optional<RobotTargets> goal_;  ///< last good command, within limits
   std::optional<RobotTargets> sent_;
-  std::optional<int64_t> now_us_;    ///< of the last output
-  std::optional<int64_t> good_us_;   ///< of the last good command
-  std::optional<int64_t> stamp_us_;  ///< of the last command
+  std::optional<int64_t> now_us_;    ///< last output
+  std::optional<int64_t> good_us_;   ///< last good command
+  std::optional<int64_t> stamp_us_;  ///< last command
   int64_t frame_us_ = 0;             ///< of its frame
   TrackStatus status_ = TrackStatus::no_hand;
   bool lost_ = false;

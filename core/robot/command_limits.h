@@ -9,15 +9,15 @@
 namespace glovebench {
 
 struct CommandLimits {
-  double hand_joint_speed = 2;   ///< of each joint of the hand, rad/s
-  double hand_speed = 0.25;      ///< of the hand's origin, m/s: as ISO 10218-1's reduced speed
-  double hand_turn_speed = 1.5;  ///< of the hand, rad/s
-  double fingertip_speed = 0.5;  ///< of each fingertip, m/s
+  double hand_joint_speed = 2;   ///< each joint of the hand, rad/s
+  double hand_speed = 0.25;      ///< origin of the hand, m/s: ISO 10218-1's reduced speed
+  double hand_turn_speed = 1.5;  ///< rad/s
+  double fingertip_speed = 0.5;  ///< m/s
   double arm_speed_share = 1;    ///< share of `arm_joint_infos`, 0..1
-  /// For the hand's origin and fingertips in the arm's base frame, m. Sides are at least 0.3 m.
+  /// For the hand's origin and fingertips, arm's base frame, m. Sides are at least 0.3 m.
   Eigen::Vector3d workspace_min{-1.5, -1.5, 0};
   Eigen::Vector3d workspace_max{1.5, 1.5, 2};
-  /// A step goes no farther than speeds allow in this time.
+  /// Speeds limit a step as if it took at most this time.
   double longest_step_s = 0.1;
   double silence_s = 0.15;                           ///< without commands for longer: holding
   double stop_after_s = 0.5;                         ///< lost or silent for longer: stopped; at least silence_s

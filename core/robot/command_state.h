@@ -9,18 +9,18 @@
 
 namespace glovebench {
 
-/// What the robot shall do.
+/// The robot's task.
 enum class CommandState {
-  following,  ///< go to the targets
-  holding,    ///< hand not seen: stay at the last targets
-  stopped,    ///< not seen for long: stay, then start slowly
+  following,  ///< goes to the targets
+  holding,    ///< hand not seen: stays at the last targets
+  stopped,    ///< not seen for long: stays, later starts slowly
 };
 constexpr auto names_of(CommandState) {
   return std::to_array<std::string_view>({"following", "holding", "stopped"});
 }
 static_assert(kCountOf<CommandState> == static_cast<int>(CommandState::stopped) + 1, "each value has a name");
 
-/// How a command was changed.
+/// How a command was changed; `_speed`: slowed down.
 enum class Intervention {
   stale,              ///< dropped: its time stamp is not later, or its frame's goes back
   not_finite,         ///< refused
@@ -28,14 +28,14 @@ enum class Intervention {
   joint_limit,        ///< a joint was moved into its limits, or J1 under J2
   coupling,           ///< J1 and J2 did not follow ShadowCoupling
   actuator_mismatch,  ///< motors did not fit their joints
-  joint_speed,        ///< slowed down
-  workspace,          ///< hand or fingertips were moved into it
-  hand_speed,         ///< slowed down
-  hand_turn_speed,    ///< slowed down
-  fingertip_speed,    ///< slowed down
-  arm_limit,          ///< a joint was moved into its limits
-  arm_speed,          ///< slowed down
-  arm_unreachable,    ///< no joint angles near the last ones, which are kept
+  joint_speed,
+  workspace,  ///< hand or fingertips were moved into it
+  hand_speed,
+  hand_turn_speed,
+  fingertip_speed,
+  arm_limit,  ///< a joint was moved into its limits
+  arm_speed,
+  arm_unreachable,  ///< no joint angles near the last ones, which are kept
   hold,
   stop,
 };
@@ -47,7 +47,7 @@ constexpr auto names_of(Intervention) {
 }
 static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1, "each value has a name");
 
-/// How often each kind happened, at most once a command.
+/// Number of commands with each kind.
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }

@@ -9,18 +9,17 @@ namespace glovebench {
 /// Units: m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
-/// Maps postures so that a pinch stays a pinch (core/robot/README.md). Near the thumb, the vector from thumb to
-/// finger is fitted; farther away it fades into the direct mapping. Levenberg-Marquardt, from the last result,
-/// moves the motors but the wrist's as little as possible.
+/// Maps postures so that a pinch stays a pinch (core/robot/README.md). Fits the vector from thumb to finger where
+/// it is short, and fades into the direct mapping where it is long. Levenberg-Marquardt starts at the last result
+/// and moves the motors, except the wrist's, as little as possible.
 class FingertipMapping {
  public:
   explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)
       : skeleton_(std::move(skeleton)), coupling_(coupling) {}
 
-  /// A joint is flagged if the fit left the direct mapping's flag or moved the joint to a limit.
+  /// Flags a joint if the direct mapping's flag remains or the fit moved the joint to a limit.
   /// Throws: Error if an angle is not finite.
   ShadowHandTargets map(const Posture& posture);
-  /// Forgets the last posture.
   void reset() { last_.setZero(); }
 
  private:

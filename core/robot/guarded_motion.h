@@ -6,7 +6,7 @@ namespace glovebench {
 
 // The guard's computations, without its state.
 
-/// Why targets are unusable, if so.
+/// Why targets are unusable; empty if they are usable.
 std::optional<Intervention> refusal(const RobotTargets& targets);
 
 /// Moves finite targets into the limits: joints, then J1 and J2 by their coupling, then the hand. Flags moved
@@ -14,19 +14,19 @@ std::optional<Intervention> refusal(const RobotTargets& targets);
 RobotTargets within_limits(const RobotTargets& targets, const CommandLimits& limits, GuardedPart part,
                            Interventions& done);
 
-/// The nearest origin of the hand that keeps it, and for `robot` the fingertips, in the workspace.
+/// The nearest origin with the hand, and for `robot` the fingertips, in the workspace.
 Eigen::Vector3d place_in_workspace(const RobotTargets& targets, const CommandLimits& limits, GuardedPart part);
 
-/// Flags joints and motors that differ from `wanted`. Returns whether there are any.
+/// Flags joints and motors that differ from `wanted`. Returns true if any do.
 bool flag_changes(ShadowHandTargets& hand, const std::array<double, kShadowJointCount>& wanted);
 
-/// Moves from `from` towards `to`, both within the limits, for `seconds`. All parts go the same share of their
-/// ways, the largest (to 0.1%) at which none is too fast. The hand turns about one axis and is shifted where
-/// fingertips would leave the workspace. An arm without a target stays. Adds slowed kinds to `done`.
+/// Moves from `from` towards `to`, both within limits, for `seconds`. All parts go the same share of their ways:
+/// the largest (to 0.1%) within all speeds. The hand turns about one axis and is shifted where fingertips would
+/// leave the workspace. An arm without a target stays. Adds slowed kinds to `done`.
 RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
                            const CommandLimits& limits, GuardedPart part, Interventions& done);
 
-/// The same with the arm's joints, which `from` has: limits apply to `carried_pose`, which stays in the workspace.
+/// The same with the arm's joints, which `from` has. Limits apply to `carried_pose`, which stays in the workspace.
 /// If `to` has no joints, they are solved for the next step; without a solution the arm stays and the fingers go
 /// on.
 RobotTargets moved_by_arm(const MountedArm& arm, const RobotTargets& from, const RobotTargets& to, double seconds,

@@ -7,8 +7,8 @@
 
 namespace glovebench {
 
-/// One command as a line of JSON (core/robot/command.schema.json) without the line end. Numbers are rounded to 1e-6
-/// of their unit. Throws: Error if a number is not finite.
+/// A command as a line of JSON (core/robot/command.schema.json) without line end, rounded to 1e-6 of each unit.
+/// Throws: Error if a number is not finite.
 std::string to_json_line(const RobotCommand& command);
 
 /// Writes commands to a LineFile.

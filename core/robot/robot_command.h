@@ -23,28 +23,28 @@ struct RobotCommand {
   int64_t frame_timestamp_us = 0;  ///< of the tracked frame
   int64_t timestamp_us = 0;        ///< of its frame, or the guard's time
   TrackStatus status = TrackStatus::no_hand;
-  bool hold = true;  ///< lost: repeats the last targets
+  bool hold = true;  ///< lost: the last targets repeat
   CommandState state = CommandState::stopped;
   std::optional<RobotTargets> targets;  ///< empty before the first tracked frame
   Interventions interventions;          ///< since the last command
 };
 
-/// The synthetic camera (core/robot/README.md), the top of its image away from the arm.
+/// The synthetic camera (core/robot/README.md); the top of its image points away from the arm.
 Eigen::Isometry3d default_T_base_camera();
 
-/// WRJ2 on the flange, across which the forearm lies (core/robot/README.md).
+/// WRJ2 on the flange; the forearm lies across it (core/robot/README.md).
 Eigen::Isometry3d default_T_flange_wrist();
 
 struct RobotSetup {
   Eigen::Isometry3d T_base_camera = default_T_base_camera();
-  std::optional<Skeleton> skeleton = {};  ///< with it fingertips are mapped, else angles
+  std::optional<Skeleton> skeleton = {};  ///< if set, fingertips are mapped, else angles
   ShadowCoupling coupling = ShadowCoupling::series;
-  std::shared_ptr<const ArmSolver> arm = {};  ///< none: no arm joints
+  std::shared_ptr<const ArmSolver> arm = {};  ///< empty: no arm joints
   ArmJoints arm_start = kArmAtRest;           ///< before the first frame, rad
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
 };
 
-/// Turns track results into commands, in time order. Lost frames repeat the last targets; an unreachable pose keeps
+/// Turns track results into commands, in time order. Lost frames repeat the last targets; unreachable poses keep
 /// the arm's joints.
 class RobotCommander {
  public:

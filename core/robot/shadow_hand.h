@@ -9,8 +9,7 @@
 
 namespace glovebench {
 
-/// How one motor moves J1 and J2 of a free finger (core/robot/README.md). Its target is J0 = J1 + J2, 0 to 180
-/// degrees.
+/// How one motor moves J1 and J2 of a free finger (core/robot/README.md): J0 = J1 + J2, 0 to 180 degrees.
 enum class ShadowCoupling {
   series,  ///< J2 alone to 90 degrees, then J1
   even,    ///< J1 = J2
@@ -25,16 +24,16 @@ struct CoupledJoints {
   double distal;    ///< J1, never above J2
   double proximal;  ///< J2
 };
-/// Splits a motor's target, 0 to pi rad. The sum is `motor` to the last bit.
+/// Splits a motor's target, 0 to pi rad. J1 + J2 equals `motor` to the last bit.
 CoupledJoints split_motor(double motor, ShadowCoupling coupling);
 /// J1's share of a small motion of the motor, 0 to 1.
 double distal_share(double motor, ShadowCoupling coupling);
 
-/// The joints at a share (0 to 1) of the way; the motor goes straight. A deviation of `from` from the model, as of
-/// a finger that touches something, fades. J1 stays under J2.
+/// The joints at a share (0 to 1) of the way; the motor goes straight. A deviation of `from` from the model fades.
+/// J1 stays below J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
-/// Joints of a Shadow Dexterous Hand: J1 is a finger's last joint, J4 its spread.
+/// Joints of a Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
 // clang-format off: one finger a row
 enum ShadowJoint : int {
   kFFJ1,
@@ -66,26 +65,26 @@ enum ShadowJoint : int {
 inline constexpr int kShadowJointCount = 24;
 inline constexpr int kShadowActuatorCount = 20;
 
-/// A joint's limits and source: robot angle = sign * human angle (core/robot/README.md). THJ5 turns the thumb
-/// across the palm, THJ4 lifts it off; WRJ1 bends to the palm, WRJ2 turns to the thumb.
+/// A joint's limits and source: robot angle = sign * human angle. THJ5 turns the thumb across the palm, THJ4 lifts
+/// it off; WRJ1 bends to the palm, WRJ2 turns to the thumb.
 struct ShadowJointInfo {
   std::string_view name;
   double min_deg;
   double max_deg;
-  std::optional<Angle> source;  ///< none: stays at zero
+  std::optional<Angle> source;  ///< empty: stays at zero
   int sign;                     ///< +1 or -1
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// A finger's J0 drives two joints; its target is their sum.
+/// A motor. J0 drives two joints; its target is their sum.
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;
-  std::optional<ShadowJoint> coupled_joint;  ///< J1 where `joint` is J2
+  std::optional<ShadowJoint> coupled_joint;  ///< J1 if `joint` is J2
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, flagged where they differ from what was asked.
+/// Targets within the limits, flagged where they differ from the request.
 /// Units: rad.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};
@@ -98,7 +97,7 @@ struct ShadowHandTargets {
 void make_actuators(ShadowHandTargets& hand);
 
 /// Maps a posture directly: each joint takes its source's angle, clamped. The coupling splits the clamped sum of J1
-/// and J2, which are flagged with their motor.
+/// and J2.
 /// Throws: Error if an angle is not finite.
 /// Paper: section V.
 ShadowHandTargets map_to_shadow_hand(const Posture& posture, ShadowCoupling coupling = ShadowCoupling::series);

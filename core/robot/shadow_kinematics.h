@@ -17,8 +17,7 @@ using FingertipJacobian = Eigen::Matrix<double, 15, kShadowJointCount>;
 /// Largest distance of fingertips from the hand frame's origin and from WRJ2, m.
 inline constexpr double kShadowHandReach = 0.15, kShadowWristReach = 0.23;
 
-/// Shadow's palm (x to the thumb, y dorsal, z to the fingers, origin WRJ1) in the hand frame of core/README.md. So
-/// a human hand's pose fits the robot's.
+/// Shadow's palm (x to the thumb, y dorsal, z to the fingers, origin WRJ1) in the hand frame of core/README.md.
 const Eigen::Isometry3d& shadow_T_hand_palm();
 
 /// Forward kinematics of the right hand with Shadow's dimensions (sr_common, sr_description); the left hand mirrors
@@ -26,7 +25,7 @@ const Eigen::Isometry3d& shadow_T_hand_palm();
 Fingertips shadow_fingertips(const std::array<double, kShadowJointCount>& joints);
 FingertipJacobian shadow_fingertip_jacobian(const std::array<double, kShadowJointCount>& joints);
 
-/// The hand in the frame of WRJ2, which is fixed to the forearm and has the palm's axes when the wrist is straight.
+/// The hand in the frame of WRJ2, which is fixed to the forearm and has the palm's axes if the wrist is straight.
 Eigen::Isometry3d shadow_T_wrist_hand(const std::array<double, kShadowJointCount>& joints);
 
 }  // namespace glovebench

@@ -1,7 +1,5 @@
 #pragma once
 
-// Commands for tests.
-
 #include "core/robot/robot_command.h"
 
 namespace glovebench {

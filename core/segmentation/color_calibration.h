@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// How far a calibration extends the seen light, and how sure a label must be.
+/// How far to extend the seen light, and how sure a label must be.
 struct ColorModel {
   double strength_factor = 2.5;           ///< weaker and stronger light, >= 1
   double temperature_shift_mired = 50.0;  ///< warmer and colder light, >= 0
@@ -19,11 +19,11 @@ class ColorCalibration {
  public:
   explicit ColorCalibration(ColorSpace space = ColorSpace::yuv) : space_(space) {}
 
-  /// Adds pixels that are not beside a label border; 0 = not glove. Images have one size.
+  /// Skips pixels beside a label border; 0: not glove. Images have one size.
   void add_view(const ColorImage& color, const LabelImage& labels);
   /// The pixel shows one color. `label`: 0..kColorCount.
   void add_pixel(const Rgb& color, uint8_t label);
-  /// Relights seen colors within the limits of `model`, then gives each cell its most probable label.
+  /// Relights seen colors as far as `model` says, then gives each cell its most probable label.
   /// Throws: Error if a glove color was never bright enough.
   ColorTable build(const ColorModel& model = {}) const;
 

@@ -51,7 +51,7 @@ uint64_t load_eight(const uint8_t* bytes) {
   return word;
 }
 
-/// Whether the eight pixels whose neighborhoods begin at `corner` all equal their neighbors.
+/// True if the eight pixels whose neighborhoods begin at `corner` all equal their neighbors.
 bool eight_are_uniform(const uint8_t* corner, int stride) {
   const uint64_t center = load_eight(corner + stride + 1);
   uint64_t difference = 0;
@@ -102,7 +102,7 @@ constexpr int kFewestVotes = 2;  // of a pixel without a label: one alone may be
 
 using Votes = std::array<int, kColorCount + 1>;
 
-/// Of the neighborhood of (u, v), on its surface; index 0 counts all.
+/// Counts labels in the neighborhood of (u, v), on its surface; index 0 counts all.
 Votes votes_at(const LabelImage& labels, const DepthImage& depth, int u, int v, double depth_step) {
   Votes votes{};
   for (int j = v - 1; j <= v + 1; ++j) {

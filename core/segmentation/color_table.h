@@ -13,10 +13,10 @@
 
 namespace glovebench {
 
-/// Y, U, V in 0..255 (BT.601, full range, U and V centered at 128).
+/// 0..255 (BT.601, full range, U and V centered at 128).
 using Yuv = std::array<uint8_t, 3>;
 constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
-  // 16-bit fixed point; halves round down, so no clamp is needed.
+  // 16-bit fixed point; halves round down: no clamp is needed.
   constexpr int half = (1 << 15) - 1, center = 128 << 16;
   const int r = rgb[0], g = rgb[1], b = rgb[2];
   return {static_cast<uint8_t>((19595 * r + 38470 * g + 7471 * b + half) >> 16),
@@ -24,7 +24,7 @@ constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
           static_cast<uint8_t>((32768 * r - 27439 * g - 5329 * b + half + center) >> 16)};
 }
 
-/// The paper's, or RGB to compare.
+/// The paper's; RGB for comparison.
 enum class ColorSpace { yuv, rgb };
 constexpr auto names_of(ColorSpace) {
   return std::to_array<std::string_view>({"yuv", "rgb"});
@@ -41,7 +41,7 @@ class ColorTable {
   /// Throws: Error unless `labels` are kCells values in 0..kColorCount.
   explicit ColorTable(std::vector<uint8_t> labels, ColorSpace space = ColorSpace::yuv);
 
-  /// `color` is in the table's space.
+  /// `color`: in the table's space.
   static size_t cell(const std::array<uint8_t, 3>& color) {
     constexpr int shift = 8 - kBits;
     return (size_t{color[0]} >> shift) << (2 * kBits) | (size_t{color[1]} >> shift) << kBits |
@@ -55,7 +55,7 @@ class ColorTable {
   ColorSpace space() const { return space_; }
 
   /// A versioned, checksummed file.
-  /// Throws: Error naming the file and the fault.
+  /// Throws: Error naming file and fault.
   void save(const std::string& path) const;
   static ColorTable load(const std::string& path);
 
@@ -68,16 +68,15 @@ class ColorTable {
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table);
 LabelImage segment(const ColorImage& color, const ColorTable& table);
 
-/// The most frequent label of each 3x3 neighborhood (not in the paper).
+/// The most frequent label of 3x3 pixels (not in the paper).
 LabelImage majority_filter(const LabelImage& labels);
 
-/// Reads what ColorTable::save writes.
 /// Throws: Error naming `where` and the field.
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
 
-/// Corrects labels at borders, where pixels mix colors (not in the paper): a pixel takes the most frequent label of
-/// its 3x3 neighborhood within `depth_step`, m. Ties go to its own label, else the smallest. An unlabeled pixel
-/// needs two votes.
+/// Corrects labels at borders, where pixels mix colors (not in the paper): takes the most frequent label of the 3x3
+/// pixels within `depth_step`, m. Ties go to the pixel's own label, else the smallest. Unlabeled pixels need two
+/// votes.
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step = 0.02);
 
 }  // namespace glovebench

@@ -16,14 +16,14 @@ namespace glovebench::eval {
 struct CommonFlags {
   std::string output;
   std::string config_file;
-  nlohmann::json config_json;  ///< an earlier run's, instead of a file
+  nlohmann::json config_json;  ///< an earlier run's
   std::string profile = "paper";
   std::string method;  ///< empty: the configuration's
   std::string cascade;
   std::string calibration;          ///< file; empty: the synthetic Kinect's
   nlohmann::json calibration_json;  ///< likewise
   std::string hand;                 ///< file; empty: the package's mesh
-  nlohmann::json hand_json;         ///< instead of a file: that of an earlier run
+  nlohmann::json hand_json;         ///< an earlier run's
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -43,14 +43,14 @@ struct CommonFlags {
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
   /// Empty without `hand` and `hand_json`.
-  /// Throws: Error, also for a hand of the other side.
+  /// Throws: Error; also for a hand of the other side.
   std::optional<MeasuredHand> measured_hand() const;
-  /// Says on stderr what of the movement looks like a mistake of units.
+  /// Warns on stderr of likely mistakes of units.
   void warn_of_units(const trajectories::Trajectory& trajectory) const;
   /// `count` seeds from `seed` up.
   /// Throws: Error beyond the largest seed.
   std::vector<uint64_t> seeds(int count) const;
-  /// Makes the folder, before the work.
+  /// Makes the folder.
   /// Throws: Error if it cannot be written.
   void check_output_folder() const;
 };
@@ -63,7 +63,7 @@ struct MountingFlag {
 };
 
 struct LimitsFlag {
-  std::string file;  ///< JSON (`glovebench list limits`); empty: defaults
+  std::string file;  ///< as `glovebench list limits` prints; empty: defaults
 
   std::string coupling{to_string(CommandLimits().coupling)};
 
@@ -77,11 +77,11 @@ struct FileFlag {
   std::string flag;
   std::string path;  ///< empty: none
 };
-/// For all files that a command writes or could overwrite.
+/// Checks all files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
 
-/// Throws: Error naming the field without a solver.
+/// Throws: Error naming the field in a build without a solver.
 std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const std::string& field);
 
 struct RobotFlags {
@@ -94,7 +94,7 @@ struct RobotFlags {
 
   /// Returns the option of `output`.
   Option add(Command command, const std::string& what);
-  /// Throws: Error if the arm is requested and this build has none.
+  /// Throws: Error for an arm that this build lacks.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };

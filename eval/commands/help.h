@@ -6,13 +6,13 @@
 
 namespace glovebench::eval {
 
-/// What --help prints: description, `usage`, arguments, options by group, commands. Rare options only if `all`.
+/// The text of --help: description, `usage`, arguments, options by group, commands. Rare options only if `all`.
 std::string help_text(const CommandText& command, const std::string& usage, bool all, size_t columns);
 
-/// The commands under `command`, each with the first line of its description.
+/// The commands below `command`, with the first lines of their descriptions.
 std::string commands_text(const CommandText& command, size_t columns);
 
-/// "unknown flag --ouptut; did you mean --output?", for a word after `command` that is none of its own.
+/// "unknown flag --ouptut; did you mean --output?", for an unknown word after `command`.
 std::string describe_unknown(const CommandText& command, const std::string& word);
 
 }  // namespace glovebench::eval

@@ -8,13 +8,12 @@
 
 namespace glovebench::eval {
 
-/// For man(1).
 std::string man_page(const CommandText& program, const std::string& version);
 
-/// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty where the shell completes file names.
+/// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty: the shell completes file names.
 std::string completions(const CommandText& program, const std::vector<std::string>& line);
 
-/// For bash, zsh or fish; calls `completions`.
+/// The script for bash, zsh or fish; calls `completions`.
 std::string completion_script(std::string_view shell);
 
 }  // namespace glovebench::eval

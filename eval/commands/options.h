@@ -12,7 +12,7 @@ class Option;
 
 namespace glovebench::eval {
 
-/// Restricts an option of a command. Each call returns the same option.
+/// Restricts an option; each call returns the same one.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
@@ -25,13 +25,13 @@ class Option {
   Option named_file() const;
   Option existing_file() const;
   Option existing_folder() const;
-  /// For lists: exactly this many values.
+  /// A list of exactly this many values.
   Option count(int values) const;
-  /// For lists: commas also separate values.
+  /// A list that commas may separate, too.
   Option comma_separated() const;
-  /// `other` must be declared before.
+  /// `other` is declared before.
   Option needs(const std::string& other) const;
-  /// The help shows it only with --help-all.
+  /// Only --help-all shows it.
   Option rare() const;
 
  private:
@@ -39,9 +39,9 @@ class Option {
 };
 
 struct OptionText {
-  std::vector<std::string> names;  ///< `-o`, `--output`; without dashes: an argument
+  std::vector<std::string> names;  ///< `-o`, `--output`; an argument has no dashes
   bool takes_value = true;
-  std::string value;  ///< as the help shows it: type, range, default, needs
+  std::string value;  ///< for the help: type, range, default, needs
   std::string help;
   std::vector<std::string> words;  ///< allowed values; empty: any
   std::string group = "Options";   ///< heading in the help
@@ -50,7 +50,7 @@ struct OptionText {
   bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// For help, man page and completion.
+/// A command as help, man page and completion show it.
 struct CommandText {
   std::string name;
   std::string description;
@@ -58,22 +58,22 @@ struct CommandText {
   std::vector<CommandText> subcommands;
 };
 
-/// A copyable handle. Values and actions given to it must live as long as the program runs.
+/// A copyable handle. Its values and actions must live as long as the program.
 class Command {
  public:
   using Action = std::function<int()>;
 
-  /// `chosen` receives the action of the command that the user names.
+  /// `chosen` receives the action of the chosen command.
   Command(CLI::App& app, Action& chosen) : app_(&app), chosen_(&chosen) {}
 
-  /// Once a command has subcommands, the user must name one unless the command `runs` by itself. A line of the
-  /// description is a paragraph; lists of commands show the first.
+  /// With subcommands, the user must name one unless the command `runs` by itself. Each line of the description is
+  /// a paragraph; lists of commands show the first.
   Command subcommand(const std::string& name, const std::string& description) const;
-  /// The same command, whose options the help shows under `heading`.
+  /// The same command; the help shows its options under `heading`.
   Command group(const std::string& heading) const;
-  /// Adds an option that writes to `value`. `names`: `-o,--output`, or `file` for an argument. An empty value is
-  /// an error. The help shows the default unless it is empty or the option required. A bool is a flag; a transform
-  /// is X Y Z (m) QW QX QY QZ. The source lists all types.
+  /// Adds an option for `value`. `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help
+  /// shows the default unless it is empty or the option required. A bool is a flag; a transform is X Y Z (m) QW QX
+  /// QY QZ. The source lists all types.
   /// Throws: Error for a transform that is not finite or has no unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
@@ -101,11 +101,11 @@ class Command {
   std::string group_ = "Options";
 };
 
-/// Returns the exit code; for a wrong command line 2, with one line on stderr.
+/// Returns the exit code: 2 for a wrong command line, with one line on stderr.
 /// Throws: what the command throws.
 int run_program(int argc, const char* const* argv, const std::function<void(Command program)>& add_commands);
 
-// Each adds one command, in the file of its name.
+// Each adds the command of its file.
 void add_reproduce(Command program);
 void add_run(Command program);
 void add_record(Command program);

@@ -14,13 +14,13 @@
 namespace glovebench::eval {
 
 struct BusFlags {
-  std::string middleware;  ///< "dds" (domain 0) or "dds:DOMAIN"; empty: none
-  std::string interface;   ///< empty: loopback, or from CYCLONEDDS_URI
+  std::string middleware;  ///< "dds" (domain 0), "dds:DOMAIN" or "" (none)
+  std::string interface;   ///< empty: loopback, or that of CYCLONEDDS_URI
   std::string security;    ///< folder of keys; empty: none
 
   /// `--robot`, `--robot-interface` and `--security`.
   void add(Command command, const std::string& what);
-  /// Throws: Error naming `--robot` unless it names a domain.
+  /// Throws: Error if `--robot` names no domain.
   int domain() const;
   DdsAccess access(const std::string& role) const { return {interface, security, role}; }
 };
@@ -35,15 +35,15 @@ class RobotOutputs {
   bool any() const { return file_ || bus_; }
   /// The arm's joints at the start; empty without a controller.
   std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
-  /// Guards and sends a command. A robot's clock is the first frame's stamp plus wall time. With a controller
-  /// motion starts at the measured joints, also after a lost hand.
-  /// Units: `arrived_us`, when the frame arrived, in us since 1970.
-  /// Throws: Error, also if the robot is not measured.
+  /// Guards and sends a command. A robot's clock is the first frame's stamp plus wall time. With a controller,
+  /// motion starts at the measured joints, also after a lost hand. `arrived_us`: arrival of the frame, us since
+  /// 1970.
+  /// Throws: Error; also if the robot is not measured.
   void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
-  /// If `whole`, names the file; else its lines stay at `kept()` and an older file remains.
+  /// `whole`: names the file. Else its lines stay at `kept()`, and an older file remains.
   /// Throws: Error.
   void finish(bool whole = true);
-  /// Where unfinished lines are; empty if there are none.
+  /// Place of unfinished lines; empty without any.
   std::string kept() const { return file_ ? file_->kept() : ""; }
 
  private:

@@ -59,7 +59,7 @@ struct Track {
   std::string format;          ///< of the estimates; empty: by the file's ending
   std::string overlay, page;   ///< folder of pictures and HTML file; empty: none
 
-  // Of the run.
+  // State of the run.
   int frames = 0, unusable = 0, tracked = 0;
   std::vector<double> latencies_ms;         ///< of frames that were tracked or lost
   std::vector<reports::Estimate> for_page;  ///< with `page`

@@ -12,22 +12,22 @@ namespace glovebench::eval {
 struct TrackSource {
   std::unique_ptr<Device> device;
   int frame_count = 0;                    ///< 0: live
-  std::function<int()> dropped;           ///< images or frames lost so far
-  std::function<int64_t()> arrived_us;    ///< when the last frame was whole, us since 1970
+  std::function<int()> dropped;           ///< lost images and frames
+  std::function<int64_t()> arrived_us;    ///< completion of the last frame, us since 1970
   std::function<std::string()> ended_by;  ///< why a live device ended
 };
 
 struct SourceFlags {
   std::string source;       ///< "fakenect:FOLDER" or "freenect[:INDEX]"
-  std::string calibration;  ///< file; empty: the recording's, or a nominal Kinect's
+  std::string calibration;  ///< file; empty: the recording's, else a nominal Kinect's
   bool every_frame = false;
 };
 
-/// Warns about a changed recording unless `quiet`.
+/// Warns of a changed recording unless `quiet`.
 /// Throws: Error for an unknown kind, a missing device or recording, or a build without libfreenect.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
-/// Names on stderr the changed files of a recording, unless `quiet`.
+/// Names changed files of a recording on stderr, unless `quiet`.
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);
 
 }  // namespace glovebench::eval

@@ -86,7 +86,7 @@ class DdsController : public DdsBus {
     }
     outputs.finish();
   }
-  /// Whether the command is sent without an Error.
+  /// True if the command is sent without an Error.
   static bool is_sent(RobotOutputs& outputs, CommandGuard& guard, int i) {
     try {
       outputs.send(guard, command(i), system_us());

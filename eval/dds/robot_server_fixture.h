@@ -29,7 +29,7 @@
 
 namespace glovebench::eval {
 
-/// A robot that is at once where a server tells it to be.
+/// A robot whose joints are at once where the server tells.
 class SimulatedRobot {
  public:
   explicit SimulatedRobot(int domain)
@@ -122,22 +122,22 @@ class RobotServer : public DdsBus {
   static int64_t good(const std::string& log, const std::string& topic) {
     return received(log, topic, "accepted") + received(log, topic, "starting") + received(log, topic, "stale");
   }
-  /// A busy server misses ticks, then waits until its sender starts anew.
+  /// A busy server misses ticks, then waits for a new start of its sender.
   static bool had_gaps(const ProgramRun& run) { return run.out.find("; gaps: ") != std::string::npos; }
   static double last_angle(const std::string& log, const std::string& joint) {
     return lines(log, "state").back().at("position_deg").at(joint).get<double>();
   }
-  /// The guard's for hand joints, the arm's own for others.
+  /// The guard's for hand joints, else the arm's.
   /// Units: rad/s.
   static double speed(const std::string& joint) {
     for (const ArmJointInfo& info : arm_joint_infos())
       if (info.name == joint) return radians_from_degrees(info.max_speed_deg_s);
     return CommandLimits().hand_joint_speed;
   }
-  /// Checks that no joint exceeds its speed or the last logged interval, also across a restart.
+  /// Checks that joints keep their speeds and the last logged interval, also across a restart.
   static void expect_safe(const std::string& log) {
-    constexpr double kRounded = 3e-6;      // degrees, of two logged angles
-    constexpr double kLongestStepS = 0.1;  // longest step that the guard assumes
+    constexpr double kRounded = 3e-6;      // degrees, two logged angles
+    constexpr double kLongestStepS = 0.1;  // that the guard assumes
     json last, interval;
     bool started = false;
     int states = 0;

@@ -13,35 +13,31 @@
 
 namespace glovebench::eval {
 
-/// A finished run or baseline. `files` reads a single state of its folder.
+/// A finished run or baseline. `files` reads one state of its folder.
 struct FinishedRun {
   FileSet files;
   reports::NamedResult results;
 };
-/// Throws: Error; Incomparable if the run is unfinished.
+/// Throws: Error; Incomparable for an unfinished run.
 FinishedRun load_finished_run(const std::string& folder_or_file);
 std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files);
-/// Empty where the folder has no times.
+/// Empty without times.
 reports::StageTimes load_stage_times(const FileSet& files);
 
-/// What changes are gated against, in a committed folder:
-///   results.json      the run that became the baseline
-///   noise_floor.json  effect of other seeds (glovebench calibrate noise); optional
-///   speed.json        ratios to the plain implementations; optional
-///   provenance.json   commit, date, compiler, processor, stage times, replaced baseline and what was accepted
-///   manifest.json     the set of results, speed and provenance (core/base/file_set.h); old ones lack it
+/// The folder of files that ci/README.md lists ("Baselines"). Noise floor and speed are optional; old folders lack
+/// manifest.json.
 struct Baseline {
   FinishedRun run;
   std::optional<reports::NoiseFloor> noise_floor;
   std::vector<reports::SpeedRatio> speed;
   reports::StageTimes times;
 };
-/// Throws: Incomparable if there is no baseline, or its results were changed by hand; Error.
+/// Throws: Incomparable without a baseline, or if its results were changed by hand; Error.
 Baseline load_baseline(const std::string& folder);
 
-/// The part that is read back.
+/// The part of provenance.json that is read back.
 struct Provenance {
-  std::string results_hash;  ///< of results.json
+  std::string results_hash;
   reports::StageTimes times;
 };
 /// Throws: Error(where, field, found, expected).
@@ -50,13 +46,14 @@ Provenance parse_provenance(const std::string& text, const std::string& where);
 /// "ci/baselines/quick".
 std::string default_baseline_folder(const std::string& suite);
 
-/// The suite of a run, from the given name or file, else the program's own.
+/// A run's suite, from the given name or file, else the program's own.
 /// Throws: Error if the run has none or another.
 Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file);
 
-/// Makes a run the baseline, in its folder only; keeps the noise floor. `accepted`: what would have stopped the
-/// change, for provenance.json. Throws: Error if the run is not the whole suite, the folder holds a run, or a truth
-/// differs from the old baseline's (then delete that first).
+/// Makes a run the baseline in its folder and keeps the noise floor. `accepted`: what would have stopped the
+/// change.
+/// Throws: Error if the run is not the whole suite, the folder holds a run, or a truth differs from the old
+/// baseline's (then delete that first).
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times,
                      const std::vector<std::string>& accepted);

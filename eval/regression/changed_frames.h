@@ -9,9 +9,8 @@
 
 namespace glovebench::eval {
 
-/// The most changed frames: camera image with outlines of the true hand (white), baseline (blue) and candidate
-/// (orange). Needs stored estimates, the program's current truth and the synthetic Kinect's cameras; leaves out
-/// what it cannot draw.
+/// The most changed frames: camera image with outlines of true hand (white), baseline (blue) and candidate
+/// (orange). Skips frames without stored estimates, the program's current truth or the synthetic Kinect's cameras.
 std::vector<reports::Picture> picture_changes(const reports::Comparison& comparison,
                                               const reports::RunResult& candidate, const FileSet& baseline_files,
                                               const FileSet& candidate_files);

@@ -12,25 +12,25 @@ struct AblationRow {
   std::string setting;  ///< name in `ablation_settings`
   std::string database;
 };
-/// One thing done in several ways over the same frames. Rows are compared with the first.
+/// One thing done in several ways on the same frames. Rows compare with the first.
 struct Ablation {
   std::string name;
   std::vector<AblationRow> rows;
 };
 
-/// Every other setting changes one thing of it.
+/// Other settings change one thing of it.
 inline constexpr const char* kDefaultSetting = "default";
 std::vector<Setting> ablation_settings(const TrackerConfig& tracker);
-/// All but the choice of postures. Labels of default rows assume the profile `paper`.
+/// Without the choice of postures. Labels of default rows assume the profile `paper`.
 std::vector<Ablation> ablations();
 
-/// Runs each named setting once on source truths: DB_open_power on power grasps, other databases on all five.
+/// Runs each named setting on source truths: DB_open_power on power grasps, other databases on all five.
 Runs run_rows(const StudyContext& context, const std::vector<Ablation>& wanted);
 
 /// Table "ablations": a row each.
 reports::Table ablation_table(const Runs& runs, const std::vector<Ablation>& ablations);
 
-/// A look-up off by more is wrong: a quarter of the way from open hand to power grasp.
+/// A look-up with a larger error is wrong: a quarter of the way from open hand to power grasp.
 inline constexpr double kWrongLookUp_deg = 15;
 
 /// lag.*: delay of the posture. Intervals resample movements.
@@ -42,10 +42,10 @@ std::vector<reports::Measure> color_measures(const Runs& runs);
 /// Table "color_blind": the same per database.
 reports::Table color_table(const Runs& runs);
 
-/// Unfiltered posture error of 3 neighbors minus that of 1, in frames where the 3 differ in posture.
+/// Unfiltered posture error of 3 neighbors minus 1, in frames where the 3 postures differ.
 reports::Measure interpolation_measure(const Runs& runs);
 
-/// Rows that these need beyond `ablations`.
+/// Rows for these measures beyond `ablations`.
 std::vector<Ablation> measured_ablations();
 
 }  // namespace glovebench::eval

@@ -5,18 +5,18 @@
 
 namespace glovebench::eval {
 
-/// One cascade stage in one database, over all frames.
+/// A cascade stage in a database, over all frames.
 struct StageSurvival {
   std::string database;
   Cascade cascade;
   size_t stage = 0;  ///< from 0
   int candidates_in = 0;
   int candidates_out = 0;
-  Sample survived_percent;  ///< 100 if the stage keeps the true neighbor, else 0
+  Sample survived_percent;  ///< 100 if it keeps the true neighbor, else 0
 };
 
-/// How often the true neighbor (TrueNeighborSearch) survives each stage of the tracker's look-ups. A frame without
-/// a hand counts as 0. Uses the workbench's threads.
+/// How often the true neighbor (TrueNeighborSearch) survives each stage of the look-ups. Frames without a hand
+/// count as 0. Uses the workbench's threads.
 std::vector<StageSurvival> measure_survival(const StudyContext& context, const std::vector<std::string>& databases,
                                             const std::vector<Cascade>& cascades, reports::TruthKind truth);
 

@@ -14,7 +14,7 @@ struct LightPoint {
   render::Lighting lighting;
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  ///< gains on linear R, G, B
 };
-/// What varies; the rest stays at the tracker's default.
+/// What varies; all else stays at the default.
 struct LightAxis {
   std::string table;  ///< "light_strength"
   std::string title;
@@ -22,22 +22,23 @@ struct LightAxis {
   std::string heading;  ///< of the column
   std::vector<LightPoint> points;
 };
-/// Strength 1/8 to 4 times the default's, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two of each.
+/// Strength 1/8 to 4 times the default's, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two each.
 std::vector<LightAxis> light_axes(bool quick);
 
-/// A user's recording for calibration: Tr2, Tr3 and Tr5, which no curve measures, without truth.
+/// An unlabeled recording for calibration: Tr2, Tr3 and Tr5, which no curve measures.
 calibration::ColorSamples record_under(Workbench& workbench, int subject, const LightPoint& point, int frames);
 
-/// One way to label; empty where calibration failed.
+/// A way to label; empty where calibration failed.
 struct LightWay {
   std::string name;
   std::optional<LabelErrors> errors;
 };
-/// Over eight hands of Tr1 and Tr4: the tracker's table and the recalibrated one, plain and filtered; last the
-/// best possible table for these pixels.
+/// Over eight hands of Tr1 and Tr4: the tracker's table and the recalibrated one, plain and filtered, and the best
+/// table for these pixels.
 std::vector<LightWay> measure_light_point(Workbench& workbench, int subject, const LightPoint& point);
 
-/// A table per axis; light_curves.*: mean share of correct glove pixels at strengths 0.5 to 2 and 3000 to 6500 K.
+/// A table for each axis; light_curves.*: mean share of correct glove pixels at strengths 0.5 to 2 and 3000 to 6500
+/// K.
 reports::StudyResult run_light_curves(const StudyContext& context);
 
 }  // namespace glovebench::eval

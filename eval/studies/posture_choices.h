@@ -6,17 +6,16 @@
 
 namespace glovebench::eval {
 
-/// DB_20_random_NUMBER: like DB_20_postures, but its movement postures are drawn at random from the same pool.
-/// `number` >= 1 is the seed.
+/// DB_20_random_NUMBER: DB_20_postures with random movement postures from the same pool. `number` >= 1 is the seed.
 PostureSet random_choice(int number);
-/// Largest distance from a pool posture to the nearest of the set, RMS.
+/// Largest distance from a pool posture to the set, RMS.
 double covering_radius_deg(const PostureSet& set);
 
 /// Compares DB_20_postures with `choices`.
 Ablation posture_choice_ablation(const std::vector<PostureSet>& choices);
-/// Runs the default setting with each choice. Frees each database after use (0.9 GB each).
+/// Runs the default setting with each choice. Frees each database (0.9 GB) after use.
 Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices);
-/// Table "postures": a row each, DB_20_postures first; `runs` must include it.
+/// Table "postures": a row each, DB_20_postures (required in `runs`) first.
 reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices);
 
 }  // namespace glovebench::eval

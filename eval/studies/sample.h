@@ -10,20 +10,20 @@
 
 namespace glovebench::eval {
 
-/// [stratum][noise seed][frame]; empty e.g. for a lost frame. A stratum is a trajectory, which is not resampled.
+/// [stratum][noise seed][frame]; empty for a lost frame, for example. A stratum is a trajectory, which is not
+/// resampled.
 using Sample = std::vector<std::vector<std::vector<std::optional<double>>>>;
 
-/// Both are empty without values; the interval also with too little to resample.
+/// Empty without values; the interval also with too little to resample.
 struct Estimated {
   std::optional<double> value;
   std::optional<reports::ConfidenceInterval> interval;
 };
 
-/// Over all values.
 std::optional<double> mean(const Sample& sample);
 Estimated estimate_mean(const Sample& sample);
 
-/// `combine` of the samples' means. All samples have the same frames, resampled together.
+/// `combine` of the samples' means. The samples' frames are the same and resampled together.
 Estimated estimate(std::span<const Sample> samples,
                    const std::function<std::optional<double>(std::span<const double> means)>& combine);
 
@@ -36,7 +36,7 @@ std::optional<reports::ConfidenceInterval> interval_over(
     int count, const std::string& over,
     const std::function<std::optional<double>(std::span<const int> drawn)>& statistic);
 
-/// Keeps only frames where `keep` is neither empty nor 0.
+/// Keeps frames where `keep` is neither empty nor 0.
 Sample where(const Sample& sample, const Sample& keep);
 
 }  // namespace glovebench::eval

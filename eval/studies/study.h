@@ -14,11 +14,11 @@ namespace glovebench::eval {
 struct StudyOptions {
   TrackerConfig tracker;
   std::vector<uint64_t> seeds = {1};
-  bool quick = false;             ///< few frames and queries: a test, no measurement
+  bool quick = false;             ///< few frames and queries: a test, not a measurement
   std::vector<Cascade> cascades;  ///< of Figure 8; empty: the paper's
 };
 
-/// `store`, if any, keeps finished runs.
+/// `store` keeps finished runs; may be null.
 struct StudyContext {
   Workbench& workbench;
   const StudyOptions& options;
@@ -30,11 +30,11 @@ struct Study {
   std::string_view name;   ///< "fig8"
   std::string_view title;  ///< "Figure 8: matching cascades"
   reports::StudyResult (*run)(const StudyContext& context);
-  double cpu_s;  ///< about, of one seed; for estimates
+  double cpu_s;  ///< of one seed, roughly
 };
-/// In running order.
+/// All studies in running order.
 const std::vector<Study>& studies();
-/// Throws: Error listing the known ones.
+/// Throws: Error listing known names.
 const Study& study(std::string_view name);
 
 struct Setting {
@@ -45,7 +45,7 @@ struct Setting {
   bool clutter_in_volume = false;
 };
 
-/// All frames; in a quick reproduction a stretch.
+/// All frames; a stretch in a quick reproduction.
 FrameRange frames_of(const StudyOptions& options);
 
 /// Each setting with each database on these trajectories (empty: all five; quick: one), with the study's seeds and
@@ -55,30 +55,27 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
                                  const std::vector<std::string>& trajectories = {});
 
 using Runs = std::vector<MeasuredRun>;
-/// Runs `study_specs` for errors. Runs share the machine, so their times mean little.
+/// Runs `study_specs` for errors. Runs share the machine, so times mean little.
 Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
                   const std::vector<std::string>& databases, reports::TruthKind truth,
                   const std::vector<std::string>& trajectories = {});
-/// Runs for times, on source truths with this implementation: one tracker at a time, a stretch of each movement.
-/// Not stored.
+/// Runs for times, on source truths: one tracker at a time, a stretch of each movement. Not stored.
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
                    const std::vector<std::string>& databases, Implementation implementation,
                    const std::vector<std::string>& trajectories = {});
-/// For tables.
 std::string times_explanation();
 
 /// Runs of one setting and database, by trajectory, then seed.
 using Selection = std::vector<const MeasuredRun*>;
-/// There must be some. `runs` must outlive the result.
+/// At least one. `runs` must outlive the result.
 Selection select(const Runs& runs, std::string_view setting, std::string_view database);
 
 Sample sample_of(const Selection& runs,
                  const std::function<std::optional<double>(const MeasuredRun& run, size_t frame)>& value);
-/// `metric`: a key.
 Sample sample_of(const Selection& runs, std::string_view metric);
-/// Jitter and latency: [trajectory][seed].
+/// [trajectory][seed].
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs);
-/// Of a stage (empty: whole frames), all frames and runs.
+/// Times of a stage (empty: of whole frames), all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
 
@@ -86,8 +83,8 @@ std::optional<double> covered_percent(const Selection& runs);
 std::vector<reports::Cell> cells(const Estimated& estimated);
 using reports::cell;
 const std::vector<reports::Column>& error_columns();
-/// 12 cells: mean errors of position, posture and rotation, each followed by its change from `reference` and the
-/// interval. Null: no change.
+/// 12 cells: mean errors of position, posture and rotation, each with its change from `reference` and the interval.
+/// Null: no change.
 std::vector<reports::Cell> error_cells(const Selection& runs, const Selection* reference);
 
 reports::StudyResult run_figure7(const StudyContext& context);
@@ -95,7 +92,7 @@ reports::StudyResult run_figure8(const StudyContext& context);
 reports::StudyResult run_figure9(const StudyContext& context);
 reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
-/// With these databases. monocular.depth_error_cm is of the first and of the tracker's own hand.
+/// monocular.depth_error_cm is of the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);
 /// Tables "light" and "light_tracking" of the ablations, and measures light.*.
 reports::StudyResult run_light(const StudyContext& context);

@@ -14,22 +14,21 @@
 
 namespace glovebench::eval {
 
-inline constexpr double kTrialAngleNoise_deg = 3.0;  ///< standard deviation of each angle
-/// Center on the optical axis and half edges of the box of hand origins, m; nearly every hand in it is fully in
+inline constexpr double kTrialAngleNoise_deg = 3.0;  ///< standard deviation
+/// Center on the optical axis and half edges of the box of hand origins, m. Nearly every hand in it is fully in
 /// view.
 inline constexpr double kTrialDistance = 0.70;
 inline constexpr std::array<double, 3> kTrialReach = {0.12, 0.07, 0.10};
 
-/// A blend of two postures (of one, if there are no more) with noise on each angle, a uniform rotation, an origin
-/// from the box.
+/// A blend of two postures (or the only one) with noise on each angle, a uniform rotation, an origin from the box.
 HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random);
 
-/// The synthetic Kinect with subject 1's scene, and the tracker's stages before the look-up. Not thread-safe.
+/// The synthetic Kinect with subject 1's scene, and the stages before the look-up. Not thread-safe.
 class TrialCamera {
  public:
   TrialCamera(Workbench& workbench, const TrackerConfig& config, const render::NoiseConfig& noise);
 
-  /// The labels that the tracker would look up, else empty. `key` selects the noise.
+  /// The labels that would be looked up, else empty. `key` selects the noise.
   std::optional<LabelImage> see(const HandFrame& hand, const render::FrameKey& key);
 
  private:
@@ -42,10 +41,10 @@ class TrialCamera {
 
 struct TrialQuery {
   HandFrame hand;
-  std::vector<LabelImage> images;  ///< tiny images, one per size
-  int redraws = 0;                 ///< hands drawn before it that the tracker would not look up
+  std::vector<LabelImage> images;  ///< by size
+  int redraws = 0;                 ///< rejected hands before it
 };
-/// Queries under the paper's noise; independent of the number of threads.
+/// Queries under the paper's noise; independent of threads.
 /// Throws: Error if hardly any hand can be looked up.
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,

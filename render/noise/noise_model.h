@@ -12,17 +12,17 @@
 namespace glovebench::render {
 
 /// Variance per |grad z| of `gradient`, m px: 1.4 mm standard deviation at 45 degrees and 0.7 m (Nguyen et al.
-/// 2012). It is not tuned.
+/// 2012). Not tuned.
 inline constexpr double kGradientGain = 0.0014 * 0.0014 / (0.7 / 575.816);
 
 struct KinectNoiseConfig {
   double lateral_sigma_px = 0.5;  ///< of the sampled pixel (Handa et al. 2014), >= 0
-  /// before quantization, steps of 1/8 px, >= 0; both give the axial deviation of Khoshelham and Elberink 2012
+  /// before quantization, in 1/8 px, >= 0; both give the axial deviation of Khoshelham and Elberink 2012
   double disparity_sigma_steps = 0.40;
   double grazing_from_deg = 70.0;     ///< incidence at which dropouts begin, [0, 90)
-  double grazing_to_deg = 85.0;       ///< incidence at which all drop out, (grazing_from_deg, 90]
-  double min_depth = 0.45;            ///< nearest value, m, >= 0
-  double projector_baseline = 0.075;  ///< projector along the IR camera's +x, m; 0: no shadow
+  double grazing_to_deg = 85.0;       ///< incidence from which all drop out, (grazing_from_deg, 90]
+  double min_depth = 0.45;            ///< nearest depth, m, >= 0
+  double projector_baseline = 0.075;  ///< along the IR camera's +x, m; 0: no shadow
 };
 
 struct NoiseConfig {
@@ -31,7 +31,7 @@ struct NoiseConfig {
   double color_sigma_gray = kColorSigma_gray;  ///< of each 8-bit channel, >= 0
   KinectNoiseConfig kinect;
 
-  /// One problem per line.
+  /// One a line.
   std::vector<std::string> problems() const;
 };
 
@@ -45,11 +45,10 @@ struct DepthNoise {
 };
 /// Sorted by name.
 std::span<const DepthNoise> depth_noises();
-/// Throws: Error listing the known names.
+/// Throws: Error listing known names.
 const DepthNoise& find_depth_noise(std::string_view name);
 
-/// Applies the configured model.
-/// Throws: Error if it is unknown.
+/// Throws: Error for an unknown model.
 DepthImage add_depth_noise(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,
                            const FrameKey& key);
 

@@ -10,24 +10,23 @@ namespace glovebench::render {
 
 /// m
 inline constexpr double kGloveThickness = 0.001;
-/// Limits of the drawn folds and border shifts, m.
+/// Range of folds and border shifts, m.
 inline constexpr double kLeastFold = 0.001, kMostFold = 0.002;
 inline constexpr double kMostBorderShift = 0.003;
 
 /// Interpolated lattice noise in [-1, 1]; `scale` is the lattice's step, m.
 double smooth_noise(uint64_t seed, const Eigen::Vector3d& p, const Eigen::Vector3d& scale);
 
-/// The glove of a posed hand, as functions on its surface.
+/// A posed hand's glove, as functions on its surface.
 class CapsuleGlove {
  public:
   CapsuleGlove(const std::vector<HandCapsule>& capsules, std::vector<Capsule> placed,
                const JointPoses& T_hand_joint, uint64_t seed);
 
-  /// How strongly a point belongs to each patch, as `patch_scores`. Borders lie near the joints, each shifted
-  /// randomly by up to 3 mm.
+  /// As `patch_scores`. Borders lie near the joints, each shifted randomly by up to 3 mm.
   PatchScores scores(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const;
 
-  /// Folds across the fingers, m, with mean 0.
+  /// Folds across the fingers, m, mean 0.
   std::vector<double> folds(const std::vector<Eigen::Vector3d>& places) const;
 
  private:

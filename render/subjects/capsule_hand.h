@@ -9,14 +9,14 @@
 namespace glovebench::render {
 
 /// A gloved hand unlike the tracker's mesh: a smooth union of tapered capsules with anthropometric dimensions. The
-/// seed draws person, skeleton and glove. A posture moves the capsules and projects each vertex onto their union
+/// seed draws person, skeleton and glove. A posture moves the capsules and projects vertices onto their union
 /// (Vaillant et al. 2013, "Implicit Skinning", without contact).
 class CapsuleHand {
  public:
   /// `definition`: the package's skeleton, for the thumb's zero.
   CapsuleHand(uint64_t seed, Side side, const Skeleton& definition);
 
-  /// Fingers are spread, so that only connected parts touch.
+  /// Spread fingers: only connected parts touch.
   static Posture rest_posture();
 
   PosedHand pose(const Posture& posture) const;
@@ -27,12 +27,12 @@ class CapsuleHand {
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
-  /// The right hand's; the left hand mirrors it.
+  /// The right hand's; a left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
   /// Field value at each vertex, m: glove and folds; NaN at the cuff's flat end.
   const std::vector<double>& levels() const { return levels_; }
-  /// As vertex `v` sees the placed capsules.
+  /// The field that vertex `v` follows, of placed capsules.
   FieldSample field_at(size_t v, const std::vector<Capsule>& placed, const Eigen::Vector3d& p) const;
 
  private:

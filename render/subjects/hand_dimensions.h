@@ -28,10 +28,10 @@ struct Published {
 };
 Published published_length(bool woman);
 Published published_breadth(bool woman);
-/// `segment`: 0..2 as in HandDimensions::segments, 3: pulp; both sexes.
+/// Published length for both sexes. `segment`: 0..2 as in HandDimensions::segments, 3: pulp.
 Published published_segment(int finger, int segment);
 
-/// Draws a hand whose segments vary with its length and girths with its breadth.
+/// Draws segments around the length's and girths around the breadth's.
 HandDimensions draw_dimensions(uint64_t seed);
 
 }  // namespace glovebench::render

@@ -11,14 +11,14 @@
 
 namespace glovebench::render {
 
-/// 1: the tracker's hand, 2: its mesh reshaped, then capsule hands.
+/// 1: the tracker's hand, 2: its mesh reshaped, from 3: capsules.
 inline constexpr int kFirstCapsuleSubject = 3;
 inline constexpr int kSubjectCount = 22;
 
 /// Copies share the hand.
 class Subject {
  public:
-  // Not explicit: every tracker's hand can be a subject.
+  // Implicit: every tracker's hand can be a subject.
   Subject(std::shared_ptr<const HandModel> model) : hand_(std::move(model)) {}
   Subject(std::shared_ptr<const CapsuleHand> hand) : hand_(std::move(hand)) {}
 

@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// The values with which a claim holds; one end may be infinite.
+/// Values with which a claim holds; one end may be infinite.
 struct Rule {
   enum class Kind { below, at_most, above, at_least, within };
   Kind kind = Kind::below;
@@ -20,17 +20,16 @@ struct Rule {
   friend bool operator==(const Rule&, const Rule&) = default;
 };
 using glovebench::to_string;
-/// As in claims.json.
 constexpr auto names_of(Rule::Kind) {
   return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});
 }
 bool holds(const Rule& rule, double value);
-/// Whether any value from low to high satisfies the rule.
+/// True if any value from low to high satisfies the rule.
 bool meets(const Rule& rule, double low, double high);
 /// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);
 
-/// Reproduction: the paper's experiment. Consistency: what the paper cites is plausible.
+/// Reproduction: the paper's experiment. Consistency: the cited number is plausible.
 enum class ClaimKind { reproduction, consistency };
 constexpr auto names_of(ClaimKind) {
   return std::to_array<std::string_view>({"reproduction", "consistency"});
@@ -40,51 +39,51 @@ constexpr auto names_of(ClaimKind) {
 struct ClaimDefinition {
   std::string claim;        ///< one sentence
   std::string source;       ///< section or figure of the paper
-  std::string paper_value;  ///< as printed; "" if no number
-  std::string measured;     ///< what, on which truth, and what the rule means
+  std::string paper_value;  ///< as printed; "": no number
+  std::string measured;     ///< what, on which truth, meaning of the rule
   std::string measure;      ///< name of a Measure
   Rule rule;
   ClaimKind kind = ClaimKind::reproduction;
-  bool required = false;   ///< the run fails if it does not hold
-  bool withdrawn = false;  ///< listed, but not judged
-  std::string if_not;      ///< shown when it does not hold
+  bool required = false;   ///< else the run fails
+  bool withdrawn = false;  ///< listed, not judged
+  std::string if_not;      ///< shown if it does not hold
 
   friend bool operator==(const ClaimDefinition&, const ClaimDefinition&) = default;
 };
 
 /// The first change writes the claim.
 struct ClaimChange {
-  std::string date;                     ///< "2026-11-21"
-  std::optional<std::string> commit;    ///< empty only for the newest change, which cannot name itself
-  ClaimDefinition definition;           ///< after this change
-  std::vector<std::string> set;         ///< changed fields; none if only the measuring program changed
-  std::optional<std::string> came_out;  ///< published measurements with their commits in brackets; empty if none
+  std::string date;                   ///< "2026-11-21"
+  std::optional<std::string> commit;  ///< empty only for the newest change, which cannot name itself
+  ClaimDefinition definition;
+  std::vector<std::string> set;         ///< changed fields; none: only the measuring program changed
+  std::optional<std::string> came_out;  ///< published measurements, commits in brackets; empty: none
   std::string why;
 
   friend bool operator==(const ClaimChange&, const ClaimChange&) = default;
 };
 
-/// The newest entry of the history holds.
+/// The newest entry holds.
 struct Claim {
   std::string id;                    ///< "position-error-source"
-  std::vector<ClaimChange> history;  ///< oldest first, at least one
+  std::vector<ClaimChange> history;  ///< oldest first, not empty
 
   const ClaimDefinition& definition() const { return history.back().definition; }
 
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// A change in how all claims are judged.
+/// A change of how all claims are judged.
 struct JudgingChange {
   std::string date;
   std::optional<std::string> commit;  ///< as in ClaimChange
-  std::string rule;                   ///< in sentences, valid from here on
+  std::string rule;                   ///< sentences; valid from then on
   std::string why;
 
   friend bool operator==(const JudgingChange&, const JudgingChange&) = default;
 };
 
-/// Claims in the order of the paper's sections; `judging` oldest first.
+/// Claims in the paper's order; `judging` oldest first.
 struct ClaimSet {
   std::vector<Claim> claims;
   std::vector<JudgingChange> judging;
@@ -93,20 +92,20 @@ struct ClaimSet {
 };
 
 /// A field of claims.json as text: "below 10", "true".
-/// Throws: std::logic_error if there is no such field.
+/// Throws: std::logic_error for another field.
 std::string field_text(const ClaimDefinition& definition, std::string_view field);
-/// Changes after the first that altered the claim.
+/// Changes of the claim after the first.
 int change_count(const Claim& claim);
 
-/// From reports/data/claims.json.
+/// reports/data/claims.json.
 const ClaimSet& claim_set();
 const std::vector<Claim>& claims();
 
 /// Throws: Error naming `where` and the field.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
-/// One sentence per change of `earlier`; empty if `later` only adds. A missing commit or `came_out` may be filled
-/// once.
+/// A sentence for each change of `earlier`; empty if `later` only adds. A missing commit or `came_out` may be
+/// filled once.
 std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

@@ -16,7 +16,7 @@ enum class ClaimOutcome {
   not_consistent,
   inconclusive,
   not_run,
-  withdrawn  ///< listed, but not judged
+  withdrawn  ///< listed, not judged
 };
 constexpr auto names_of(ClaimOutcome) {
   return std::to_array<std::string_view>(
@@ -31,20 +31,16 @@ struct ClaimVerdict {
   friend bool operator==(const ClaimVerdict&, const ClaimVerdict&) = default;
 };
 
-/// False for a quick run and for another configuration than the paper's.
+/// False for a quick run or another configuration than the paper's.
 bool are_claims_judged(const RunResult& result);
 
 /// Of Figures 4 to 6 and the studies, as far as run; none if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
 
-/// One verdict per claim, in their order. A claim
-/// - does not hold if the number or the whole interval breaks the rule;
-/// - holds if number and whole interval, if any, satisfy it;
-/// - is inconclusive if only part of the interval does, or number or interval is missing or invalid (not finite,
-/// wrong order).
+/// Judges in the order of the claims, by the rules of reports/README.md ("Claims").
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
-/// Outcomes of required claims, without withdrawn ones.
+/// Outcomes of required claims that are not withdrawn.
 struct RequiredClaims {
   int hold = 0;
   int inconclusive = 0;  ///< part of the interval breaks the rule

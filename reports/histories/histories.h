@@ -6,12 +6,12 @@
 
 namespace glovebench::reports {
 
-// A run for services that keep benchmark histories.
+// A run for services with benchmark histories.
 
 /// Bencher Metric Format: benchmark = experiment, measure = gated metric, lower_value and upper_value = bootstrap
 /// interval.
 std::string bencher_json(const RunResult& result);
-/// github-action-benchmark's customSmallerIsBetter: one entry per experiment and gated metric.
+/// github-action-benchmark's customSmallerIsBetter: an entry for each experiment and gated metric.
 std::string github_action_benchmark_json(const RunResult& result);
 
 }  // namespace glovebench::reports

@@ -36,7 +36,7 @@ inline FrameSheet example_sheet(const std::string& figure, int frames) {
   return sheet;
 }
 
-/// A time if the key is in ms or us.
+/// A time if the key ends in ms or us.
 inline Column example_column(const std::string& key) {
   return {key, key, 2, key.find("_ms") != std::string::npos || key.find("_us") != std::string::npos};
 }

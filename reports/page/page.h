@@ -9,30 +9,30 @@
 
 namespace glovebench::reports {
 
-/// All frames of a curve in one image, each as two tiles, one above the other: true hand, and difference of
-/// estimated and true depth. Frame i is in column i % columns, tile row pair i / columns.
+/// All frames of a curve in one image, each as two tiles, one above the other: true hand, and estimated minus true
+/// depth. Frame i is in column i % columns, tile row pair i / columns.
 struct FrameSheet {
   std::string figure;  ///< "figure5"
-  std::string image;   ///< JPEG or PNG file
+  std::string image;   ///< of a JPEG or PNG file
   int columns = 1;
   int tile_width = 0;   ///< px
   int tile_height = 0;  ///< px
-  int first_frame = 0;  ///< number in the trajectory
+  int first_frame = 0;  ///< in the trajectory
   int frames = 0;
 };
 
-/// Larger depth differences get the strongest color.
+/// Depth differences from here on have the strongest color.
 inline constexpr double kSheetDifferenceMm = 20;
 
 struct PageMaterial {
-  /// Vega, Vega-Lite and Vega-Embed, in this order; without them no charts.
+  /// Vega, Vega-Lite, Vega-Embed, in this order; without them no charts.
   std::vector<std::string> scripts;
   std::vector<FrameSheet> sheets;     ///< of Figures 5 and 6
-  std::vector<Picture> worst_frames;  ///< as chosen by `worst_frames`
+  std::vector<Picture> worst_frames;  ///< of the function `worst_frames`
 };
 
-/// index.html in one file: Figures 4 to 9 that were run, beside the paper's numbers. Tables and keyframes need no
-/// JavaScript. `timings` gives robot commands and, with studies, the machine.
+/// index.html in one file: Figures 4 to 9 as far as run, beside the paper's numbers. Tables and keyframes need no
+/// JavaScript. `timings`: for robot commands and, with studies, the machine.
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
                       const PageMaterial& material = {});
 

@@ -8,18 +8,18 @@ namespace glovebench::reports {
 
 struct Picture {
   std::string caption;
-  std::string image;         ///< PNG or JPEG file
-  std::string command = "";  ///< shows it again; may be empty
+  std::string image;         ///< of a PNG or JPEG file
+  std::string command = "";  ///< that shows it again; may be empty
 };
 
 /// Empty without pictures.
 std::string picture_section(const std::string& title, const std::vector<Picture>& pictures);
 
-/// "data:image/png;base64,...", from a PNG or JPEG file.
+/// "data:image/png;base64,..." of a PNG or JPEG file.
 std::string data_uri(const std::string& image);
 
 /// Place of a chart that data/page_charts.js draws from the page's tables. `chart`: its name there, numbered if
-/// several: "differences 3". `label` says what it shows.
+/// several: "differences 3". `label`: what it shows.
 std::string chart_place(const std::string& chart, const std::string& label);
 /// End of a page with charts: `tables` (CSV texts by name) and `scripts` (Vega, Vega-Lite, Vega-Embed). Empty
 /// without scripts.

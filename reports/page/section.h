@@ -10,19 +10,18 @@ namespace glovebench::reports {
 struct Section {
   std::string id;
   std::string title;  ///< plain text
-  std::string html;   ///< follows the heading, or begins with its own
+  std::string html;   ///< below the heading, or with its own
 };
 
-/// Says where a chart's numbers are.
+/// The place of a chart's numbers.
 std::string data_note(const std::string& table);
 
-/// Figure 4 or the errors of other experiments; Figures 5 and 6 with keyframes, if run.
+/// Figure 4 or other experiments' errors; Figures 5 and 6 with keyframes, if run.
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
-/// One per study, with charts and tables.
 std::vector<Section> study_sections(const RunResult& result);
 
-/// Keyframes of a curve; the place of one frame with slider for data/page_frames.js.
+/// Keyframes of a curve; place and slider of one frame for data/page_frames.js.
 std::string keyframes_html(const FrameSheet& sheet);
 std::string frame_viewer_html(const FrameSheet& sheet);
 /// Holds each sheet once; tiles are windows on it.

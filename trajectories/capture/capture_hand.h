@@ -19,7 +19,7 @@ struct HandState {
   Eigen::Isometry3d T_capture_hand = Eigen::Isometry3d::Identity();  ///< m
 };
 
-/// Rotation vector about the hand origin and translation along the capture's axes, then angles.
+/// Rotation vector about the hand origin and translation, capture frame; then angles.
 inline constexpr int kStateSize = 6 + kAngleCount;
 using StateStep = Eigen::Matrix<double, kStateSize, 1>;
 /// Takes a step within joint limits.
@@ -27,7 +27,7 @@ HandState moved(const HandState& state, const StateStep& step);
 
 /// Marker positions in the capture frame.
 std::vector<Eigen::Vector3d> predict_points(const CaptureHand& hand, const HandState& state);
-/// Derivative of predict_points, three rows for each marker.
+/// Derivative of predict_points, three rows a marker.
 Eigen::MatrixXd state_jacobian(const CaptureHand& hand, const HandState& state);
 
 /// Pose, in the hand frame, of the frame that holds a marker.

@@ -10,7 +10,7 @@ namespace glovebench::trajectories {
 struct PosturePrior {
   Posture center = Posture::Zero();  ///< rad
   double deviation = radians_from_degrees(60);
-  /// deviation of an end joint from kEndJointShare of its middle joint, rad
+  /// of an end joint from kEndJointShare of its middle joint, rad
   double end_joint_deviation = radians_from_degrees(15);
 };
 
@@ -30,11 +30,11 @@ struct FrameFitOptions {
 };
 
 struct WeightedResiduals {
-  Eigen::VectorXd residuals;  ///< three for each marker, weighted, in kPointDeviation; 0 unseen
+  Eigen::VectorXd residuals;  ///< three a marker, weighted, in kPointDeviation; 0 unseen
   Eigen::VectorXd row_scale;  ///< from rows of a Jacobian (m) to `residuals`; 0 unseen
   double cost = 0;
 };
-/// `points` has a point or gap for each marker.
+/// `points`: a point or gap for each marker.
 WeightedResiduals weighted_residuals(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                      const HandState& state, double robust_scale);
 
@@ -58,7 +58,7 @@ struct Observability {
   bool pose = false;
   std::array<bool, kAngleCount> angles = {};
 };
-/// An angle is shown if points that deviate by kPointDeviation fix it to this.
+/// An angle is shown if points with kPointDeviation fix it to this.
 inline constexpr double kShownDeviation = radians_from_degrees(15);
 Observability observability(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                             const HandState& state, double robust_scale);

@@ -17,21 +17,21 @@ struct FittedFrame {
   std::vector<double> residuals;  ///< of each point, m
   std::array<bool, kAngleCount> bridged_angles = {};
   bool bridged_pose = false;
-  bool left_out = false;  ///< pose unknown: gap over kLongestPoseGapUs, or at an end
+  bool left_out = false;  ///< gap over kLongestPoseGapUs, or at an end
 };
 
 inline constexpr int64_t kLongestPoseGapUs = 500'000;
 
 struct HandFit {
   CaptureHand hand;
-  double scale = 1;  ///< of the model's hand, before calibration
+  double scale = 1;  ///< of the model's hand before calibration
   std::vector<FittedFrame> frames;
   std::array<bool, kAngleCount> never_shown = {};
   int angle_gaps = 0;
   int missing_points = 0;  ///< of labeled markers, in all frames
 };
 
-/// Fits a right hand, its postures and its poses to captured points. `markers` come from place_markers.
+/// Fits a right hand, its postures and its poses to captured points. `markers`: from place_markers.
 /// Throws: Error naming `where` if the capture is no hand.
 HandFit fit_hand(const MarkerSequence& sequence, const std::vector<PlacedMarker>& markers, const Skeleton& skeleton,
                  const std::string& where);

@@ -11,7 +11,7 @@
 
 namespace glovebench::trajectories {
 
-/// Reads files with equal points as one capture, a second apart, and fits it; a left hand is mirrored.
+/// Fits files with equal points as one capture, a second apart; mirrors a left hand.
 /// Throws: Error.
 HandFit import_capture(const std::vector<std::string>& paths, const Format& format, Side side,
                        const MarkerLayout& layout, const HandModel& right_hand);
@@ -26,7 +26,7 @@ inline constexpr double kViewingDistance = 0.7;  ///< m
 /// Every nth frame.
 Trajectory trajectory_of(const HandFit& fit, const CapturePlacement& placement, const std::string& name, int every);
 
-/// At most `count` postures by low-dispersion sampling, the first frame's first. `names` are of frames; empty:
+/// At most `count` postures by low-dispersion sampling, the first frame's first. `names`: of frames; empty:
 /// numbers.
 PostureSet postures_of(const HandFit& fit, const std::string& name, size_t count,
                        const std::vector<std::string>& names);
@@ -34,7 +34,6 @@ PostureSet postures_of(const HandFit& fit, const std::string& name, size_t count
 /// A CSV with a line for each frame.
 std::string residual_table(const HandFit& fit);
 
-/// A summary in one line.
 std::string summary(const HandFit& fit);
 
 }  // namespace glovebench::trajectories

@@ -9,12 +9,12 @@ namespace glovebench::trajectories {
 inline constexpr double kLabelGate = 0.015;
 
 struct Relabeling {
-  std::vector<Eigen::Vector3d> points;  ///< for each marker; or a gap
-  int corrected = 0;                    ///< markers with another point, or none now
+  std::vector<Eigen::Vector3d> points;  ///< by marker, or a gap
+  int corrected = 0;                    ///< markers that changed or lost their point
 };
 
 /// Assigns points within kLabelGate to markers by the least sum of squared distances. A marker's own point counts
-/// as half as far, so that noise swaps nothing. `predicted` and `labeled` have an item for each marker.
+/// as half as far, so that noise swaps nothing. `predicted`, `labeled`: by marker.
 Relabeling relabel(const std::vector<Eigen::Vector3d>& predicted, const std::vector<Eigen::Vector3d>& labeled,
                    const std::vector<Eigen::Vector3d>& unlabeled);
 

@@ -12,12 +12,12 @@
 
 namespace glovebench::trajectories {
 
-inline constexpr int kPalm = -1;  ///< instead of a joint: the hand frame
+inline constexpr int kPalm = -1;  ///< in place of a joint: the hand frame
 
-/// Points with WebXR's names ("wrist", ..., "pinky-finger-tip") are joint centers; others lie on the skin.
+/// Points with WebXR's names are joint centers; others lie on the skin.
 inline constexpr int kWebxrJointCount = kForearmJoint;  ///< without the forearm
 bool is_webxr_joint(const std::string& name);
-/// A sequence of the joint centers, without frames.
+/// Joint centers, without frames.
 MarkerSequence sequence_of_joints();
 
 /// A point fixed to a joint or, for kPalm, the hand.
@@ -39,10 +39,9 @@ using MarkerLayout = std::map<std::string, std::string>;
 /// Throws: Error.
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where);
 
-/// The place on a right hand that a name in README.md, such as "index_proximal_2", or a WebXR joint means.
+/// The place on a right hand that a name of README.md ("index_proximal_2") or of WebXR means.
 std::optional<PlacedMarker> place_marker(const std::string& name, const HandModel& model);
 
-/// Places of labeled points.
 /// Throws: Error naming `where` and a point without a place, or a layout name without a point.
 std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, const MarkerLayout& layout,
                                         const HandModel& model, const std::string& where);

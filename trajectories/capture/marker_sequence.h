@@ -12,12 +12,12 @@ namespace glovebench::trajectories {
 
 struct MarkerFrame {
   int64_t timestamp_us = 0;
-  std::vector<Eigen::Vector3d> points;  ///< for each name, capture frame, m; NaN: not seen
+  std::vector<Eigen::Vector3d> points;  ///< by name, capture frame, m; NaN: not seen
 };
 
 struct MarkerSequence {
   std::vector<std::string> names;   ///< distinct
-  std::vector<MarkerFrame> frames;  ///< at least one, in time order
+  std::vector<MarkerFrame> frames;  ///< in time order, not empty
 };
 
 /// Limits of a file.
@@ -47,7 +47,7 @@ Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale
 void add_name(std::string_view name, MarkerSequence& sequence, const std::string& where, const std::string& field);
 
 /// Adds a frame; times count from `first_us`.
-/// Throws: Error if time does not increase, or there are too many frames or gaps for `text_bytes`.
+/// Throws: Error if time does not increase, or frames or gaps are too many for `text_bytes`.
 void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence,
                const std::string& where, const std::string& field);
 

@@ -7,13 +7,13 @@
 
 namespace glovebench::trajectories {
 
-/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points` has a point or
-/// gap for each frame and marker.
+/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points`: a point or gap
+/// for each frame and marker.
 /// Throws: Error if no hand has this size.
 double hand_scale(const CaptureHand& hand, const std::vector<std::vector<Eigen::Vector3d>>& points,
                   const std::string& where);
 
-/// Guesses each frame from its neighbor, starting at the frame with the most points.
+/// Guesses each frame from its neighbor, first the one with the most points.
 /// Throws: Error if no frame has three palm points.
 std::vector<HandState> start_states(const CaptureHand& hand,
                                     const std::vector<std::vector<Eigen::Vector3d>>& points, double robust_scale,

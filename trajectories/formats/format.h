@@ -17,16 +17,16 @@ struct Format {
   std::string_view name;         ///< X
   std::string_view ending;       ///< such as ".json"
   std::string_view description;  ///< one line
-  // Exactly one reader is given.
+  // One reader is given, others are null.
   Trajectory (*trajectory)(std::string_view bytes, const std::string& where) = nullptr;
-  /// `name` is used if the file has none.
+  /// `name`: for a file without one.
   PostureSet (*postures)(std::string_view bytes, const std::string& name, const std::string& where) = nullptr;
   MarkerSequence (*markers)(std::string_view bytes, Side side, const std::string& where) = nullptr;
 };
 /// Sorted by name.
 std::span<const Format> formats();
 
-/// The formats with a reader, such as `formats_with(&Format::markers)`.
+/// Formats with a reader: `formats_with(&Format::markers)`.
 template <typename Reader>
 std::vector<const Format*> formats_with(Reader Format::*reader) {
   std::vector<const Format*> found;
@@ -35,7 +35,7 @@ std::vector<const Format*> formats_with(Reader Format::*reader) {
   return found;
 }
 
-/// Chooses by the path's ending; null if there is none.
+/// Chooses by the path's ending; null without any.
 template <typename Reader>
 const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   for (const Format* format : formats_with(reader))
@@ -43,7 +43,7 @@ const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   return nullptr;
 }
 
-/// Whether a name has a file's ending; names of our own trajectories and sets have none.
+/// True if a name has a file's ending; built-in names have none.
 inline bool is_trajectory_file(std::string_view name) {
   return format_of_file(name, &Format::trajectory) != nullptr;
 }
@@ -54,10 +54,10 @@ inline bool is_posture_file(std::string_view name) {
 /// Reads a file by its ending.
 /// Throws: Error.
 Trajectory load_trajectory(const std::string& path);
-/// A set without a name takes its file's.
+/// A set without a name takes the file's.
 PostureSet load_posture_set(const std::string& path);
 
-/// Throws: Error listing the known names.
+/// Throws: Error listing known names.
 const Format& find_marker_format(std::string_view name);
 std::vector<std::string> marker_format_names();
 

@@ -5,11 +5,11 @@
 
 namespace glovebench::trajectories {
 
-/// Makes every generated file, by path in the data folder, from its gestures and scripts.
+/// Makes every generated file from gestures and scripts, by path in the data folder.
 /// Throws: Error.
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder);
 
-/// Lists properties of the source trajectories as a Markdown table: distances, speeds, grasps.
+/// Markdown: distances, speeds, grasps of the source trajectories.
 /// Throws: Error.
 std::string source_properties_table(const std::string& data_folder);
 

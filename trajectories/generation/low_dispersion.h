@@ -13,7 +13,7 @@ namespace glovebench::trajectories {
 std::vector<size_t> low_dispersion_sample(const std::vector<Posture>& pool, const std::vector<Posture>& given,
                                           size_t count);
 
-/// The largest distance from a pool posture to its nearest chosen one, rad.
+/// Largest distance from a pool posture to the chosen ones, rad.
 /// Throws: Error if either is empty.
 double covering_radius(const std::vector<Posture>& pool, const std::vector<Posture>& chosen);
 

@@ -23,22 +23,21 @@ namespace glovebench {
 /// Throws: Error if it is an error of Cyclone DDS.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// The largest message, and how many may wait in a reader: they bound the memory that others can claim.
+/// The largest message, and how many may wait in a reader. They bound the memory that others can claim.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
 inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s
 
-/// Messages kept by a writer, as in ROS 2.
+/// Messages that a writer keeps, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
-/// Larger messages that were dropped since the process began.
+/// Dropped larger messages since the process began.
 int64_t dds_messages_too_large();
 
 struct DdsDomain;
 
-/// A participant in a domain; owns the entities that it makes.
+/// A participant in a domain, and the entities that it makes.
 class DdsParticipant {
  public:
-  /// Limits message sizes and the library's lines on stderr.
   /// Throws: Error for a domain outside 0..230, an unknown interface, one beside CYCLONEDDS_URI, or a second access
   /// to the domain.
   explicit DdsParticipant(int domain, const DdsAccess& access = {});
@@ -48,12 +47,11 @@ class DdsParticipant {
   dds_entity_t entity() const { return entity_; }
 
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
-  /// As in ROS 2: reliable, volatile, the last 10.
+  /// Writes as ROS 2 does: reliable, volatile, the last 10.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile; keeps up to `max_waiting` messages, then senders wait: a flood pushes out no other's
-  /// message.
+  /// Reliable, volatile. After `max_waiting` messages senders wait, so a flood pushes out no other's message.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
-  /// Keeps the last `depth` of other participants.
+  /// Keeps the last `depth` messages of other participants.
   dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
 
  private:
@@ -68,11 +66,11 @@ class DdsWriter {
       : topic_(topic),
         writer_(participant.make_writer(participant.make_topic(DdsType<Message>::descriptor(), topic))) {}
 
-  /// `source_ns`: the source time, since 1970.
+  /// `source_ns`: since 1970.
   void write(const Message& message, int64_t source_ns) const {
     checked_dds(DdsType<Message>::write(writer_, message, source_ns), topic_, "a message to be sent");
   }
-  /// Waits up to `timeout_s` until all listeners have everything; else false.
+  /// Returns false if listeners lack messages after `timeout_s`.
   bool wait_for_listeners(double timeout_s) const {
     return dds_wait_for_acks(writer_, static_cast<dds_duration_t>(timeout_s * 1e9)) == DDS_RETCODE_OK;
   }
@@ -91,7 +89,7 @@ class DdsWriter {
 class DdsOtherWriters {
  public:
   /// Looks for 1 s.
-  /// Throws: Error, as `refuse`.
+  /// Throws: Error as `refuse`.
   DdsOtherWriters(const DdsParticipant& participant, std::vector<std::string> topics);
   /// Throws: Error if another participant writes now.
   void refuse();
@@ -101,26 +99,25 @@ class DdsOtherWriters {
   std::vector<std::string> topics_;
   dds_instance_handle_t own_ = 0;
   dds_entity_t publications_;
-  std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with their topics
+  std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with topics
 };
 
-/// Writers that a reader tells apart; messages of others are not read.
+/// A reader ignores messages of further writers.
 inline constexpr size_t kMostWriters = 64;
 
-/// Messages of such others since the process began.
+/// Such ignored messages since the process began.
 int64_t dds_messages_of_too_many();
 
-/// Finds the process of each writer.
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The writer's participant, even if gone. Nothing, and counted, if kMostWriters others are present.
+  /// The writer's participant, even if gone. Empty for a writer beyond kMostWriters, which is counted.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
-  /// Participants of present writers: of all that have sent, and some others.
+  /// Participants of present writers, perhaps of some that never sent.
   std::set<uint64_t> present();
 
  private:
-  /// Nothing if the writer is not there.
+  /// Empty if the writer is gone.
   std::optional<uint64_t> look_up(dds_instance_handle_t writer) const;
 
   dds_entity_t reader_;
@@ -131,8 +128,8 @@ template <typename Message>
 class DdsReader {
  public:
   struct Received {
-    std::optional<Message> message;  ///< empty if unwanted, or of a writer too many
-    uint64_t sender = 0;             ///< 0 for a writer too many
+    std::optional<Message> message;  ///< empty if unwanted or beyond kMostWriters
+    uint64_t sender = 0;             ///< 0 beyond kMostWriters
     int64_t source_ns = 0;
   };
 
@@ -145,7 +142,7 @@ class DdsReader {
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
 
-  /// The next message, if any, read only if `is_wanted(sender)`, so floods of others cost little.
+  /// The next message, read only if `is_wanted(sender)`, so floods of others cost little.
   template <typename IsWanted>
   std::optional<Received> take(const IsWanted& is_wanted) {
     for (;;) {
@@ -174,7 +171,7 @@ class DdsReader {
   DdsSenders senders_;
 };
 
-/// Waits until a reader has something.
+/// Waits until a reader has a message.
 class DdsWaitset {
  public:
   explicit DdsWaitset(const DdsParticipant& participant);

@@ -19,11 +19,11 @@
 namespace glovebench {
 namespace {
 
-constexpr int64_t kPeriodUs = 10'000;       // between two states
-constexpr int64_t kLookAroundUs = 100'000;  // between two looks at who is there
-constexpr int kMostStates = 10;             // of other servers, at a look
-constexpr int kMessagesAtOnce = 200;        // then the clock is asked again: a flood delays no state by much
-constexpr int64_t kListenUs = 1'000'000;    // for another server, before the first state
+constexpr int64_t kPeriodUs = 10'000;       // between states
+constexpr int64_t kLookAroundUs = 100'000;  // between looks at other processes
+constexpr int kMostStates = 10;             // of other servers, read at a look
+constexpr int kMessagesAtOnce = 200;      // before the clock is read again, so that a flood delays no state by much
+constexpr int64_t kListenUs = 1'000'000;  // to another server, before the first state
 
 int64_t steady_us() {
   using namespace std::chrono;
@@ -48,7 +48,7 @@ class Port {
     each([&](RobotTopic, auto& reader) { senders.merge(reader.senders().present()); });
     return senders;
   }
-  /// Receives all waiting messages. `report`: called for each that was read.
+  /// Receives all waiting messages and calls `report` for each that was read.
   template <typename Report>
   void receive(const Report& report) {
     each([&](RobotTopic topic, auto& reader) {
@@ -78,7 +78,7 @@ class Port {
   std::optional<DdsReader<ros::PoseStamped>> pose_;
 };
 
-/// Whether another process publishes a joint of hand or arm, and so serves the robot, too. Two servers, even of
+/// Finds other processes that publish a joint of hand or arm, and so serve the robot, too. Two servers, even of
 /// different joints, would share no limit.
 class OtherServers {
  public:
@@ -88,7 +88,7 @@ class OtherServers {
   /// A joint that another process has published since the last call.
   std::optional<std::string> heard() {
     std::optional<std::string> joint;
-    for (int i = 0; i < kMostStates && !joint; ++i) {  // a flood is looked at a little at a time
+    for (int i = 0; i < kMostStates && !joint; ++i) {  // bounds the work at a flood
       const auto received = states_.take([](uint64_t) { return true; });
       if (!received) break;
       if (!received->message) continue;
@@ -145,7 +145,7 @@ class Service {
       now_us = steady_us();
       if (now_us < next_us) waitset_.wait((next_us - now_us) * 1000);
     }
-    receive();  // what came before the end counts
+    receive();  // messages from before the end count
     if (states_sent_ > 0) log_.finish(last_, system_us());
     return {summary(), log_.lost()};
   }
@@ -215,7 +215,7 @@ class Service {
   DdsWaitset waitset_;
   RobotState last_;
   int64_t longest_gap_us_ = 0, states_sent_ = 0;
-  int64_t waited_ = 0;  ///< states in which a command waited for the disk
+  int64_t waited_ = 0;  ///< states that waited for the disk with a command
   bool told_of_log_ = false;
   int seen_others_ = 0;  ///< looks that found another server
 };
@@ -227,7 +227,7 @@ void refuse_others(OtherServers& others, const DdsServerOptions& options) {
                 fmt::format("another process that tells of {}", *joint), "one server of a robot");
 }
 
-/// A server publishes its joints all the time, so listening for a second finds all that the middleware finds.
+/// Listens for 1 s: a server publishes its joints all the time.
 void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   const int64_t end_us = steady_us() + kListenUs;
   while (steady_us() < end_us && !options.stopping()) {
@@ -236,7 +236,7 @@ void refuse_beside(OtherServers& others, const DdsServerOptions& options) {
   }
 }
 
-/// Waits until the joints are measured. Nothing if the server shall stop before.
+/// Waits until the joints are measured. Empty if the server shall stop first.
 /// Throws: Error if another server begins meanwhile.
 std::optional<StartPlace> await_measured(const DdsParticipant& participant, const LoggedStart& logged,
                                          OtherServers& others, const DdsServerOptions& options) {
@@ -261,7 +261,7 @@ std::optional<StartPlace> await_measured(const DdsParticipant& participant, cons
 DdsServerSummary serve(const DdsServerOptions& options) {
   const ServedRobot& robot = options.robot;
   MotionLog log(options.log, robot.names(),
-                robot.motions(options.limits));  // first: from here on nobody else writes the log
+                robot.motions(options.limits));  // first: locks the log
   if (!options.log.empty() && !std::filesystem::is_regular_file(options.log))
     options.tell(fmt::format("{}: no regular file, so nothing on it is durable and no joint moves", options.log));
   const LoggedStart logged = log.start(robot.at_rest(), system_us(), options.max_log_age_s, kPeriodUs * 1e-6);

@@ -13,23 +13,22 @@ struct DdsServerOptions {
   int domain = 0;
   DdsAccess access;
   ServedRobot robot;
-  /// Log, which also says where the joints start; empty: none.
+  /// The log; empty: none.
   std::string log;
-  /// Largest age of its last state: joints may be moved meanwhile.
+  /// Largest age of the log's last state.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
-  std::function<bool()> stopping;  ///< asked 100 times a second; true ends the server
-  /// Shows a line to a person.
+  std::function<bool()> stopping;  ///< asked at 100 Hz; true ends the server
+  /// Shows a line to the user.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
 struct DdsServerSummary {
-  std::string text;  ///< one line
+  std::string text;
   int64_t lost_log_lines = 0;
 };
 
-/// Serves a robot over DDS until `stopping`: takes commands and sends JointState 100 times a second. Joints start
-/// where the log says, or at rest.
+/// Serves a robot over DDS until `stopping`: takes commands, sends JointState at 100 Hz.
 /// Throws: Error if domain or log is unusable, or another server has the log or is in the domain.
 DdsServerSummary serve(const DdsServerOptions& options);
 

@@ -11,32 +11,31 @@ namespace glovebench {
 struct DdsSinkOptions {
   DdsAccess access;
   Topics topics = topics::kOwn;
-  bool arm = true;                                         ///< send the arm's pose
-  double longest_step_s = CommandLimits().longest_step_s;  ///< of the commands' guard
-  bool alone = false;                                      ///< nobody else may write on the topics
+  bool arm = true;                                         ///< sends the arm's pose
+  double longest_step_s = CommandLimits().longest_step_s;  ///< as of the commands' guard
+  bool alone = false;                                      ///< allows no other writer on the topics
 };
 
-/// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md). Lost frames send nothing. Listeners
-/// cannot block it.
+/// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md). Listeners cannot block it.
 class DdsSink : public RobotCommandSink {
  public:
   /// `domain`: 0..230.
   /// Throws: Error if domain or network is unusable or, if `alone`, another writer is found within 1 s.
   explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
 
-  /// Sets the next command's source time, microseconds since 1970; else that is the time of sending.
+  /// Sets the next command's source time, microseconds since 1970 (default: the time of sending).
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
   /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
   void send(const RobotCommand& command) override;
   /// Waits up to 1 s until listeners have everything.
   void finish() override;
 
-  int64_t sent() const { return sent_; }  ///< commands
-  int listeners() const;                  ///< of the topic with the fewest
+  int64_t sent() const { return sent_; }
+  int listeners() const;  ///< least of all topics
 
  private:
   DdsParticipant participant_;
-  std::optional<DdsOtherWriters> others_;  ///< first: it must look before this writes
+  std::optional<DdsOtherWriters> others_;  ///< first: looks before this writes
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
   std::optional<DdsWriter<ros::PoseStamped>> arm_;
   std::optional<int64_t> arrived_ns_;

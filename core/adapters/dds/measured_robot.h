@@ -12,16 +12,16 @@
 namespace glovebench {
 
 /// Joints as a robot's driver measures them: JointState on a topic. core/adapters/dds/README.md ("A controller's
-/// topics") says which messages are believed, and what their age is.
+/// topics") says which messages are believed.
 class MeasuredJoints {
  public:
   /// `names`: the joints, in the order of the answers.
   MeasuredJoints(const DdsParticipant& participant, const std::string& topic, std::vector<std::string> names);
 
-  /// Positions (rad) by the newest message, if it is believed and at most 0.1 s old. `system_us`: since 1970;
+  /// Positions (rad) from the newest message, if it is believed and at most 0.1 s old. `system_us`: since 1970;
   /// `steady_us`: monotonic.
   std::optional<std::vector<double>> latest(int64_t system_us, int64_t steady_us);
-  /// Why `latest` had no answer; empty if it had one.
+  /// Why `latest` was empty; "" if it was not.
   const std::string& doubt() const { return doubt_; }
   const std::string& topic() const { return topic_; }
 
@@ -40,8 +40,8 @@ class MeasuredJoints {
   std::string topic_;
   std::vector<std::string> names_;
   DdsReader<ros::JointState> reader_;
-  std::optional<State> state_;           ///< of the newest message with one of the joints
-  std::map<uint64_t, int64_t> tellers_;  ///< publishing processes, and when (steady clock)
+  std::optional<State> state_;           ///< newest message with one of the joints
+  std::map<uint64_t, int64_t> tellers_;  ///< publishing processes; last message, steady clock
   std::string doubt_ = "nothing asked";
 };
 
@@ -50,15 +50,15 @@ struct MeasuredState {
   std::optional<ArmJoints> arm;  ///< rad; likewise
 };
 
-/// Measured joints of hand and arm, each by the first topic that is believed.
+/// Measured joints of hand and arm, each from the first topic that is believed.
 class MeasuredRobot {
  public:
   MeasuredRobot(const DdsParticipant& participant, const std::vector<std::string>& topics, bool hand, bool arm);
 
-  /// Nothing if a joint is unknown.
+  /// Empty if any joint is unknown.
   std::optional<MeasuredState> look();
   /// Waits up to `timeout_s` for all joints.
-  /// Throws: Error that says which topic lacks which joints.
+  /// Throws: Error that names topics and missing joints.
   MeasuredState state(double timeout_s);
 
  private:
@@ -68,10 +68,10 @@ class MeasuredRobot {
   std::vector<MeasuredJoints> hand_, arm_;  ///< by preference; empty if not asked for
 };
 
-/// A joint this far beyond a limit, or J1 beyond J2, counts as at it.
+/// A joint up to this far beyond a limit, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// Targets where the robot stands, for `CommandGuard::start_from`. `T_base_hand` is used without an arm.
+/// Where the robot stands, for `CommandGuard::start_from`. `T_base_hand` counts only without an arm.
 /// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);

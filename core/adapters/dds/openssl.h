@@ -12,7 +12,7 @@ struct OpensslResult {
   std::string reason;  ///< last line of standard error
 };
 
-/// Runs `openssl` in a folder. Private keys go through `input`, its standard input, and never to a disk.
+/// Runs `openssl` in a folder. Private keys go through `input` (standard input), never to a disk.
 /// Throws: Error if the program cannot be run.
 OpensslResult run_openssl(const std::string& folder, std::vector<std::string> arguments,
                           std::string_view input = "");

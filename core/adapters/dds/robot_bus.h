@@ -13,23 +13,23 @@ namespace glovebench {
 struct RobotBusOptions {
   int domain = 0;  ///< 0..230
   DdsAccess access;
-  /// Send to a robot's own controllers (core/adapters/dds/README.md), not to `robot-server`.
+  /// Send to the robot's controllers instead of `robot-server`.
   bool to_controller = false;
-  bool arm = true;                                              ///< command a controller's arm
-  Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();  ///< mount of the hand
-  double longest_step_s = CommandLimits().longest_step_s;       ///< of the commands' guard
+  bool arm = true;  ///< commands a controller's arm
+  Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
+  double longest_step_s = CommandLimits().longest_step_s;  ///< as of the commands' guard
 };
 
-/// Sends commands over the robot's middleware.
-/// Throws: Error, from every function.
+/// Sends commands over a middleware.
+/// Throws: Error from every function.
 class RobotBus {
  public:
   virtual ~RobotBus() = default;
 
   /// The arm at the start, rad; empty unless a controller's arm is commanded.
   virtual std::optional<ArmJoints> arm_start() const = 0;
-  /// The command's time, microseconds: the first frame's time stamp plus the time since. Before a controller's
-  /// motion, tells the guard where the robot stands.
+  /// Returns the command's time, microseconds: the first frame's time stamp plus the time since. Before a
+  /// controller moves, tells the guard where the robot stands.
   virtual int64_t start(CommandGuard& guard, const RobotCommand& command) = 0;
   /// `arrived_us`: when the frame was complete, microseconds since 1970.
   virtual void send(const RobotCommand& safe, int64_t arrived_us) = 0;
@@ -39,8 +39,8 @@ class RobotBus {
 
 extern const bool kHasDds;
 
-/// For a controller, waits some seconds for a measured state.
-/// Throws: Error if there is none, domain or network is unusable, or this build has no Cyclone DDS.
+/// With a controller, waits some seconds for a measured state.
+/// Throws: Error without such a state or Cyclone DDS, or if domain or network is unusable.
 std::unique_ptr<RobotBus> join_robot_bus(const RobotBusOptions& options);
 
 }  // namespace glovebench

@@ -197,7 +197,7 @@ class FreenectDevice : public LiveKinect {
     }
   }
 
-  /// Whether nothing more will come; needs the mutex.
+  /// True if nothing more will come; needs the mutex.
   bool has_ended() const { return !end_.empty() || failure_; }
 
   bool is_stopping() const {

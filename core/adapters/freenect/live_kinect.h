@@ -11,29 +11,29 @@ namespace glovebench {
 
 struct LiveOptions {
   int index = 0;  ///< of libfreenect's devices
-  /// Makes fakenect wait for slow readers; a real Kinect loses packets.
+  /// Makes fakenect wait for slow readers. A real Kinect loses packets.
   bool every_frame = false;
-  double silence_limit = 10;                     ///< s without a frame, then the device has failed
-  std::string calibration_name = "calibration";  ///< its file, for messages
-  std::function<bool()> interrupted;             ///< polled 10 times a second; true ends the stream
+  double silence_limit = 10;                     ///< s without a frame until the device counts as failed
+  std::string calibration_name = "calibration";  ///< file, for messages
+  std::function<bool()> interrupted;             ///< polled at 10 Hz; true ends the stream
 };
 
-/// Images that are in no frame.
+/// Images without a frame.
 struct LiveLosses {
-  int late = 0;       ///< not fetched in time, after the first `next_frame`
+  int late = 0;       ///< fetched too late, after the first `next_frame`
   int unpaired = 0;   ///< depth images without a color image near in time
   int went_back = 0;  ///< not later than the image before
 
   int total() const { return late + unpaired + went_back; }
 };
 
-/// A live Kinect v1, 640x480, whose images FramePairer pairs up to 33 ms after the depth image. Unless fetched
-/// before the next two, a frame is dropped. `next_frame` returns nothing at the end of fakenect's recording and
+/// A live Kinect v1, 640x480. FramePairer pairs images up to 33 ms after the depth image. A frame that is not
+/// fetched is dropped when the second next one comes. `next_frame` is empty at the end of fakenect's recording and
 /// when `interrupted`.
 /// Throws: Error, after earlier frames, if the device is unplugged, silent for `silence_limit`, or memory runs out.
 class LiveKinect : public Device {
  public:
-  /// When the last fetched frame was complete, microseconds since 1970; 0 before the first.
+  /// When the last fetched frame was complete, microseconds since 1970; 0 before.
   virtual int64_t arrived_us() const = 0;
   virtual LiveLosses losses() const = 0;
   /// Why the stream ended; empty before, and after a failure.
@@ -42,9 +42,9 @@ class LiveKinect : public Device {
 
 extern const bool kHasFreenect;
 
-/// Starts both streams and a thread that serves them. The loaded library is libfreenect or fakenect, which plays a
-/// recording and lets the thread end only at a pause.
-/// Throws: Error if there is no device or it refuses, the calibration is not 640x480, this build has no
+/// Starts both streams and their thread. fakenect, loaded in place of libfreenect, plays a recording and lets the
+/// thread end only at a pause.
+/// Throws: Error if the device is missing or refuses, the calibration is not 640x480, this build has no
 /// libfreenect, or fakenect's recording (FAKENECT_PATH) is damaged.
 std::unique_ptr<LiveKinect> open_kinect(const RgbdCalibration& calibration, const LiveOptions& options = {});
 

@@ -28,11 +28,11 @@ template <typename Value>
 struct KeySource {
   std::function<Value(size_t key)> draw;
   std::function<int(const Value& from, const Value& to)> frames_between;
-  std::function<bool(const Value& value)> fits;  ///< whether a frame may look like that
+  std::function<bool(const Value& value)> fits;  ///< true if a frame may look like that
   std::string wanted;                            ///< what fits, for a message
 };
 
-/// Whether all frames of the way fit. The last one is the likeliest not to.
+/// True if all frames of the way fit. The last one is the likeliest not to.
 template <typename Value>
 bool way_fits(const KeySource<Value>& source, const Value& from, const Value& to, int frames) {
   for (int f = frames; f > 0; --f) {

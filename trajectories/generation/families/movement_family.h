@@ -15,44 +15,44 @@ struct Range {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-// What holds for the postures of every family but the captured ones.
+// For the postures of every family except captured ones.
 inline constexpr Range kDipShare = {0.5, 0.9};        ///< of a finger's PIP angle
-inline constexpr double kNeighborCorrelation = 0.6;   ///< of neighbors' flexions, index to little, as drawn
-inline constexpr double kGestureDistanceDeg = 15;     ///< the least finger_distance from each gesture
-inline constexpr double kMostOverlap = 2e-3;          ///< how far flesh yields where parts of a hand touch, m
-inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways, of pose and posture
+inline constexpr double kNeighborCorrelation = 0.6;   ///< of drawn flexions of neighboring fingers, index to little
+inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance from each gesture
+inline constexpr double kMostOverlap = 2e-3;          ///< by which parts of a hand may overlap, m
+inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways
 
-/// A kind of movement, as ranges that any number of movements are drawn from. Poses and postures go from one random
-/// key to the next along minimum-jerk profiles and rest there for a moment, independently of each other.
+/// A kind of movement, as ranges to draw from. Poses and postures go from one random key to the next along
+/// minimum-jerk profiles and rest there for a moment, independently of each other.
 struct MovementFamily {
   std::string_view name;
   std::string_view description;
 
-  // Where the hand is and how it is held, in every frame.
-  Range tilt_deg;   ///< of the back of the hand, from facing the camera (0) to the palm facing it (180)
-  Range depth;      ///< of the hand's origin, m
-  double off_axis;  ///< the same: most of x and y, as a share of half the depth image there
-  // Of the key poses.
-  Range tilt_axis_deg;  ///< in the image, from the hand's breadth (0) to its length (90); for half of the movements
-                        ///< the axis is reversed
-  double yaw_deg;       ///< about the optical axis: up to that, either way
-  // Of the way from key to key; the one that takes longer sets the time, so each peak is at most this.
+  // Pose of the hand, in every frame.
+  Range tilt_deg;   ///< of the back of the hand: 0 faces the camera, 180 faces away
+  Range depth;      ///< hand's origin, m
+  double off_axis;  ///< largest x and y of the origin, as a share of half the depth image there
+  // Key poses.
+  Range tilt_axis_deg;  ///< in the image, from the hand's breadth (0) to its length (90); reversed in half of the
+                        ///< movements
+  double yaw_deg;       ///< about the optical axis, either way
+  // Ways between keys. The slower of both sets the time, so peaks are at most these.
   Range speed;      ///< peak, m/s
   Range turn_rate;  ///< peak, rad/s
 
-  // Key postures. 0 is a straight finger, 1 a fist.
-  std::array<Range, 2> bends;  ///< of every other key
-  double wrist;                ///< the largest share of the wrist's limits
-  Range posture_s;             ///< time from one posture to the next
-  bool captured = false;       ///< postures are those of people, not random ones
+  // Key postures: 0 is a straight finger, 1 a fist.
+  std::array<Range, 2> bends;  ///< of keys by turns
+  double wrist;                ///< largest share of the wrist's limits
+  Range posture_s;             ///< from one posture to the next, s
+  bool captured = false;       ///< postures of people instead of random ones
 };
 
-/// All families, in the order in which they are listed.
+/// All families in the order of lists.
 std::span<const MovementFamily> movement_families();
 std::vector<std::string> movement_family_names();
-/// Throws Error listing the known ones.
+/// Throws: Error listing known names.
 const MovementFamily& find_movement_family(std::string_view name);
-/// What `glovebench list families` prints: each family with its ranges, and what holds for all.
+/// For `glovebench list families`: each family's ranges, and what holds for all.
 std::string movement_families_text();
 
 }  // namespace glovebench::trajectories

@@ -6,9 +6,9 @@
 
 namespace glovebench::trajectories {
 
-/// A random posture within the limits, bent within `bend`. The MCP and PIP flexions of index to little are uniform,
-/// those of neighbors correlate by kNeighborCorrelation; DIP is a uniform share of PIP within kDipShare; thumb and
-/// wrist are uniform. It may pierce itself and be near a gesture.
+/// A random posture within limits and `bend`. MCP and PIP flexions of index to little are uniform and correlate
+/// with neighbors by kNeighborCorrelation; DIP is a uniform share of PIP (kDipShare); thumb and wrist are uniform.
+/// Parts may overlap, and a gesture may be near.
 Posture random_posture(const MovementFamily& family, const Range& bend, RandomStream& random);
 
 }  // namespace glovebench::trajectories

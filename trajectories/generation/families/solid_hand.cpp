@@ -35,7 +35,7 @@ std::vector<SolidBone> make_solid_bones() {
   return bones;
 }
 
-/// Whether two bones may be apart. A finger's own bones, those of the palm, and the bones at a knuckle never are.
+/// True if two bones may be apart. A finger's own bones, those of the palm, and the bones at a knuckle never are.
 bool may_be_apart(const SolidBone& a, const SolidBone& b) {
   if (a.finger == b.finger) return false;
   if (a.finger != kPalm && b.finger != kPalm) return true;

@@ -10,7 +10,7 @@
 #include "core/base/enum_names.h"
 #include "core/robot/robot_command.h"
 
-/// ROS messages for hand and arm, with unchecked content.
+/// ROS messages for hand and arm. Their content is unchecked.
 namespace glovebench::ros {
 
 /// builtin_interfaces/Time and Duration
@@ -19,7 +19,7 @@ struct Time {
   uint32_t nanosec = 0;
 };
 
-/// trajectory_msgs/JointTrajectoryPoint, positions only
+/// trajectory_msgs/JointTrajectoryPoint with positions only
 struct JointTrajectoryPoint {
   std::vector<double> positions;  ///< rad
   Time time_from_start;
@@ -53,18 +53,18 @@ struct JointState {
 
 namespace glovebench {
 
-/// What became of a message, in the order of the checks.
+/// The outcome of a message, in the order of the checks.
 enum class Receipt {
   foreign,       ///< another sender owns the stream
-  bad_time,      ///< before 1970, or 1 s or more of nanoseconds
-  wrong_joints,  ///< not exactly the topic's joints, in any order
-  wrong_points,  ///< not exactly one point, with one position a joint
+  bad_time,      ///< before 1970, or at least 1 s of nanoseconds
+  wrong_joints,  ///< not exactly the topic's joints (order is free)
+  wrong_points,  ///< not one point with one position a joint
   wrong_frame,   ///< not in kBaseFrame
   not_finite,
   not_rotation,  ///< no unit quaternion
-  stale,         ///< older than `silence_s`, or it waited through a gap
-  starting,      ///< its stream is live for less than 0.2 s
-  went_back,     ///< not stamped after its sender's last
+  stale,         ///< older than `silence_s`, or waited through a gap
+  starting,      ///< its stream is younger than 0.2 s
+  went_back,     ///< stamp not after the sender's last
   accepted,
 };
 constexpr auto names_of(Receipt) {
@@ -74,7 +74,6 @@ constexpr auto names_of(Receipt) {
 }
 static_assert(kCountOf<Receipt> == static_cast<int>(Receipt::accepted) + 1, "each value has a name");
 
-/// What a server tells its joints.
 struct RobotState {
   int64_t clock_us = 0;  ///< monotonic
   CommandState state = CommandState::stopped;
@@ -85,29 +84,28 @@ struct RobotState {
 /// The frame of the arm's poses.
 inline constexpr const char* kBaseFrame = "base_link";
 
-/// ROS names, `rh_FFJ1` ...: of the hand's controller, of the wrist's, and all 24 in the order of ShadowJoint.
+/// ROS names (`rh_FFJ1` ...) of the hand's controller, of the wrist's, and all 24 in the order of ShadowJoint.
 const std::vector<std::string>& hand_trajectory_names();
 const std::vector<std::string>& wrist_trajectory_names();
 const std::vector<std::string>& hand_joint_names();
-/// From base to flange.
+/// Names from base to flange.
 const std::vector<std::string>& arm_joint_names();
 
-/// Throws: Error unless ROS has this time: 0 to 2^31 s.
+/// Throws: Error for times outside ROS's 0 to 2^31 s.
 ros::Time ros_time(int64_t time_us);
 int64_t nanoseconds(const ros::Time& time);
 
-/// Measured states that are older, or farther in the future, are not believed.
+/// Largest distance of a believed measured state from now.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
-/// How long a controller shall take to a command's targets. If it goes there straight, it then keeps the guard's
-/// speeds whenever commands come.
+/// Time in which a controller shall reach a command's targets. A straight way then keeps the guard's speeds.
 int64_t time_to_targets_us(double longest_step_s);
 
-/// A command's targets, which must exist: one point, to reach in `time_us`, stamped with the frame's time.
+/// A command's targets (required) as one point, to reach in `time_us`, stamped with the frame's time.
 /// Throws: Error if a target is not finite.
 ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us);
 ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us);
-/// The pose of WRJ2 in kBaseFrame with which the hand gets to T_base_hand.
+/// The pose of WRJ2 in kBaseFrame that takes the hand to T_base_hand.
 ros::PoseStamped pose_message(const RobotCommand& command);
 
 struct JointsRead {

@@ -17,50 +17,47 @@ namespace glovebench {
 /// A moment by the server's clocks, us.
 struct ServerTime {
   int64_t clock_us = 0;   ///< monotonic
-  int64_t system_us = 0;  ///< since 1970; may be set
+  int64_t system_us = 0;  ///< since 1970; may jump
 };
 
 struct Arrival {
-  uint64_t sender = 0;    ///< identifies a process
-  int64_t source_ns = 0;  ///< DDS's source time
-  int64_t now_us = 0;     ///< reception, monotonic
+  uint64_t sender = 0;  ///< identifies a process
+  int64_t source_ns = 0;
+  int64_t now_us = 0;  ///< reception, monotonic
 };
 
 /// Decides which messages a server follows: good, fresh ones of one owner, in time order.
 /// core/adapters/dds/README.md ("The server") has the rules. Reads no clock.
-///
-/// A message is stale if it is older than `silence_s` or comes within 0.1 s after a gap. A stream is `starting` for
-/// 0.2 s at first, after a gap, and after a jump of its sender's clock. A gap, or a jump of the owner's clock,
-/// releases the owner and ends what is followed.
+/// A gap of ticks, or a jump of the owner's clock, releases the owner and ends its goals.
 class CommandStream {
  public:
-  /// `topics`: their number.
+  /// `topics`: how many.
   CommandStream(const CommandLimits& limits, int topics);
 
-  /// Whether a message of this sender is foreign; if so, counts it.
+  /// Returns true for, and counts, a message of a sender that is not the owner.
   bool ignores(uint64_t sender, int64_t now_us);
-  /// Judges and counts a message whose content is judged as `found`.
+  /// Judges and counts a message. `found`: the outcome for its content.
   Receipt receive(const Arrival& arrival, int topic, const ros::Time& stamp, Receipt found);
   void tick(const ServerTime& now);
-  /// Whether the last accepted message, of a topic or of any, still counts: at most `silence_s` old, with no gap or
-  /// new owner since.
+  /// Returns true if the last accepted message, of a topic or of any, still counts: at most `silence_s` old, with
+  /// no gap or new owner since.
   bool is_current(int topic, int64_t now_us) const;
   bool is_current(int64_t now_us) const;
-  /// Releases an owner that is not present.
+  /// Releases an owner that is gone.
   void keep_only(const std::set<uint64_t>& present);
 
-  /// How often the owner changed.
+  /// Number of changes of the owner.
   int64_t owners() const { return owners_; }
   int64_t gaps() const { return gaps_; }
   int64_t count(Receipt receipt) const { return receipts_[static_cast<size_t>(receipt)]; }
 
  private:
-  /// Delays on one topic of one sender.
+  /// On one topic of one sender.
   struct Delays {
     std::deque<std::pair<int64_t, int64_t>> smallest;  ///< of each second: start, smallest delay, us
     std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time, us
     bool started = false;
-    int64_t heard_us = 0, source_us = 0, delay_us = 0;  ///< of the last message
+    int64_t heard_us = 0, source_us = 0, delay_us = 0;  ///< last message
 
     void forget(int64_t now_us);
     int64_t smallest_delay() const;
@@ -80,12 +77,12 @@ class CommandStream {
   int64_t silence_us_, release_us_;
   std::array<int64_t, kCountOf<Receipt>> receipts_{};
   std::map<std::pair<uint64_t, int>, Delays> delays_;
-  std::optional<int64_t> seen_us_, apart_us_;  ///< of the last tick: time, difference of the clocks
-  std::optional<int64_t> settled_us_;          ///< until then all is stale
+  std::optional<int64_t> seen_us_, apart_us_;  ///< last tick: time, difference of the clocks
+  std::optional<int64_t> settled_us_;          ///< messages before it are stale
   int64_t gaps_ = 0;
   std::optional<uint64_t> owner_;
   int64_t owners_ = 0;
-  int64_t good_us_ = 0;                                       ///< of the owner's last good message
+  int64_t good_us_ = 0;                                       ///< owner's last good message
   std::vector<std::optional<int64_t>> stamps_ns_, until_us_;  ///< by topic: last stamp; end of its effect
 };
 

@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// When a file was last changed, microseconds since 1970.
+/// A file's last change, microseconds since 1970.
 /// Throws: Error.
 int64_t changed_us(const std::string& path);
 
@@ -15,7 +15,7 @@ int64_t changed_us(const std::string& path);
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines to a log in its own thread, so callers never wait for the disk. A lost line still changes the
+/// Appends lines to a log in its own thread, so callers never wait for the disk. A lost line still updates the
 /// file's time.
 class LogWriter {
  public:
@@ -25,28 +25,28 @@ class LogWriter {
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// Takes a line without its end. Returns its number, from 1, or 0 if too many wait. It is written at once and
-  /// synced within 1 s, or at once if `urgent`.
+  /// Takes a line without its end. Returns its number, from 1, or 0 if too many wait. It is synced within 1 s, or
+  /// at once if `urgent`.
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
-    uint64_t done = 0;       ///< written or lost up to this line
-    uint64_t durable = 0;    ///< lines after `failed`, up to this one, are on the disk; 0 for devices and pipes
-    uint64_t failed = 0;     ///< this or an earlier line may be lost
-    int64_t lost = 0;        ///< lines
+    uint64_t done = 0;     ///< written or lost up to this line
+    uint64_t durable = 0;  ///< lines after `failed`, up to this one, are on the disk; 0: device or pipe
+    uint64_t failed = 0;   ///< this or an earlier line may be lost
+    int64_t lost = 0;
     std::string failure;     ///< the first
     bool misplaced = false;  ///< the file was removed, renamed or cut
   };
   Progress progress() const;
 
-  /// Takes no more lines; waits up to 2 s for the disk, then loses the rest.
+  /// Takes no more lines. Waits up to 2 s for the disk, then drops the rest.
   void finish();
 
  private:
   struct Shared;
   static void write_lines(const std::shared_ptr<Shared>& shared);
 
-  std::shared_ptr<Shared> shared_;  ///< the thread may outlive this at a slow disk
+  std::shared_ptr<Shared> shared_;  ///< the thread may outlive this
   std::thread thread_;
 };
 

@@ -12,33 +12,33 @@ namespace glovebench {
 
 struct LoggedStart {
   std::vector<double> joints;  ///< rad
-  std::string source;          ///< who says so
+  std::string source;          ///< what states them
   std::string from;            ///< `rest` or `log`, for start_line
   std::string doubt;           ///< why the joints must be measured; empty if the log suffices
-  std::string age;             ///< of the last state, as text; empty at rest
+  std::string age;             ///< of the last state; empty at rest
 };
 
-/// The log of a running server, which it never delays. Joints move only inside what it has stated on the disk;
-/// without a file, all may move.
+/// The log of a running server, which it never delays. Joints move only within intervals that are on the disk;
+/// without a file they move freely.
 class MotionLog {
  public:
-  /// `path`: empty for none.
+  /// `path`: empty for no file.
   /// Throws: Error if it cannot be opened or another server has it.
   MotionLog(const std::string& path, std::vector<std::string> names, std::vector<JointMotion> joints);
 
-  /// Where the joints start: as the last server left them, else `rest`. `period_s`: between ticks.
+  /// Where the joints start: the log's last place, else `rest`. `period_s`: time between ticks.
   /// Throws: Error if the log has other joints, is too old or has lost its end.
   LoggedStart start(const std::vector<double>& rest, int64_t now_us, double max_age_s, double period_s) const;
 
   /// `time_us`: system time.
   void started(int64_t time_us, std::string_view from);
   void received(const ReceivedLine& line);
-  /// `at_rest`: the joints stay until a new start.
+  /// `at_rest`: no joint moves before a new start.
   void ticked(const RobotState& state, int64_t time_us, bool at_rest);
-  /// Writes that the joints stay where they are.
+  /// Writes that the joints stay in place.
   void finish(const RobotState& state, int64_t time_us);
 
-  /// Whether the joints may move freely for `seconds`.
+  /// Returns true if the joints may move freely for `seconds`.
   bool may_move(const std::vector<double>& positions, double seconds);
   /// Lost lines, and why the first was lost.
   int64_t lost() const { return writer_ ? writer_->progress().lost : 0; }
@@ -53,7 +53,7 @@ class MotionLog {
   std::vector<std::string> names_;
   std::vector<JointMotion> joints_;
   StatedInterval stated_;
-  std::unique_ptr<LogWriter> writer_;  ///< none without a file
+  std::unique_ptr<LogWriter> writer_;  ///< empty without a file
   int64_t accepted_left_, refused_left_;
   int64_t heartbeat_us_ = 0;
   RobotState last_;

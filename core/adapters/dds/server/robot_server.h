@@ -13,16 +13,15 @@
 
 namespace glovebench {
 
-// The way of a message:
-//
+// Stages of a message:
 //   received   RobotServer::receive gets it with its Arrival.
-//   judged     read_joints or read_pose, then CommandStream. Unless `accepted`, it has no effect.
-//   followed   It becomes the goal of its topic until the next one.
+//   judged     read_joints or read_pose checks it, then CommandStream. Only `accepted` messages go on.
+//   followed   It is its topic's goal until the next one.
 //   limited    A tick moves towards the goal as far as CommandGuard allows.
 //   stated     The tick holds unless MotionLog allows the motion.
 //   sent       The tick's RobotState goes to the joints (dds_server.cpp).
 
-/// The hand's topics and the arm's `pose`, which is that of the wrist.
+/// The hand's topics, and the arm's `pose` of the wrist.
 enum class RobotTopic { fingers, wrist, pose };
 inline constexpr int kRobotTopicCount = 3;
 std::string_view to_string(RobotTopic topic);
@@ -33,7 +32,7 @@ struct ServedRobot {
 
   GuardedPart part() const;
   std::string name() const;  ///< "hand", "arm" or "hand and arm"
-  /// The order of all joints: the hand's (ShadowJoint), then the arm's.
+  /// All joints in order: the hand's (ShadowJoint), then the arm's.
   std::vector<std::string> names() const;
   std::vector<double> at_rest() const;  ///< rad: an open hand, kArmAtRest
   std::vector<JointMotion> motions(const CommandLimits& limits) const;
@@ -45,20 +44,20 @@ struct StartPlace {
   double tolerance = radians_from_degrees(1e-6);  ///< rad: twice the log's rounding
 };
 
-/// Serves hand, arm or both, without middleware or clock; core/robot/README.md ("The guard") has the limits.
-/// Topics without a current message (CommandStream) move nothing. The coupling splits the sum of J1 and J2.
+/// Serves hand, arm or both, without middleware or clock; core/robot/README.md ("The guard") has the limits. Topics
+/// without a current message (CommandStream) move nothing. The coupling splits the sum of J1 and J2.
 class RobotServer {
  public:
-  /// Joints within the start's tolerance of a limit are moved onto it.
+  /// Moves joints within the start's tolerance of a limit onto it.
   /// Throws: Error if the start is farther outside, or the limits have problems.
   RobotServer(const CommandLimits& limits, const ServedRobot& robot, const StartPlace& start);
 
-  /// For topics of the server's joints.
+  /// Takes a message on a topic of the server's joints.
   Receipt receive(RobotTopic topic, const ros::JointTrajectory& message, const Arrival& arrival);
   Receipt receive(RobotTopic topic, const ros::PoseStamped& message, const Arrival& arrival);
-  /// What the joints shall do now; time must have advanced. `may_move`: false holds them.
+  /// The joints' next state; time must have advanced. `may_move`: false holds them.
   RobotState tick(const ServerTime& now, bool may_move = true);
-  /// rad
+  /// Units: rad.
   const std::vector<double>& positions() const { return last_.position; }
 
   CommandStream& stream() { return stream_; }
@@ -75,11 +74,11 @@ class RobotServer {
   ServedRobot robot_;
   CommandGuard guard_;
   CommandStream stream_;
-  RobotTargets stands_;  ///< where the joints were last sent
+  RobotTargets stands_;  ///< last sent place of the joints
   std::array<double, kShadowJointCount> hand_goal_{};
-  Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();  ///< while wanted
-  std::array<bool, kRobotTopicCount> wanted_{};                          ///< by topic: there is a goal
-  bool changed_ = false;  ///< the goal changed since the guard got it
+  Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();  ///< if wanted
+  std::array<bool, kRobotTopicCount> wanted_{};                          ///< by topic: has a goal
+  bool changed_ = false;                                                 ///< the guard lacks the newest goal
   bool ticked_ = false;
   RobotState last_;
 };

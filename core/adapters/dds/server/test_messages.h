@@ -1,7 +1,5 @@
 #pragma once
 
-// Messages for tests.
-
 #include "core/adapters/dds/server/command_messages.h"
 #include "core/base/math.h"
 
