@@ -247,6 +247,16 @@ void require_different_files(const std::vector<FileFlag>& files) {
   }
 }
 
+void require_writable_files(const std::vector<FileFlag>& files) {
+  for (const FileFlag& file : files) {
+    if (!file.path.empty() && !file.path.ends_with(file.ending))
+      throw Error(file.flag, "file name", file.path, "the ending " + file.ending);
+  }
+  require_different_files(files);
+  for (const FileFlag& file : files)
+    if (!file.path.empty()) const WholeFile probe(file.path);  // never committed: nothing stays
+}
+
 void CommonFlags::check_output_folder() const {
   if (std::filesystem::exists(output + "/provenance.json"))
     throw Error("--output", "folder", output + ", which holds a baseline", "another: both have a results.json");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/kinect/device.h"
+#include "eval/commands/options.h"
 
 namespace glovebench::eval {
 
@@ -21,11 +22,19 @@ struct SourceFlags {
   std::string source;       ///< "fakenect:FOLDER" or "freenect[:INDEX]"
   std::string calibration;  ///< file; empty: the recording's, or a nominal Kinect's
   bool every_frame = false;
+
+  /// --source, with its help, and --calibration.
+  void add(Command command, const std::string& help);
 };
 
 /// Warns about a changed recording unless `quiet`.
 /// Throws: Error for an unknown kind, a missing device or recording, or a build without libfreenect.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
+
+/// Gives `take` up to `count` frames spread over a recording, or the first ones of a live device. Damaged frames
+/// are skipped and, unless `quiet`, named on stderr. `title`: of the progress bar.
+void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
+                 const std::function<void(const DeviceFrame&)>& take);
 
 /// Names on stderr the changed files of a recording, unless `quiet`.
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);

@@ -1,4 +1,4 @@
-#include "eval/studies/posture_choices.h"
+#include "eval/studies/ablations.h"
 
 #include <fmt/format.h>
 
