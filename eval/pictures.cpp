@@ -10,7 +10,7 @@
 #include "render/pictures.h"
 #include "render/rgbd_renderer.h"
 #include "reports/metrics/measure_frame.h"
-#include "reports/page/gallery.h"
+#include "reports/page/page.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

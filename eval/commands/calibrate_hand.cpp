@@ -8,7 +8,7 @@
 #include "eval/commands/flags.h"
 #include "eval/commands/track_source.h"
 #include "eval/program.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {

@@ -17,8 +17,8 @@
 #include "core/robot/command_limits.h"
 #include "eval/program.h"
 #include "eval/terminal.h"
-#include "reports/json_text.h"
-#include "trajectories/unit_doubts.h"
+#include "reports/text.h"
+#include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {
 

@@ -6,7 +6,7 @@
 #include "core/base/random.h"
 #include "eval/program.h"
 #include "trajectories/catalog.h"
-#include "trajectories/generation/database_postures.h"
+#include "trajectories/generation/data_files.h"
 #include "trajectories/generation/low_dispersion.h"
 
 namespace glovebench::eval {
