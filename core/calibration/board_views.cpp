@@ -13,7 +13,7 @@
 #include "core/base/file_set.h"
 #include "core/base/input_file.h"
 #include "core/camera/pinhole_camera.h"
-#include "core/kinect/recording_index.h"
+#include "core/kinect/recording_files.h"
 
 namespace glovebench::calibration {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/whole_file.h"
-#include "core/calibration/color_picture.h"
 #include "core/calibration/color_report.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/track_source.h"
