@@ -8,10 +8,9 @@
 #include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/math.h"
-#include "core/robot/json_lines_sink.h"
+#include "core/robot/robot_command.h"
 #include "eval/experiment.h"
-#include "eval/thread_time.h"
-#include "reports/metrics/measure_frame.h"
+#include "eval/threads.h"
 
 namespace glovebench::eval {
 namespace {
@@ -101,7 +100,8 @@ std::vector<TrackResult> true_results(std::span<const HandFrame> truth) {
 void CommandMeasurement::Errors::add(const RobotTargets& targets, const RobotTargets& of_truth) {
   joints_deg.push_back(rms_difference_deg(targets.hand.joints, of_truth.hand.joints));
   position_mm.push_back(1e3 * (targets.T_base_hand.translation() - of_truth.T_base_hand.translation()).norm());
-  rotation_deg.push_back(reports::rotation_error_deg(targets.T_base_hand.linear(), of_truth.T_base_hand.linear()));
+  rotation_deg.push_back(
+      degrees_from_radians(angle_between(targets.T_base_hand.linear(), of_truth.T_base_hand.linear())));
   if (targets.arm && of_truth.arm) arm_deg.push_back(rms_difference_deg(*targets.arm, *of_truth.arm));
 }
 

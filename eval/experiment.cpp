@@ -3,11 +3,15 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "eval/family_table.h"
+#include "eval/measured_run.h"
+#include "eval/pictures.h"
 #include "eval/program.h"
-#include "eval/sequence_metrics.h"
+#include "reports/report.h"
 
 namespace glovebench::eval {
 namespace {
@@ -77,6 +81,20 @@ reports::ExperimentEstimates estimates_of(const Experiment& experiment) {
   return estimates;
 }
 
+reports::Timings timings_of(const std::vector<Experiment>& experiments, int threads) {
+  reports::Timings timings = host_timings(threads);
+  for (const Experiment& experiment : experiments) timings.experiments.push_back(timing_of(experiment));
+  return timings;
+}
+
+/// Adds the wall time since `start` and the peak memory.
+void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_point start) {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  timings.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+  timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs) {
@@ -114,23 +132,24 @@ reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> run
   return result;
 }
 
-reports::Timings timings_of(std::span<const MeasuredRun> runs, int threads) {
-  reports::Timings timings = host_timings(threads);
-  for (const Experiment& experiment : experiments_of(runs)) timings.experiments.push_back(timing_of(experiment));
-  return timings;
-}
-
-std::vector<reports::ExperimentEstimates> estimates_of(std::span<const MeasuredRun> runs) {
+Outcome carry_out(Workbench& workbench, const Plan& plan, const RobotOutput& robot, const std::string& folder,
+                  const AddStudies& add_studies) {
+  const auto start = std::chrono::steady_clock::now();
+  const int threads = workbench.config().threads;
+  RunStore store(folder);
+  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
+  const std::vector<Experiment> experiments = experiments_of(runs);
+  Outcome outcome{results_of(plan, runs, workbench), timings_of(experiments, threads)};
+  add_commands(outcome.result, outcome.timings, runs, robot);
+  if (auto families = family_table(runs)) outcome.result.studies.push_back(*std::move(families));
+  add_studies(outcome.result, store);
+  note_resources(outcome.timings, start);
   std::vector<reports::ExperimentEstimates> estimates;
-  for (const Experiment& experiment : experiments_of(runs)) estimates.push_back(estimates_of(experiment));
-  return estimates;
-}
-
-void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_point start) {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  timings.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
-  timings.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const Experiment& experiment : experiments) estimates.push_back(estimates_of(experiment));
+  reports::write_report(folder, outcome.result, outcome.timings,
+                        page_material(workbench, plan, outcome.result, estimates), estimates);
+  store.finish();
+  return outcome;
 }
 
 }  // namespace glovebench::eval

@@ -3,10 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "eval/command_measurement.h"
-#include "eval/pictures.h"
 #include "eval/test_program.h"
-#include "reports/report.h"
 
 namespace glovebench::eval {
 namespace {
@@ -28,14 +25,8 @@ struct PlanRun {
 };
 PlanRun run_plan(const std::string& folder, int threads) {
   Workbench workbench(test_workbench(threads));
-  const Plan plan = make_plan();
-  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads}));
-  reports::RunResult result = results_of(plan, runs, workbench);
-  reports::Timings timings = timings_of(runs, threads);
-  add_commands(result, timings, runs, {folder + "/robot"});
-  const auto estimates = estimates_of(runs);
-  reports::write_report(folder, result, timings, page_material(workbench, plan, result, estimates), estimates);
-  return {result, read_timeless(folder)};
+  const Outcome outcome = carry_out(workbench, make_plan(), {folder + "/robot"}, folder);
+  return {outcome.result, read_timeless(folder)};
 }
 
 TEST(ExperimentsLong, ReportsDependOnNeitherThreadsNorTheDay) {

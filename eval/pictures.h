@@ -1,8 +1,13 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "eval/plan.h"
+#include "eval/workbench.h"
 #include "reports/estimates.h"
 #include "reports/page/page.h"
+#include "trajectories/trajectory.h"
 
 namespace glovebench::eval {
 
@@ -14,5 +19,17 @@ reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, cons
 /// All tracker stages of one frame, tracked alone and so without filter.
 /// Throws: Error if the frame does not exist or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
+
+/// The IR camera, cropped and scaled to a tile that holds the glove of every frame. Needs a frame.
+/// Units: tile size in px.
+PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,
+                            int tile_width, int tile_height);
+
+/// Two tiles per frame, without noise: true hand in color, and estimated minus true depth. `estimates` are of one
+/// seed, one per frame; a lost frame shows the true hand in gray.
+/// Paper: pictures under Figures 5 and 6.
+reports::FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
+                                     std::span<const HandFrame> frames,
+                                     std::span<const reports::Estimate> estimates);
 
 }  // namespace glovebench::eval

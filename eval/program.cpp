@@ -42,6 +42,15 @@ std::string processor_name() {
   return "unknown";
 }
 
+/// A generated movement by its name ("side_3"). Empty for another name.
+std::optional<trajectories::Trajectory> make_movement(const std::string& name) {
+  const auto movement = trajectories::find_movement(name);
+  if (!movement) return std::nullopt;
+  static const trajectories::MovementMaterial material =
+      trajectories::load_movement_material(trajectory_folder(), HandModel::load(hand_mesh_path()).skeleton());
+  return generate_movement(*movement->family, movement->seed, material);
+}
+
 }  // namespace
 
 const ProgramInfo& program_info() {
@@ -106,12 +115,21 @@ std::string default_cache_folder() {
   return "glovebench-cache";
 }
 
-std::optional<trajectories::Trajectory> make_movement(const std::string& name) {
-  const auto movement = trajectories::find_movement(name);
-  if (!movement) return std::nullopt;
-  static const trajectories::MovementMaterial material =
-      trajectories::load_movement_material(trajectory_folder(), HandModel::load(hand_mesh_path()).skeleton());
-  return generate_movement(*movement->family, movement->seed, material);
+trajectories::Trajectory load_truth(const std::string& name_or_file, std::optional<reports::TruthKind> truth) {
+  if (trajectories::is_trajectory_file(name_or_file)) {
+    const trajectories::Trajectory trajectory = trajectories::load_trajectory(name_or_file);
+    if (truth && to_string(*truth) != to_string(trajectory.kind)) {
+      throw Error(name_or_file, "kind", std::string(to_string(trajectory.kind)), std::string(to_string(*truth)));
+    }
+    return trajectory;
+  }
+  if (auto movement = make_movement(name_or_file)) {
+    if (truth == reports::TruthKind::source) return *std::move(movement);
+    throw Error(name_or_file, "truth", "recorded", "source: nothing tracked this movement to record it");
+  }
+  return truth == reports::TruthKind::recorded
+             ? trajectories::recorded_trajectory(trajectory_folder(), name_or_file)
+             : trajectories::source_trajectory(trajectory_folder(), name_or_file);
 }
 
 std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key) {

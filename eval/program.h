@@ -32,10 +32,10 @@ std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.
 std::string default_cache_folder();
 
-/// A generated movement by name ("side_3"); empty for other names.
-/// Throws: Error if the data folder is damaged.
-std::optional<trajectories::Trajectory> make_movement(const std::string& name);
-/// An experiment's built-in truth; null for a user's file.
+/// Built-in ("Tr4"), generated ("side_3") or a file (*.json). `truth`: which of a named one; a file must be it, if
+/// it is given. Throws: Error for an unknown name, another kind or a bad file.
+trajectories::Trajectory load_truth(const std::string& name_or_file, std::optional<reports::TruthKind> truth);
+/// The built-in truth of an experiment. Null for a user's file.
 /// Throws: Error if the data folder is damaged.
 std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key);
 

@@ -15,7 +15,7 @@
 #include "core/calibration/color_seeds.h"
 #include "core/camera/rgbd_calibration.h"
 #include "core/hand/hand_file.h"
-#include "core/kinect/recording_index.h"
+#include "core/kinect/recording_files.h"
 #include "core/robot/command_limits.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/suite.h"

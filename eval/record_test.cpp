@@ -8,7 +8,6 @@
 #include "eval/program.h"
 #include "eval/record.h"
 #include "eval/test_program.h"
-#include "reports/metrics/measure_frame.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -61,8 +60,8 @@ TEST(RecordTruthLong, RecordsTr4Again) {
     ASSERT_EQ(a.timestamp_us, b.timestamp_us);
     position_mm =
         std::max(position_mm, 1000 * (a.T_camera_hand.translation() - b.T_camera_hand.translation()).norm());
-    rotation_deg =
-        std::max(rotation_deg, reports::rotation_error_deg(a.T_camera_hand.linear(), b.T_camera_hand.linear()));
+    rotation_deg = std::max(
+        rotation_deg, degrees_from_radians(angle_between(a.T_camera_hand.linear(), b.T_camera_hand.linear())));
     angle_deg = std::max(angle_deg, degrees_from_radians((a.posture - b.posture).cwiseAbs().maxCoeff()));
   }
   // The bound that the project promises between machines; the file is rounded to a tenth of it.

@@ -9,13 +9,10 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
-#include "eval/experiment.h"
-#include "eval/pictures.h"
 #include "eval/program.h"
 #include "eval/run_bytes.h"
 #include "eval/studies/study.h"
 #include "reports/paper_numbers.h"
-#include "reports/report.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -153,27 +150,17 @@ std::string describe_reproduction(Workbench& workbench, const ReproductionOption
   return text;
 }
 
-Reproduction reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
-                       const std::string& folder, const ShowResults& show) {
-  const auto start = std::chrono::steady_clock::now();
-  const int threads = workbench.config().threads;
-  const Plan plan = plan_reproduction(options);
-  RunStore store(folder);
-  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
-  reports::RunResult result = results_of(plan, runs, workbench);
-  reports::Timings timings = timings_of(runs, threads);
-  add_commands(result, timings, runs, robot);
-  show(result);
-  for (const Study& study : studies()) {
-    if (!is_wanted(options, study.name)) continue;
-    result.studies.push_back(run_or_load({workbench, options.study, &store}, study));
+Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot,
+                  const std::string& folder, const ShowResults& show) {
+  const auto add_studies = [&](reports::RunResult& result, RunStore& store) {
     show(result);
-  }
-  note_resources(timings, start);
-  const auto estimates = estimates_of(runs);
-  reports::write_report(folder, result, timings, page_material(workbench, plan, result, estimates), estimates);
-  store.finish();
-  return {std::move(result), std::move(timings)};
+    for (const Study& study : studies()) {
+      if (!is_wanted(options, study.name)) continue;
+      result.studies.push_back(run_or_load({workbench, options.study, &store}, study));
+      show(result);
+    }
+  };
+  return carry_out(workbench, plan_reproduction(options), robot, folder, add_studies);
 }
 
 }  // namespace glovebench::eval

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/command_measurement.h"
-#include "eval/plan.h"
+#include "eval/experiment.h"
 #include "eval/studies/study.h"
 #include "reports/claims/verdicts.h"
 
@@ -32,15 +31,10 @@ Plan plan_reproduction(const ReproductionOptions& options);
 /// The parts with their work and estimated times, and which databases exist. Builds nothing.
 std::string describe_reproduction(Workbench& workbench, const ReproductionOptions& options);
 
-struct Reproduction {
-  reports::RunResult result;
-  reports::Timings timings;
-};
 using ShowResults = std::function<void(const reports::RunResult& so_far)>;
-/// Runs everything and writes the report into `folder`; resumes an interrupted run. Calls `show` after Figures 4
-/// to 6 and after each study.
-/// Throws: Error for an unknown part.
-Reproduction reproduce(
+/// Carries out the plan with its studies. Calls `show` after Figures 4 to 6 and after each study.
+/// Throws: Error as `plan_reproduction` and `carry_out`.
+Outcome reproduce(
     Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot, const std::string& folder,
     const ShowResults& show = [](const reports::RunResult&) {});
 

@@ -10,10 +10,9 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "eval/in_parallel.h"
 #include "eval/run_bytes.h"
 #include "eval/terminal.h"
-#include "eval/thread_time.h"
+#include "eval/threads.h"
 #include "reports/metrics/measure_frame.h"
 
 namespace glovebench::eval {

@@ -14,7 +14,6 @@
 #include "core/base/registry.h"
 #include "core/base/text.h"
 #include "eval/program.h"
-#include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/generation/families/movement.h"
 
@@ -25,7 +24,6 @@ namespace fs = std::filesystem;
 using reports::ExperimentKey;
 using reports::TruthKind;
 using trajectories::Trajectory;
-using trajectories::TrajectoryKind;
 
 constexpr uint64_t kLargestSuite = uint64_t{1} << 20;  // bytes
 constexpr int64_t kMaxSeed = 4'294'967'295;
@@ -120,72 +118,28 @@ std::vector<SuiteEntry> experiments_from(const JsonCursor& field, const fs::path
   return all;
 }
 
-/// Loads each trajectory of a plan once.
-class Truths {
- public:
-  explicit Truths(Side side) : side_(side) {}
+/// By name or file, and truth.
+using Truths = std::map<std::pair<std::string, std::optional<TruthKind>>, std::shared_ptr<const Trajectory>>;
 
-  std::shared_ptr<const Trajectory> get(const SuiteEntry& entry) {
-    const std::pair place{entry.trajectory,
-                          trajectories::is_trajectory_file(entry.trajectory) ? std::nullopt : entry.truth};
-    std::shared_ptr<const Trajectory>& truth = truths_[place];
-    if (!truth) {
-      const auto loaded = std::make_shared<const Trajectory>(load(entry));
-      require_new(entry, *loaded);
-      truth = loaded;
-    }
-    return truth;
-  }
-
-  static Trajectory load(const SuiteEntry& entry) {
-    const std::string& name = entry.trajectory;
-    if (auto movement = make_movement(name)) {
-      if (entry.truth == TruthKind::source) return *std::move(movement);
-      throw Error(name, "truth", "recorded", "source: nothing tracked this movement to record it");
-    }
-    if (!trajectories::is_trajectory_file(name)) {
-      return entry.truth == TruthKind::recorded ? trajectories::recorded_trajectory(trajectory_folder(), name)
-                                                : trajectories::source_trajectory(trajectory_folder(), name);
-    }
-    const Trajectory trajectory = trajectories::load_trajectory(name);
-    if (entry.truth && to_string(*entry.truth) != to_string(trajectory.kind)) {
-      throw Error(name, "kind", std::string(to_string(trajectory.kind)), std::string(to_string(*entry.truth)));
-    }
-    return trajectory;
-  }
-
- private:
-  void require_new(const SuiteEntry& entry, const Trajectory& loaded) const {
-    if (loaded.side != side_) {
-      throw Error(entry.trajectory, "side", std::string(to_string(loaded.side)),
+/// Loads each trajectory once.
+Truths load_truths(const std::vector<SuiteEntry>& entries, Side side) {
+  Truths truths;
+  for (const SuiteEntry& entry : entries) {
+    const std::pair place{entry.trajectory, entry.truth};
+    if (truths.contains(place)) continue;
+    const auto loaded = std::make_shared<const Trajectory>(load_truth(entry.trajectory, entry.truth));
+    if (loaded->side != side) {
+      throw Error(entry.trajectory, "side", std::string(to_string(loaded->side)),
                   "that of the run's other trajectories");
     }
-    for (const auto& [place, other] : truths_) {
-      if (other && other->name == loaded.name && other->kind == loaded.kind) {
-        throw Error(entry.trajectory, "name", loaded.name, "one not yet in the run");
-      }
+    for (const auto& [known, other] : truths) {
+      if (other->name == loaded->name && other->kind == loaded->kind)
+        throw Error(entry.trajectory, "name", loaded->name, "one not yet in the run");
     }
+    truths[place] = loaded;
   }
-
-  Side side_;
-  std::map<std::pair<std::string, std::optional<TruthKind>>, std::shared_ptr<const Trajectory>> truths_;
-};
-
-/// Opens each database file once.
-class DatabaseNames {
- public:
-  explicit DatabaseNames(Workbench& workbench) : workbench_(workbench) {}
-
-  std::string get(const std::string& name_or_file) {
-    const auto known = names_.find(name_or_file);
-    if (known != names_.end()) return known->second;
-    return names_[name_or_file] = workbench_.add_database(name_or_file);
-  }
-
- private:
-  Workbench& workbench_;
-  std::map<std::string, std::string> names_;
-};
+  return truths;
+}
 
 bool matches(const std::string& filter, const std::string& name) {
   return filter.empty() || fnmatch(filter.c_str(), name.c_str(), 0) == 0;
@@ -197,18 +151,18 @@ using SameFrames = std::vector<RunSpec>;
 /// The experiments that match the filter.
 std::vector<SameFrames> experiments_of(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite,
                                        const std::string& filter) {
-  Truths truths(workbench.config().side);
-  DatabaseNames names(workbench);
+  const Truths truths = load_truths(suite.entries, workbench.config().side);
   std::vector<SameFrames> groups;
   std::vector<std::string> experiments;
   for (const SuiteEntry& entry : suite.entries) {
-    RunSpec wanted{truths.get(entry), entry.frames, entry.subject, entry.noise, suite.seeds.front()};
+    RunSpec wanted{truths.at({entry.trajectory, entry.truth}), entry.frames, entry.subject, entry.noise,
+                   suite.seeds.front()};
     wanted.tracker = tracker;
     if (const auto movement = trajectories::find_movement(entry.trajectory))
       wanted.setting = movement->family->name;
     frames_of(wanted);  // throws if the trajectory lacks them
     for (const std::string& database : entry.databases) {
-      wanted.database = names.get(database);
+      wanted.database = workbench.add_database(database);
       const std::string experiment = to_string(key_of(wanted));
       if (std::ranges::count(experiments, experiment) > 0) {
         throw Error(database, "experiment", experiment, "one not yet in the run");
@@ -267,7 +221,8 @@ std::vector<std::string> suite_names() {
 }
 
 Side side_of(const Suite& suite) {
-  return Truths::load(suite.entries.at(0)).side;
+  const SuiteEntry& first = suite.entries.at(0);
+  return load_truth(first.trajectory, first.truth).side;
 }
 
 Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter) {

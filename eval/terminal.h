@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <deque>
 #include <mutex>
@@ -12,6 +13,8 @@
 #include <utility>
 
 #include "core/tracker/track_result.h"
+
+// The terminal of a person: its width, messages on stderr, and signals.
 
 namespace glovebench::eval {
 
@@ -86,6 +89,21 @@ class StatusLine {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double last_ = 0;  ///< s
   LiveStatus status_;
+};
+
+/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program; SIGHUP
+/// never does. nohup keeps working.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  static bool wished();
+
+ private:
+  struct sigaction before_int_, before_term_, before_hup_;
 };
 
 }  // namespace glovebench::eval

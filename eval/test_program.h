@@ -20,6 +20,7 @@
 #include "core/base/whole_file.h"
 #include "core/hand/posture.h"
 #include "core/test_folder.h"
+#include "eval/studies/study.h"
 #include "eval/workbench.h"
 
 namespace glovebench::eval {
@@ -35,6 +36,13 @@ inline WorkbenchConfig test_workbench(int threads = 2) {
   config.threads = threads;
   config.quiet = true;
   return config;
+}
+
+inline StudyOptions quick_options() {
+  StudyOptions options;
+  options.tracker = profile("paper");
+  options.quick = true;
+  return options;
 }
 
 struct ProgramRun {

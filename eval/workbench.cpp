@@ -12,7 +12,7 @@
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
-#include "trajectories/unit_doubts.h"
+#include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {
 
@@ -72,6 +72,7 @@ std::string Workbench::add_database(const std::string& name_or_file) {
   const bool is_built = name_or_file.ends_with(kDatabaseEnding);
   if (!is_built && !trajectories::is_posture_file(name_or_file)) return name_or_file;
   const std::lock_guard lock(mutex_);
+  if (const auto known = added_.find(name_or_file); known != added_.end()) return known->second;
   std::shared_ptr<const Database> built;
   PostureSet postures;
   if (is_built) {
@@ -97,7 +98,7 @@ std::string Workbench::add_database(const std::string& name_or_file) {
   }
   if (is_built) databases_[postures.name] = built;
   if (!is_built) postures_[postures.name] = postures;
-  return postures.name;
+  return added_[name_or_file] = postures.name;
 }
 
 bool Workbench::has_database(const std::string& name) {

@@ -44,7 +44,7 @@ class Workbench {
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
   /// Registers a database (*.glovedb) or postures (*.csv, *.json) and returns its name; returns other text
-  /// unchanged.
+  /// unchanged. Opens a file once.
   /// Throws: Error for another hand, other views or a taken name.
   std::string add_database(const std::string& name_or_file);
   /// True if `database(name)` builds nothing.
@@ -64,6 +64,7 @@ class Workbench {
   std::recursive_mutex mutex_;
   std::shared_ptr<const HandModel> model_, package_hand_;
   std::map<int, render::Subject> subjects_;
+  std::map<std::string, std::string> added_;    ///< names of databases, by file
   std::map<std::string, PostureSet> postures_;  ///< of files, by name
   std::map<std::string, std::shared_ptr<const Database>> databases_;
   std::map<ColorSpace, std::shared_ptr<const ColorTable>> color_tables_;

@@ -1,8 +1,49 @@
 #include "render/color_noise.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/random.h"
 
 namespace glovebench::render {
+namespace {
+
+/// Standard normal quantiles at the centers of 65,536 equal shares of probability. Looking a number up is ten times
+/// as fast as Box-Muller.
+std::vector<float> make_normal_quantiles() {
+  constexpr int kCount = 1 << 16;
+  std::vector<float> quantiles(kCount);
+  double x = 0;
+  for (int i = kCount / 2; i < kCount; ++i) {
+    const double upper_tail = 1.0 - (i + 0.5) / kCount;
+    // Newton's method from the neighbor's quantile; the tail is convex there, so that it converges from below.
+    for (int step = 0; step < 20; ++step) {
+      const double tail = 0.5 * std::erfc(x / std::sqrt(2.0));
+      const double density = std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
+      const double change = (tail - upper_tail) / density;
+      x += change;
+      if (std::abs(change) < 1e-12) break;
+    }
+    quantiles[i] = static_cast<float>(x);
+    quantiles[kCount - 1 - i] = -quantiles[i];
+  }
+  return quantiles;
+}
+
+}  // namespace
+
+float RowRandom::normal() {
+  static const std::vector<float> quantiles = make_normal_quantiles();
+  return quantiles[next16()];
+}
+
+std::vector<uint64_t> row_seeds(const FrameKey& key, std::string_view purpose, int rows) {
+  RandomStream stream(key.seed, key.sequence, key.frame, purpose);
+  std::vector<uint64_t> seeds(rows);
+  for (uint64_t& seed : seeds) seed = stream.bits();
+  return seeds;
+}
 
 ColorImage add_color_noise(const ColorImage& color, double sigma_gray, const FrameKey& key) {
   const std::vector<uint64_t> seeds = row_seeds(key, "color noise", color.height());

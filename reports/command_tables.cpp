@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "reports/json_text.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {

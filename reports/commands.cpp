@@ -1,6 +1,6 @@
 #include "reports/commands.h"
 
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 

@@ -12,7 +12,7 @@
 #include "core/base/json_cursor.h"
 #include "core/base/math.h"
 #include "core/hand/posture.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

@@ -1,12 +1,15 @@
 #pragma once
 
-// For tests and a look at the page.
-
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "core/base/random.h"
 #include "reports/example_studies.h"
 #include "reports/results.h"
+
+// For tests and a look at the page.
+// For tests: results with other metrics.
 
 namespace glovebench::reports {
 
@@ -131,6 +134,38 @@ inline RunResult full_result() {
   }
   result.studies = example_studies();
   return result;
+}
+
+inline void renew_protocol_id(nlohmann::json& protocol) {
+  const Protocol read = {protocol["metric_definitions"], protocol["joint_order"], protocol["metric_keys"],
+                         protocol["association"]};
+  protocol["id"] = read.id();
+}
+
+/// An unknown metric: 7.5 in each frame.
+inline void add_metric(nlohmann::json& results, const std::string& key) {
+  results["protocol"]["metric_keys"].push_back(key);
+  renew_protocol_id(results["protocol"]);
+  results["frame_columns"].push_back(key);
+  for (nlohmann::json& experiment : results["experiments"]) {
+    experiment["aggregates"][key] = {{"count", 0},     {"mean", nullptr}, {"median", nullptr},  {"rms", nullptr},
+                                     {"p95", nullptr}, {"max", nullptr},  {"interval", nullptr}};
+    for (nlohmann::json& run : experiment["runs"])
+      for (nlohmann::json& frame : run["frames"]) frame.push_back(7.5);
+  }
+}
+
+inline void remove_metric(nlohmann::json& results, const std::string& key) {
+  nlohmann::json& columns = results["frame_columns"];
+  const auto place = std::find(columns.begin(), columns.end(), key) - columns.begin();
+  results["protocol"]["metric_keys"].erase(place - 9);
+  renew_protocol_id(results["protocol"]);
+  columns.erase(place);
+  for (nlohmann::json& experiment : results["experiments"]) {
+    experiment["aggregates"].erase(key);
+    for (nlohmann::json& run : experiment["runs"])
+      for (nlohmann::json& frame : run["frames"]) frame.erase(place);
+  }
 }
 
 }  // namespace glovebench::reports

@@ -12,7 +12,7 @@
 #include "reports/metrics/measure_frame.h"
 #include "reports/results_json.h"
 #include "reports/statistics.h"
-#include "reports/study_json.h"
+#include "reports/study.h"
 
 namespace glovebench::reports {
 namespace {

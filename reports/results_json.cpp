@@ -2,9 +2,9 @@
 
 #include "core/base/whole_file.h"
 #include "reports/commands.h"
-#include "reports/json_text.h"
 #include "reports/statistics.h"
-#include "reports/study_json.h"
+#include "reports/study.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

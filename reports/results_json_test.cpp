@@ -10,9 +10,8 @@
 #include "core/base/error.h"
 #include "core/test_folder.h"
 #include "reports/commands.h"
-#include "reports/example_metrics.h"
 #include "reports/example_result.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/json_cursor.h"
 #include "reports/statistics.h"
 #include "reports/table.h"
 
@@ -34,5 +36,17 @@ struct StudyResult {
 /// Null without it.
 const Table* find_table(const std::vector<StudyResult>& studies, std::string_view name);
 const Measure* find_measure(const std::vector<StudyResult>& studies, std::string_view name);
+
+/// "studies" in results.json, without times.
+nlohmann::ordered_json studies_json(const std::vector<StudyResult>& studies);
+/// "studies" in timings.json: tables with a time, reduced to times and naming columns.
+nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies);
+
+/// Throws: Error for anything that studies_json does not write.
+std::vector<StudyResult> read_studies(const JsonCursor& json);
+
+/// Checks writers' invariants: unique names that no other report's file has, one cell per column, at least one
+/// naming column and none of them a time, at most six digits.
+void check_studies(const std::vector<StudyResult>& studies);
 
 }  // namespace glovebench::reports

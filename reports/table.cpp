@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "reports/json_text.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <span>
 
-#include "reports/json_text.h"
 #include "reports/results_json.h"
 #include "reports/text.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,5 +28,17 @@ std::string shortened(const std::string& text, size_t columns);
 /// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces; the first has
 /// room for as many in front.
 std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
+
+/// Spreads objects and arrays over lines; an array of plain values takes one. Equal values give equal bytes.
+/// Numbers must be finite.
+std::string format_json(const nlohmann::ordered_json& json);
+
+/// Rounds to 1e-6, without minus zero.
+/// Throws: std::logic_error unless finite.
+double rounded(double value);
+nlohmann::ordered_json rounded_or_null(const std::optional<double>& value);
+
+/// Replaces bytes that are not UTF-8 by U+FFFD.
+std::string valid_utf8(const std::string& text);
 
 }  // namespace glovebench::reports

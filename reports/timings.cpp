@@ -1,7 +1,7 @@
 #include "reports/timings.h"
 
-#include "reports/json_text.h"
-#include "reports/study_json.h"
+#include "reports/study.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

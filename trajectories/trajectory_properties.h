@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/cloud/labeled_cloud.h"
 #include "trajectories/trajectory.h"
 
 namespace glovebench::trajectories {
@@ -44,5 +46,13 @@ TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, 
 /// Markdown, a row for each trajectory.
 std::string properties_table(const std::vector<Trajectory>& trajectories,
                              const std::vector<TrajectoryProperties>& properties);
+
+// Valid values that are most likely a mistake of units: one sentence each, that names the likely cause.
+
+/// Empty unless the angles, which files hold in degrees, look like radians.
+std::string angle_doubt(std::span<const Posture> postures);
+
+/// `angle_doubt`, and whether more than half of the frames lie nearer or farther than the working volume.
+std::vector<std::string> unit_doubts(const Trajectory& trajectory, const WorkingVolume& volume);
 
 }  // namespace glovebench::trajectories

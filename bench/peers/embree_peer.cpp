@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "bench/peers/peers.h"
-#include "bench/peers/warm_start.h"
 
 namespace glovebench::bench {
 namespace {

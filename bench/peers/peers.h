@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -41,5 +42,25 @@ extern const MakeClosestPointPeer kEmbree, kCgal;
 using AlignPeer = Alignment (*)(const Surface& surface, std::span<const LabeledPoint> points,
                                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 extern const AlignPeer kPcl;
+
+/// Starts a search at the point's last face, or at that of the previous point of its color.
+class WarmStart {
+ public:
+  /// The point on that face; face -1 if there is none. `last`: the point's last answer, or face -1.
+  ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
+    const int face = last.face >= 0 ? last.face : faces_[point.label];
+    if (face < 0) return {};
+    const Eigen::Vector3f p = closest_on_triangle(point.p, surface.faces(point.label)[face]);
+    return {p, (p - point.p).norm(), face};
+  }
+  void found(const LabeledPoint& point, const ClosestPoint& closest) { faces_[point.label] = closest.face; }
+
+ private:
+  std::array<int, kColorCount + 1> faces_ = [] {
+    std::array<int, kColorCount + 1> none;
+    none.fill(-1);
+    return none;
+  }();
+};
 
 }  // namespace glovebench::bench

@@ -1,4 +1,4 @@
-#include "core/calibration/color_picture.h"
+#include "core/calibration/color_report.h"
 
 #include <fmt/format.h>
 

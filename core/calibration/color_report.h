@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,10 @@ nlohmann::ordered_json color_report_json(const ColorSamples& samples, const Glov
                                          const ColorSeparation& separation, const std::string& recording);
 std::string color_report_markdown(const ColorSamples& samples, const GloveColorFit& fit,
                                   const ColorSeparation& separation);
+
+/// Draws a picture for checking a color table by eye: views beside their labels, and the (U, V) plane with the
+/// table's regions, the pixels and the fitted Gaussians.
+ColorImage color_picture(std::span<const VolumeView> views, const ColorSamples& samples, const GloveColorFit& fit,
+                         const ColorTable& table);
 
 }  // namespace glovebench::calibration

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "core/calibration/chroma.h"
+#include "core/calibration/color_samples.h"
 #include "core/segmentation/color_table.h"
 
 namespace glovebench::calibration {
@@ -24,5 +26,17 @@ ColorSeeds parse_glove_colors(std::string_view text, const std::string& where);
 /// Reads a color table or a list of colors.
 /// Throws: Error.
 ColorSeeds load_seeds(const std::string& path);
+
+/// The change of light and camera between seeds and recording.
+struct RecordedLight {
+  Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< on linear R, G, B; G = 1
+  /// Factor on the chroma: > 1 in weak light, < 1 with haze or reflections.
+  double saturation = 1;
+};
+
+ColorSeeds relit(const ColorSeeds& seeds, const RecordedLight& light);
+
+/// Estimates the light that places the seeds where samples are dense. Without samples it is the seeds' own.
+RecordedLight estimate_light(const ColorSeeds& seeds, std::span<const ColorSample> samples, double min_luma);
 
 }  // namespace glovebench::calibration

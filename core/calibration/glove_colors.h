@@ -6,7 +6,6 @@
 
 #include "core/calibration/color_samples.h"
 #include "core/calibration/color_seeds.h"
-#include "core/calibration/recorded_light.h"
 #include "core/segmentation/color_calibration.h"
 
 namespace glovebench::calibration {

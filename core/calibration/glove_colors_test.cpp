@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.h"
-#include "core/calibration/color_picture.h"
 #include "core/calibration/color_report.h"
 #include "core/calibration/test_glove.h"
 

@@ -2,8 +2,8 @@
 
 #include <opencv2/calib3d.hpp>
 
+#include "core/calibration/board_views.h"
 #include "core/calibration/camera_fit.h"
-#include "core/calibration/chessboard.h"
 
 namespace glovebench::calibration {
 

@@ -6,7 +6,6 @@
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/recording_files.h"
-#include "core/kinect/recording_index.h"
 
 namespace glovebench {
 namespace {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/image.h"
 
@@ -27,5 +28,25 @@ std::string encode_ppm(const ColorImage& color);
 /// Throws: Error unless the content is exactly one image of that size (11-bit disparity); also `decode_ppm`.
 Image<uint16_t> decode_pgm(std::string_view content, int width, int height, const std::string& path);
 ColorImage decode_ppm(std::string_view content, int width, int height, const std::string& path);
+
+inline constexpr const char* kRecordingIndex = "INDEX.txt";
+/// Enough for hours at 30 Hz.
+inline constexpr uint64_t kLargestIndex = uint64_t{64} << 20;  // bytes
+
+struct RecordingEntry {
+  RecordedKind kind = RecordedKind::depth;
+  int64_t timestamp_us = 0;  ///< by the device's clock
+  std::string name;          ///< of the file
+};
+
+std::string path_in_recording(const std::string& folder, const std::string& name);
+
+/// Images by time, depth before color, then in order of the list.
+/// Throws: Error if it is malformed or lists a file twice.
+std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
+
+/// Checks sizes and headers of the files: fakenect ends the program at a bad one.
+/// Throws: Error naming the first bad file.
+void check_fakenect_dump(const std::string& folder);
 
 }  // namespace glovebench

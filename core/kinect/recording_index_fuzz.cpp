@@ -1,7 +1,7 @@
 #include <limits>
 
 #include "core/base/fuzz_target.h"
-#include "core/kinect/recording_index.h"
+#include "core/kinect/recording_files.h"
 
 namespace glovebench {
 

@@ -16,7 +16,7 @@
 #include "core/base/input_file.h"
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
-#include "core/kinect/recording_index.h"
+#include "core/kinect/recording_files.h"
 #include "core/test_folder.h"
 
 namespace glovebench {

@@ -2,9 +2,9 @@
 // posture follow the points and the outline of the hand.
 
 #include "core/methods/method.h"
-#include "core/tracker/hand_look_up.h"
 #include "core/tracker/hand_view.h"
 #include "core/tracker/smoothing.h"
+#include "core/tracker/tracker.h"
 
 namespace glovebench {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "core/methods/method.h"
 #include "core/pose/box_placement.h"
-#include "core/tracker/hand_look_up.h"
 #include "core/tracker/sighting.h"
 #include "core/tracker/smoothing.h"
+#include "core/tracker/tracker.h"
 
 namespace glovebench {
 namespace {

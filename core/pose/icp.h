@@ -5,11 +5,17 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/implementation.h"
+#include "core/base/enum_names.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/hand/hand_model.h"
 
 namespace glovebench {
+
+/// Two closest-point searches with equal results: `plain` follows the paper line by line, `fast` is for use.
+enum class Implementation { plain, fast };
+constexpr auto names_of(Implementation) {
+  return std::to_array<std::string_view>({"plain", "fast"});
+}
 
 struct IcpConfig {
   std::string algorithm = "horn";    ///< a name of `alignments`

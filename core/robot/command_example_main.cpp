@@ -3,7 +3,7 @@
 
 #include "core/base/math.h"
 #include "core/robot/command_guard.h"
-#include "core/robot/json_lines_sink.h"
+#include "core/robot/robot_command.h"
 #include "core/robot/test_commands.h"
 
 int main() {

@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
-#include "core/robot/json_lines_sink.h"
+#include "core/robot/robot_command.h"
 #include "core/robot/test_commands.h"
 
 namespace glovebench {

@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
+#include <string>
 
+#include "core/base/line_file.h"
 #include "core/robot/arm.h"
 #include "core/robot/command_state.h"
 #include "core/robot/fingertip_mapping.h"
@@ -74,6 +76,24 @@ class RobotCommandSink {
   /// Ends the stream.
   /// Throws: Error if commands could not be delivered.
   virtual void finish() = 0;
+};
+
+/// One command as a line of JSON (core/robot/command.schema.json) without the line end. Numbers are rounded to 1e-6
+/// of their unit. Throws: Error if a number is not finite.
+std::string to_json_line(const RobotCommand& command);
+
+/// Writes commands to a LineFile.
+/// Throws: Error, from every function, if the disk is full.
+class JsonLinesSink : public RobotCommandSink {
+ public:
+  explicit JsonLinesSink(const std::string& path) : file_(path) {}
+  void send(const RobotCommand& command) override;
+  void finish() override { file_.finish(); }
+  /// As LineFile::kept.
+  std::string kept() const { return file_.kept(); }
+
+ private:
+  LineFile file_;
 };
 
 }  // namespace glovebench

@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/math.h"
-#include "core/robot/json_lines_sink.h"
+#include "core/robot/robot_command.h"
 #include "core/test_folder.h"
 
 namespace glovebench {

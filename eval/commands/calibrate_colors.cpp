@@ -1,16 +1,13 @@
 #include <fmt/format.h>
 
-#include <optional>
+#include <algorithm>
 
-#include "core/base/error.h"
 #include "core/base/whole_file.h"
-#include "core/calibration/color_picture.h"
 #include "core/calibration/color_report.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/track_source.h"
-#include "eval/terminal.h"
 #include "render/pictures.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {
@@ -25,7 +22,8 @@ struct CalibrateColors {
   int frame_count = 120;  ///< taken at most
 
   void run() {
-    check_endings();
+    require_writable_files(
+        {{"--output", common.output}, {"--report", report, ".json"}, {"--picture", picture, ".png"}});
     const calibration::ColorSeeds begin = seeds_to_begin_with();
     TrackSource source = open_source(from, common.quiet);
     calibration::ColorSamples samples(calibration::SampleConfig{
@@ -43,44 +41,22 @@ struct CalibrateColors {
                color_report_markdown(samples, fit, separation));
   }
 
-  void check_endings() const {
-    if (!report.empty() && !report.ends_with(".json"))
-      throw Error("--report", "file name", report, "the ending .json");
-    if (!picture.empty() && !picture.ends_with(".png"))
-      throw Error("--picture", "file name", picture, "the ending .png");
-    require_different_files({{"--output", common.output}, {"--report", report}, {"--picture", picture}});
-    for (const std::string& path : {common.output, report, picture})
-      if (!path.empty()) const WholeFile probe(path);  // tests that the file can be written; never committed
-  }
-
   calibration::ColorSeeds seeds_to_begin_with() const {
     if (!seeds.empty()) return calibration::load_seeds(seeds);
     return calibration::seeds_of_table(*common.workbench().color_table(), "the tracker's own color table");
   }
 
-  /// Frames spread over a recording, or the first ones of a live device. Keeps some for the picture.
+  /// Adds frames to `samples`; returns some for the picture.
   std::vector<calibration::VolumeView> take_frames(TrackSource& source, calibration::ColorSamples& samples) const {
     constexpr int kViews = 4;
     const int taken = source.frame_count > 0 ? std::min(frame_count, source.frame_count) : frame_count;
-    const int64_t all = source.frame_count > 0 ? source.frame_count : taken;
     std::vector<calibration::VolumeView> views;
-    Progress progress("looking at colors", common.quiet);
-    for (int64_t number = 0; samples.frames() < frame_count; ++number) {
-      std::optional<DeviceFrame> frame;
-      try {
-        frame = source.device->next_frame();
-        if (!frame) break;
-      } catch (const FrameError& e) {
-        if (!common.quiet) say("glovebench: skipped: {}\n", e.what());
-        continue;
-      }
-      if (number > 0 && number * taken / all == (number - 1) * taken / all) continue;
+    take_spread(source, frame_count, "looking at colors", common.quiet, [&](const DeviceFrame& frame) {
       if (static_cast<int>(views.size()) * std::max(1, taken / kViews) <= samples.frames() &&
           static_cast<int>(views.size()) < kViews)
-        views.push_back(view_volume(*frame, source.device->calibration(), samples.config()));
-      samples.add_frame(*frame, source.device->calibration());
-      progress.show(static_cast<double>(samples.frames()) / taken);
-    }
+        views.push_back(view_volume(frame, source.device->calibration(), samples.config()));
+      samples.add_frame(frame, source.device->calibration());
+    });
     return views;
   }
 };
@@ -93,12 +69,9 @@ void add_calibrate_colors(Command calibrate) {
       "Make a color table of a recording of the glove, without labels: the light and the glove's colors are found "
       "from where the tracker's own table has them (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateColors>();
-  command
-      .option("--source", state->from.source,
-              "fakenect:FOLDER, a recording in which every patch of the glove is seen; freenect[:INDEX], a Kinect")
-      .required();
-  command.option("--calibration", state->from.calibration,
-                 "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  state->from.add(
+      command,
+      "fakenect:FOLDER, a recording in which every patch of the glove is seen; freenect[:INDEX], a Kinect");
   state->common.add_output(command, "color table to write, for `track --colors`").required();
   command.option("--report", state->report, "separability and warnings to write (*.json)");
   command.option("--picture", state->picture,

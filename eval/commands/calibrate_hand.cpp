@@ -3,14 +3,12 @@
 
 #include <optional>
 
-#include "core/base/error.h"
 #include "core/base/whole_file.h"
 #include "core/calibration/hand_report.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/track_source.h"
 #include "eval/program.h"
-#include "eval/terminal.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {
@@ -24,7 +22,7 @@ struct CalibrateHand {
   int frame_count = 120;
 
   void run() {
-    check_files();
+    require_writable_files({{"--output", common.output}, {"--report", report, ".json"}});
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     TrackSource source = open_source(from, common.quiet);
@@ -49,35 +47,15 @@ struct CalibrateHand {
                hand_report_markdown(fit, motion));
   }
 
-  void check_files() const {
-    if (!report.empty() && !report.ends_with(".json"))
-      throw Error("--report", "file name", report, "the ending .json");
-    require_different_files({{"--output", common.output}, {"--report", report}});
-    for (const std::string& path : {common.output, report})
-      if (!path.empty()) const WholeFile probe(path);  // never committed: nothing stays
-  }
-
-  /// Tracked frames spread over the recording; of a live device the first ones.
   std::vector<calibration::TrackedView> take_views(TrackSource& source, const MethodInputs& inputs) const {
     const std::unique_ptr<Method> method = find_method(inputs.config.method).make(inputs);
-    const int64_t all = source.frame_count > 0 ? source.frame_count : frame_count;
-    const int64_t taken = std::min<int64_t>(frame_count, all);
     std::vector<calibration::TrackedView> views;
     std::vector<TrackResult> results;
-    Progress progress("tracking", common.quiet);
-    for (int64_t number = 0; number < all; ++number) {
-      try {
-        const std::optional<DeviceFrame> frame = source.device->next_frame();
-        if (!frame) break;
-        if (number > 0 && number * taken / all == (number - 1) * taken / all) continue;
-        results.push_back(method->track(*frame, results));
-        if (std::optional<calibration::TrackedView> view = calibration::view_of(*frame, results.back(), inputs))
-          views.push_back(std::move(*view));
-      } catch (const FrameError& e) {
-        if (!common.quiet) say("glovebench: skipped: {}\n", e.what());
-      }
-      progress.show(static_cast<double>(number + 1) / static_cast<double>(all));
-    }
+    take_spread(source, frame_count, "tracking", common.quiet, [&](const DeviceFrame& frame) {
+      results.push_back(method->track(frame, results));
+      if (std::optional<calibration::TrackedView> view = calibration::view_of(frame, results.back(), inputs))
+        views.push_back(std::move(*view));
+    });
     return views;
   }
 };
@@ -90,10 +68,7 @@ void add_calibrate_hand(Command calibrate) {
       "Fit the tracker's hand to a person, for --hand: overall size, lengths and widths of segments.\n"
       "Record about 10 s in which the hand opens, closes and turns (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateHand>();
-  command.option("--source", state->from.source, "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect")
-      .required();
-  command.option("--calibration", state->from.calibration,
-                 "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  state->from.add(command, "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect");
   state->common.add_output(command, "hand to write, for --hand (*.json)").required();
   command.option("--report", state->report, "sizes, residuals and what was not seen, to write (*.json)");
   command.option("--database", state->database,

@@ -10,7 +10,7 @@
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/posture_file.h"
-#include "trajectories/unit_doubts.h"
+#include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {
 namespace {

@@ -17,8 +17,8 @@
 #include "core/robot/command_limits.h"
 #include "eval/program.h"
 #include "eval/terminal.h"
-#include "reports/json_text.h"
-#include "trajectories/unit_doubts.h"
+#include "reports/text.h"
+#include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {
 
@@ -245,6 +245,16 @@ void require_different_files(const std::vector<FileFlag>& files) {
         throw Error(file.flag, "file", file.path, "another than that of " + flag);
     flags[own] = file.flag;
   }
+}
+
+void require_writable_files(const std::vector<FileFlag>& files) {
+  for (const FileFlag& file : files) {
+    if (!file.path.empty() && !file.path.ends_with(file.ending))
+      throw Error(file.flag, "file name", file.path, "the ending " + file.ending);
+  }
+  require_different_files(files);
+  for (const FileFlag& file : files)
+    if (!file.path.empty()) const WholeFile probe(file.path);  // never committed: nothing stays
 }
 
 void CommonFlags::check_output_folder() const {

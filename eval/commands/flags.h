@@ -75,11 +75,15 @@ struct LimitsFlag {
 
 struct FileFlag {
   std::string flag;
-  std::string path;  ///< empty: none
+  std::string path;         ///< empty: none
+  std::string ending = {};  ///< that it must have; empty: any
 };
 /// Checks all files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
+/// Likewise, before the work.
+/// Throws: Error also for another ending, or a file that cannot be written.
+void require_writable_files(const std::vector<FileFlag>& files);
 
 /// Throws: Error naming the field in a build without a solver.
 std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const std::string& field);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "eval/commands/options.h"
 
@@ -14,5 +16,14 @@ std::string commands_text(const CommandText& command, size_t columns);
 
 /// "unknown flag --ouptut; did you mean --output?", for an unknown word after `command`.
 std::string describe_unknown(const CommandText& command, const std::string& word);
+
+/// For man(1).
+std::string man_page(const CommandText& program, const std::string& version);
+
+/// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty where the shell completes file names.
+std::string completions(const CommandText& program, const std::vector<std::string>& line);
+
+/// For bash, zsh or fish; calls `completions`.
+std::string completion_script(std::string_view shell);
 
 }  // namespace glovebench::eval

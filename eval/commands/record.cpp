@@ -20,9 +20,8 @@ struct Record {
       throw Error("--output", "file name", common.output, "the ending .json, by which it is read again");
     const bool is_file = trajectories::is_trajectory_file(trajectory);
     if (is_file) require_different_files({{"--trajectory", trajectory}, {"--output", common.output}});
-    const trajectories::Trajectory source = is_file
-                                                ? trajectories::load_trajectory(trajectory)
-                                                : trajectories::source_trajectory(trajectory_folder(), trajectory);
+    const trajectories::Trajectory source =
+        is_file ? load_truth(trajectory, {}) : load_truth(trajectory, reports::TruthKind::source);
     if (is_file && database.empty())
       throw Error("--database", "name", "nothing", "a database; recording a file needs one");
     const std::string name = !database.empty() ? database : trajectories::databases_of(trajectory).front();

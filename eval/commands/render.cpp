@@ -14,7 +14,6 @@
 #include "render/exr.h"
 #include "render/label_renderer.h"
 #include "render/pictures.h"
-#include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
@@ -66,9 +65,8 @@ struct Render {
   }
 
   Trajectory load() const {
-    if (trajectories::is_trajectory_file(trajectory)) return trajectories::load_trajectory(trajectory);
-    return truth == "recorded" ? trajectories::recorded_trajectory(trajectory_folder(), trajectory)
-                               : trajectories::source_trajectory(trajectory_folder(), trajectory);
+    if (trajectories::is_trajectory_file(trajectory)) return load_truth(trajectory, {});
+    return load_truth(trajectory, from_name<reports::TruthKind>(truth));
   }
 
   static void add_pngs(WholeFiles& pictures, const DeviceFrame& frame, int f) {
@@ -100,7 +98,9 @@ void add_render(Command program) {
   const Command command = program.subcommand("render", "Write the synthetic Kinect frames of a trajectory.");
   const auto state = std::make_shared<Render>();
   state->common.add_output(command, "folder to write to").required();
-  command.option("--trajectory", state->trajectory, "Tr1..Tr5 or a file (*.json)").required();
+  command
+      .option("--trajectory", state->trajectory, "Tr1..Tr5, side_3 (`glovebench list families`) or a file (*.json)")
+      .required();
   command.option("--truth", state->truth, "which truth of Tr1..Tr5").one_of({"source", "recorded"});
   command
       .option("--format", state->format,

@@ -41,8 +41,8 @@ struct Reproduce {
       fmt::print("{}report: {}\n", describe_reproduction(workbench, options), common.output);
       return 0;
     }
-    const Reproduction outcome = reproduce(workbench, options, robot.output_of(workbench), common.output,
-                                           [this](const reports::RunResult& so_far) { show_newest(so_far); });
+    const Outcome outcome = reproduce(workbench, options, robot.output_of(workbench), common.output,
+                                      [this](const reports::RunResult& so_far) { show_newest(so_far); });
     const std::vector<reports::ClaimVerdict> verdicts =
         reports::judge(reports::claims(), reports::all_measures(outcome.result));
     const bool judged = reports::are_claims_judged(outcome.result);
@@ -50,8 +50,7 @@ struct Reproduce {
     return exit_code_of(reports::count_required(verdicts), options, judged);
   }
 
-  void print_end(const Reproduction& outcome, const std::vector<reports::ClaimVerdict>& verdicts,
-                 bool judged) const {
+  void print_end(const Outcome& outcome, const std::vector<reports::ClaimVerdict>& verdicts, bool judged) const {
     if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
     if (!options.study.quick && !judged)
       fmt::print("No claim is judged: they are about the paper's configuration, and this is another one.\n\n");

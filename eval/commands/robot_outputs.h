@@ -7,7 +7,6 @@
 
 #include "core/adapters/dds/robot_bus.h"
 #include "core/robot/command_guard.h"
-#include "core/robot/json_lines_sink.h"
 #include "core/robot/robot_command.h"
 #include "eval/commands/options.h"
 

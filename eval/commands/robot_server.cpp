@@ -9,7 +9,6 @@
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/robot_outputs.h"
-#include "eval/interruption.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {

@@ -5,13 +5,9 @@
 #include "core/base/error.h"
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
-#include "eval/experiment.h"
-#include "eval/family_table.h"
-#include "eval/pictures.h"
 #include "eval/reproduction.h"
 #include "eval/suite.h"
 #include "eval/terminal.h"
-#include "reports/report.h"
 #include "reports/summary.h"
 #include "trajectories/formats/format.h"
 
@@ -55,20 +51,7 @@ struct RunCommand {
   }
 
   void run_plan(Workbench& workbench, const Plan& plan) {
-    const auto start = std::chrono::steady_clock::now();
-    const RobotOutput robot_output = robot.output_of(workbench);
-    const int threads = workbench.config().threads;
-    RunStore store(common.output);
-    const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
-    reports::RunResult result = results_of(plan, runs, workbench);
-    reports::Timings timings = timings_of(runs, threads);
-    add_commands(result, timings, runs, robot_output);
-    if (auto families = family_table(runs)) result.studies.push_back(*std::move(families));
-    note_resources(timings, start);
-    const auto estimates = estimates_of(runs);
-    reports::write_report(common.output, result, timings, page_material(workbench, plan, result, estimates),
-                          estimates);
-    store.finish();
+    const auto [result, timings] = carry_out(workbench, plan, robot.output_of(workbench), common.output);
     if (common.quiet) return;
     warn_of_lost_hands(result, plan.tracker.volume);
     if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
@@ -104,7 +87,7 @@ struct RunCommand {
     Workbench workbench = common.workbench();
     if (common.output.empty()) return print_study(chosen.run({workbench, options}));
     common.check_output_folder();
-    const Reproduction outcome =
+    const Outcome outcome =
         reproduce(workbench, {options, {}, {{}}, {study_name}}, robot.output_of(workbench), common.output);
     if (common.quiet) return;
     print_study(outcome.result.studies.front());
@@ -134,7 +117,7 @@ struct RunCommand {
     for (const std::string& trajectory : trajectories) {
       SuiteEntry entry{trajectory, {}, databases, subject, {noise, gain}, {}};
       if (!trajectories::is_trajectory_file(trajectory)) {
-        entry.truth = truth == "recorded" ? reports::TruthKind::recorded : reports::TruthKind::source;
+        entry.truth = from_name<reports::TruthKind>(truth);
       }
       suite.entries.push_back(entry);
     }

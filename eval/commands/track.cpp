@@ -17,7 +17,6 @@
 #include "eval/commands/flags.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"
-#include "eval/interruption.h"
 #include "eval/program.h"
 #include "eval/terminal.h"
 #include "eval/track_overlay.h"
@@ -237,12 +236,7 @@ void add_track(Command program) {
   const Command command =
       program.subcommand("track", "Track the hand in a recording or before a Kinect and write the estimates.");
   const auto state = std::make_shared<Track>();
-  command
-      .option("--source", state->from.source,
-              "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect, until Ctrl-C")
-      .required();
-  command.option("--calibration", state->from.calibration,
-                 "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+  state->from.add(command, "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect, until Ctrl-C");
   command.option("--frames", state->limit, "stop after that many; 0: none is the last").not_negative();
   command
       .option("--every-frame", state->from.every_frame,

@@ -1,14 +1,15 @@
 #include "eval/commands/track_source.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 
 #include "core/adapters/freenect/live_kinect.h"
 #include "core/adapters/system_time.h"
 #include "core/base/error.h"
 #include "core/kinect/recording.h"
 #include "core/kinect/rectified_device.h"
-#include "eval/interruption.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {
@@ -59,6 +60,33 @@ TrackSource open_live(const SourceFlags& flags) {
 }
 
 }  // namespace
+
+void SourceFlags::add(Command command, const std::string& help) {
+  command.option("--source", source, help).required();
+  command.option("--calibration", calibration,
+                 "calibration (*.json) [the recording's; of a Kinect: nominal values]");
+}
+
+void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
+                 const std::function<void(const DeviceFrame&)>& take) {
+  const int64_t all = source.frame_count > 0 ? source.frame_count : count;
+  const int64_t wanted = std::min<int64_t>(count, all);
+  Progress progress(title, quiet);
+  int taken = 0;
+  for (int64_t number = 0; taken < count; ++number) {
+    std::optional<DeviceFrame> frame;
+    try {
+      frame = source.device->next_frame();
+    } catch (const FrameError& e) {
+      if (!quiet) say("glovebench: skipped: {}\n", e.what());
+      continue;
+    }
+    if (!frame) break;
+    if (number > 0 && number * wanted / all == (number - 1) * wanted / all) continue;
+    take(*frame);
+    progress.show(static_cast<double>(++taken) / static_cast<double>(wanted));
+  }
+}
 
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet) {
   if (!quiet && !files.empty())

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/kinect/device.h"
+#include "eval/commands/options.h"
 
 namespace glovebench::eval {
 
@@ -21,13 +22,21 @@ struct SourceFlags {
   std::string source;       ///< "fakenect:FOLDER" or "freenect[:INDEX]"
   std::string calibration;  ///< file; empty: the recording's, else a nominal Kinect's
   bool every_frame = false;
+
+  /// --source, with its help, and --calibration.
+  void add(Command command, const std::string& help);
 };
 
 /// Warns of a changed recording unless `quiet`.
 /// Throws: Error for an unknown kind, a missing device or recording, or a build without libfreenect.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
-/// Names changed files of a recording on stderr, unless `quiet`.
+/// Gives `take` up to `count` frames spread over a recording, or the first ones of a live device. Damaged frames
+/// are skipped and, unless `quiet`, named on stderr. `title`: of the progress bar.
+void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
+                 const std::function<void(const DeviceFrame&)>& take);
+
+/// Names on stderr the changed files of a recording, unless `quiet`.
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);
 
 }  // namespace glovebench::eval

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ci/build_paths.h"
-#include "core/adapters/dds/test_bus.h"
+#include "core/adapters/dds/test_peers.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {

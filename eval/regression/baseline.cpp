@@ -14,8 +14,8 @@
 #include "eval/program.h"
 #include "eval/run_store.h"
 #include "eval/suite.h"
-#include "reports/json_text.h"
 #include "reports/results_json.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {

@@ -10,8 +10,8 @@
 #include "core/base/hash.h"
 #include "core/test_folder.h"
 #include "reports/example_result.h"
-#include "reports/json_text.h"
 #include "reports/results_json.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {

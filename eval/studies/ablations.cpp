@@ -6,7 +6,6 @@
 
 #include "core/base/error.h"
 #include "eval/studies/light_curves.h"
-#include "eval/studies/posture_choices.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

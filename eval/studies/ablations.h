@@ -48,4 +48,17 @@ reports::Measure interpolation_measure(const Runs& runs);
 /// Rows for these measures beyond `ablations`.
 std::vector<Ablation> measured_ablations();
 
+/// DB_20_random_NUMBER: like DB_20_postures, but its movement postures are drawn at random from the same pool.
+/// `number` >= 1 is the seed.
+PostureSet random_choice(int number);
+/// Largest distance from a pool posture to the nearest of the set, RMS.
+double covering_radius_deg(const PostureSet& set);
+
+/// Compares DB_20_postures with `choices`.
+Ablation posture_choice_ablation(const std::vector<PostureSet>& choices);
+/// Runs the default setting with each choice. Frees each database after use (0.9 GB each).
+Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices);
+/// Table "postures": a row each, DB_20_postures first; `runs` must include it.
+reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices);
+
 }  // namespace glovebench::eval

@@ -4,8 +4,6 @@
 
 #include "eval/program.h"
 #include "eval/studies/ablations.h"
-#include "eval/studies/posture_choices.h"
-#include "eval/studies/test_options.h"
 #include "eval/test_program.h"
 #include "trajectories/catalog.h"
 

@@ -5,8 +5,8 @@
 
 #include "core/base/error.h"
 #include "core/tracker/sighting.h"
-#include "eval/in_parallel.h"
 #include "eval/terminal.h"
+#include "eval/threads.h"
 #include "eval/true_neighbor.h"
 
 namespace glovebench::eval {

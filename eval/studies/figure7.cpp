@@ -8,7 +8,7 @@
 #include "eval/studies/sample.h"
 #include "eval/studies/trial_queries.h"
 #include "eval/terminal.h"
-#include "eval/thread_time.h"
+#include "eval/threads.h"
 #include "eval/true_neighbor.h"
 #include "render/label_renderer.h"
 #include "reports/statistics.h"

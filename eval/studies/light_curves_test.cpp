@@ -4,7 +4,6 @@
 
 #include <cstdio>
 
-#include "eval/studies/test_options.h"
 #include "eval/test_program.h"
 #include "render/lighting.h"
 

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "eval/studies/test_options.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {

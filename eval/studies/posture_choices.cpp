@@ -1,4 +1,4 @@
-#include "eval/studies/posture_choices.h"
+#include "eval/studies/ablations.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include "core/base/random.h"
 #include "eval/program.h"
 #include "trajectories/catalog.h"
-#include "trajectories/generation/database_postures.h"
+#include "trajectories/generation/data_files.h"
 #include "trajectories/generation/low_dispersion.h"
 
 namespace glovebench::eval {

@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "eval/measured_run.h"
 #include "eval/program.h"
-#include "eval/sequence_metrics.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

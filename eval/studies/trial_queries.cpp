@@ -8,8 +8,8 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/tracker/sighting.h"
-#include "eval/in_parallel.h"
 #include "eval/terminal.h"
+#include "eval/threads.h"
 #include "render/synthetic_kinect.h"
 
 namespace glovebench::eval {

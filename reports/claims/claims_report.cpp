@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/json_text.h"
 #include "reports/statistics.h"
 #include "reports/table.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

@@ -1,6 +1,6 @@
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/comparison_text.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

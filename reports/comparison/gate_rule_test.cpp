@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "reports/comparison/example_runs.h"
-#include "reports/example_metrics.h"
+#include "reports/example_result.h"
 #include "reports/results_json.h"
 
 namespace glovebench::reports {

@@ -5,7 +5,7 @@
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "reports/comparison/noise_floor.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/base/input_file.h"
 #include "core/base/parse_json.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/math.h"
 
 namespace glovebench::reports {
 namespace {
@@ -67,10 +66,6 @@ std::array<int, kPatchCount> count_patches(const Image<uint8_t>& patch_image) {
     if (patch > 0) ++counts[patch - 1];
   }
   return counts;
-}
-
-double rotation_error_deg(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return degrees_from_radians(Eigen::Quaterniond(a).angularDistance(Eigen::Quaterniond(b)));
 }
 
 }  // namespace glovebench::reports

@@ -44,7 +44,4 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
 /// Pixels per patch, from an image of patch + 1.
 std::array<int, kPatchCount> count_patches(const Image<uint8_t>& patch_image);
 
-/// Geodesic angle.
-double rotation_error_deg(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
-
 }  // namespace glovebench::reports

@@ -202,13 +202,5 @@ TEST(CountPatches, CountsFromPatchPlusOne) {
   EXPECT_THAT(count_patches({}), testing::Each(0));
 }
 
-TEST(RotationError, IsTheGeodesicAngle) {
-  const Eigen::Matrix3d a = some_pose().linear();
-  for (const double degrees : {0.0, 1e-3, 90.0, 179.0}) {
-    const Eigen::AngleAxisd turn(radians_from_degrees(degrees), Eigen::Vector3d(1, -2, 3).normalized());
-    EXPECT_NEAR(rotation_error_deg(a, a * turn.toRotationMatrix()), degrees, kRounding);
-  }
-}
-
 }  // namespace
 }  // namespace glovebench::reports

@@ -1,3 +1,4 @@
+#include "core/base/math.h"
 #include "reports/metrics/measure_frame.h"
 
 namespace glovebench::reports {
@@ -7,8 +8,9 @@ std::optional<double> position_error_mm(const MeasuredFrame& frame) {
   return 1000 * (frame.estimate.T_camera_hand.translation() - frame.truth.T_camera_hand.translation()).norm();
 }
 
-std::optional<double> rotation_error(const MeasuredFrame& frame) {
-  return rotation_error_deg(frame.estimate.T_camera_hand.linear(), frame.truth.T_camera_hand.linear());
+std::optional<double> rotation_error_deg(const MeasuredFrame& frame) {
+  return degrees_from_radians(
+      angle_between(frame.estimate.T_camera_hand.linear(), frame.truth.T_camera_hand.linear()));
 }
 
 }  // namespace
@@ -25,7 +27,7 @@ std::vector<Metric> pose_metrics() {
            .description = "geodesic angle between the hands",
            .place = 20,
            .gate = Metric::Gate{0.3, 0.01},
-           .of_tracked = rotation_error}};
+           .of_tracked = rotation_error_deg}};
 }
 
 }  // namespace glovebench::reports

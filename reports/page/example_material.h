@@ -5,7 +5,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "reports/page/gallery.h"
 #include "reports/page/page.h"
 
 namespace glovebench::reports {

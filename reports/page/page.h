@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reports/page/page_frame.h"
+#include "reports/results.h"
 #include "reports/tables.h"
 #include "reports/timings.h"
 
@@ -35,5 +36,22 @@ struct PageMaterial {
 /// JavaScript. `timings`: for robot commands and, with studies, the machine.
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
                       const PageMaterial& material = {});
+
+struct WorstFrame {
+  ExperimentKey key;
+  uint64_t seed = 0;
+  FrameRecord frame;
+  std::string metric;  ///< by which it was chosen
+};
+
+/// Half of `count` by position error, half by posture error (RMS), from subject 1 on source truth under the
+/// headline noise, or else all experiments. At most two per experiment, 0.5 s apart in one run, none twice, none
+/// lost.
+std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
+
+/// Shows every stage of the frame, from the run's folder.
+std::string explain_command(const WorstFrame& worst);
+/// Experiment, frame, errors.
+std::string caption(const WorstFrame& worst);
 
 }  // namespace glovebench::reports

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "core/hand/skeleton.h"
@@ -32,5 +33,17 @@ Eigen::MatrixXd state_jacobian(const CaptureHand& hand, const HandState& state);
 
 /// Pose, in the hand frame, of the frame that holds a marker.
 Eigen::Isometry3d marker_frame(const PlacedMarker& marker, const JointPoses& T_hand_joint);
+
+/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points` has a point or
+/// gap for each frame and marker.
+/// Throws: Error if no hand has this size.
+double hand_scale(const CaptureHand& hand, const std::vector<std::vector<Eigen::Vector3d>>& points,
+                  const std::string& where);
+
+/// Guesses each frame from its neighbor, starting at the frame with the most points.
+/// Throws: Error if no frame has three palm points.
+std::vector<HandState> start_states(const CaptureHand& hand,
+                                    const std::vector<std::vector<Eigen::Vector3d>>& points, double robust_scale,
+                                    const std::string& where);
 
 }  // namespace glovebench::trajectories

@@ -7,9 +7,9 @@
 #include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/math.h"
-#include "trajectories/capture/bridge_gaps.h"
 #include "trajectories/capture/calibrate_hand.h"
-#include "trajectories/capture/marker_labels.h"
+#include "trajectories/capture/fit_frame.h"
+#include "trajectories/capture/marker_sequence.h"
 #include "trajectories/capture/test_capture.h"
 
 namespace glovebench::trajectories {

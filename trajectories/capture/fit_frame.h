@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/base/math.h"
@@ -62,5 +63,18 @@ struct Observability {
 inline constexpr double kShownDeviation = radians_from_degrees(15);
 Observability observability(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                             const HandState& state, double robust_scale);
+
+struct Bridged {
+  std::vector<HandState> states;
+  std::vector<std::array<bool, kAngleCount>> angles;  ///< filled ones of each frame
+  std::vector<bool> poses;                            ///< filled ones
+  std::array<bool, kAngleCount> never_shown = {};
+  int angle_gaps = 0;  ///< gaps of angles that other frames show
+};
+
+/// Interpolates what frames do not show, constant at the ends. An angle that no frame shows is 0, or kEndJointShare
+/// of the middle joint. `shown` and `times_s` have an item for each frame.
+Bridged bridge_gaps(const std::vector<HandState>& states, const std::vector<Observability>& shown,
+                    const std::vector<double>& times_s);
 
 }  // namespace glovebench::trajectories

@@ -7,8 +7,8 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "trajectories/capture/calibrate_hand.h"
-#include "trajectories/capture/marker_labels.h"
-#include "trajectories/capture/start_states.h"
+#include "trajectories/capture/capture_hand.h"
+#include "trajectories/capture/marker_sequence.h"
 #include "trajectories/generation/low_dispersion.h"
 
 namespace glovebench::trajectories {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "trajectories/capture/bridge_gaps.h"
 #include "trajectories/capture/capture_hand.h"
+#include "trajectories/capture/fit_frame.h"
 #include "trajectories/capture/marker_sequence.h"
 
 namespace glovebench::trajectories {

@@ -54,4 +54,21 @@ void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSeq
 /// Writes the format "csv", mm to 0.001.
 std::string csv_markers(const MarkerSequence& sequence);
 
+/// Largest distance of a marker's point from its prediction, m.
+inline constexpr double kLabelGate = 0.015;
+
+struct Relabeling {
+  std::vector<Eigen::Vector3d> points;  ///< for each marker; or a gap
+  int corrected = 0;                    ///< markers with another point, or none now
+};
+
+/// Assigns points within kLabelGate to markers by the least sum of squared distances. A marker's own point counts
+/// as half as far, so that noise swaps nothing. `predicted` and `labeled` have an item for each marker.
+Relabeling relabel(const std::vector<Eigen::Vector3d>& predicted, const std::vector<Eigen::Vector3d>& labeled,
+                   const std::vector<Eigen::Vector3d>& unlabeled);
+
+/// Distinct columns for the rows with the least sum of finite costs (Kuhn and Munkres). At most as many rows as
+/// columns.
+std::vector<int> assign(const Eigen::MatrixXd& cost);
+
 }  // namespace glovebench::trajectories

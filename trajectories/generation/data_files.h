@@ -2,10 +2,21 @@
 
 #include <map>
 #include <string>
+#include <vector>
+
+#include "core/database/database.h"
 
 namespace glovebench::trajectories {
 
-/// Makes every generated file from gestures and scripts, by path in the data folder.
+inline constexpr size_t kPostureCount20 = 20;
+
+/// Random blends of two or three gestures within limits, with the wrist at 0.
+std::vector<Posture> movement_posture_pool(const PostureSet& gestures);
+
+/// The four sets of section IV.
+std::vector<PostureSet> make_database_posture_sets(const PostureSet& gestures);
+
+/// Makes every generated file, by path in the data folder, from its gestures and scripts.
 /// Throws: Error.
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder);
 

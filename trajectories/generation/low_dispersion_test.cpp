@@ -9,7 +9,7 @@
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "trajectories/catalog.h"
-#include "trajectories/generation/database_postures.h"
+#include "trajectories/generation/data_files.h"
 
 namespace glovebench::trajectories {
 namespace {

@@ -12,7 +12,6 @@
 #include <set>
 
 #include "core/adapters/dds/server/test_messages.h"
-#include "core/adapters/dds/test_bus.h"
 #include "core/adapters/dds/test_peers.h"
 #include "core/base/error.h"
 

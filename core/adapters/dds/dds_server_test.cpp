@@ -11,7 +11,6 @@
 #include "core/adapters/dds/dds_access.h"
 #include "core/adapters/dds/dds_sink.h"
 #include "core/adapters/dds/server/command_messages.h"
-#include "core/adapters/dds/test_bus.h"
 #include "core/adapters/dds/test_peers.h"
 #include "core/adapters/system_time.h"
 #include "core/base/error.h"

@@ -7,7 +7,6 @@
 
 #include "core/adapters/dds/dds_access.h"
 #include "core/adapters/dds/server/test_messages.h"
-#include "core/adapters/dds/test_bus.h"
 #include "core/adapters/dds/test_peers.h"
 
 namespace glovebench {

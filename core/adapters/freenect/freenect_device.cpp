@@ -24,7 +24,7 @@
 #include "core/kinect/disparity.h"
 #include "core/kinect/frame_pairer.h"
 #include "core/kinect/latest_queue.h"
-#include "core/kinect/recording_index.h"
+#include "core/kinect/recording_files.h"
 
 namespace glovebench {
 namespace {

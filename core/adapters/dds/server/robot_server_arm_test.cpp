@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/adapters/dds/server/test_messages.h"
-#include "core/adapters/dds/server/test_served_arm.h"
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/random.h"

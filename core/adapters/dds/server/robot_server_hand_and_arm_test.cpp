@@ -3,7 +3,6 @@
 
 #include "core/adapters/dds/server/robot_server.h"
 #include "core/adapters/dds/server/test_messages.h"
-#include "core/adapters/dds/server/test_served_arm.h"
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/random.h"

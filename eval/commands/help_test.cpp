@@ -1,4 +1,4 @@
-#include "eval/commands/manual.h"
+#include "eval/commands/help.h"
 
 #include <gmock/gmock.h>
 

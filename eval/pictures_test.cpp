@@ -1,4 +1,4 @@
-#include "eval/keyframes.h"
+#include "eval/pictures.h"
 
 #include <gtest/gtest.h>
 

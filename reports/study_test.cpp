@@ -1,4 +1,4 @@
-#include "reports/study_json.h"
+#include "reports/study.h"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "reports/example_studies.h"
-#include "reports/json_text.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {

@@ -4,6 +4,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <ctime>
+
+#include "core/base/error.h"
+
 namespace glovebench::eval {
 
 /// Calls work(i) for i = 0..count-1 on `threads` threads; parallel code inside `work` shares them.
@@ -16,6 +20,13 @@ void in_parallel(int threads, size_t count, const Work& work) {
     };
     tbb::parallel_for(tbb::blocked_range<size_t>(0, count, 1), each, tbb::simple_partitioner());
   });
+}
+
+/// Processor time of this thread.
+inline double thread_time_ms() {
+  timespec time{};
+  check(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0, "a thread has a clock");
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 }  // namespace glovebench::eval

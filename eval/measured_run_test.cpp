@@ -1,4 +1,4 @@
-#include "eval/sequence_metrics.h"
+#include "eval/measured_run.h"
 
 #include <gtest/gtest.h>
 
