@@ -11,3 +11,14 @@
 #if defined(__SANITIZE_THREAD__) || __has_feature(thread_sanitizer)
 #define GLOVEBENCH_THREAD_SANITIZER
 #endif
+
+namespace glovebench {
+
+/// Tests repeat less under the address sanitizer, which is twenty times slower and needs one wrong access only.
+#ifdef GLOVEBENCH_ADDRESS_SANITIZER
+inline constexpr bool kHasAddressSanitizer = true;
+#else
+inline constexpr bool kHasAddressSanitizer = false;
+#endif
+
+}  // namespace glovebench

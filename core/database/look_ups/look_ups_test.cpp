@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/base/sanitizers.h"
 #include "core/database/look_up_kernels.h"
 #include "core/database/made_distances.h"
 #include "core/database/test_database.h"
@@ -79,6 +80,8 @@ LabelImage hostile_query(const Database& database, int size, int number) {
   return query;
 }
 
+constexpr int kQueries = kHasAddressSanitizer ? 8 : 16;  // each of the eight kinds once or twice
+
 TinyImages hostile_queries(const Database& database, const Cascade& cascade, int number) {
   TinyImages query;
   for (const CascadeStage& stage : cascade) query.images.push_back(hostile_query(database, stage.size, number));
@@ -97,7 +100,7 @@ TEST(FastLookUp, agrees_with_the_plain_one_on_each_instruction_set) {
   for (const char* text : {"16:500,64:3", "64:3", "16:1000,32:300,64:3", "8:15", "8:1512,32:7", "32:3", "32:700",
                            "64:1512", "64:100000,64:2", "8:1"}) {
     const Cascade cascade = parse_cascade(text);
-    for (int number = 0; number < 16; ++number) {
+    for (int number = 0; number < kQueries; ++number) {
       SCOPED_TRACE(number);
       expect_equal_to_plain(database, hostile_queries(database, cascade, number), cascade);
     }
@@ -109,7 +112,7 @@ TEST(FastLookUpLong, finds_the_same_in_a_low_memory_database) {
   for (const char* text : {"16:500,64:3", "64:3", "exact:3", "16:1000,32:300,64:3", "8:15", "8:1512,32:7", "32:3",
                            "64:700", "8:1", "8:1512,16:100,64:50"}) {
     const Cascade cascade = parse_cascade(text);
-    for (int number = 0; number < 16; ++number) {  // 5 and 13, a single pixel: most entries are equally near
+    for (int number = 0; number < kQueries; ++number) {  // 5 and 13, a single pixel: most entries are equally near
       SCOPED_TRACE(number);
       const TinyImages query = hostile_queries(normal, cascade, number);
       LookUpTrace expected, found;
@@ -127,7 +130,7 @@ TEST(FastLookUpLong, finds_the_same_in_a_low_memory_database) {
 TEST(FastLookUp, made_distances_are_the_stored_ones_or_above_the_limit) {
   const Database &normal = test_database(), &low = test_database(DatabaseMemory::low);
   for (const int size : kTinySizes) {
-    for (int number = 0; number < 16; ++number) {
+    for (int number = 0; number < kQueries; ++number) {
       const LabelImage query = hostile_query(normal, size, number);
       const auto glove = static_cast<float>(query.size() - std::ranges::count(query, 0));
       const MadeDistances made(low, query);
@@ -226,7 +229,7 @@ TEST_P(FastLookUpMemory, rows_bound_every_distance_from_below) {
   for (const int size : kTinySizes) {
     const FieldRows& rows = database.field_rows(size);
     std::vector<uint16_t> sums(rows.block_count() * FieldRows::kBlock), minima(rows.block_count());
-    for (int number = 0; number < 16; ++number) {
+    for (int number = 0; number < kQueries; ++number) {
       const LabelImage query = hostile_query(database, size, number);
       add_rows(rows, rows.rows_of(query), sums, minima);
       const auto glove = static_cast<float>(query.size() - std::ranges::count(query, 0));
