@@ -38,10 +38,11 @@ struct RunSpec {
   std::string setting = {};  ///< a study's name for it, or a movement's family; no effect
 };
 
-/// From the true images.
+/// From the true images and the true surface.
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
-  bool trackable = false;  ///< enough glove in the working volume, none cut by the image border
+  bool trackable = false;      ///< enough glove in the working volume, none cut by the image border
+  double visible_percent = 0;  ///< see reports/metrics/visibility.h; independent of the tracker
 };
 
 /// A tracker's answers, one per frame. measured_run.h computes the errors.

@@ -10,8 +10,9 @@
 namespace glovebench::reports {
 
 inline void renew_protocol_id(nlohmann::json& protocol) {
-  const Protocol read = {protocol["metric_definitions"], protocol["joint_order"], protocol["metric_keys"],
-                         protocol["association"]};
+  Protocol read = {protocol["metric_definitions"], protocol["joint_order"], protocol["metric_keys"],
+                   protocol["association"]};
+  if (protocol.contains("coverage_rules")) read.coverage_rules = protocol["coverage_rules"];
   protocol["id"] = read.id();
 }
 
