@@ -30,7 +30,8 @@ struct Study {
   std::string_view name;   ///< "fig8"
   std::string_view title;  ///< "Figure 8: matching cascades"
   reports::StudyResult (*run)(const StudyContext& context);
-  double cpu_s;  ///< about, of one seed; for estimates
+  double cpu_s;             ///< about, of one seed; for estimates
+  bool on_request = false;  ///< no part of a reproduction that names no parts
 };
 /// In running order.
 const std::vector<Study>& studies();
@@ -95,6 +96,8 @@ reports::StudyResult run_figure8(const StudyContext& context);
 reports::StudyResult run_figure9(const StudyContext& context);
 reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
+/// Figure 4 with profiles paper and paper-literal side by side. Has no measures, so it decides no claim.
+reports::StudyResult run_paper_literal(const StudyContext& context);
 /// With these databases. monocular.depth_error_cm is of the first and of the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);
 /// Tables "light" and "light_tracking" of the ablations, and measures light.*.
