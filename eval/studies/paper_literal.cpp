@@ -35,7 +35,8 @@ Table empty_errors_table() {
       "paper_literal",
       "Two readings of section III-C",
       "The paper smooths \"the posture and pose estimation by interpolating with estimations from the three "
-      "previous frames\". Its Figure 5 shows how for the posture: each frame keeps 3/4 of the previous answer and so "
+      "previous frames\". Its Figure 5 shows how for the posture: each frame keeps 3/4 of the previous answer and "
+      "so "
       "lags by three. \"paper-literal\" filters the pose like that, too. \"paper\" does not, since the rotation "
       "errors of Figure 5 jump from frame to frame. Mean errors of the tracked frames of Figure 4; found: of the "
       "frames in which the hand is visible. Nothing here decides an exit code.",
