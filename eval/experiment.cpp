@@ -40,19 +40,24 @@ reports::SequenceMetrics measure_sequences(const Experiment& experiment) {
 
 reports::ExperimentResult evaluate(const Experiment& experiment) {
   std::vector<reports::SeedRun> runs;
-  std::vector<double> joint_errors;
-  size_t keypoints = 0;
+  std::vector<double> joints, fingertips;
+  size_t frames = 0;
   for (const MeasuredRun* each : experiment.runs) {
     reports::SeedRun run{each->run.spec.seed, {}};
     for (const reports::FrameErrors& errors : each->errors) {
       run.frames.push_back(errors.record);
-      joint_errors.insert(joint_errors.end(), errors.joint_errors_mm.begin(), errors.joint_errors_mm.end());
-      keypoints += kForearmJoint;
+      ++frames;
+      if (errors.joint_errors_mm.empty()) continue;
+      joints.insert(joints.end(), errors.joint_errors_mm.begin(), errors.joint_errors_mm.end());
+      for (const int tip : fingertip_joints()) fingertips.push_back(errors.joint_errors_mm[tip]);
     }
     runs.push_back(std::move(run));
   }
-  return reports::summarize(experiment.key, std::move(runs), reports::pck_curve(joint_errors, keypoints),
-                            measure_sequences(experiment));
+  reports::ExperimentResult result =
+      reports::summarize(experiment.key, std::move(runs), reports::pck_curve(joints, frames * kForearmJoint),
+                         measure_sequences(experiment));
+  result.fingertip_pck = reports::pck_curve(fingertips, frames * fingertip_joints().size());
+  return result;
 }
 
 reports::ExperimentTiming timing_of(const Experiment& experiment) {

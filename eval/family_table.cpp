@@ -8,6 +8,7 @@
 
 #include "eval/experiment.h"
 #include "eval/studies/study.h"
+#include "reports/metrics/coverage.h"
 #include "reports/results.h"
 #include "reports/summary.h"
 
@@ -21,12 +22,18 @@ using reports::FrameRecord;
 struct FamilyColumn {
   std::string_view key;
   std::string_view heading;
-  bool (*share)(const FrameRecord& frame);  ///< of all frames; null: `key` is a metric
+  std::optional<bool> (*share)(const FrameRecord& frame);  ///< of the frames with an answer; null: a metric
 };
-constexpr std::array<FamilyColumn, 7> kFamilyColumns = {{
-    {"found_percent", "found %", [](const FrameRecord& frame) { return frame.covered; }},
-    {"lost_percent", "lost %", [](const FrameRecord& frame) { return frame.status != TrackStatus::tracked; }},
-    {"false_lost_percent", "wrongly lost %", [](const FrameRecord& frame) { return frame.false_lost; }},
+using Share = std::optional<bool>;
+constexpr std::array<FamilyColumn, 9> kFamilyColumns = {{
+    {"visible_percent", "visible %", [](const FrameRecord& frame) -> Share { return reports::is_visible(frame); }},
+    {"found_percent", "found %",
+     [](const FrameRecord& frame) { return reports::is_visible(frame) ? Share(frame.covered) : Share(); }},
+    {"usable_percent", "usable %",
+     [](const FrameRecord& frame) { return reports::is_visible(frame) ? Share(is_usable(frame)) : Share(); }},
+    {"lost_percent", "lost %",
+     [](const FrameRecord& frame) -> Share { return frame.status != TrackStatus::tracked; }},
+    {"false_lost_percent", "wrongly lost %", [](const FrameRecord& frame) -> Share { return frame.false_lost; }},
     {"position_error_mm", "position mm", nullptr},
     {"rotation_error_deg", "rotation deg", nullptr},
     {"posture_rms_deg", "posture deg", nullptr},
@@ -58,7 +65,7 @@ std::optional<double> mean_of(const Experiment& movement, const FamilyColumn& co
   for (const MeasuredRun* run : movement.runs) {
     for (const reports::FrameErrors& errors : run->errors) {
       if (column.share) {
-        values.push_back(column.share(errors.record) ? 100 : 0);
+        if (const auto answer = column.share(errors.record)) values.push_back(*answer ? 100 : 0);
       } else if (const auto value = errors.record[column.key]) {
         values.push_back(*value);
       }
@@ -96,8 +103,10 @@ reports::Table empty_family_table() {
       "Movements by family",
       "Each number is the mean over movements of their own means; low and high are the ends of its 95% interval "
       "(Student's t over movements), so it speaks of other movements of the family. Fewer than five movements have "
-      "none, nor have movements that are all equal; those of shares are cut at 0 and 100%. Found: of all frames, "
-      "those tracked within 50 mm and 30 degrees. Wrongly lost: of all frames, those that the tracker calls lost "
+      "none, nor have movements that are all equal; those of shares are cut at 0 and 100%. Visible: of all frames, "
+      "those with at least 30% of the glove's camera-facing area in both images and in the working volume. Of "
+      "visible frames, lost ones included: found within 50 mm and 30 degrees; usable within 10 mm and 10 degrees, "
+      "fingertips within 20 mm on average. Lost: of all frames, those that the tracker calls lost; wrongly lost: "
       "though the whole hand is in view and in the working volume. Errors are of frames that the tracker answers, "
       "right or wrong, and so of the movements that have such frames (answered).",
       {{"family", "family"},

@@ -55,9 +55,9 @@ std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& track
   std::vector<reports::FrameErrors> errors;
   const std::span<const HandFrame> frames = frames_of(run.spec);
   for (size_t f = 0; f < frames.size(); ++f) {
-    const reports::FrameTruth truth = {frames[f].posture, frames[f].T_camera_hand,
-                                       subject.joints(frames[f].posture), run.seen[f].visible_pixels,
-                                       run.seen[f].trackable};
+    const reports::FrameTruth truth = {
+        frames[f].posture,          frames[f].T_camera_hand, subject.joints(frames[f].posture),
+        run.seen[f].visible_pixels, run.seen[f].trackable,   run.seen[f].visible_percent};
     const int number = run.spec.frames.first + static_cast<int>(f);
     errors.push_back(reports::measure_frame(number, run.answers[f], truth, tracker_hand));
   }

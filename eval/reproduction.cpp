@@ -37,6 +37,10 @@ bool is_wanted(const ReproductionOptions& options, std::string_view part) {
   return std::ranges::find(options.only, part) != options.only.end();
 }
 
+bool is_wanted(const ReproductionOptions& options, const Study& study) {
+  return is_wanted(options, study.name) && !(study.on_request && options.only.empty());
+}
+
 void refuse_unknown_parts(const std::vector<std::string>& only) {
   const std::vector<std::string> known = part_names();
   for (const std::string& part : only) {
@@ -137,7 +141,7 @@ std::string describe_reproduction(Workbench& workbench, const ReproductionOption
              kFrameCpu_s * static_cast<double>(frames) / workbench.config().threads);
   }
   for (const Study& study : studies()) {
-    if (!is_wanted(options, study.name)) continue;
+    if (!is_wanted(options, study)) continue;
     const double seeds = options.study.quick ? 1 : static_cast<double>(options.study.seeds.size());
     const double cpu_s = options.study.quick ? kQuickStudyCpu_s : study.cpu_s * seeds;
     add_part(study.name, std::string(study.title), cpu_s / workbench.config().threads);
@@ -155,7 +159,7 @@ Outcome reproduce(Workbench& workbench, const ReproductionOptions& options, cons
   const auto add_studies = [&](reports::RunResult& result, RunStore& store) {
     show(result);
     for (const Study& study : studies()) {
-      if (!is_wanted(options, study.name)) continue;
+      if (!is_wanted(options, study)) continue;
       result.studies.push_back(run_or_load({workbench, options.study, &store}, study));
       show(result);
     }

@@ -47,6 +47,33 @@ TEST(Reproduction, FiguresFiveAndSixAreOneExperimentEach) {
   EXPECT_TRUE(plan_reproduction(only({"fig7"})).specs.empty());
 }
 
+TEST(Reproduction, TheLiteralReadingIsThereOnRequestAlone) {
+  Workbench workbench(test_workbench());
+  EXPECT_THAT(describe_reproduction(workbench, only({})), testing::Not(HasSubstr("paper-literal")));
+  const ReproductionOptions literal = only({"paper-literal"});
+  EXPECT_THAT(describe_reproduction(workbench, literal), testing::StartsWith("paper-literal "));
+  EXPECT_EQ(exit_code_of({.not_run = 3}, literal, true), 0) << "Figure 4 itself was not asked for";
+}
+
+TEST(ReproductionLong, TheLiteralReadingStandsBesideThePapers) {
+  Workbench workbench(test_workbench());
+  ReproductionOptions options = only({"paper-literal"});
+  options.study.quick = true;
+  const Reproduction outcome = reproduce(workbench, options, {}, test_folder() + "/out");
+  ASSERT_EQ(outcome.result.studies.size(), 1U);
+  EXPECT_TRUE(outcome.result.experiments.empty() && outcome.result.studies[0].measures.empty());
+  const reports::Table& table = outcome.result.studies[0].tables.at(0);
+  EXPECT_EQ(table.rows.size(), 9U) << "three databases of Tr4, against recorded and source truth and subject 2";
+  const auto number = [&](const reports::Row& row, std::string_view key) {
+    return std::get<double>(row[column_index(table, key)]);
+  };
+  for (const reports::Row& row : table.rows) {
+    EXPECT_GT(number(row, "literal_position_error_mm"), number(row, "paper_position_error_mm")) << "it lags";
+    EXPECT_NEAR(number(row, "literal_posture_rms_deg"), number(row, "paper_posture_rms_deg"), 1e-9)
+        << "the same posture";
+  }
+}
+
 TEST(Reproduction, QuickOnesAreAStretch) {
   ReproductionOptions options = only({});
   options.study.quick = true;

@@ -14,6 +14,7 @@
 #include "eval/terminal.h"
 #include "eval/threads.h"
 #include "reports/metrics/measure_frame.h"
+#include "reports/metrics/visibility.h"
 
 namespace glovebench::eval {
 namespace {
@@ -112,11 +113,12 @@ class Tracking {
     return render::make_device_frame(images, calibration, timestamp_us, kinect_.noise,
                                      {kinect_.seed, kinect_.sequence, number});
   }
-  void track(const DeviceFrame& frame, const render::RgbdImages& images) {
+  void track(const DeviceFrame& frame, const render::RgbdImages& images, double visible_percent) {
     timer_.begin_frame();
     run_.answers.push_back(method_->track(frame, run_.answers, [&](Stage stage) { timer_.begin(stage); }));
     timer_.end_frame();
-    run_.seen.push_back({reports::count_patches(images.patch), is_trackable(images, run_.spec.tracker)});
+    run_.seen.push_back(
+        {reports::count_patches(images.patch), is_trackable(images, run_.spec.tracker), visible_percent});
   }
   Run take() {
     run_.stages = timer_.take_stages();
@@ -140,18 +142,21 @@ std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> s
     check(share_images(first, spec), "runs that are rendered once show the same");
     trackings.emplace_back(workbench, spec);
   }
+  const render::Subject subject = workbench.subject(first.subject);
   render::SyntheticKinect kinect = make_kinect(workbench, first);
   int number = first.frames.first;
   for (const HandFrame& truth : frames_of(first)) {
     std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
+    const double visible_percent = reports::visible_percent(kinect.true_hand(), subject.triangles(),
+                                                            truth.T_camera_hand, kinect.calibration());
     const RunSpec* shown = &first;
     for (Tracking& tracking : trackings) {
       if (!share_noise(*shown, tracking.spec())) {
         frame = tracking.frame_of(kinect.truth(), kinect.calibration(), truth.timestamp_us, number);
         shown = &tracking.spec();
       }
-      tracking.track(*frame, kinect.truth());
+      tracking.track(*frame, kinect.truth(), visible_percent);
       frame_done();
     }
     ++number;

@@ -38,10 +38,11 @@ struct RunSpec {
   std::string setting = {};  ///< a study's name for it, or a movement's family; without effect
 };
 
-/// What the true images show.
+/// What the true images and the true surface show.
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
+  double visible_percent = 0;  ///< reports/metrics/visibility.h; independent of the tracker
 };
 
 /// A tracker's answers by frame; measured_run.h computes errors.

@@ -86,11 +86,11 @@ TrackResult result_of(const json& row) {
 }
 
 json row_of(const Sight& sight) {
-  return {sight.visible_pixels, sight.trackable};
+  return {sight.visible_pixels, sight.trackable, sight.visible_percent};
 }
 
 Sight sight_of(const json& row) {
-  return {row.at(0).get<std::array<int, kPatchCount>>(), row.at(1)};
+  return {row.at(0).get<std::array<int, kPatchCount>>(), row.at(1), row.at(2)};
 }
 
 json row_of(const Cell& cell) {

@@ -51,6 +51,7 @@ Run example_run() {
     Sight& sight = run.seen.emplace_back();
     for (int p = 0; p < kPatchCount; ++p) sight.visible_pixels[p] = 1000 * frame + p;
     sight.trackable = frame == 1;
+    sight.visible_percent = 12.5 * frame;
   }
   return run;
 }

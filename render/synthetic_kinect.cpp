@@ -38,7 +38,8 @@ SyntheticKinect::SyntheticKinect(const RgbdCalibration& calibration, Subject sub
 std::optional<DeviceFrame> SyntheticKinect::next_frame() {
   if (next_ == frames_.size()) return std::nullopt;
   const HandFrame& frame = frames_[next_];
-  truth_ = renderer_.render(subject_.pose(frame.posture), frame.T_camera_hand, config_.lighting);
+  hand_ = subject_.pose(frame.posture);
+  truth_ = renderer_.render(hand_, frame.T_camera_hand, config_.lighting);
   const FrameKey key{config_.seed, config_.sequence, config_.first_frame + static_cast<int64_t>(next_)};
   ++next_;
   return make_device_frame(truth_, calibration(), frame.timestamp_us, config_.noise, key);
@@ -47,6 +48,11 @@ std::optional<DeviceFrame> SyntheticKinect::next_frame() {
 const RgbdImages& SyntheticKinect::truth() const {
   check(next_ > 0, "the truth of a frame is asked for after the frame");
   return truth_;
+}
+
+const PosedHand& SyntheticKinect::true_hand() const {
+  check(next_ > 0, "the hand of a frame is asked for after the frame");
+  return hand_;
 }
 
 }  // namespace glovebench::render

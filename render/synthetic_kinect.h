@@ -36,6 +36,8 @@ class SyntheticKinect : public Device {
 
   /// Ideal images of the last frame, for the evaluator only.
   const RgbdImages& truth() const;
+  /// The hand in these images; for the evaluator only, too.
+  const PosedHand& true_hand() const;
 
  private:
   RgbdRenderer renderer_;
@@ -43,6 +45,7 @@ class SyntheticKinect : public Device {
   std::vector<HandFrame> frames_;
   SyntheticKinectConfig config_;
   size_t next_ = 0;
+  PosedHand hand_;
   RgbdImages truth_;
 };
 

@@ -1,5 +1,6 @@
 // Writes the reports of an invented run and an invented comparison, to test the schemas and look at the pages:
 // reports_example FOLDER
+// Or measures invented frames, to compute the metrics again elsewhere: reports_example --measured FILE
 
 #include <cstdio>
 #include <exception>
@@ -10,6 +11,7 @@
 #include "reports/claims/claims_report.h"
 #include "reports/comparison/example_comparison.h"
 #include "reports/example_result.h"
+#include "reports/metrics/example_measured.h"
 #include "reports/page/example_material.h"
 #include "reports/report.h"
 
@@ -36,12 +38,18 @@ glovebench::reports::Timings example_timings() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: %s FOLDER\n", argv[0]);
+  const bool measures = argc == 3 && std::string_view(argv[1]) == "--measured";
+  if (argc != 2 && !measures) {
+    std::fprintf(stderr, "usage: %s FOLDER | --measured FILE\n", argv[0]);
     return 2;
   }
   try {
     using namespace glovebench::reports;
+    if (measures) {
+      const auto hand = glovebench::HandModel::load(glovebench::build_paths::hand_mesh());
+      glovebench::write_file(argv[2], example_measured_json(hand).dump());
+      return 0;
+    }
     RunResult result = full_result();
     result.studies.push_back(example_figure9());
     result.studies.push_back(example_ablations());

@@ -30,6 +30,7 @@ inline FrameRecord example_frame(int index, double position_mm, double posture_d
   frame["posture_rms_hidden_deg"].reset();  // nothing is hidden
   frame["vertex_error_mm"] = frame["joint_error_mm"] = position_mm * 1.25;
   frame["fingertip_error_mm"] = position_mm * 1.5;
+  frame["visible_percent"] = 100;
   return frame;
 }
 
@@ -39,6 +40,7 @@ inline FrameRecord example_lost_frame(int index) {
   frame.timestamp_us = index * 1000000LL / 15;
   frame.status = TrackStatus::poor_match;
   frame.false_lost = true;
+  frame["visible_percent"] = 100;
   return frame;
 }
 
@@ -76,6 +78,7 @@ inline RunResult small_result() {
   std::vector<SeedRun> runs = {{1, {example_frame(0, 3, 2, 1), example_lost_frame(1)}},
                                {2, {example_frame(0, 4, 3, 2), example_frame(1, 5, 4, 3)}}};
   result.experiments.push_back(summarize(key, runs, pck, {0.5, 0.25, 3.0}, bootstrap));
+  result.experiments.back().fingertip_pck = pck_curve(std::vector<double>{2, 10}, 4);
   result.experiments.back().commands = example_commands(4, 3);
   result.experiments.push_back(summarize({"Tr4", "DB_open_power", TruthKind::source, 2, {}},
                                          {{1, {example_lost_frame(0), example_lost_frame(1)}}}, pck_curve({}, 2),
@@ -137,8 +140,9 @@ inline RunResult full_result() {
 }
 
 inline void renew_protocol_id(nlohmann::json& protocol) {
-  const Protocol read = {protocol["metric_definitions"], protocol["joint_order"], protocol["metric_keys"],
-                         protocol["association"]};
+  Protocol read = {protocol["metric_definitions"], protocol["joint_order"], protocol["metric_keys"],
+                   protocol["association"]};
+  if (protocol.contains("coverage_rules")) read.coverage_rules = protocol["coverage_rules"];
   protocol["id"] = read.id();
 }
 

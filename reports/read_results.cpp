@@ -9,6 +9,7 @@
 #include "core/base/parse_json.h"
 #include "core/base/text.h"
 #include "reports/commands.h"
+#include "reports/metrics/coverage.h"
 #include "reports/metrics/measure_frame.h"
 #include "reports/results_json.h"
 #include "reports/statistics.h"
@@ -33,8 +34,21 @@ std::vector<double> read_numbers(const JsonCursor& json, double max) {
   return numbers;
 }
 
+/// Shares that were counted by other rules do not mean the same.
+std::map<std::string, double> read_coverage_rules(const JsonCursor& json) {
+  const std::map<std::string, double> rules = coverage_rules();
+  for (const auto& [name, found] : json.members())
+    if (!rules.contains(name)) found.fail("a rule that this program knows");
+  for (const auto& [name, expected] : rules) {
+    const double found = json[name].number(0, kLargestError);
+    if (found != expected)
+      throw Incomparable(json[name].place() + fmt::format(": found {}, expected {}", found, expected));
+  }
+  return rules;
+}
+
 Protocol read_protocol(const JsonCursor& json) {
-  json.expect_keys({"id", "metric_definitions", "joint_order", "metric_keys", "association"});
+  json.expect_keys({"id", "metric_definitions", "joint_order", "metric_keys", "association"}, {"coverage_rules"});
   Protocol protocol;
   protocol.metric_definitions = json["metric_definitions"].count();
   protocol.joint_order = read_texts(json["joint_order"]);
@@ -44,6 +58,7 @@ Protocol read_protocol(const JsonCursor& json) {
     protocol.metric_keys.push_back(key.name());
   }
   protocol.association = json["association"].text();
+  if (json.has("coverage_rules")) protocol.coverage_rules = read_coverage_rules(json["coverage_rules"]);
   const JsonCursor id = json["id"];
   if (id.text() != protocol.id())
     throw Incomparable(id.place() + ": found " + quoted_excerpt(id.text()) + ", expected " + protocol.id());
@@ -102,8 +117,8 @@ void check_errors(const JsonItems& row, const FileMetrics& metrics, const FrameR
   }
   // An error that the file lacks contradicts nothing.
   const auto is_covered = [&](double slack) {
-    return is_tracked && frame["position_error_mm"].value_or(0) < kCoveredPosition_mm + slack &&
-           frame["rotation_error_deg"].value_or(0) < kCoveredRotation_deg + slack;
+    return is_tracked && frame["position_error_mm"].value_or(0) < kFoundPosition_mm + slack &&
+           frame["rotation_error_deg"].value_or(0) < kFoundRotation_deg + slack;
   };
   const bool has_both = frame["position_error_mm"] && frame["rotation_error_deg"];
   if (frame.covered ? !is_covered(kRounding) : has_both && is_covered(-kRounding))
@@ -169,10 +184,29 @@ std::vector<SeedRun> read_runs(const JsonCursor& json, const FileMetrics& metric
 }
 
 Coverage read_coverage(const JsonCursor& json) {
-  json.expect_keys({"frames", "covered", "lost", "false_tracked", "false_lost", "share"});
+  constexpr auto kLevels =
+      std::to_array<std::string_view>({"visible", "found", "usable", "found_share", "usable_share"});
+  json.expect_keys(
+      std::to_array<std::string_view>({"frames", "covered", "lost", "false_tracked", "false_lost", "share"}),
+      kLevels);
   json["share"].number_or_null(0, 1);
-  return {json["frames"].count(), json["covered"].count(), json["lost"].count(), json["false_tracked"].count(),
-          json["false_lost"].count()};
+  Coverage coverage = {json["frames"].count(), json["covered"].count(), json["lost"].count(),
+                       json["false_tracked"].count(), json["false_lost"].count()};
+  if (std::ranges::none_of(kLevels, [&](std::string_view key) { return json.has(key); })) return coverage;
+  coverage.visible = json["visible"].count();
+  coverage.found = json["found"].count();
+  coverage.usable = json["usable"].count();
+  json["found_share"].number_or_null(0, 1);
+  json["usable_share"].number_or_null(0, 1);
+  return coverage;
+}
+
+PckCurve read_pck(const JsonCursor& json) {
+  json.expect_keys({"thresholds_mm", "shares", "area"});
+  PckCurve pck = {read_numbers(json["thresholds_mm"], kLargestError), read_numbers(json["shares"], 1),
+                  json["area"].number_or_null(0, 1)};
+  if (pck.shares.size() != pck.thresholds_mm.size()) json["shares"].fail("one for each threshold");
+  return pck;
 }
 
 /// A mean that does not follow from its frames was changed by hand, or the frames were.
@@ -217,11 +251,9 @@ ExperimentKey read_experiment_key(const JsonCursor& json) {
 }
 
 ExperimentResult read_experiment(const JsonCursor& json, const FileMetrics& metrics) {
-  const bool has_commands = json.has("commands");
-  // Without commands, "runs" fills their place.
   json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
-                    "sequence", "runs", has_commands ? "commands" : "runs"});
-  json["joint_pck"].expect_keys({"thresholds_mm", "shares", "area"});
+                    "sequence", "runs"},
+                   {"commands", "fingertip_pck"});
   json["sequence"].expect_keys({"jitter_position_mm", "jitter_rotation_deg", "latency_frames"});
   ExperimentResult experiment;
   experiment.key = read_experiment_key(json);
@@ -230,14 +262,12 @@ ExperimentResult read_experiment(const JsonCursor& json, const FileMetrics& metr
   if (experiment.coverage != count_coverage(experiment.runs))
     json["coverage"].fail("the counts of the frames in runs");
   read_aggregates(json["aggregates"], metrics, experiment);
-  const JsonCursor pck = json["joint_pck"], sequence = json["sequence"];
-  experiment.pck = {read_numbers(pck["thresholds_mm"], kLargestError), read_numbers(pck["shares"], 1),
-                    pck["area"].number_or_null(0, 1)};
-  if (experiment.pck.shares.size() != experiment.pck.thresholds_mm.size())
-    pck["shares"].fail("one for each threshold");
+  experiment.pck = read_pck(json["joint_pck"]);
+  if (json.has("fingertip_pck")) experiment.fingertip_pck = read_pck(json["fingertip_pck"]);
+  const JsonCursor sequence = json["sequence"];
   experiment.sequence = {read_value(sequence["jitter_position_mm"]), read_value(sequence["jitter_rotation_deg"]),
                          sequence["latency_frames"].number_or_null(-kLargestError, kLargestError)};
-  if (has_commands) {
+  if (json.has("commands")) {
     experiment.commands = read_commands(json["commands"]);
     if (experiment.commands->frames != experiment.coverage.frames)
       json["commands"]["frames"].fail("the frames in runs");

@@ -59,7 +59,8 @@ struct Measurement {
 Measurement share_of(const std::vector<SeedRun>& runs, const Metric& metric) {
   std::vector<double> values;
   for (const SeedRun& run : runs)
-    for (const FrameRecord& frame : run.frames) values.push_back(*value_of(metric, frame));
+    for (const FrameRecord& frame : run.frames)
+      if (const auto value = value_of(metric, frame)) values.push_back(*value);
   return {mean(values), {}, static_cast<int>(values.size())};
 }
 

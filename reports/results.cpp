@@ -6,6 +6,7 @@
 
 #include "core/base/hash.h"
 #include "core/hand/posture.h"
+#include "reports/metrics/coverage.h"
 
 namespace glovebench::reports {
 
@@ -14,9 +15,25 @@ std::string to_string(const ExperimentKey& key) {
                      key.noise.model, key.noise.factor);
 }
 
+namespace {
+
+std::optional<double> part_of(int part, int whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / whole;
+}
+
+}  // namespace
+
 std::optional<double> Coverage::share() const {
-  if (frames == 0) return std::nullopt;
-  return static_cast<double>(covered) / frames;
+  return part_of(covered, frames);
+}
+
+std::optional<double> Coverage::found_share() const {
+  return part_of(found, visible);
+}
+
+std::optional<double> Coverage::usable_share() const {
+  return part_of(usable, visible);
 }
 
 Coverage count_coverage(const std::vector<SeedRun>& runs) {
@@ -28,6 +45,10 @@ Coverage count_coverage(const std::vector<SeedRun>& runs) {
       coverage.lost += frame.status != TrackStatus::tracked;
       coverage.false_tracked += frame.false_tracked;
       coverage.false_lost += frame.false_lost;
+      if (!is_visible(frame)) continue;
+      ++coverage.visible;
+      coverage.found += frame.covered;
+      coverage.usable += is_usable(frame);
     }
   }
   return coverage;
@@ -59,7 +80,8 @@ ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurv
 }
 
 std::string Protocol::id() const {
-  const nlohmann::json content = {metric_definitions, joint_order, metric_keys, association};
+  nlohmann::json content = {metric_definitions, joint_order, metric_keys, association};
+  if (!coverage_rules.empty()) content.push_back(coverage_rules);  // older ids stay
   return hash_text(content.dump());
 }
 
@@ -68,6 +90,7 @@ Protocol make_protocol(std::string association) {
   for (const AngleInfo& info : angle_infos()) protocol.joint_order.emplace_back(info.name);
   protocol.metric_keys = frame_metric_keys();
   protocol.association = std::move(association);
+  protocol.coverage_rules = coverage_rules();
   return protocol;
 }
 

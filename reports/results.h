@@ -70,14 +70,19 @@ struct SeedRun {
   friend bool operator==(const SeedRun&, const SeedRun&) = default;
 };
 
-/// Lost frames stay in the denominator.
+/// Lost frames stay in the denominator. The levels (visible, found, usable) follow coverage.h.
 struct Coverage {
   int frames = 0;
   int covered = 0;
   int lost = 0;
   int false_tracked = 0;
   int false_lost = 0;
-  std::optional<double> share() const;  ///< covered / frames
+  int visible = 0;                             ///< 0 in older results
+  int found = 0;                               ///< visible and covered
+  int usable = 0;                              ///< visible and usable
+  std::optional<double> share() const;         ///< covered / frames
+  std::optional<double> found_share() const;   ///< found / visible
+  std::optional<double> usable_share() const;  ///< usable / visible
 
   friend bool operator==(const Coverage&, const Coverage&) = default;
 };
@@ -104,6 +109,7 @@ struct ExperimentResult {
       std::vector<std::optional<ConfidenceInterval>>(frame_metrics().size());  ///< of the means
   PckCurve pck;                                                                ///< of joint position errors
   SequenceMetrics sequence;
+  std::optional<PckCurve> fingertip_pck = {};  ///< of the five fingertips; empty in older results
   std::optional<CommandResult> commands = {};  ///< empty in older results
 
   const Aggregate& aggregate_of(std::string_view metric) const { return aggregates[metric_index(metric)]; }
@@ -122,6 +128,7 @@ struct Protocol {
   std::vector<std::string> joint_order;  ///< the 22 angles
   std::vector<std::string> metric_keys;  ///< of frames; versions differ
   std::string association;               ///< of estimates and truths: "by time stamp, exact"
+  std::map<std::string, double> coverage_rules = {};  ///< metrics/coverage.h; empty in older results
 
   std::string id() const;  ///< hash of the above
   friend bool operator==(const Protocol&, const Protocol&) = default;

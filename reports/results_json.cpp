@@ -20,13 +20,20 @@ Json aggregates_json(const ExperimentResult& experiment, std::span<const std::st
   return json;
 }
 
-Json coverage_json(const Coverage& coverage) {
-  return {{"frames", coverage.frames},
-          {"covered", coverage.covered},
-          {"lost", coverage.lost},
-          {"false_tracked", coverage.false_tracked},
-          {"false_lost", coverage.false_lost},
-          {"share", rounded_or_null(coverage.share())}};
+Json coverage_json(const Coverage& coverage, bool has_levels) {
+  Json json = {{"frames", coverage.frames},
+               {"covered", coverage.covered},
+               {"lost", coverage.lost},
+               {"false_tracked", coverage.false_tracked},
+               {"false_lost", coverage.false_lost},
+               {"share", rounded_or_null(coverage.share())}};
+  if (!has_levels) return json;
+  json["visible"] = coverage.visible;
+  json["found"] = coverage.found;
+  json["usable"] = coverage.usable;
+  json["found_share"] = rounded_or_null(coverage.found_share());
+  json["usable_share"] = rounded_or_null(coverage.usable_share());
+  return json;
 }
 
 Json pck_json(const PckCurve& pck) {
@@ -46,7 +53,8 @@ Json runs_json(const std::vector<SeedRun>& runs, std::span<const std::string> me
   return json;
 }
 
-Json experiment_json(const ExperimentResult& experiment, std::span<const std::string> metric_keys) {
+Json experiment_json(const ExperimentResult& experiment, const Protocol& protocol) {
+  const std::vector<std::string>& metric_keys = protocol.metric_keys;
   const ExperimentKey& key = experiment.key;
   const SequenceMetrics& sequence = experiment.sequence;
   Json json = {{"trajectory", key.trajectory},
@@ -54,7 +62,7 @@ Json experiment_json(const ExperimentResult& experiment, std::span<const std::st
                {"truth", std::string(to_string(key.truth))},
                {"subject", key.subject},
                {"noise", {{"model", key.noise.model}, {"factor", rounded(key.noise.factor)}}},
-               {"coverage", coverage_json(experiment.coverage)},
+               {"coverage", coverage_json(experiment.coverage, !protocol.coverage_rules.empty())},
                {"aggregates", aggregates_json(experiment, metric_keys)},
                {"joint_pck", pck_json(experiment.pck)},
                {"sequence",
@@ -63,6 +71,7 @@ Json experiment_json(const ExperimentResult& experiment, std::span<const std::st
                  {"latency_frames", rounded_or_null(sequence.latency_frames)}}},
                {"runs", runs_json(experiment.runs, metric_keys)}};
   // Left out if empty, so older results keep their bytes.
+  if (experiment.fingertip_pck) json["fingertip_pck"] = pck_json(*experiment.fingertip_pck);
   if (experiment.commands) json["commands"] = commands_json(*experiment.commands);
   return json;
 }
@@ -89,7 +98,7 @@ std::string results_json(const RunResult& result) {
   std::erase_if(protocol.metric_keys, [](const std::string& key) { return !find_frame_metric(key); });
   Json experiments = Json::array();
   for (const ExperimentResult& experiment : result.experiments)
-    experiments.push_back(experiment_json(experiment, protocol.metric_keys));
+    experiments.push_back(experiment_json(experiment, protocol));
   Json json = {{"format", kResultsFormat},
                {"version", kResultsVersion},
                {"protocol",
@@ -108,7 +117,8 @@ std::string results_json(const RunResult& result) {
                {"configuration", result.configuration},
                {"frame_columns", frame_columns(protocol.metric_keys)},
                {"experiments", std::move(experiments)}};
-  // Left out if empty, so results without studies keep their bytes.
+  // Left out if empty, so older results and those without studies keep their bytes.
+  if (!protocol.coverage_rules.empty()) json["protocol"]["coverage_rules"] = protocol.coverage_rules;
   if (!result.studies.empty()) json["studies"] = studies_json(result.studies);
   return format_json(json);
 }

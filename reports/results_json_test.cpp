@@ -135,6 +135,53 @@ TEST(ResultsJson, MetricsOfAnotherVersion) {
   EXPECT_THAT(error_of(results.dump()), HasSubstr("each metric once"));
 }
 
+/// As a program wrote it that knew no levels of coverage.
+json older_results() {
+  json results = json::parse(results_json(small_result()));
+  results["protocol"].erase("coverage_rules");
+  remove_metric(results, "visible_percent");
+  for (json& experiment : results["experiments"]) {
+    for (const char* key : {"visible", "found", "usable", "found_share", "usable_share"})
+      experiment["coverage"].erase(key);
+    experiment.erase("fingertip_pck");
+  }
+  return results;
+}
+
+TEST(ResultsJson, OlderResultsHaveNoLevelsOfCoverage) {
+  const json older = older_results();
+  const RunResult read = parse_results(older.dump(), "results.json");
+  EXPECT_EQ(read.experiments[0].coverage, (Coverage{4, 3, 1, 0, 1, 0, 0, 0}));
+  EXPECT_FALSE(read.experiments[0].coverage.found_share());
+  EXPECT_FALSE(read.experiments[0].fingertip_pck);
+  EXPECT_EQ(read.protocol.id(), older["protocol"]["id"]);
+  EXPECT_EQ(json::parse(results_json(read)), older) << "nothing is invented when it is written again";
+}
+
+TEST(ResultsJson, SharesThatWereCountedByOtherRulesAreNotComparable) {
+  json results = json::parse(results_json(small_result()));
+  results["protocol"]["coverage_rules"]["usable_position_mm"] = 12;
+  renew_protocol_id(results["protocol"]);
+  try {
+    parse_results(results.dump(), "results.json");
+    FAIL() << "other rules were read";
+  } catch (const Incomparable& error) {
+    EXPECT_STREQ(error.what(), "results.json: protocol.coverage_rules.usable_position_mm: found 12, expected 10");
+  }
+  EXPECT_THAT(error_of_change([](json& r) { r["protocol"]["coverage_rules"]["mood"] = 1; }),
+              HasSubstr("coverage_rules.mood: found 1, expected a rule that this program knows"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["coverage"]["usable"] = 2; }),
+              HasSubstr("coverage: found an object, expected the counts of the frames"));
+}
+
+TEST(ResultsJson, FingertipsHaveTheirOwnCurve) {
+  const json results = json::parse(results_json(small_result()));
+  EXPECT_EQ(results["experiments"][0]["fingertip_pck"]["shares"].size(), 51u);
+  EXPECT_FALSE(results["experiments"][1].contains("fingertip_pck"));
+  EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["fingertip_pck"]["shares"].erase(3); }),
+              HasSubstr("fingertip_pck.shares: found an array of 50, expected one for each threshold"));
+}
+
 TEST(ResultsJson, ColumnsAndAggregatesAreThoseOfTheProtocol) {
   EXPECT_THAT(error_of_change([](json& r) { std::swap(r["frame_columns"][9], r["frame_columns"][10]); }),
               HasSubstr("frame_columns: found an array"));

@@ -12,7 +12,7 @@ namespace {
 
 TEST(Results, LostFramesStayInTheDenominator) {
   const ExperimentResult experiment = small_result().experiments[0];
-  EXPECT_EQ(experiment.coverage, (Coverage{4, 3, 1, 0, 1}));
+  EXPECT_EQ(experiment.coverage, (Coverage{4, 3, 1, 0, 1, 4, 3, 3}));
   EXPECT_DOUBLE_EQ(*experiment.coverage.share(), 0.75);
 }
 
@@ -36,7 +36,7 @@ TEST(Results, AggregatesAreOverTheFramesThatHaveAValue) {
 TEST(Results, OnlyLostFramesOrNoneHaveNoErrors) {
   const RunResult result = small_result();
   const ExperimentResult& lost = result.experiments[1];
-  EXPECT_EQ(lost.coverage, (Coverage{2, 0, 2, 0, 2}));
+  EXPECT_EQ(lost.coverage, (Coverage{2, 0, 2, 0, 2, 2, 0, 0}));
   EXPECT_EQ(lost.coverage.share(), 0.0);
   EXPECT_EQ(lost.aggregate_of("position_error_mm").mean, std::nullopt);
   const ExperimentResult& empty = result.experiments[2];
@@ -45,7 +45,7 @@ TEST(Results, OnlyLostFramesOrNoneHaveNoErrors) {
 }
 
 TEST(Results, FalseTrackedFramesAreNotCovered) {
-  EXPECT_EQ(small_result().experiments[3].coverage, (Coverage{1, 0, 0, 1, 0}));
+  EXPECT_EQ(small_result().experiments[3].coverage, (Coverage{1, 0, 0, 1, 0, 1, 0, 0}));
 }
 
 TEST(Results, KeysNameExperimentsApart) {
@@ -69,6 +69,7 @@ TEST(Results, HeadlineNoiseIsThePapersWhereThatWasRun) {
 TEST(Results, ProtocolIdOfTheFirstMetricsStays) {
   Protocol protocol = make_protocol("by time stamp, exact");
   protocol.metric_keys.resize(14);
+  protocol.coverage_rules.clear();
   EXPECT_EQ(protocol.id(), "59e61f1861e6abcb27e87148dcac07cb") << "the id of the baselines";
 }
 
@@ -83,6 +84,11 @@ TEST(Results, ProtocolIdChangesWithWhateverItCovers) {
   std::swap(other.joint_order[3], other.joint_order[4]);
   EXPECT_NE(other.id(), protocol.id());
   EXPECT_NE(make_protocol("nearest").id(), protocol.id());
+  for (const auto& [rule, value] : protocol.coverage_rules) {
+    other = protocol;
+    other.coverage_rules[rule] += 1;
+    EXPECT_NE(other.id(), protocol.id()) << rule;
+  }
 }
 
 }  // namespace

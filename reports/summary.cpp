@@ -47,6 +47,10 @@ void join_names(Table& table) {
   table.name_columns = 1;
 }
 
+std::optional<double> fingertip_area(const ExperimentResult& experiment) {
+  return experiment.fingertip_pck ? experiment.fingertip_pck->area : std::nullopt;
+}
+
 std::string truth_cell(const ExperimentKey& key) {
   const std::string truth(to_string(key.truth));
   if (key.subject == 1) return truth;
@@ -69,8 +73,8 @@ Table detail_summary(const RunResult& result) {
   std::vector<std::string> headings = {"position mm [95%]"};
   for (const Metric& metric : frame_metrics())
     if (!metric.heading.empty()) headings.emplace_back(metric.heading);
-  for (const char* heading :
-       {"PCK area", "jitter mm", "jitter deg", "latency frames", "lost", "false tracked", "false lost", "frames"})
+  for (const char* heading : {"PCK area", "fingertip AUC", "jitter mm", "jitter deg", "latency frames",
+                              "coverage %", "lost", "false tracked", "false lost", "frames", "visible frames"})
     headings.emplace_back(heading);
   Table table = experiment_table(headings);
   for (const ExperimentResult& experiment : result.experiments) {
@@ -80,34 +84,40 @@ Table detail_summary(const RunResult& result) {
     for (const Metric& metric : frame_metrics())
       if (!metric.heading.empty()) row.push_back(fixed(experiment.aggregate_of(metric.key).mean, 2));
     row.insert(row.end(),
-               {fixed(experiment.pck.area, 3), fixed(experiment.sequence.jitter_position_mm, 2),
-                fixed(experiment.sequence.jitter_rotation_deg, 2), fixed(experiment.sequence.latency_frames, 1),
-                coverage.lost, coverage.false_tracked, coverage.false_lost, coverage.frames});
+               {fixed(experiment.pck.area, 3), fixed(fingertip_area(experiment), 3),
+                fixed(experiment.sequence.jitter_position_mm, 2), fixed(experiment.sequence.jitter_rotation_deg, 2),
+                fixed(experiment.sequence.latency_frames, 1), fixed(covered_percent(experiment), 1), coverage.lost,
+                coverage.false_tracked, coverage.false_lost, coverage.frames, coverage.visible});
   }
   return table;
 }
 
 Table headline_table(const RunResult& result) {
-  Table table = experiment_table({"position mm", "posture deg", "rotation deg", "fingertips mm", "coverage %"});
+  Table table = experiment_table(
+      {"position mm", "posture deg", "rotation deg", "fingertips mm", "vertices mm", "found %", "usable %"});
   for (const ExperimentResult& experiment : result.experiments) {
     Row& row = table.rows.emplace_back(experiment_names(experiment.key));
-    for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg", "fingertip_error_mm"})
+    for (const char* metric :
+         {"position_error_mm", "posture_rms_deg", "rotation_error_deg", "fingertip_error_mm", "vertex_error_mm"})
       row.push_back(fixed(experiment.aggregate_of(metric).mean, 2));
-    row.push_back(fixed(covered_percent(experiment), 1));
+    for (const auto& share : {experiment.coverage.found_share(), experiment.coverage.usable_share()})
+      row.push_back(share ? fixed(100 * *share, 1) : fixed(share, 1));
   }
   return table;
 }
 
 std::string headline_explanation() {
   return "Mean errors of the tracked frames: position, posture (RMS over the 22 joint angles), rotation, "
-         "fingertips. Coverage: of all frames, lost ones included, those tracked within 50 mm and 30 degrees.";
+         "fingertips, vertices. Of the frames in which at least 30% of the hand is visible, lost ones included: "
+         "found within 50 mm and 30 degrees; usable within 10 mm and 10 degrees, fingertips within 20 mm.";
 }
 
 std::string headline_text(const RunResult& result, size_t columns) {
   constexpr size_t kMostNames = 2;  // more make a line of their own above the numbers
   Table table = headline_table(result);
   const std::vector<std::string> common = remove_common_names(table);
-  const std::vector<std::string> short_headings = {"pos. mm", "post. deg", "rot. deg", "tips mm", "cov. %"};
+  const std::vector<std::string> short_headings = {"pos. mm",  "post. deg", "rot. deg", "tips mm",
+                                                   "vert. mm", "found %",   "usable %"};
   for (size_t c = 0; c < short_headings.size(); ++c)
     table.columns[static_cast<size_t>(table.name_columns) + c].heading = short_headings[c];
   const bool is_grouped = static_cast<size_t>(table.name_columns) > kMostNames;
@@ -159,7 +169,7 @@ std::string summary_markdown(const RunResult& result, const PaperNumbers& paper)
     text +=
         fmt::format("## Figure 4\n\n{} Noise: {} x {}.\n\n{}\nThe paper: {}.\n\n", summary_explanation(),
                     noise.model, noise.factor, to_markdown(figure4_summary(result, paper, noise)), paper.source);
-  else if (!result.experiments.empty())
+  if (!result.experiments.empty())
     text +=
         fmt::format("## Mean errors\n\n{}\n\n{}\n", headline_explanation(), to_markdown(headline_table(result)));
   for (const StudyResult& study : result.studies) text += study_markdown(study);

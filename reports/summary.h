@@ -15,7 +15,7 @@ Row experiment_names(const ExperimentKey& key);
 /// Position error with interval, metrics without joint convention, jitter, latency, lost and false frames.
 Table detail_summary(const RunResult& result);
 
-/// Position, posture, rotation, fingertips and coverage of each experiment.
+/// Position, posture, rotation, fingertips, vertices, found and usable of each experiment.
 Table headline_table(const RunResult& result);
 /// What `headline_table` holds, in plain text.
 std::string headline_explanation();

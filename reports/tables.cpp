@@ -17,10 +17,11 @@ struct Headline {
   std::string_view metric;
   double PaperErrors::*paper;  ///< null: not in the paper
 };
-constexpr std::array<Headline, 4> kHeadlines = {{{"position_error_mm", &PaperErrors::position_mm},
+constexpr std::array<Headline, 5> kHeadlines = {{{"position_error_mm", &PaperErrors::position_mm},
                                                  {"posture_rms_deg", &PaperErrors::posture_deg},
                                                  {"rotation_error_deg", &PaperErrors::rotation_deg},
-                                                 {"fingertip_error_mm", nullptr}}};
+                                                 {"fingertip_error_mm", nullptr},
+                                                 {"vertex_error_mm", nullptr}}};
 /// The errors of Figure 4.
 constexpr auto kPaperHeadlines = std::span(kHeadlines).first<3>();
 
@@ -54,7 +55,8 @@ std::string table_line(std::string_view trajectory, std::string_view database,
 
 std::string means_heading(bool with_paper) {
   Json heading = experiment_columns();
-  for (const char* column : {"seeds", "frames", "coverage"}) heading.push_back(column);
+  for (const char* column : {"seeds", "frames", "coverage", "visible_frames", "found", "usable"})
+    heading.push_back(column);
   for (const Headline& headline : kHeadlines) {
     for (const char* part : {"mean", "interval_low", "interval_high"})
       heading.push_back(fmt::format("{}_{}", headline.metric, part));
@@ -69,7 +71,10 @@ std::string means_line(const std::string& run, const ExperimentResult& experimen
   Json cells = experiment_cells(run, experiment.key);
   cells.push_back(experiment.runs.size());
   cells.push_back(experiment.coverage.frames);
-  cells.push_back(rounded_or_null(experiment.coverage.share()));
+  const Coverage& coverage = experiment.coverage;
+  for (const auto& share : {coverage.share(), coverage.found_share(), coverage.usable_share()})
+    cells.push_back(rounded_or_null(share));
+  cells.insert(cells.end() - 2, coverage.visible);
   for (const Headline& headline : kHeadlines) {
     const auto& interval = experiment.interval_of(headline.metric);
     cells.push_back(rounded_or_null(experiment.aggregate_of(headline.metric).mean));

@@ -101,10 +101,12 @@ TEST(Errors, OfOnesOwnRunHaveNoNumbersOfThePaper) {
               HasSubstr(",wave_DB_open_power_recorded_subject1_gradient_1,wave,DB_open_power,recorded,1,"));
   const std::string summary = summary_markdown(own_result(), paper_numbers());
   EXPECT_THAT(summary, testing::AllOf(HasSubstr("## Mean errors"), testing::Not(HasSubstr("Figure 4"))));
-  EXPECT_THAT(summary,
-              HasSubstr("| wave | DB_open_power | recorded | gradient x 1 | 4.00 | 3.00 | 2.00 | 6.00 | 75.0 |"));
+  EXPECT_THAT(
+      summary,
+      HasSubstr(
+          "| wave | DB_open_power | recorded | gradient x 1 | 4.00 | 3.00 | 2.00 | 6.00 | 5.00 | 75.0 | 75.0 |"));
   EXPECT_THAT(summary, testing::Not(testing::AnyOf(HasSubstr("3.88"), HasSubstr("7.33"))));
-  EXPECT_THAT(errors_latex(own_result()), HasSubstr(": mean errors\n\\begin{tabular}{llllrrrrr}"));
+  EXPECT_THAT(errors_latex(own_result()), HasSubstr(": mean errors\n\\begin{tabular}{llllrrrrrrr}"));
 }
 
 TEST(HeadlineText, NamesWhatTheExperimentsShareAndFits80Columns) {
@@ -147,10 +149,11 @@ TEST(FramesCsv, LostFramesHaveEmptyCells) {
                                             "false,false,false,true,20,3.0,1.0,2.0,1.0,1.0,1.0,1.0,,1.0,3.75,"
                                             "4.5,3.75,1.0,1.0"));
   const auto metrics = std::ssize(frame_metrics());
+  const size_t visible = metric_index("visible_percent");
   EXPECT_EQ(
       lines[2],
       "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,1,66666,poor_match,false,false,true,false,false,0" +
-          std::string(static_cast<size_t>(metrics), ','));
+          std::string(visible + 1, ',') + "100.0" + std::string(static_cast<size_t>(metrics) - visible - 1, ','));
   for (const std::string& line : lines) EXPECT_EQ(std::ranges::count(line, ','), 11 + metrics) << line;
 }
 

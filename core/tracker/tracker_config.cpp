@@ -183,8 +183,11 @@ std::vector<std::string> TrackerConfig::problems() const {
 }
 
 TrackerConfig profile(const std::string& name) {
-  if (name == "paper") return {};
-  throw Error("profile", "name", name, one_of({"paper"}, name));
+  TrackerConfig config;
+  config.profile = name;
+  if (name == "paper-literal") config.smoothing.pose_keep = config.smoothing.posture_keep;
+  if (name == "paper" || name == "paper-literal") return config;
+  throw Error("profile", "name", name, one_of({"paper", "paper-literal"}, name));
 }
 
 TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const std::string& where) {

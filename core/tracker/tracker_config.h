@@ -62,7 +62,7 @@ struct TrackerConfig {
   std::vector<std::string> problems() const;
 };
 
-/// Throws: Error listing the known names.
+/// "paper", or "paper-literal", which filters the pose, too. Throws: Error listing these names.
 TrackerConfig profile(const std::string& name);
 /// Overrides fields of `base` by those of a JSON object.
 /// Throws: Error naming `where` and an unknown, mistyped or out-of-range key.

@@ -47,6 +47,16 @@ TEST(TrackerConfig, the_defaults_are_the_paper_profile_and_have_no_problems) {
   EXPECT_THAT([] { profile("fast"); }, ThrowsMessage<Error>(AllOf(HasSubstr("fast"), HasSubstr("paper"))));
 }
 
+TEST(TrackerConfig, the_literal_profile_filters_the_pose_like_the_posture) {
+  const TrackerConfig literal = profile("paper-literal");
+  EXPECT_EQ(literal.profile, "paper-literal");
+  EXPECT_EQ(literal.smoothing.pose_keep, 0.75);
+  json changed = to_json(literal);
+  changed["profile"] = "paper";
+  changed["smoothing"]["pose_keep"] = 0.0;
+  EXPECT_EQ(changed, to_json(profile("paper"))) << "and nothing else";
+}
+
 TEST(TrackerConfig, comes_back_from_json) {
   TrackerConfig config;
   config.volume.z_min = 0.123456789012345678;

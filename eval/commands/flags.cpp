@@ -30,7 +30,8 @@ Option CommonFlags::add_output(Command command, const std::string& what) {
 
 void CommonFlags::add_tracker(Command command) {
   command = command.group("Tracker");
-  command.option("--profile", profile, "named configuration of the tracker");
+  command.option("--profile", profile,
+                 "named configuration of the tracker: paper, or paper-literal, which filters the pose, too");
   command.option("--config", config_file,
                  "JSON file with the fields to change; `glovebench list config` shows all");
   command.option("--method", method, "how to track (`glovebench list methods`) [the configuration's]");

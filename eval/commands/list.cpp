@@ -42,7 +42,7 @@ void list_suites() {
 }
 
 void list_studies() {
-  for (const Study& study : studies()) fmt::print("{:<10} {}\n", study.name, study.title);
+  for (const Study& study : studies()) fmt::print("{:<14}{}\n", study.name, study.title);
 }
 
 template <typename Entry, std::span<const Entry> (*entries)()>

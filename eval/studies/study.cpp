@@ -56,6 +56,7 @@ const std::vector<Study>& studies() {
       {"fig9", "Figure 9: sub-sampling", run_figure9, 200},
       {"ablations", "What the paper asserts, one change at a time", run_ablations, 300},
       {"monocular", "Without depth", run_monocular, 100},
+      {"paper-literal", "Figure 4 with the pose filtered, too", run_paper_literal, 360, true},
   };
   return all;
 }

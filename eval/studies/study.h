@@ -31,6 +31,7 @@ struct Study {
   std::string_view title;  ///< "Figure 8: matching cascades"
   reports::StudyResult (*run)(const StudyContext& context);
   double cpu_s;  ///< of one seed, roughly
+  bool on_request = false;  ///< no part of a reproduction that names no parts
 };
 /// All studies in running order.
 const std::vector<Study>& studies();
@@ -92,6 +93,8 @@ reports::StudyResult run_figure8(const StudyContext& context);
 reports::StudyResult run_figure9(const StudyContext& context);
 reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
+/// Figure 4 with profiles paper and paper-literal side by side. Has no measures, so it decides no claim.
+reports::StudyResult run_paper_literal(const StudyContext& context);
 /// monocular.depth_error_cm is of the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);
 /// Tables "light" and "light_tracking" of the ablations, and measures light.*.

@@ -115,7 +115,8 @@ Pairing pair_experiments(const RunResult& baseline, const RunResult& candidate) 
 }
 
 bool has(const Protocol& protocol, const Metric& metric) {
-  return metric.is_share() || std::ranges::find(protocol.metric_keys, metric.key) != protocol.metric_keys.end();
+  const std::string_view column = metric.is_share() ? metric.of_column : metric.key;
+  return column.empty() || std::ranges::find(protocol.metric_keys, column) != protocol.metric_keys.end();
 }
 
 }  // namespace

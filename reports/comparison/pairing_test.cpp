@@ -75,6 +75,19 @@ TEST(Pairing, GatedMetricsThatBothHaveAreCompared) {
             (Why{{"rotation_error_deg", "not in the candidate"}}));
 }
 
+TEST(Pairing, ABaselineWithoutLevelsOfCoverageIsComparedInTheRest) {
+  NamedResult older = two_experiments("older");
+  older.result.protocol.coverage_rules.clear();
+  std::erase(older.result.protocol.metric_keys, "visible_percent");
+  const NamedResult newer = two_experiments("newer");
+  std::vector<const Metric*> shared;
+  for (const Metric& metric : gated_metrics())
+    if (metric.key != "unusable_percent") shared.push_back(&metric);
+  EXPECT_EQ(pair_results(older, newer).metrics, shared);
+  EXPECT_EQ(uncompared_metrics(older.result.protocol, newer.result.protocol),
+            (std::map<std::string, std::string>{{"unusable_percent", "not in the baseline"}}));
+}
+
 TEST(Pairing, OtherTruthsAndDatabasesAreRefused) {
   EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.truths["source/Tr4"] = "ee"; }),
             "out/new: inputs.truths.source/Tr4: found ee, expected ff");

@@ -3,7 +3,7 @@
 namespace glovebench::reports {
 namespace {
 
-std::optional<double> matching_error_px(const TrackResult& estimate) {
+std::optional<double> matching_error_px(const TrackResult& estimate, const FrameTruth&) {
   if (estimate.matches.empty()) return {};
   return estimate.matches[0].error;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/math.h"
+#include "reports/metrics/coverage.h"
 
 namespace glovebench::reports {
 namespace {
@@ -45,7 +47,7 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
   record.converged = estimate.converged;
   record.icp_iterations = estimate.icp_iterations;
   for (const Metric& metric : frame_metrics())
-    if (metric.of_any) record[metric.key] = metric.of_any(estimate);
+    if (metric.of_any) record[metric.key] = metric.of_any(estimate, truth);
   if (estimate.status != TrackStatus::tracked) {
     record.false_lost = truth.trackable;
     return errors;
@@ -54,7 +56,7 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
   for (const Metric& metric : frame_metrics())
     if (metric.of_tracked) record[metric.key] = metric.of_tracked(tracked);
   record.covered =
-      record["position_error_mm"] < kCoveredPosition_mm && record["rotation_error_deg"] < kCoveredRotation_deg;
+      record["position_error_mm"] < kFoundPosition_mm && record["rotation_error_deg"] < kFoundRotation_deg;
   record.false_tracked = !record.covered;
   errors.joint_errors_mm = std::move(tracked.joint_errors_mm);
   return errors;

@@ -10,9 +10,6 @@
 
 namespace glovebench::reports {
 
-/// A frame is covered below these errors.
-inline constexpr double kCoveredPosition_mm = 50;
-inline constexpr double kCoveredRotation_deg = 30;
 /// An angle is observed if at least this many pixels that it moves are visible.
 inline constexpr int kObservedPixels = 30;
 
@@ -21,7 +18,8 @@ struct FrameTruth {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
   JointPoses T_hand_joint;                        ///< of the rendered hand
   std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
-  bool trackable = false;  ///< enough glove in the working volume, none cut by the image border
+  bool trackable = false;                      ///< enough glove in the working volume, none cut by the image border
+  std::optional<double> visible_percent = {};  ///< see visibility.h; empty if nobody asked
 };
 
 /// What metrics are computed from; all finite.

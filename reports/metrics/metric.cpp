@@ -74,7 +74,9 @@ std::optional<size_t> find_frame_metric(std::string_view key) {
 
 std::optional<double> value_of(const Metric& metric, const FrameRecord& frame) {
   if (!metric.is_share()) return frame[metric.key];
-  return metric.of_record(frame) ? 100 : 0;
+  const std::optional<bool> answer = metric.of_record(frame);
+  if (!answer) return {};
+  return *answer ? 100 : 0;
 }
 
 }  // namespace glovebench::reports

@@ -11,10 +11,11 @@
 namespace glovebench::reports {
 
 struct FrameRecord;
+struct FrameTruth;
 struct MeasuredFrame;
 
-/// A number per frame; less is better. Exactly one of `of_tracked`, `of_any` and `of_record` is set.
-/// reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
+/// A number per frame; of those with a gate, less is better. Exactly one of `of_tracked`, `of_any` and `of_record`
+/// is set. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
 struct Metric {
   /// For changes of the mean, in the metric's unit.
   struct Gate {
@@ -33,8 +34,11 @@ struct Metric {
 
   std::optional<double> (*of_tracked)(const MeasuredFrame&) = nullptr;  ///< column; empty in lost frames
   bool is_partial = false;                                              ///< also empty in some tracked frames
-  std::optional<double> (*of_any)(const TrackResult&) = nullptr;        ///< column, also in lost frames
-  bool (*of_record)(const FrameRecord&) = nullptr;                      ///< share of all frames; no column
+  /// Column, also in lost frames.
+  std::optional<double> (*of_any)(const TrackResult&, const FrameTruth&) = nullptr;
+  /// Share of the frames that have an answer; no column.
+  std::optional<bool> (*of_record)(const FrameRecord&) = nullptr;
+  std::string_view of_column = {};  ///< of a share: the column without which no frame has an answer
 
   bool is_share() const { return of_record != nullptr; }
 };
@@ -54,7 +58,7 @@ size_t metric_index(std::string_view key);
 /// Empty for an unknown key, e.g. of another version.
 std::optional<size_t> find_frame_metric(std::string_view key);
 
-/// 100 or 0 for a share; empty if the frame has none.
+/// 100 or 0 for a share; empty if the frame has no value.
 std::optional<double> value_of(const Metric& metric, const FrameRecord& frame);
 
 }  // namespace glovebench::reports

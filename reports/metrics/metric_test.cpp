@@ -27,7 +27,7 @@ TEST(Metrics, EachSaysWhatItIs) {
 }
 
 TEST(Metrics, SharesAreNoColumns) {
-  EXPECT_EQ(frame_metrics().size() + 3, metrics().size());
+  EXPECT_EQ(frame_metrics().size() + 4, metrics().size());
   for (const Metric& metric : frame_metrics()) EXPECT_FALSE(metric.is_share()) << metric.key;
   EXPECT_EQ(FrameRecord().values.size(), frame_metrics().size());
 }

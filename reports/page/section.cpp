@@ -22,6 +22,10 @@ constexpr std::array<CurveError, 3> kCurveErrors = {
      {"posture", "posture_rms_deg", "Posture error (deg)", &PaperErrors::posture_deg},
      {"rotation", "rotation_error_deg", "Rotation error (deg)", &PaperErrors::rotation_deg}}};
 
+std::string headline_html(const RunResult& result) {
+  return "<p>" + escape_html(headline_explanation()) + "</p>\n" + to_html(headline_table(result));
+}
+
 Section figure4_section(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
   std::string html =
       "<p>Mean errors with their 95% intervals. Diamonds are the means that the paper prints; it shows "
@@ -30,7 +34,7 @@ Section figure4_section(const RunResult& result, const PaperNumbers& paper, cons
     html += chart_place(fmt::format("figure4-{}", error.name), fmt::format("{} as bars", error.label));
   html += data_note("figure4");
   html += "<p>" + escape_html(fmt::format("{} Noise: {} x {}.", summary_explanation(), noise.model, noise.factor)) +
-          "</p>\n" + to_html(figure4_summary(result, paper, noise));
+          "</p>\n" + to_html(figure4_summary(result, paper, noise)) + headline_html(result);
   return {"figure4", "Figure 4: mean errors", html};
 }
 
@@ -38,8 +42,7 @@ Section errors_section(const RunResult& result) {
   std::string html = "<p>Mean errors with their 95% intervals.</p>\n";
   for (const CurveError& error : kCurveErrors)
     html += chart_place(fmt::format("errors-{}", error.name), fmt::format("{} as bars", error.label));
-  html += data_note("errors") + "<p>" + escape_html(headline_explanation()) + "</p>\n" +
-          to_html(headline_table(result));
+  html += data_note("errors") + headline_html(result);
   return {"errors", "Mean errors", html};
 }
 

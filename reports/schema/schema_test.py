@@ -47,6 +47,8 @@ class SchemaTest(unittest.TestCase):
             "no whole frame": lambda r: frame(r).__delitem__(slice(8, None)),
             "share over one": lambda r: r["experiments"][0]["coverage"].update(share=1.5),
             "metric without a unit": lambda r: r["protocol"]["metric_keys"].append("error"),
+            "a rule of coverage left out": lambda r: r["protocol"]["coverage_rules"].pop("usable_fingertips_mm"),
+            "a share of usable frames over one": lambda r: r["experiments"][0]["coverage"].update(usable_share=1.5),
             "other columns": lambda r: r["frame_columns"].reverse(),
         }
         for name, change in changes.items():

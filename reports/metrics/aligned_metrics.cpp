@@ -1,0 +1,118 @@
+#include <Eigen/Geometry>
+
+#include "reports/metrics/measure_frame.h"
+
+namespace glovebench::reports {
+namespace {
+
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+constexpr int kMiddleMcpJoint = 11;
+
+/// The same points twice, in the camera's frame, m.
+struct PointPairs {
+  Matrix3Xd estimated, truth;
+};
+
+Matrix3Xd joints_in_camera(const Eigen::Isometry3d& T_camera_hand, const JointPoses& T_hand_joint) {
+  Matrix3Xd joints(3, kForearmJoint);
+  for (int j = 0; j < kForearmJoint; ++j) joints.col(j) = T_camera_hand * T_hand_joint[j].translation();
+  return joints;
+}
+
+Matrix3Xd vertices_in_camera(const Eigen::Isometry3d& T_camera_hand, const PosedHand& hand) {
+  Matrix3Xd vertices(3, hand.vertices.size());
+  for (size_t v = 0; v < hand.vertices.size(); ++v)
+    vertices.col(static_cast<Eigen::Index>(v)) = T_camera_hand * hand.vertices[v].cast<double>();
+  return vertices;
+}
+
+PointPairs joint_pairs(const MeasuredFrame& frame) {
+  return {joints_in_camera(frame.estimate.T_camera_hand, frame.estimated_hand.T_hand_joint),
+          joints_in_camera(frame.truth.T_camera_hand, frame.truth.T_hand_joint)};
+}
+
+PointPairs vertex_pairs(const MeasuredFrame& frame) {
+  return {vertices_in_camera(frame.estimate.T_camera_hand, frame.estimated_hand),
+          vertices_in_camera(frame.truth.T_camera_hand, frame.true_hand)};
+}
+
+double mean_distance_mm(const Matrix3Xd& a, const Matrix3Xd& b) {
+  return 1000 * (a - b).colwise().norm().mean();
+}
+
+/// After the estimate is scaled about its root and moved to the true root.
+double error_at_root_mm(const PointPairs& pairs, const Vector3d& root, const Vector3d& true_root, double scale) {
+  return mean_distance_mm((scale * (pairs.estimated.colwise() - root)).colwise() + true_root, pairs.truth);
+}
+
+/// After the similarity transform with the least squared distances (Umeyama 1991); it does not mirror.
+double error_after_procrustes_mm(const PointPairs& pairs) {
+  const Eigen::Matrix4d T = Eigen::umeyama(pairs.estimated, pairs.truth, true);
+  return mean_distance_mm((T.topLeftCorner<3, 3>() * pairs.estimated).colwise() + T.col(3).head<3>(), pairs.truth);
+}
+
+std::optional<double> mpjpe_root_mm(const MeasuredFrame& frame) {
+  const PointPairs joints = joint_pairs(frame);
+  return error_at_root_mm(joints, joints.estimated.col(kWristJoint), joints.truth.col(kWristJoint), 1);
+}
+
+std::optional<double> mpjpe_scaled_mm(const MeasuredFrame& frame) {
+  const PointPairs joints = joint_pairs(frame);
+  const Vector3d wrist = joints.estimated.col(kWristJoint), true_wrist = joints.truth.col(kWristJoint);
+  const double scale = (joints.truth.col(kMiddleMcpJoint) - true_wrist).norm() /
+                       (joints.estimated.col(kMiddleMcpJoint) - wrist).norm();
+  return error_at_root_mm(joints, wrist, true_wrist, scale);
+}
+
+/// Both poses are of the tracker's hand, whose palm is rigid, so scaling by a bone of the palm would change
+/// nothing.
+std::optional<double> mpvpe_root_mm(const MeasuredFrame& frame) {
+  const auto wrist = [](const Eigen::Isometry3d& T_camera_hand, const PosedHand& hand) -> Vector3d {
+    return T_camera_hand * hand.T_hand_joint[kWristJoint].translation();
+  };
+  return error_at_root_mm(vertex_pairs(frame), wrist(frame.estimate.T_camera_hand, frame.estimated_hand),
+                          wrist(frame.truth.T_camera_hand, frame.true_hand), 1);
+}
+
+}  // namespace
+
+std::vector<Metric> aligned_metrics() {
+  return {{.key = "mpjpe_root_mm",
+           .unit = "mm",
+           .description = "MPJPE, root-relative: joint_error_mm after the wrist is moved to the true wrist",
+           .heading = "MPJPE root mm",
+           .place = 1030,
+           .of_tracked = mpjpe_root_mm},
+          {.key = "mpjpe_scaled_mm",
+           .unit = "mm",
+           .description = "MPJPE, scaled: also after the bone from wrist to middle MCP has its true length",
+           .heading = "MPJPE scaled mm",
+           .place = 1040,
+           .of_tracked = mpjpe_scaled_mm},
+          {.key = "mpjpe_procrustes_mm",
+           .unit = "mm",
+           .description = "MPJPE, Procrustes: joint_error_mm after the best rotation, translation and scale",
+           .heading = "MPJPE Procrustes mm",
+           .place = 1050,
+           .of_tracked = [](const MeasuredFrame& frame) -> std::optional<double> {
+             return error_after_procrustes_mm(joint_pairs(frame));
+           }},
+          {.key = "mpvpe_root_mm",
+           .unit = "mm",
+           .description = "MPVPE, root-relative: vertex_error_mm after the wrist is moved to the true wrist",
+           .heading = "MPVPE root mm",
+           .place = 1060,
+           .of_tracked = mpvpe_root_mm},
+          {.key = "mpvpe_procrustes_mm",
+           .unit = "mm",
+           .description = "MPVPE, Procrustes: vertex_error_mm after the best rotation, translation and scale",
+           .heading = "MPVPE Procrustes mm",
+           .place = 1070,
+           .of_tracked = [](const MeasuredFrame& frame) -> std::optional<double> {
+             return error_after_procrustes_mm(vertex_pairs(frame));
+           }}};
+}
+
+}  // namespace glovebench::reports

@@ -1,0 +1,70 @@
+#include "reports/json_text.h"
+#include "reports/metrics/coverage.h"
+#include "reports/metrics/measure_frame.h"
+
+namespace glovebench::reports {
+
+std::map<std::string, double> coverage_rules() {
+  return {{"visible_percent", kVisible_percent},
+          {"volume_near_mm", kVolumeNear_mm},
+          {"volume_far_mm", kVolumeFar_mm},
+          {"found_position_mm", kFoundPosition_mm},
+          {"found_rotation_deg", kFoundRotation_deg},
+          {"usable_position_mm", kUsablePosition_mm},
+          {"usable_rotation_deg", kUsableRotation_deg},
+          {"usable_fingertips_mm", kUsableFingertips_mm}};
+}
+
+bool is_visible(const FrameRecord& frame) {
+  return rounded(frame["visible_percent"].value_or(0)) >= kVisible_percent;
+}
+
+bool is_usable(const FrameRecord& frame) {
+  const auto is_below = [&](std::string_view metric, double bound) {
+    return rounded(frame[metric].value_or(0)) < bound;
+  };
+  return frame.status == TrackStatus::tracked && is_below("position_error_mm", kUsablePosition_mm) &&
+         is_below("rotation_error_deg", kUsableRotation_deg) &&
+         is_below("fingertip_error_mm", kUsableFingertips_mm);
+}
+
+std::vector<Metric> coverage_metrics() {
+  using Frame = const FrameRecord&;
+  using Answer = std::optional<bool>;
+  // Tolerance 0, since two frames, the least effect, are more than any tolerance.
+  constexpr Metric::Gate kGate = {1, 0};
+  return {
+      {.key = "uncovered_percent",
+       .unit = "%",
+       .description = "frames that are lost, or 50 mm or 30 degrees off",
+       .place = 112,
+       .gate = kGate,
+       .of_record = [](Frame frame) -> Answer { return !frame.covered; }},
+      {.key = "false_tracked_percent",
+       .unit = "%",
+       .description = "tracked frames that are 50 mm or 30 degrees off",
+       .place = 114,
+       .gate = kGate,
+       .of_record = [](Frame frame) -> Answer { return frame.false_tracked; }},
+      {.key = "false_lost_percent",
+       .unit = "%",
+       .description = "lost frames in which the hand could be tracked",
+       .place = 116,
+       .gate = kGate,
+       .of_record = [](Frame frame) -> Answer { return frame.false_lost; }},
+      {.key = "unusable_percent",
+       .unit = "%",
+       .description = "visible frames that are lost, or 10 mm, 10 degrees or (fingertips) 20 mm off",
+       .place = 1010,
+       .gate = kGate,
+       .of_record = [](Frame frame) { return is_visible(frame) ? Answer(!is_usable(frame)) : Answer(); },
+       .of_column = "visible_percent"},
+      {.key = "visible_percent",
+       .unit = "%",
+       .description = "share of the glove's camera-facing area that is in both images and in the volume",
+       .place = 1020,
+       .of_any = [](const TrackResult&, const FrameTruth& truth) { return truth.visible_percent; }},
+  };
+}
+
+}  // namespace glovebench::reports
