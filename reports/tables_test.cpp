@@ -114,12 +114,13 @@ TEST(HeadlineText, NamesWhatTheExperimentsShareAndFits80Columns) {
   result.experiments.resize(1);
   EXPECT_EQ(headline_text(result, 80), R"(
 Mean errors of the tracked frames: position, posture (RMS over the 22 joint
-angles), rotation, fingertips. Coverage: of all frames, lost ones included,
-those tracked within 50 mm and 30 degrees.
+angles), rotation, fingertips, vertices. Of the frames in which at least 30% of
+the hand is visible, lost ones included: found within 50 mm and 30 degrees;
+usable within 10 mm and 10 degrees, fingertips within 20 mm.
 All: database DB_open_power, truth recorded, noise gradient x 1.
 
-trajectory  pos. mm  post. deg  rot. deg  tips mm  cov. %
-wave           4.00       3.00      2.00     6.00    75.0
+trajectory  pos. mm  post. deg  rot. deg  tips mm  vert. mm  found %  usable %
+wave           4.00       3.00      2.00     6.00      5.00     75.0      75.0
 )" + 1);
   for (const RunResult& each : {own_result(), full_result()})
     for (const std::string& line : lines_of_table(headline_text(each, 80))) EXPECT_LE(line.size(), 80u) << line;

@@ -65,10 +65,12 @@ TEST(AlignedMetrics, AHandOfAnotherSizeRemainsUnlessScalesAreAligned) {
 TEST(AlignedMetrics, ABentFingerRemainsInAll) {
   TrackResult estimate = make_estimate();
   estimate.posture[kIndexPipFlexion] += radians_from_degrees(40);
-  const FrameRecord record = measure_frame(0, estimate, aligned_truth(), aligned_hand()).record;
+  const FrameErrors errors = measure_frame(0, estimate, aligned_truth(), aligned_hand());
+  const FrameRecord& record = errors.record;
   EXPECT_NEAR(*record["mpjpe_root_mm"], *record["joint_error_mm"], kRoundingOfJoints_mm) << "the wrists are one";
   EXPECT_GT(*record["mpjpe_procrustes_mm"], 0.5);
-  EXPECT_LT(*record["mpjpe_procrustes_mm"], 2 * *record["joint_error_mm"]);
+  // It has the least squares, so its mean is below the root mean square without it, not below the mean.
+  EXPECT_LT(*record["mpjpe_procrustes_mm"], *rms(errors.joint_errors_mm));
   EXPECT_NEAR(*record["mpvpe_root_mm"], *record["vertex_error_mm"], kRoundingOfVertices_mm);
   EXPECT_GT(*record["mpvpe_procrustes_mm"], 0.1);
 }

@@ -47,7 +47,7 @@ struct Case {
   TrackStatus status = TrackStatus::tracked;
 };
 inline constexpr std::array<Case, 8> kCases = {
-    {{0.5, 0}, {1, 0.1}, {2, 0.2}, {4, 0}, {12, 0}, {1, 0.36}, {1, 0.6}, {1, 0, TrackStatus::poor_match}}};
+    {{0.5, 0}, {1, 0.1}, {2, 0.2}, {4, 0}, {12, 0}, {1, 0.34}, {1, 0.375}, {1, 0, TrackStatus::poor_match}}};
 
 inline TrackResult estimate_of(const FrameTruth& truth, const Case& c, RandomStream& random) {
   TrackResult estimate = make_estimate();
