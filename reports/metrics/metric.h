@@ -26,6 +26,7 @@ struct Metric {
   std::string_view key;   ///< in files, with unit: "_mm", "_deg", "_px", "_percent"
   std::string_view unit;  ///< for people: "mm", "deg", "px", "%"
   std::string_view description;
+  std::string_view formula = {};  ///< in plain text; primes mark the estimate
   std::string_view heading = {};  ///< in the table "More metrics"; empty: not there
   /// Order in files, then by key. Protocol ids depend on it: keep old places.
   int place = 1000;
@@ -37,6 +38,8 @@ struct Metric {
   bool (*of_record)(const FrameRecord&) = nullptr;                      ///< share of all frames; no column
 
   bool is_share() const { return of_record != nullptr; }
+  /// The frames whose mean is reported, and what becomes of lost ones.
+  std::string_view averaged_over() const;
 };
 
 /// By place.
