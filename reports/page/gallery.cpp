@@ -69,8 +69,8 @@ std::vector<WorstFrame> worst_frames(const RunResult& result, int count) {
   return chosen;
 }
 
-std::string explain_command(const WorstFrame& worst) {
-  return fmt::format("glovebench explain . {} --experiment {} --seed {}", worst.frame.frame,
+std::string explain_command(const WorstFrame& worst, const std::string& folder) {
+  return fmt::format("glovebench explain {} {} --experiment {} --seed {}", shell_quoted(folder), worst.frame.frame,
                      shell_quoted(to_string(worst.key)), worst.seed);
 }
 

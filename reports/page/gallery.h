@@ -19,8 +19,8 @@ struct WorstFrame {
 /// lost.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
-/// Shows every stage of the frame, from the run's folder.
-std::string explain_command(const WorstFrame& worst);
+/// Shows every stage of the frame of the run in `folder`.
+std::string explain_command(const WorstFrame& worst, const std::string& folder = ".");
 /// Experiment, frame, errors.
 std::string caption(const WorstFrame& worst);
 
