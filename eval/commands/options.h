@@ -27,6 +27,8 @@ class Option {
   Option existing_folder() const;
   /// For lists: exactly this many values.
   Option count(int values) const;
+  /// For lists: the option is repeated for each value, so it takes no word that follows.
+  Option repeated() const;
   /// For lists: commas also separate values.
   Option comma_separated() const;
   /// `other` must be declared before.
@@ -118,6 +120,7 @@ void add_import(Command program);
 void add_generate(Command program);
 void add_list(Command program);
 void add_compare(Command program);
+void add_table(Command program);
 void add_gate(Command program);
 void add_calibrate_cameras(Command calibrate);
 void add_calibrate_colors(Command calibrate);
