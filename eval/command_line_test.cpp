@@ -389,6 +389,14 @@ TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list", "angles"}).out, HasSubstr("little_dip_flexion"));
   const ProgramRun config = run_glovebench({"list", "config", "--cascade", "8:9"});
   EXPECT_EQ(json::parse(config.out).at("lookup").at("cascade"), "8:9");
+  EXPECT_THAT(run_glovebench({"list", "config", "--explain"}).out,
+              AllOf(HasSubstr("lookup.cascade = \"16:500,64:3\""), HasSubstr("[0.3, 10], unit m")));
+  EXPECT_THAT(run_glovebench({"list", "config", "--explain", "k"}).out,
+              AllOf(HasSubstr("lookup.cascade"), HasSubstr("section III-B"), Not(HasSubstr("volume.z_min_m"))));
+  EXPECT_THAT(run_glovebench({"list", "config", "Sub-Sampling"}).out, HasSubstr("icp.subsampling_factor"));
+  EXPECT_THAT(refusal({"list", "config", "mood"}), HasSubstr("found mood"));
+  EXPECT_THAT(run_glovebench({"list", "metrics"}).out,
+              AllOf(HasSubstr("position_error_mm, compared\n"), HasSubstr("lost ones are left out")));
   write_file(path("again.json"), config.out);
   EXPECT_EQ(run_glovebench({"list", "config", "--config", path("again.json")}).out, config.out);
 }

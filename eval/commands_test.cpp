@@ -153,11 +153,77 @@ TEST_F(CommandsLong, ExplainsAFrame) {
   EXPECT_THAT(refusal(explain("-1")), HasSubstr("0 to 3"));
   EXPECT_THAT(refusal(explain("2", {"--experiment", "other"})), HasSubstr("good_DB_open_power"));
   expect_fine(explain("2", {"--seed", "1"}));
+  expect_fine(explain("2", {"--experiment", "good_*_source_*"}));
+  EXPECT_THAT(refusal(explain("two")), HasSubstr("expected a number, worst or worst:METRIC"));
+  EXPECT_THAT(refusal(explain("worst:fingertip_eror_mm")), HasSubstr("did you mean fingertip_error_mm?"));
+  EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2", "--trajectory", "Tr4"})),
+              HasSubstr("none of Tr4"));
   EXPECT_THAT(refusal(explain("2", {"--seed", "7"})), HasSubstr("one of 1"));
   EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2", "--trajectory", path("left.json")})),
               HasSubstr("hash"))
       << "not the truth of that run";
   EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2"})), HasSubstr("--trajectory"));
+}
+
+TEST_F(CommandsLong, ExplainsTheWorstFrame) {
+  const json results = run_trajectory("good.json", "out");
+  const json& columns = results.at("frame_columns");
+  const auto column = std::ranges::find(columns, "fingertip_error_mm") - columns.begin();
+  const json& frames = results.at("experiments").at(0).at("runs").at(0).at("frames");
+  const auto worst =
+      std::ranges::max_element(frames, {}, [&](const json& row) { return row.at(column).get<double>(); });
+  const ProgramRun run =
+      run_glovebench({"explain", path("out"), "worst:fingertip_error_mm", "--trajectory", path("good.json")});
+  expect_fine(run);
+  const int number = worst->at(0);
+  EXPECT_THAT(run.out, HasSubstr(fmt::format("frame {}, seed 1, fingertip_error_mm {:.1f} in the run", number,
+                                             worst->at(column).get<double>())));
+  EXPECT_TRUE(
+      fs::exists(path(fmt::format("out/explain_good_DB_open_power_source_subject1_gradient_1_{}.png", number))));
+  expect_fine(run_glovebench({"explain", path("out"), "worst", "--trajectory", path("good.json")}));
+}
+
+TEST_F(CommandsLong, SettingsAreComparedInATable) {
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"run",           "--trajectory", path("good.json"), "--database",
+                                          "DB_open_power", "-o",           path("out")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  };
+  const ProgramRun several = run({"--cascade", "8:200,32:3", "--cascade", "16:500,64:1"});
+  expect_fine(several);
+  EXPECT_THAT(several.out, AllOf(HasSubstr("16-500_64-1"), HasSubstr("lookup.cascade"), HasSubstr("Recommended: "),
+                                 HasSubstr("Differences are from paper, the paper's")));
+  for (const std::string name : {"paper", "8-200_32-3", "16-500_64-1"}) {
+    const json timings = json::parse(read_file(path("out/" + name + "/timings.json")));
+    EXPECT_EQ(timings.at("threads"), 1);
+    EXPECT_EQ(timings.at("experiments").at(0).at("stages").at("look_up").at("count"), kFrames);
+  }
+  run_trajectory("good.json", "alone", {"--cascade", "8:200,32:3"});
+  EXPECT_EQ(read_file(path("out/8-200_32-3/results.json")), read_file(path("alone/results.json")))
+      << "as if it ran alone";
+
+  const std::vector<std::string> folders = {path("out/paper"), path("out/8-200_32-3/"), path("out/16-500_64-1")};
+  const auto table = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"table"};
+    arguments.insert(arguments.end(), folders.begin(), folders.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  };
+  const ProgramRun again = table({});
+  expect_fine(again);
+  EXPECT_THAT(several.out, StartsWith(again.out));
+  EXPECT_EQ(table({"--format", "csv"}).out, read_file(path("out/table.csv")));
+  EXPECT_EQ(table({"--format", "html"}).out, read_file(path("out/index.html")));
+  EXPECT_THAT(table({"--metrics", "joint_error_mm"}).err, HasSubstr("--metrics"));
+
+  EXPECT_THAT(refusal(run({"--cascade", "8:9", "--cascade", "8:8", "--method", "a", "--method", "b"})),
+              HasSubstr("--cascade: values: found several, as of --method, expected one"));
+  EXPECT_THAT(refusal(run({"--cascade", "8:9", "--cascade", "8:9"})), HasSubstr("found 8-9 twice"));
+  EXPECT_THAT(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
+                              path("alone"), "--cascade", "8:9", "--cascade", "8:8"})
+                  .err,
+              HasSubstr("which holds a run"));
 }
 
 TEST_F(CommandsLong, RendersPicturesAndLayers) {

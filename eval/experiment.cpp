@@ -143,17 +143,25 @@ Outcome carry_out(Workbench& workbench, const Plan& plan, const RobotOutput& rob
   const int threads = workbench.config().threads;
   RunStore store(folder);
   const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
+  const Outcome outcome = report_runs(workbench, plan, runs, {threads, start}, robot, folder,
+                                      [&](reports::RunResult& result) { add_studies(result, store); });
+  store.finish();
+  return outcome;
+}
+
+Outcome report_runs(Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const Timed& timed,
+                    const RobotOutput& robot, const std::string& folder,
+                    const std::function<void(reports::RunResult&)>& add_studies) {
   const std::vector<Experiment> experiments = experiments_of(runs);
-  Outcome outcome{results_of(plan, runs, workbench), timings_of(experiments, threads)};
+  Outcome outcome{results_of(plan, runs, workbench), timings_of(experiments, timed.threads)};
   add_commands(outcome.result, outcome.timings, runs, robot);
   if (auto families = family_table(runs)) outcome.result.studies.push_back(*std::move(families));
-  add_studies(outcome.result, store);
-  note_resources(outcome.timings, start);
+  add_studies(outcome.result);
+  note_resources(outcome.timings, timed.start);
   std::vector<reports::ExperimentEstimates> estimates;
   for (const Experiment& experiment : experiments) estimates.push_back(estimates_of(experiment));
   reports::write_report(folder, outcome.result, outcome.timings,
                         page_material(workbench, plan, outcome.result, estimates), estimates);
-  store.finish();
   return outcome;
 }
 

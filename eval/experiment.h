@@ -27,6 +27,18 @@ struct Outcome {
   reports::RunResult result;
   reports::Timings timings;
 };
+struct Timed {
+  int threads = 1;
+  std::chrono::steady_clock::time_point start;
+};
+/// Writes the report of runs that were executed and measured: adds robot commands, the table of families and what
+/// `add_studies` adds.
+/// Throws: Error for a folder that cannot be written.
+Outcome report_runs(
+    Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const Timed& timed,
+    const RobotOutput& robot, const std::string& folder,
+    const std::function<void(reports::RunResult&)>& add_studies = [](reports::RunResult&) {});
+
 /// Adds studies to the result of the experiments; `store` keeps what is finished.
 using AddStudies = std::function<void(reports::RunResult& result, RunStore& store)>;
 /// Executes and measures the plan's runs, adds robot commands and studies, and writes the report into `folder`.

@@ -28,6 +28,7 @@ void add_commands(glovebench::eval::Command program) {
   add_generate(program);
   add_list(program);
   add_compare(program);
+  add_table(program);
   add_gate(program);
   const Command calibrate = program.subcommand("calibrate", "Measure what the tracker or the gate must know.");
   add_calibrate_cameras(calibrate);

@@ -1,6 +1,7 @@
 #include "eval/pictures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -56,15 +57,6 @@ std::vector<reports::FrameSheet> make_sheets(Workbench& workbench, const Plan& p
   return sheets;
 }
 
-/// Adds the flags that a user's own trajectory or database needs.
-std::string complete_command(const reports::WorstFrame& worst) {
-  std::string command = explain_command(worst);
-  if (!find_truth(worst.key)) command += " --trajectory FILE_OF_THE_TRUTH";
-  const std::vector<std::string>& known = trajectories::posture_set_names();
-  if (std::ranges::find(known, worst.key.database) == known.end()) command += " --database FILE_OF_THE_DATABASE";
-  return command;
-}
-
 std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const Plan& plan,
                                                    const reports::RunResult& result) {
   std::vector<reports::Picture> pictures;
@@ -77,6 +69,7 @@ std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const P
 }
 
 constexpr int kMargin = 20;  // px around the hand
+constexpr int kCellWidth = 360, kCellHeight = 300, kPanelColumns = 4;
 
 struct OneFrame {
   DeviceFrame frame;
@@ -89,13 +82,44 @@ OneFrame take_frame(Workbench& workbench, RunSpec spec, int frame) {
   return {*taken, kinect.truth()};
 }
 
-/// Outlines the estimated hand on M.
+constexpr Rgb kTrueOutline = {255, 255, 255}, kEstimatedOutline = {255, 150, 40};
+
+LabelImage silhouette(LabelImage labels) {
+  for (uint8_t& label : labels) label = label > 0;
+  return labels;
+}
+
+/// Outlines the true and the estimated hand on M.
 ColorImage overlay(const HandModel& model, const TrackResult& result, const Eigen::Isometry3d& T_camera_hand,
-                   const FrameTrace& trace, const PinholeCamera& camera) {
+                   const FrameTrace& trace, const LabelImage& true_labels, const PinholeCamera& camera) {
   render::LabelRenderer renderer;
+  const ColorImage with_truth = render::overlay_outline(trace.mapped.color, silhouette(true_labels), kTrueOutline);
   return render::overlay_outline(
-      trace.mapped.color,
-      renderer.render_labels(model, model.pose(result.posture_unfiltered), camera, T_camera_hand));
+      with_truth,
+      silhouette(renderer.render_labels(model, model.pose(result.posture_unfiltered), camera, T_camera_hand)),
+      kEstimatedOutline);
+}
+
+/// What the outlines and E are, and the errors of a tracked frame.
+ColorImage legend(const std::optional<reports::FrameErrors>& errors) {
+  std::vector<render::TextLine> lines = {{"white: the true hand", kTrueOutline},
+                                         {"orange: the tracker's hand", kEstimatedOutline},
+                                         {""},
+                                         {"E: mean distance from a glove pixel of the tiny"},
+                                         {"image to the entry's nearest pixel of its color,"},
+                                         {"in pixels; 0 is equal (equation 2)"}};
+  if (!errors) return render::picture_of_text(lines, kCellWidth, kCellHeight);
+  const reports::FrameRecord& record = errors->record;
+  std::vector<std::string> tips;
+  for (const int tip : fingertip_joints()) tips.push_back(fmt::format("{:.0f}", errors->joint_errors_mm[tip]));
+  lines.insert(lines.end(), {{""},
+                             {"Errors of this frame alone, without the filter:"},
+                             {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
+                                          *record["rotation_error_deg"])},
+                             {fmt::format("posture {:.1f} deg (RMS of 22 angles)", *record["posture_rms_deg"])},
+                             {fmt::format("fingertips {:.1f} mm (thumb to little: {})",
+                                          *record["fingertip_error_mm"], fmt::join(tips, ", "))}});
+  return render::picture_of_text(lines, kCellWidth, kCellHeight);
 }
 
 std::string depth_title(const TrackResult& result) {
@@ -157,6 +181,14 @@ class TilePainter {
 
 }  // namespace
 
+std::string complete_command(const reports::WorstFrame& worst, const std::string& folder) {
+  std::string command = explain_command(worst, folder);
+  if (!find_truth(worst.key)) command += " --trajectory FILE_OF_THE_TRUTH";
+  const std::vector<std::string>& known = trajectories::posture_set_names();
+  if (std::ranges::find(known, worst.key.database) == known.end()) command += " --database FILE_OF_THE_DATABASE";
+  return command;
+}
+
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
   const int count = static_cast<int>(spec.trajectory->frames.size());
   if (frame < 0 || frame >= count) {
@@ -184,24 +216,26 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
                                   Database::view(match.entry), match.error),
                       render::picture_of_labels(database->labels(trace.tiny.width(), match.entry))});
   }
+  std::optional<reports::FrameErrors> errors;
   if (result.status == TrackStatus::tracked) {
     const HandModel& model = *workbench.model();
-    const reports::FrameErrors errors = reports::measure_frame(
+    errors = reports::measure_frame(
         frame, result,
         {spec.trajectory->frames[frame].posture, spec.trajectory->frames[frame].T_camera_hand,
          workbench.subject(spec.subject).joints(spec.trajectory->frames[frame].posture),
          reports::count_patches(taken.truth.patch)},
         model);
     const PinholeCamera& camera = workbench.calibration().ir;
-    panels.push_back(
-        {"coarse pose over M", cropped(overlay(model, result, result.T_camera_hand_coarse, trace, camera))});
-    panels.push_back({fmt::format("after ICP-T: {} iterations, {:.1f} mm, {:.1f} deg off", result.icp_iterations,
-                                  *errors.record["position_error_mm"], *errors.record["rotation_error_deg"]),
-                      cropped(overlay(model, result, result.T_camera_hand, trace, camera))});
+    panels.push_back({"coarse pose over M", cropped(overlay(model, result, result.T_camera_hand_coarse, trace,
+                                                            taken.truth.label, camera))});
+    panels.push_back({fmt::format("after ICP-T: {} iterations, {:.1f} mm off", result.icp_iterations,
+                                  *errors->record["position_error_mm"]),
+                      cropped(overlay(model, result, result.T_camera_hand, trace, taken.truth.label, camera))});
   } else {
     panels.push_back({"lost: " + std::string(to_string(result.status)), {}});
   }
-  return render::montage(panels, 4, 360, 300);
+  panels.push_back({"legend", legend(errors)});
+  return render::montage(panels, kPanelColumns, kCellWidth, kCellHeight);
 }
 
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,

@@ -16,7 +16,11 @@ namespace glovebench::eval {
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// All tracker stages of one frame, tracked alone and so without filter.
+/// The command that shows the frame of the run in `folder`, with the flags that a user's own trajectory or database
+/// needs.
+std::string complete_command(const reports::WorstFrame& worst, const std::string& folder = ".");
+
+/// All tracker stages of one frame, tracked alone, so without the filter; its errors against the truth.
 /// Throws: Error if the frame does not exist or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
 

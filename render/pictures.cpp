@@ -33,6 +33,12 @@ cv::Mat as_mat(const ColorImage& image) {
   return cv::Mat(image.height(), image.width(), CV_8UC3, const_cast<Rgb*>(image.data()));
 }
 
+/// In the colors of the sheet, which are RGB.
+void put_text(cv::Mat& sheet, const std::string& text, int x, int y, const Rgb& color) {
+  cv::putText(sheet, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.42, {1.0 * color[0], 1.0 * color[1], 1.0 * color[2]},
+              1, cv::LINE_AA);
+}
+
 ColorImage from_mat(const cv::Mat& mat) {
   ColorImage image(mat.cols, mat.rows);
   for (int v = 0; v < mat.rows; ++v) std::copy_n(mat.ptr<Rgb>(v), mat.cols, image.begin() + v * mat.cols);
@@ -67,11 +73,24 @@ ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far
 
 ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line) {
   check(color.width() == labels.width() && color.height() == labels.height(), "outline and image have one size");
-  ColorImage picture = color;
+  Image<uint8_t> border(labels.width(), labels.height());
   for (int v = 0; v + 1 < labels.height(); ++v) {
     for (int u = 0; u + 1 < labels.width(); ++u) {
       const uint8_t label = labels(u, v);
-      if (label != labels(u + 1, v) || label != labels(u, v + 1)) picture(u, v) = line;
+      border(u, v) = label != labels(u + 1, v) || label != labels(u, v + 1);
+    }
+  }
+  const auto is_beside_border = [&](int u, int v) {
+    return (u > 0 && border(u - 1, v)) || (v > 0 && border(u, v - 1)) ||
+           (u + 1 < border.width() && border(u + 1, v)) || (v + 1 < border.height() && border(u, v + 1));
+  };
+  ColorImage picture = color;
+  for (int v = 0; v < border.height(); ++v) {
+    for (int u = 0; u < border.width(); ++u) {
+      if (border(u, v))
+        picture(u, v) = line;
+      else if (is_beside_border(u, v))
+        picture(u, v) = {0, 0, 0};
     }
   }
   return picture;
@@ -140,8 +159,7 @@ ColorImage montage(const std::vector<Panel>& panels, int columns, int cell_width
   cv::Mat sheet(rows * step_y + kGap, columns * step_x + kGap, CV_8UC3, kBackground);
   for (size_t i = 0; i < panels.size(); ++i) {
     const int x = kGap + static_cast<int>(i) % columns * step_x, y = kGap + static_cast<int>(i) / columns * step_y;
-    cv::putText(sheet, panels[i].title, {x + 2, y + 14}, cv::FONT_HERSHEY_SIMPLEX, 0.42, {230, 230, 230}, 1,
-                cv::LINE_AA);
+    put_text(sheet, panels[i].title, x + 2, y + 14, {230, 230, 230});
     const ColorImage& image = panels[i].image;
     if (image.empty()) continue;
     const double scale = std::min(static_cast<double>(cell_width) / image.width(),
@@ -150,6 +168,13 @@ ColorImage montage(const std::vector<Panel>& panels, int columns, int cell_width
     cv::resize(as_mat(image), scaled, {}, scale, scale, cv::INTER_NEAREST);
     scaled.copyTo(sheet(cv::Rect(x, y + kTitleHeight, scaled.cols, scaled.rows)));
   }
+  return from_mat(sheet);
+}
+
+ColorImage picture_of_text(const std::vector<TextLine>& lines, int width, int height) {
+  cv::Mat sheet(height, width, CV_8UC3, kBackground);
+  for (size_t l = 0; l < lines.size(); ++l)
+    put_text(sheet, lines[l].text, 2, kTitleHeight * static_cast<int>(l + 1) - 6, lines[l].color);
   return from_mat(sheet);
 }
 

@@ -15,7 +15,7 @@ ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far
 /// `other` minus `depth`: blue at -`range` (m), white at 0, orange at +`range`; gray where one has no value, dark
 /// where both have none. Images have one size.
 ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage& other, double range);
-/// Draws the borders of labels. Images have one size.
+/// Draws the borders of labels, with a black edge, so that they show on every color. Images have one size.
 ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line = {255, 255, 255});
 struct Stroke {
   Eigen::Vector2d from_px, to_px;
@@ -38,7 +38,14 @@ struct Panel {
 /// Scales panels (nearest pixel) into rows of `columns` cells on dark gray.
 ColorImage montage(const std::vector<Panel>& panels, int columns, int cell_width, int cell_height);
 
-/// The whole image without labels.
+struct TextLine {
+  std::string text;
+  Rgb color = {230, 230, 230};
+};
+/// One line below another, as large as the titles of a montage.
+ColorImage picture_of_text(const std::vector<TextLine>& lines, int width, int height);
+
+/// The whole image if nothing is labeled.
 ColorImage crop_to_labels(const ColorImage& image, const LabelImage& labels, int margin);
 
 }  // namespace glovebench::render

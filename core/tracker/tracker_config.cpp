@@ -10,6 +10,7 @@
 #include "core/base/json_cursor.h"
 #include "core/base/registry.h"
 #include "core/base/text.h"
+#include "core/tracker/config_meanings.h"
 
 namespace glovebench {
 namespace {
@@ -150,6 +151,34 @@ void check_range(const std::string& field, const Cascade& value, const Range&, s
   }
 }
 
+std::string range_text(double, const Range& range) {
+  return range.text();
+}
+std::string range_text(int, const Range& range) {
+  return range.text();
+}
+std::string range_text(bool, const Range&) {
+  return "true or false";
+}
+template <Named Enum>
+std::string range_text(Enum, const Range&) {
+  return known_names<Enum>();
+}
+std::string range_text(const std::string&, const Names& names) {
+  return fmt::format("one of {}", fmt::join(names.known, ", "));
+}
+std::string range_text(const Cascade&, const Range&) {
+  return "SIZE:KEEP, ... with sizes of 8 to 64 that rise and numbers kept that fall, or exact:KEEP";
+}
+
+/// By the end of a key: "view_distance_m".
+std::string unit_of(std::string_view key) {
+  const std::string_view end = key.substr(key.rfind('_') + 1);
+  for (const std::string_view unit : {"m", "deg", "px", "share", "frames", "pixels", "points", "iterations"})
+    if (end == unit) return std::string(unit);
+  return "";
+}
+
 /// Every key must be one that the fields name.
 void refuse_unknown_keys(const JsonCursor& root) {
   std::vector<std::string_view> top = {"profile", "method"};
@@ -208,6 +237,19 @@ TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const s
   const std::vector<std::string> problems = config.problems();
   if (!problems.empty()) throw Error(fmt::format("{}: {}", where, fmt::join(problems, "; ")));
   return config;
+}
+
+std::vector<ConfigField> config_fields() {
+  const TrackerConfig paper;
+  std::vector<ConfigField> fields = {
+      {config_meaning("profile"), "", "paper", "\"paper\""},
+      {config_meaning("method"), "", fmt::format("one of {}", fmt::join(method_names(), ", ")),
+       json(paper.method).dump()}};
+  visit_fields(paper, [&](const char* section, const char* key, const auto& value, const auto& range) {
+    fields.push_back({config_meaning(fmt::format("{}.{}", section, key)), unit_of(key), range_text(value, range),
+                      written(value).dump()});
+  });
+  return fields;
 }
 
 json to_json(const TrackerConfig& config) {

@@ -69,4 +69,19 @@ TrackerConfig profile(const std::string& name);
 TrackerConfig config_from_json(const nlohmann::json& json, const TrackerConfig& base, const std::string& where);
 nlohmann::json to_json(const TrackerConfig& config);
 
+/// What a field of the configuration is.
+struct ConfigMeaning {
+  std::string_view field;  ///< "icp.max_points"
+  std::string_view meaning;
+  std::string_view paper;  ///< its words and section; empty: not in the paper
+};
+struct ConfigField {
+  ConfigMeaning what;
+  std::string unit;    ///< empty: none
+  std::string range;   ///< in words
+  std::string preset;  ///< JSON
+};
+/// All fields, in the order of the tracker's stages.
+std::vector<ConfigField> config_fields();
+
 }  // namespace glovebench

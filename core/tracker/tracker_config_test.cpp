@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/tracker/config_meanings.h"
 
 namespace glovebench {
 namespace {
@@ -196,6 +197,26 @@ TEST(TrackerConfig, each_number_has_a_range) {
   expect_refused({{"icp", {{"max_points", 2}}}}, {"icp.max_points", "[3, 307200]"});
   expect_refused({{"volume", {{"z_min_m", 0}}}}, {"volume.z_min_m", "above 0"});
   expect_refused({{"detection", {{"second_hand_share", 1.01}}}}, {"detection.second_hand_share", "(0, 1]"});
+}
+
+TEST(TrackerConfig, each_field_says_what_it_is) {
+  const std::vector<ConfigField> fields = config_fields();
+  EXPECT_EQ(fields.size(), config_meanings().size()) << "a meaning for no field";
+  json written;
+  for (const ConfigField& field : fields) {
+    EXPECT_FALSE(field.what.meaning.empty() || field.range.empty()) << field.what.field;
+    std::string pointer = "/" + std::string(field.what.field);
+    std::ranges::replace(pointer, '.', '/');
+    written[json::json_pointer(pointer)] = json::parse(field.preset);
+  }
+  EXPECT_EQ(written, to_json(TrackerConfig{}));
+  const auto cascade =
+      std::ranges::find(fields, "lookup.cascade", [](const ConfigField& f) { return f.what.field; });
+  EXPECT_THAT(cascade->what.paper, HasSubstr("k nearest neighbor"));
+  const auto distance =
+      std::ranges::find(fields, "database.view_distance_m", [](const ConfigField& f) { return f.what.field; });
+  EXPECT_EQ(distance->unit, "m");
+  EXPECT_EQ(distance->range, "[0.3, 10]");
 }
 
 TEST(TrackerConfig, lists_all_problems_at_once) {

@@ -1,4 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
+#include <charconv>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -16,21 +20,24 @@ namespace {
 using reports::ExperimentResult;
 using trajectories::Trajectory;
 
+/// Larger is worse, whatever is wrong: posture and pose together.
+constexpr const char* kWorstBy = "vertex_error_mm";
+
 struct Explain {
   CommonFlags common;
   std::string run_folder;
-  int frame = 0;
-  std::string experiment_name;
-  std::string trajectory_file;
+  std::string frame;  ///< number, "worst" or "worst:METRIC"
+  std::string experiment_pattern;
+  std::string trajectory;  ///< name or file
   std::string database_file;
   std::optional<uint64_t> seed;
 
   void run() {
     const std::string results_path = run_folder + "/results.json";
     const reports::RunResult results = load_finished_run(run_folder).results.result;
-    const ExperimentResult& experiment = find(results, results_path);
-    const auto truth = std::make_shared<const Trajectory>(load_truth(experiment.key));
-    check_truth(results, experiment.key, *truth, results_path);
+    const reports::WorstFrame chosen = chosen_frame(results, results_path);
+    const auto truth = std::make_shared<const Trajectory>(load_truth(chosen.key));
+    check_truth(results, chosen.key, *truth, results_path);
     common.left = truth->side == Side::left;
     common.config_json = results.configuration.at("tracker");
     common.calibration_json = results.configuration.value("calibration", nlohmann::json());
@@ -38,41 +45,93 @@ struct Explain {
     Workbench workbench = common.workbench();
     if (!database_file.empty()) workbench.add_database(database_file);
     const RunSpec spec{.trajectory = truth,
-                       .subject = experiment.key.subject,
-                       .noise = experiment.key.noise,
-                       .seed = seed_of(experiment, results_path),
-                       .database = experiment.key.database,
+                       .subject = chosen.key.subject,
+                       .noise = chosen.key.noise,
+                       .seed = chosen.seed,
+                       .database = chosen.key.database,
                        .tracker = common.tracker_config()};
-    check_database(results, experiment.key, *workbench.database(experiment.key.database), results_path);
+    check_database(results, chosen.key, *workbench.database(chosen.key.database), results_path);
+    const int number = chosen.frame.frame;
     const std::string path = common.output.empty()
-                                 ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(experiment.key), frame)
+                                 ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(chosen.key), number)
                                  : common.output;
-    render::write_png(path, explain_frame(workbench, spec, frame));
-    if (!common.quiet) fmt::print("{}\n", path);
+    render::write_png(path, explain_frame(workbench, spec, number));
+    if (common.quiet) return;
+    if (!chosen.metric.empty())
+      fmt::print("{}: frame {}, seed {}, {} {:.1f} in the run\n", to_string(chosen.key), number, chosen.seed,
+                 chosen.metric, *chosen.frame[chosen.metric]);
+    fmt::print("{}\n", path);
   }
 
-  const ExperimentResult& find(const reports::RunResult& results, const std::string& path) const {
+  /// A numbered frame is of the first experiment and seed that were asked for; its record is empty.
+  reports::WorstFrame chosen_frame(const reports::RunResult& results, const std::string& path) const {
+    const std::vector<const ExperimentResult*> experiments = find(results, path);
+    if (frame == "worst") return worst(experiments, kWorstBy, path);
+    const std::string prefix = "worst:";
+    if (frame.starts_with(prefix)) return worst(experiments, checked_metric(frame.substr(prefix.size())), path);
+    reports::FrameRecord record;
+    const auto read = std::from_chars(frame.data(), frame.data() + frame.size(), record.frame);
+    if (read.ec != std::errc() || read.ptr != frame.data() + frame.size())
+      throw Error("explain", "frame", quoted_excerpt(frame), "a number, worst or worst:METRIC");
+    return {experiments.front()->key, seeds_of(*experiments.front(), path).front()->seed, record, ""};
+  }
+
+  static std::string checked_metric(const std::string& metric) {
+    if (!reports::find_frame_metric(metric))
+      throw Error("explain", "metric", quoted_excerpt(metric), one_of(reports::frame_metric_keys(), metric));
+    return metric;
+  }
+
+  /// The frame with the largest value; lost frames have none.
+  reports::WorstFrame worst(const std::vector<const ExperimentResult*>& experiments, const std::string& metric,
+                            const std::string& path) const {
+    std::optional<reports::WorstFrame> worst;
+    for (const ExperimentResult* experiment : experiments)
+      for (const reports::SeedRun* run : seeds_of(*experiment, path))
+        for (const reports::FrameRecord& record : run->frames)
+          if (record[metric] && (!worst || *record[metric] > *worst->frame[metric]))
+            worst = {experiment->key, run->seed, record, metric};
+    if (!worst) throw Error(path, metric, "no frame with a value", "one or more");
+    return *worst;
+  }
+
+  /// Experiments that match the pattern and are of the trajectory. If none is of a file's, all that match, so that
+  /// its hash is the one thing to complain about. There is at least one.
+  std::vector<const ExperimentResult*> find(const reports::RunResult& results, const std::string& path) const {
     std::vector<std::string> names;
+    std::vector<const ExperimentResult*> matching, of_trajectory;
+    const bool is_file = trajectories::is_trajectory_file(trajectory);
+    const std::string name = is_file ? trajectories::load_trajectory(trajectory).name : trajectory;
     for (const ExperimentResult& experiment : results.experiments) {
       names.push_back(to_string(experiment.key));
-      if (experiment_name.empty() || experiment_name == names.back()) return experiment;
+      const bool matches =
+          experiment_pattern.empty() || fnmatch(experiment_pattern.c_str(), names.back().c_str(), 0) == 0;
+      if (!matches) continue;
+      matching.push_back(&experiment);
+      if (experiment.key.trajectory == name) of_trajectory.push_back(&experiment);
     }
-    throw Error(path, "experiment", experiment_name.empty() ? "none" : experiment_name,
-                one_of(names, experiment_name));
+    if (matching.empty())
+      throw Error(path, "experiment", experiment_pattern.empty() ? "none" : experiment_pattern,
+                  one_of(names, experiment_pattern));
+    if (!of_trajectory.empty()) return of_trajectory;
+    if (name.empty() || is_file) return matching;
+    throw Error(path, "experiment", fmt::format("none of {}", name), one_of(names, name));
   }
 
-  uint64_t seed_of(const ExperimentResult& experiment, const std::string& path) const {
+  std::vector<const reports::SeedRun*> seeds_of(const ExperimentResult& experiment, const std::string& path) const {
     std::vector<uint64_t> seeds;
+    std::vector<const reports::SeedRun*> runs;
     for (const reports::SeedRun& run : experiment.runs) {
       seeds.push_back(run.seed);
-      if (!seed || *seed == run.seed) return run.seed;
+      if (!seed || *seed == run.seed) runs.push_back(&run);
     }
+    if (!runs.empty()) return runs;
     throw Error(path, "noise seed", seed ? std::to_string(*seed) : "none",
                 fmt::format("one of {}", fmt::join(seeds, ", ")));
   }
 
   Trajectory load_truth(const reports::ExperimentKey& key) const {
-    if (!trajectory_file.empty()) return trajectories::load_trajectory(trajectory_file);
+    if (trajectories::is_trajectory_file(trajectory)) return trajectories::load_trajectory(trajectory);
     if (const auto truth = find_truth(key)) return *truth;
     throw Error("--trajectory", "file", "none",
                 "the one of " + key.trajectory + ", which the run was given as a file");
@@ -103,11 +162,18 @@ void add_explain(Command program) {
       "explain", "Show every stage of one frame of a run as a picture: images, labels, matches, alignment.");
   const auto state = std::make_shared<Explain>();
   command.option("run", state->run_folder, "folder of a report").required().existing_folder();
-  command.option("frame", state->frame, "number of the frame, from 0").required();
-  command.option("--experiment", state->experiment_name,
-                 "e.g. Tr4_DB_open_power_recorded_subject1_gradient_1 [the first of the run]");
-  command.option("--trajectory", state->trajectory_file, "file of the truth, if it is none of Tr1..Tr5")
-      .existing_file();
+  command
+      .option(
+          "frame", state->frame,
+          fmt::format("its number from 0, or worst (by {}), or worst:METRIC (`glovebench list metrics`)", kWorstBy))
+      .required();
+  command.option(
+      "--experiment", state->experiment_pattern,
+      "e.g. Tr4_DB_open_power_recorded_subject1_gradient_1 or 'Tr4_*' (shell wildcards); for worst, in all "
+      "of them [a number: the first of the run]");
+  command.option(
+      "--trajectory", state->trajectory,
+      "of the experiment: a name (Tr4; side_3 of a family), or the file that the run was given (*.json)");
   command.option("--database", state->database_file, "file of the database, if it is none of the program's")
       .existing_file();
   command.option("--seed", state->seed, "noise seed of the experiment [its first]");

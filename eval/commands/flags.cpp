@@ -28,17 +28,6 @@ Option CommonFlags::add_output(Command command, const std::string& what) {
   return command.option("-o,--output", output, what).named_file();
 }
 
-void CommonFlags::add_tracker(Command command) {
-  command = command.group("Tracker");
-  command.option("--profile", profile,
-                 "named configuration of the tracker: paper, or paper-literal, which filters the pose, too");
-  command.option("--config", config_file,
-                 "JSON file with the fields to change; `glovebench list config` shows all");
-  command.option("--method", method, "how to track (`glovebench list methods`) [the configuration's]");
-  command.option("--cascade", cascade,
-                 "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3, or exact:KEEP");
-}
-
 void CommonFlags::add_hand(Command command) {
   command.option(
       "--hand", hand,

@@ -10,6 +10,7 @@
 #include "eval/command_measurement.h"
 #include "eval/commands/options.h"
 #include "eval/workbench.h"
+#include "reports/comparison/comparison.h"
 
 namespace glovebench::eval {
 
@@ -53,6 +54,36 @@ struct CommonFlags {
   /// Makes the folder.
   /// Throws: Error if it cannot be written.
   void check_output_folder() const;
+};
+
+/// A configuration of the tracker with the name of its row and folder.
+struct NamedTracker {
+  std::string name;
+  TrackerConfig tracker;
+};
+
+/// The tracker's flags of a command that compares: one of them may be repeated.
+struct TrackerChoices {
+  std::vector<std::string> profiles, configs, methods, cascades;
+
+  void add(Command command);
+  /// Sets the flags of `common` to the first values.
+  /// Throws: Error if two flags have several values.
+  void choose(CommonFlags& common) const;
+  bool are_several() const;
+  /// A configuration for each value of the repeated flag, after the paper's if it is none of them. The other flags
+  /// are those of `common`.
+  /// Throws: Error for a bad value, equal names, or other views of the databases.
+  std::vector<NamedTracker> trackers(const CommonFlags& common) const;
+};
+
+/// How runs are compared.
+struct ComparisonFlags {
+  std::vector<std::string> metrics;  ///< empty: those that the command takes by itself
+  double confidence = 0.99;
+
+  void add(Command command, const std::string& default_metrics);
+  reports::CompareConfig config() const;
 };
 
 struct MountingFlag {

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include <nlohmann/json.hpp>
 
+#include "core/base/error.h"
 #include "core/hand/hand_model.h"
 #include "core/methods/method.h"
 #include "core/robot/command_limits.h"
@@ -14,7 +18,8 @@
 #include "eval/terminal.h"
 #include "render/noise/noise_model.h"
 #include "render/subjects/subject.h"
-#include "reports/metrics/metric.h"
+#include "reports/metrics/glossary.h"
+#include "reports/text.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/generation/families/movement_family.h"
@@ -56,8 +61,7 @@ void list_formats() {
 }
 
 void list_metrics() {
-  for (const reports::Metric& metric : reports::metrics())
-    fmt::print("{:<36}{:<11}{}\n", metric.key, metric.gate ? "compared" : "", metric.description);
+  fmt::print("{}", reports::glossary_text(terminal_columns()));
 }
 
 void list_subjects() {
@@ -78,6 +82,50 @@ void list_angles() {
 void list_mapping(ShadowCoupling coupling) {
   fmt::print("{}", mapping_table(HandModel::load(hand_mesh_path()).skeleton(), trajectory_folder(), coupling));
 }
+
+/// Whether `word` stands in the text, in any case, with no letter or digit beside it.
+bool has_word(std::string text, std::string word) {
+  const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
+  std::ranges::transform(text, text.begin(), lower);
+  std::ranges::transform(word, word.begin(), lower);
+  const auto is_apart = [&](size_t at) {
+    return at >= text.size() || !std::isalnum(static_cast<unsigned char>(text[at]));
+  };
+  for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    if ((at == 0 || is_apart(at - 1)) && is_apart(at + word.size())) return true;
+  return false;
+}
+
+/// The fields that name `word`, or all.
+std::string explained_config(const std::string& word) {
+  constexpr size_t kIndent = 4;
+  const size_t columns = terminal_columns();
+  std::string all;
+  for (const ConfigField& field : config_fields()) {
+    std::string text = fmt::format("{} = {}\n", field.what.field, field.preset);
+    const auto add = [&](const std::string& line) {
+      text += std::string(kIndent, ' ') + reports::wrapped(line, columns, kIndent);
+    };
+    add(std::string(field.what.meaning));
+    add(fmt::format("{}{}{}", field.range, field.unit.empty() ? "" : ", unit ", field.unit));
+    add(field.what.paper.empty() ? "not in the paper" : fmt::format("paper: {}", field.what.paper));
+    if (word.empty() || has_word(text, word)) all += text;
+  }
+  if (all.empty())
+    throw Error("list config", "word", word, "one that a field's name, meaning or paper's words have");
+  return all;
+}
+
+struct ListConfig {
+  CommonFlags common;
+  bool explain = false;
+  std::string word;
+
+  void run() const {
+    if (explain || !word.empty()) return fmt::print("{}", explained_config(word));
+    fmt::print("{}\n", to_json(common.tracker_config()).dump(2));
+  }
+};
 
 }  // namespace
 
@@ -113,10 +161,13 @@ void add_list(Command program) {
   list.subcommand("limits", "What robot commands may do, as JSON, as --robot-limits takes it.").runs([] {
     fmt::print("{}\n", to_json(CommandLimits()).dump(2));
   });
-  const auto common = std::make_shared<CommonFlags>();
+  const auto shown = std::make_shared<ListConfig>();
   const Command config = list.subcommand("config", "The tracker's configuration as JSON, as --config takes it.");
-  common->add_tracker(config);
-  config.runs([common] { fmt::print("{}\n", to_json(common->tracker_config()).dump(2)); });
+  config.option("--explain", shown->explain,
+                "instead: each field's default, meaning, range, unit, place in the paper");
+  config.option("word", shown->word, "explain only the fields with this word, also of the paper: k, sub-sampling");
+  shown->common.add_tracker(config);
+  config.runs([shown] { shown->run(); });
   list.runs([list] { fmt::print("What can be listed:\n{}", commands_text(list.text(), terminal_columns())); });
 }
 

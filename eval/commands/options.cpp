@@ -192,6 +192,11 @@ Option Option::count(int values) const {
   return *this;
 }
 
+Option Option::repeated() const {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
 Option Option::comma_separated() const {
   option_->delimiter(',');
   return *this;

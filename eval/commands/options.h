@@ -27,6 +27,8 @@ class Option {
   Option existing_folder() const;
   /// A list of exactly this many values.
   Option count(int values) const;
+  /// A list whose option is repeated for each value, so it takes no word that follows.
+  Option repeated() const;
   /// A list that commas may separate, too.
   Option comma_separated() const;
   /// `other` is declared before.
@@ -118,6 +120,7 @@ void add_import(Command program);
 void add_generate(Command program);
 void add_list(Command program);
 void add_compare(Command program);
+void add_table(Command program);
 void add_gate(Command program);
 void add_calibrate_cameras(Command calibrate);
 void add_calibrate_colors(Command calibrate);

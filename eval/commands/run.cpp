@@ -6,8 +6,12 @@
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
 #include "eval/reproduction.h"
+#include "eval/settings_run.h"
+#include "eval/settings_table.h"
 #include "eval/suite.h"
 #include "eval/terminal.h"
+#include "reports/comparison/comparison_report.h"
+#include "reports/report.h"
 #include "reports/summary.h"
 #include "trajectories/formats/format.h"
 
@@ -18,7 +22,9 @@ struct RunCommand {
   explicit RunCommand(Command own_command) : command(own_command) {}
 
   const Command command;
+  const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   CommonFlags common;
+  TrackerChoices choices;
   std::string study_name;
   std::string suite_name;
   std::string filter;
@@ -35,6 +41,7 @@ struct RunCommand {
   RobotFlags robot;
 
   void run() {
+    choices.choose(common);
     if (!study_name.empty()) return run_study();
     const Suite suite = chosen_suite();
     common.left = side_of(suite) == Side::left;
@@ -43,34 +50,62 @@ struct RunCommand {
     std::set<std::shared_ptr<const trajectories::Trajectory>> movements;
     for (const RunSpec& spec : plan.specs)
       if (movements.insert(spec.trajectory).second) common.warn_of_units(*spec.trajectory);
-    if (list) return fmt::print("{}", list_experiments(plan));
-    if (dry_run) return print_dry_run(workbench, plan);
+    const std::vector<NamedTracker> settings =
+        choices.are_several() ? choices.trackers(common) : std::vector<NamedTracker>{};
+    if (list) return print_list(plan, settings);
+    if (dry_run) return print_dry_run(workbench, plan, settings);
     require_output();
     common.check_output_folder();
-    run_plan(workbench, plan);
+    settings.empty() ? run_plan(workbench, plan) : compare_settings(workbench, plan, settings);
   }
 
   void run_plan(Workbench& workbench, const Plan& plan) {
     const auto [result, timings] = carry_out(workbench, plan, robot.output_of(workbench), common.output);
     if (common.quiet) return;
-    warn_of_lost_hands(result, plan.tracker.volume);
+    warn_of_lost_hands(common.output, result, plan.tracker.volume);
     if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
     for (const reports::StudyResult& families : result.studies) fmt::print("{}\n", study_markdown(families));
     fmt::print("All metrics, with intervals: {}/summary.md\n", common.output);
     print_end(timings);
   }
 
-  void warn_of_lost_hands(const reports::RunResult& result, const WorkingVolume& volume) const {
+  /// Writes a report of each setting into a folder of its own, and the table of all beside them.
+  void compare_settings(Workbench& workbench, const Plan& plan, const std::vector<NamedTracker>& settings) {
+    if (!robot.output.empty()) throw Error("--robot-out", "settings", "several", "one");
+    reports::require_own_folder(common.output);
+    const RobotOutput robot_output = robot.output_of(workbench);
+    std::vector<TrackerConfig> trackers;
+    for (const NamedTracker& setting : settings) trackers.push_back(setting.tracker);
+    RunStore store(common.output);
+    const auto runs = run_settings(workbench, plan, trackers, {workbench.config().threads, &store});
+    std::vector<std::string> folders;
+    for (size_t s = 0; s < settings.size(); ++s) {
+      folders.push_back(fmt::format("{}/{}", common.output, settings[s].name));
+      constexpr int kOneJob = 1;  // each frame was timed alone
+      const Plan planned = with_tracker(plan, trackers[s]);
+      const Outcome outcome =
+          report_runs(workbench, planned, runs[s], {kOneJob, start}, robot_output, folders.back());
+      warn_of_lost_hands(folders.back(), outcome.result, planned.tracker.volume);
+    }
+    const reports::SettingsTable table = settings_table(folders);
+    write_settings_table(common.output, table);
+    store.finish();
+    if (common.quiet) return;
+    fmt::print("{}\nOf each setting: {}/NAME/summary.md. Again: glovebench table {}\nReport: {}/index.html\n",
+               settings_text(table, terminal_columns()), common.output, fmt::join(folders, " "), common.output);
+  }
+
+  void warn_of_lost_hands(const std::string& folder, const reports::RunResult& result,
+                          const WorkingVolume& volume) const {
+    if (common.quiet) return;
     for (const reports::ExperimentResult& experiment : result.experiments) {
       const reports::Coverage& coverage = experiment.coverage;
       if (coverage.frames == 0 || coverage.lost < coverage.frames) continue;
-      say("glovebench: warning: {0}: none of {1} frames was tracked. Likely causes: the hand is outside of the "
-          "image or "
-          "of the working volume ({2:g} to {3:g} mm), or the database lacks its postures. To see: glovebench "
-          "explain "
-          "{4} {5} --experiment {0}\n",
-          to_string(experiment.key), coverage.frames, 1000 * volume.z_min, 1000 * volume.z_max, common.output,
-          experiment.runs.front().frames.front().frame);
+      const reports::SeedRun& run = experiment.runs.front();
+      say("glovebench: warning: {}: none of {} frames was tracked. Likely causes: the hand is outside of the image "
+          "or of the working volume ({:g} to {:g} mm), or the database lacks its postures. To see: {}\n",
+          to_string(experiment.key), coverage.frames, 1000 * volume.z_min, 1000 * volume.z_max,
+          complete_command({experiment.key, run.seed, run.frames.front(), ""}, folder));
     }
   }
 
@@ -81,8 +116,10 @@ struct RunCommand {
       if (command.given(flag))
         throw Error(study_name, "flags", flag, "none of those that say what a study says itself");
     const Study& chosen = study(study_name);
+    if (choices.are_several() && choices.cascades.size() < 2)
+      throw Error(study_name, "flags", "several settings", "several --cascade alone");
     StudyOptions options{common.tracker_config(), {}, quick, {}};
-    if (!common.cascade.empty()) options.cascades = {options.tracker.lookup.cascade};
+    for (const std::string& cascade : choices.cascades) options.cascades.push_back(parse_cascade(cascade));
     options.seeds = common.seeds(seed_count);
     Workbench workbench = common.workbench();
     if (common.output.empty()) return print_study(chosen.run({workbench, options}));
@@ -139,8 +176,14 @@ struct RunCommand {
     if (common.output.empty()) throw Error("--output", "folder", "nothing", "a folder for the report");
   }
 
-  void print_dry_run(Workbench& workbench, const Plan& plan) const {
+  static void print_list(const Plan& plan, const std::vector<NamedTracker>& settings) {
+    fmt::print("{}", list_experiments(plan));
+    for (const NamedTracker& setting : settings) fmt::print("each with setting {}\n", setting.name);
+  }
+
+  void print_dry_run(Workbench& workbench, const Plan& plan, const std::vector<NamedTracker>& settings) const {
     fmt::print("{}", describe_plan(workbench, plan));
+    for (const NamedTracker& setting : settings) fmt::print("each with setting {}\n", setting.name);
     fmt::print("report: {}\n", common.output.empty() ? "nowhere without --output" : common.output);
   }
 };
@@ -149,7 +192,10 @@ struct RunCommand {
 
 void add_run(Command program) {
   const Command command = program.subcommand(
-      "run", "Replay a suite, or trajectories, also your own, through the tracker and report the errors.");
+      "run",
+      "Replay a suite, or trajectories, also your own, through the tracker and report the errors.\n"
+      "If --cascade, --config, --method or --profile is repeated, a table compares its values with the paper's "
+      "settings.");
   const auto state = std::make_shared<RunCommand>(command);
   state->common.add_output(command, "folder of the report");
   command.option("--list", state->list, "print the experiments and stop");
@@ -180,7 +226,7 @@ void add_run(Command program) {
   state->common.add_cameras(camera);
   state->robot.add(command, "folder for the robot commands of each experiment").named_file();
   state->common.add_hand(command);
-  state->common.add_tracker(command);
+  state->choices.add(command);
   state->common.add_machine(command);
   command.runs([state] { state->run(); });
 }

@@ -1,6 +1,7 @@
 #include "reports/comparison/comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -140,7 +141,10 @@ Comparison compare_results(const NamedResult& baseline, const NamedResult& candi
     comparison.frames.push_back(frame_differences(pairing.metrics, *before, *after));
   }
   comparison.worst = worst_frames(pairing);
-  comparison.configuration = configuration_changes(baseline.result, candidate.result);
+  comparison.preselected = pairing_options.metrics;
+  comparison.configuration = pairing.across;
+  std::ranges::move(configuration_changes(baseline.result, candidate.result),
+                    std::back_inserter(comparison.configuration));
   comparison.only_in_baseline = pairing.only_in_baseline;
   comparison.only_in_candidate = pairing.only_in_candidate;
   comparison.uncompared_metrics = uncompared_metrics(baseline.result.protocol, candidate.result.protocol);
@@ -166,6 +170,9 @@ std::string comparison_explanation(const Comparison& comparison) {
       comparison.other_seeds
           ? "The two were run with other noise seeds, so their frames share the movement but not the noise. "
           : "";
+  const std::string choice = comparison.preselected.empty() ? ""
+                                                            : fmt::format("The metrics were chosen before: {}. ",
+                                                                          fmt::join(comparison.preselected, ", "));
   return fmt::format(
       "Differences are candidate minus baseline, frame by frame and seed by seed, over the frames that have the "
       "value in both; above zero is worse. For these trajectories: intervals are Student's t times the standard "
@@ -173,7 +180,7 @@ std::string comparison_explanation(const Comparison& comparison) {
       "wide "
       "enough for all {} together to err in {:g}% of comparisons of equal programs as far as blocks tell; what "
       "other "
-      "seeds do is for the minimum effect ({}). They say nothing about other movements or hands. {}Better or "
+      "seeds do is for the minimum effect ({}). They say nothing about other movements or hands. {}{}Better or "
       "worse: "
       "the interval excludes zero and the difference is at least the minimum effect. Same: the whole interval lies "
       "within the minimum effect. Worse in places: the interval cannot tell the rise from chance, since it lies in "
@@ -182,7 +189,7 @@ std::string comparison_explanation(const Comparison& comparison) {
       "data: "
       "none of these.",
       config.block_frames, comparison.seeds, comparison.rows.size(), 100 * config.family_error,
-      floor_sentence(comparison), noise);
+      floor_sentence(comparison), noise, choice);
 }
 
 }  // namespace glovebench::reports

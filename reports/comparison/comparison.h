@@ -23,6 +23,9 @@ constexpr auto names_of(Verdict) {
 /// Name of rows over all experiments: means of their differences.
 inline constexpr std::string_view kAllExperiments = "all";
 
+/// Fewer blocks of frames have an interval that is too wide to be read.
+inline constexpr int kFewestBlocks = 5;
+
 struct CompareConfig {
   double family_error = 0.01;  ///< of all intervals together (Bonferroni), in (0, 1)
   int block_frames = 16;       ///< fewest frames of a block, >= 16; successive frames are not independent
@@ -40,6 +43,9 @@ struct ComparisonRow {
   std::optional<double> difference;  ///< candidate - baseline; positive is worse
   std::optional<double> low, high;   ///< simultaneous interval
   int blocks = 0;                    ///< resampled blocks of frames
+  int trajectories = 1;              ///< that the blocks are of
+  /// Where there is not enough data: frames of all seeds that would decide if further movements vary as these do.
+  int enough_frames = 0;  ///< 0: none, or unknown
   double minimum_effect = 0;
   bool is_measured = false;  ///< by a noise floor; else a default
   Verdict verdict = Verdict::not_enough_data;
@@ -65,12 +71,6 @@ struct FrameDifferences {
   std::vector<OfMetric> differences;
 };
 
-struct ConfigurationChange {
-  std::string field;     ///< "icp.max_iterations"
-  std::string baseline;  ///< JSON; empty if absent
-  std::string candidate;
-};
-
 struct ComparedResult {
   std::string name;  ///< file or folder
   std::string program_version;
@@ -86,7 +86,8 @@ struct Comparison {
   int seeds = 0;             ///< per experiment; the most, where they differ
   bool other_seeds = false;  ///< noise seeds differ, so noise is not paired
   bool has_noise_floor = false;
-  std::vector<ComparisonRow> rows;  ///< all experiments first, then each
+  std::vector<std::string> preselected;  ///< metrics chosen before the comparison; empty: all were compared
+  std::vector<ComparisonRow> rows;       ///< all experiments first, then each
   std::vector<FrameDifferences> frames;
   std::vector<ChangedFrame> worst;  ///< most changed first; at most kWorstFrames
   std::vector<ConfigurationChange> configuration;

@@ -21,7 +21,8 @@ Json method_json(const Comparison& comparison) {
           {"bootstrap_seed", config.seed},
           {"seeds", comparison.seeds},
           {"other_seeds", comparison.other_seeds},
-          {"has_noise_floor", comparison.has_noise_floor}};
+          {"has_noise_floor", comparison.has_noise_floor},
+          {"preselected_metrics", comparison.preselected}};
 }
 
 Json row_json(const ComparisonRow& row) {
@@ -38,7 +39,8 @@ Json row_json(const ComparisonRow& row) {
           {"difference", rounded_or_null(row.difference)},
           {"low", rounded_or_null(row.low)},
           {"high", rounded_or_null(row.high)},
-          {"minimum_effect", rounded(row.minimum_effect)}};
+          {"minimum_effect", rounded(row.minimum_effect)},
+          {"enough_frames", row.enough_frames > 0 ? Json(row.enough_frames) : Json()}};
 }
 
 Json speed_row_json(const SpeedRow& row) {
@@ -113,7 +115,7 @@ std::string comparison_csv(const ComparisonReport& report) {
   std::string csv =
       "baseline_run,candidate_run,experiment,quantity,unit,verdict,stops,pairs,frames,blocks,baseline,candidate,"
       "difference,low,high,"
-      "minimum_effect\n";
+      "minimum_effect,enough_frames\n";
   for (const ComparisonRow& row : report.comparison.rows) {
     const Json json = row_json(row);
     Json cells = {report.comparison.baseline.run, report.comparison.candidate.run};

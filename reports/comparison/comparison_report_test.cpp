@@ -192,12 +192,12 @@ TEST(ComparisonCsv, OneLineARow) {
   ASSERT_EQ(lines.size(), 7u);
   EXPECT_EQ(lines[1],
             "105ec9a-01234567,82ad045-89abcdef,all,position_error_mm,mm,worse,true,234,234,14,3.0,3.25,0.25,0.125,"
-            "0.375,0.1");
+            "0.375,0.1,");
   EXPECT_EQ(lines[5],
             "105ec9a-01234567,82ad045-89abcdef,Tr4_DB_open_power_source_subject1_gradient_1,posture_rms_unfiltered_"
             "deg,deg,not enough data,false,0,234,"
-            "0,,,,,,0.0");
-  EXPECT_EQ(std::ranges::count(lines[0], ','), 15);
+            "0,,,,,,0.0,");
+  EXPECT_EQ(std::ranges::count(lines[0], ','), 16);
   EXPECT_THAT(comparison_csv(hostile_comparison()), HasSubstr("89abcdef,\"a<b>&\"\"',|`"));
 }
 

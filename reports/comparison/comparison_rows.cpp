@@ -1,6 +1,7 @@
 #include "reports/comparison/comparison_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/base/error.h"
@@ -16,12 +17,41 @@ struct ResampledRow {
   Eigen::VectorXd means;  ///< of the resamples; empty below two blocks
 };
 
-void set_interval(ComparisonRow& row, const Eigen::VectorXd& means, double tail_error, int degrees_of_freedom) {
+/// The frames with which the interval would decide if more of them vary as these do, in 2 digits. A difference of
+/// the minimum effect or more must be told from zero, a smaller one from the minimum effect. 0: beyond a thousand
+/// times the frames.
+int frames_that_decide(const ComparisonRow& row, double tail_error) {
+  constexpr double kMost = 1000, kSteps = 60;
+  const double effect = std::abs(*row.difference);
+  const double wanted = effect < row.minimum_effect ? row.minimum_effect - effect : effect;
+  const double error = (*row.high - *row.difference) / student_t_above(tail_error, row.blocks - row.trajectories);
+  const auto half_width_of = [&](double times) {
+    const int freedom = static_cast<int>(times * row.blocks) - row.trajectories;
+    return error * student_t_above(tail_error, freedom) / std::sqrt(times);
+  };
+  if (half_width_of(kMost) >= wanted) return 0;
+  double few = 1, enough = kMost;
+  for (int step = 0; step < kSteps; ++step) {
+    const double middle = (few + enough) / 2;
+    (half_width_of(middle) < wanted ? enough : few) = middle;
+  }
+  const double frames = enough * row.frames;
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(frames)) - 1));
+  return static_cast<int>(std::ceil(frames / unit) * unit);
+}
+
+void set_interval(ComparisonRow& row, const Eigen::VectorXd& means, double tail_error) {
   const std::optional<double> error = standard_error(means);
   if (!error) return;
-  const double half_width = student_t_above(tail_error, degrees_of_freedom) * *error;
+  const double half_width = student_t_above(tail_error, row.blocks - row.trajectories) * *error;
   row.low = *row.difference - half_width;
   row.high = *row.difference + half_width;
+}
+
+/// Judges the row, whose minimum effect is set.
+void judge(ComparisonRow& row, double tail_error) {
+  row.verdict = verdict_of(row);
+  if (row.verdict == Verdict::not_enough_data && row.high) row.enough_frames = frames_that_decide(row, tail_error);
 }
 
 ResampledRow experiment_row(const Metric& metric, const ExperimentResult& baseline,
@@ -85,12 +115,12 @@ ComparisonRow all_row(const Metric& metric, const std::vector<ResampledRow>& exp
   row.baseline = baseline / count;
   row.candidate = candidate / count;
   row.difference = difference / count;
-  int degrees_of_freedom = 0;
+  row.trajectories = 0;
   for (const auto& [trajectory, blocks] : blocks_by_trajectory(members)) {
     row.blocks += blocks;
-    degrees_of_freedom += blocks - 1;
+    ++row.trajectories;
   }
-  if (means.size() > 0) set_interval(row, means / count, tail_error, degrees_of_freedom);
+  if (means.size() > 0) set_interval(row, means / count, tail_error);
   return row;
 }
 
@@ -119,7 +149,7 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
     rows[m] = all_row(metric, resampled, tail_error);
     for (size_t e = 0; e < experiments; ++e) {
       auto& [row, trajectory, means] = resampled[e];
-      if (means.size() > 0) set_interval(row, means, tail_error, row.blocks - 1);
+      if (means.size() > 0) set_interval(row, means, tail_error);
       rows[(e + 1) * metrics + m] = row;
     }
   }
@@ -134,7 +164,7 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
     const bool has_entry = floor && !(is_all && !pairing.only_in_baseline.empty());
     row.minimum_effect = minimum_effect(*row.metric, row.experiment, frames, seeds, has_entry ? floor : nullptr);
     row.is_measured = has_entry && floor->find(row.experiment, row.metric->key) != nullptr;
-    row.verdict = verdict_of(row);
+    judge(row, tail_error);
   }
   return rows;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "reports/comparison/comparison_rows.h"
+#include "reports/comparison/comparison_text.h"
 #include "reports/comparison/example_runs.h"
 #include "reports/comparison/gate_rule.h"
 
@@ -151,6 +152,47 @@ TEST(Comparison, ExperimentsOnOneTrajectoryAreNotIndependent) {
   EXPECT_NEAR(width(same[0]), width(same[gated_metrics().size()]), 1e-9) << "the second one says nothing new";
   EXPECT_EQ(different[0].blocks, 16);
   EXPECT_LT(width(different[0]), 0.75 * width(different[gated_metrics().size()]));
+}
+
+TEST(Comparison, EnoughFramesAreEnough) {
+  const auto row_of_frames = [](int frames, double shift_mm) {
+    const auto before = noisy_experiment("Tr1", {1}, frames, "a", 0);
+    const auto after = noisy_experiment("Tr1", {1}, frames, "b", shift_mm);
+    return row_of(compare_results(example_named("a", {before}), example_named("b", {after}), nullptr), 0,
+                  kPosition);
+  };
+  for (const double shift_mm : {0.0, 0.3}) {
+    const ComparisonRow few = row_of_frames(96, shift_mm);
+    ASSERT_EQ(few.verdict, Verdict::not_enough_data);
+    ASSERT_GT(few.enough_frames, few.frames);
+    // Half as many again, since the spread of the few is itself an estimate.
+    const ComparisonRow more = row_of_frames(few.enough_frames * 3 / 2, shift_mm);
+    EXPECT_NE(more.verdict, Verdict::not_enough_data) << few.enough_frames;
+    EXPECT_EQ(more.enough_frames, 0);
+  }
+}
+
+TEST(Comparison, FewBlocksAreSaidInWords) {
+  const Comparison comparison =
+      compare_results(of_positions(positions({2, 2})), of_positions(positions({3, 5})), nullptr);
+  EXPECT_EQ(interval_text(row_of(comparison, 0, kPosition)), "too few blocks");
+  EXPECT_EQ(enough_text(row_of(comparison, 0, kPosition)), "");  // worse in places: decided
+  EXPECT_EQ(interval_text(row_of(comparison, 0, kRotation)), "[+0.000, +0.000]") << "decided: the same";
+  const Comparison small =
+      compare_results(of_positions(positions({2, 2})), of_positions(positions({2, 2.3})), nullptr);
+  EXPECT_EQ(enough_text(row_of(small, 0, kPosition)), "5 blocks of frames; 2 now");
+}
+
+TEST(Comparison, ChosenMetricsMakeASmallerFamily) {
+  const NamedResult before = noisy("a", 0), after = noisy("b", 0);
+  const std::vector<std::string> chosen = {std::string(kPosition)};
+  const Comparison all = compare_results(before, after, nullptr),
+                   one = compare_results(before, after, nullptr, {.metrics = chosen});
+  ASSERT_EQ(one.rows.size(), 4U);
+  EXPECT_LT(*one.rows[0].high, *row_of(all, -1, kPosition).high);
+  EXPECT_EQ(one.preselected, chosen);
+  EXPECT_THAT(comparison_explanation(one), HasSubstr("The metrics were chosen before: position_error_mm."));
+  EXPECT_THROW(compare_results(before, after, nullptr, {.metrics = {"mood_deg"}}), Incomparable);
 }
 
 TEST(Comparison, AllExperimentsCountAlike) {

@@ -35,10 +35,17 @@ std::string formatted_signed(double value) {
   return text.starts_with('-') ? text : "+" + text;
 }
 
-/// "[-0.120, +0.400]", or "-"
-std::string interval_text(const ComparisonRow& row) {
-  if (!row.low || !row.high) return "-";
-  return fmt::format("[{}, {}]", formatted_signed(*row.low), formatted_signed(*row.high));
+/// Of rows that are worth reading.
+Table enough_table(const std::vector<ComparisonRow>& rows) {
+  Table table = table_of({"experiment", "quantity", "frames", "enough would be"}, 2);
+  table.title = "Not enough data";
+  table.explanation =
+      "Frames, of all noise seeds, that would be enough for a verdict if further movements vary as these do. More "
+      "seeds of the same movements do not replace them.";
+  for (const ComparisonRow& row : rows)
+    if (const std::string enough = enough_text(row); !enough.empty() && is_worth_reading(row))
+      table.rows.push_back({readable_experiment(row.experiment), std::string(row.metric->key), row.frames, enough});
+  return table;
 }
 
 Table speed_table(const std::vector<SpeedRow>& speed) {
@@ -138,6 +145,23 @@ std::string readable_experiment(const std::string& experiment) {
   return name;
 }
 
+std::string interval_text(const ComparisonRow& row) {
+  if (row.verdict == Verdict::not_enough_data && row.difference && row.blocks < kFewestBlocks)
+    return "too few blocks";
+  if (!has_interval(row)) return "-";
+  return fmt::format("[{}, {}]", formatted_signed(*row.low), formatted_signed(*row.high));
+}
+
+std::string enough_text(const ComparisonRow& row) {
+  if (row.verdict != Verdict::not_enough_data || !row.difference || is_worse_in_places(row)) return "";
+  // An interval of fewer blocks says too little about how movements vary to reckon with it.
+  if (row.blocks < kFewestBlocks) return fmt::format("{} blocks of frames; {} now", kFewestBlocks, row.blocks);
+  if (row.enough_frames == 0) return "";
+  const double movements = std::ceil(1.0 * row.enough_frames / row.frames * row.trajectories);
+  return fmt::format("{} frames, or {:.0f} movements like {}", row.enough_frames, movements,
+                     row.trajectories == 1 ? "this" : "these");
+}
+
 std::string number_text(const std::optional<double>& value) {
   return value ? formatted(*value) : "-";
 }
@@ -186,7 +210,8 @@ Table rows_table(std::span<const ComparisonRow> rows) {
 }
 
 std::vector<Table> comparison_tables(const ComparisonReport& report) {
-  std::vector<Table> tables = {speed_table(report.speed), configuration_table(report.comparison.configuration),
+  std::vector<Table> tables = {enough_table(report.comparison.rows), speed_table(report.speed),
+                               configuration_table(report.comparison.configuration),
                                uncompared_table(report.comparison), times_table(report.times)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
   return tables;

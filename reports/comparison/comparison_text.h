@@ -31,6 +31,10 @@ std::string readable_experiment(const std::string& experiment);
 /// At most nine characters; "-" for none. Signed numbers >= 0 have a plus.
 std::string number_text(const std::optional<double>& value);
 std::string signed_number_text(const std::optional<double>& value);
+/// "[-0.120, +0.400]", "-" for none, or "too few blocks" where it could not be read.
+std::string interval_text(const ComparisonRow& row);
+/// "1900 frames, or 8 movements like this"; empty unless there is not enough data and enough is known.
+std::string enough_text(const ComparisonRow& row);
 /// The verdict, or "worse in places".
 std::string verdict_text(const ComparisonRow& row);
 
@@ -46,7 +50,8 @@ Tone tone_of(const ComparisonRow& row);
 
 /// Readable experiments, quantities, numbers; verdict last.
 Table rows_table(std::span<const ComparisonRow> rows);
-/// Other tables: speed, configuration, uncompared metrics, stage times (for information).
+/// Other tables: how much data is enough, speed, configuration, uncompared metrics, stage times (for
+/// information).
 std::vector<Table> comparison_tables(const ComparisonReport& report);
 /// Moves a last verdict beside the names, so narrow screens do not cut it off.
 Table verdict_first(Table table);

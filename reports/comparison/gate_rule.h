@@ -25,6 +25,8 @@ double least_effect(const Metric& metric, int frames);
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 
+/// Whether the row's interval can be read: not if too few blocks decide nothing.
+bool has_interval(const ComparisonRow& row);
 /// From difference, interval and minimum effect.
 Verdict verdict_of(const ComparisonRow& row);
 /// Whether the row is worse, or rose by its sure effect.

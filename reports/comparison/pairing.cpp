@@ -30,11 +30,23 @@ void check_protocol(const std::string& where, const Protocol& found, const Proto
   check_equal(where, "protocol.association", found.association, expected.association);
 }
 
-void check_unique(const NamedResult& result) {
-  std::set<std::string> names;
-  for (const ExperimentResult& experiment : result.result.experiments)
-    if (!names.insert(to_string(experiment.key)).second)
-      throw Incomparable(result.name, "experiments", to_string(experiment.key) + " twice", "each of them once");
+/// What must be equal for two experiments to be compared.
+ExperimentKey paired_by(ExperimentKey key, const PairingOptions& options) {
+  if (options.is_across(Across::noise)) key.noise = {};
+  if (options.is_across(Across::subject)) key.subject = 1;
+  return key;
+}
+
+void check_unique(const NamedResult& result, const PairingOptions& options) {
+  std::map<std::string, std::string> names;
+  for (const ExperimentResult& experiment : result.result.experiments) {
+    const std::string name = to_string(experiment.key);
+    const auto [other, is_new] = names.emplace(to_string(paired_by(experiment.key, options)), name);
+    if (is_new) continue;
+    if (other->second == name) throw Incomparable(result.name, "experiments", name + " twice", "each of them once");
+    throw Incomparable(result.name, "experiments", fmt::format("{} and {}", other->second, name),
+                       "one of them, since they differ only in what is compared across");
+  }
 }
 
 /// A missing hash cannot be compared.
@@ -101,17 +113,90 @@ void check_runs(const std::string& where, const ExperimentResult& found, const E
                  found.runs[s].frames, expected.runs[s].frames);
 }
 
-Pairing pair_experiments(const RunResult& baseline, const RunResult& candidate) {
+/// Null if there is none.
+const ExperimentResult* find_partner(const RunResult& result, const ExperimentKey& key,
+                                     const PairingOptions& options) {
+  if (options.across.empty()) return find_experiment(result, key);
+  const auto found = std::ranges::find_if(result.experiments, [&](const ExperimentResult& experiment) {
+    return paired_by(experiment.key, options) == paired_by(key, options);
+  });
+  return found == result.experiments.end() ? nullptr : &*found;
+}
+
+Pairing pair_experiments(const RunResult& baseline, const RunResult& candidate, const PairingOptions& options) {
   Pairing pairing;
   for (const ExperimentResult& experiment : baseline.experiments) {
-    if (const ExperimentResult* other = find_experiment(candidate, experiment.key))
+    if (const ExperimentResult* other = find_partner(candidate, experiment.key, options))
       pairing.experiments.emplace_back(&experiment, other);
     else
       pairing.only_in_baseline.push_back(to_string(experiment.key));
   }
   for (const ExperimentResult& experiment : candidate.experiments)
-    if (!find_experiment(baseline, experiment.key)) pairing.only_in_candidate.push_back(to_string(experiment.key));
+    if (!find_partner(baseline, experiment.key, options))
+      pairing.only_in_candidate.push_back(to_string(experiment.key));
   return pairing;
+}
+
+/// The frames of both, by number and time stamp, which rise in each.
+void keep_shared(std::vector<FrameRecord>& one, std::vector<FrameRecord>& other) {
+  std::vector<FrameRecord> ones, others;
+  for (size_t i = 0, j = 0; i < one.size() && j < other.size();) {
+    if (one[i].frame != other[j].frame) {
+      one[i].frame < other[j].frame ? ++i : ++j;
+      continue;
+    }
+    if (one[i].timestamp_us == other[j].timestamp_us) {
+      ones.push_back(one[i]);
+      others.push_back(other[j]);
+    }
+    ++i;
+    ++j;
+  }
+  one = std::move(ones);
+  other = std::move(others);
+}
+
+/// Both need equal numbers of runs.
+void cut_to_shared_frames(Pairing& pairing, const std::string& candidate_name) {
+  for (auto& [expected, found] : pairing.experiments) {
+    const auto before = std::make_shared<ExperimentResult>(*expected);
+    const auto after = std::make_shared<ExperimentResult>(*found);
+    for (size_t s = 0; s < before->runs.size(); ++s) {
+      keep_shared(before->runs[s].frames, after->runs[s].frames);
+      if (before->runs[s].frames.empty())
+        throw Incomparable(candidate_name, to_string(found->key) + ".frames", "none that the baseline has",
+                           "at least one");
+    }
+    pairing.cut.insert(pairing.cut.end(), {before, after});
+    expected = before.get();
+    found = after.get();
+  }
+}
+
+std::string frames_text(const ExperimentResult& experiment) {
+  if (experiment.runs.empty() || experiment.runs.front().frames.empty()) return "none";
+  const std::vector<FrameRecord>& frames = experiment.runs.front().frames;
+  return fmt::format("{} to {}", frames.front().frame, frames.back().frame);
+}
+
+/// What the experiments differ in, each difference once.
+std::vector<ConfigurationChange> across_changes(const Pairing& pairing) {
+  std::vector<ConfigurationChange> changes;
+  const auto add = [&](const char* field, const std::string& baseline, const std::string& candidate) {
+    const bool is_known = std::ranges::any_of(changes, [&](const ConfigurationChange& known) {
+      return known.field == field && known.baseline == baseline && known.candidate == candidate;
+    });
+    if (baseline != candidate && !is_known) changes.push_back({field, baseline, candidate});
+  };
+  const auto noise = [](const ExperimentKey& key) {
+    return fmt::format("{} x {}", key.noise.model, key.noise.factor);
+  };
+  for (const auto& [before, after] : pairing.experiments) {
+    add("noise", noise(before->key), noise(after->key));
+    add("subject", std::to_string(before->key.subject), std::to_string(after->key.subject));
+    add("frames", frames_text(*before), frames_text(*after));
+  }
+  return changes;
 }
 
 bool has(const Protocol& protocol, const Metric& metric) {
@@ -142,13 +227,18 @@ std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, 
 
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options) {
   check_protocol(candidate.name, candidate.result.protocol, baseline.result.protocol);
-  check_unique(baseline);
-  check_unique(candidate);
-  Pairing pairing = pair_experiments(baseline.result, candidate.result);
-  pairing.metrics = shared_metrics(baseline.result.protocol, candidate.result.protocol);
+  check_unique(baseline, options);
+  check_unique(candidate, options);
+  Pairing pairing = pair_experiments(baseline.result, candidate.result, options);
+  for (const Metric* metric : shared_metrics(baseline.result.protocol, candidate.result.protocol))
+    if (options.metrics.empty() || std::ranges::count(options.metrics, metric->key) > 0)
+      pairing.metrics.push_back(metric);
+  if (pairing.metrics.empty()) throw Incomparable(candidate.name, "metrics", "none to compare", "at least one");
   for (const auto& [expected, found] : pairing.experiments) check_inputs(baseline, candidate, expected->key);
   for (const auto& [expected, found] : pairing.experiments)
     check_seeds(candidate.name, *found, *expected, options.other_seeds);
+  pairing.across = across_changes(pairing);
+  if (options.is_across(Across::frames)) cut_to_shared_frames(pairing, candidate.name);
   for (const auto& [expected, found] : pairing.experiments) check_runs(candidate.name, *found, *expected);
   if (!options.partial && !pairing.only_in_baseline.empty())
     throw Incomparable(candidate.name, "experiments", fmt::format("no {}", pairing.only_in_baseline.front()),

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,11 +17,29 @@ struct NamedResult {
   RunResult result;
 };
 
+/// What experiments may differ in although they are compared.
+enum class Across { noise, subject, frames };
+constexpr auto names_of(Across) {
+  return std::to_array<std::string_view>({"noise", "subject", "frames"});
+}
+
 struct PairingOptions {
   /// Pairs different noise seeds, equal in number, in their order. Otherwise seeds must be equal.
   bool other_seeds = false;
   /// Compares shared experiments. Otherwise the candidate needs all of the baseline's.
   bool partial = false;
+  /// Otherwise noise and subject must be equal, and all frames. Across frames, those of both results are compared.
+  std::vector<Across> across = {};
+  std::vector<std::string> metrics = {};  ///< keys of gated metrics, chosen before the comparison; empty: all
+
+  bool is_across(Across what) const { return std::ranges::find(across, what) != across.end(); }
+};
+
+/// A field of a configuration, or what runs are compared across.
+struct ConfigurationChange {
+  std::string field;     ///< "icp.max_iterations"
+  std::string baseline;  ///< JSON; empty if absent
+  std::string candidate;
 };
 
 /// Run i and frame j of both results belong together. Points into the results.
@@ -28,6 +48,8 @@ struct Pairing {
   std::vector<std::pair<const ExperimentResult*, const ExperimentResult*>> experiments;  ///< baseline, candidate
   std::vector<std::string> only_in_baseline;                                             ///< names of experiments
   std::vector<std::string> only_in_candidate;
+  std::vector<ConfigurationChange> across = {};                   ///< what of PairingOptions::across differs
+  std::vector<std::shared_ptr<const ExperimentResult>> cut = {};  ///< experiments with the shared frames alone
 };
 
 /// Gated metrics of both results, and why others are not compared.
@@ -36,6 +58,7 @@ std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, 
 
 /// Throws: Incomparable naming the first difference: protocol (except metrics), hash of a shared truth or database
 /// (also if missing), repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
+/// Across noise or subject also for two experiments of one result that differ in nothing else.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 
 }  // namespace glovebench::reports

@@ -181,5 +181,60 @@ TEST(Pairing, TheFirstDifferenceIsTheOneNamed) {
               HasSubstr("seeds"));
 }
 
+TEST(Pairing, AcrossNoiseAndSubjectNamesWhatDiffers) {
+  const NamedResult a = two_experiments("a");
+  NamedResult b = two_experiments("b");
+  for (ExperimentResult& experiment : b.result.experiments) {
+    experiment.key.noise = {"kinect", 0.5};
+    experiment.key.subject = 3;
+  }
+  EXPECT_THAT(refusal(a, b), HasSubstr("experiments: found no Tr1_"));
+  EXPECT_THAT(refusal(a, b, {.across = {Across::noise}}), HasSubstr("experiments: found no Tr1_"));
+  const Pairing pairing = pair_results(a, b, {.across = {Across::noise, Across::subject}});
+  EXPECT_EQ(pairing.experiments.size(), 2U);
+  ASSERT_EQ(pairing.across.size(), 2U) << "each once";
+  EXPECT_EQ(pairing.across[0].field, "noise");
+  EXPECT_EQ(pairing.across[0].baseline, "gradient x 1");
+  EXPECT_EQ(pairing.across[0].candidate, "kinect x 0.5");
+  EXPECT_EQ(pairing.across[1].field, "subject");
+  EXPECT_EQ(pairing.across[1].candidate, "3");
+}
+
+TEST(Pairing, AcrossNoiseEachExperimentHasOnePartner) {
+  NamedResult b = two_experiments("b");
+  b.result.experiments[1].key = b.result.experiments[0].key;
+  b.result.experiments[1].key.noise.factor = 2;
+  EXPECT_THAT(refusal(two_experiments("a"), b, {.across = {Across::noise}}),
+              HasSubstr("b: experiments: found Tr1_DB_open_power_source_subject1_gradient_1 and "
+                        "Tr1_DB_open_power_source_subject1_gradient_2, expected one of them"));
+}
+
+TEST(Pairing, AcrossFramesThoseOfBothAreCompared) {
+  const NamedResult a = two_experiments("a");
+  NamedResult b = two_experiments("b");
+  for (ExperimentResult& experiment : b.result.experiments) {
+    for (SeedRun& run : experiment.runs) {
+      run.frames.erase(run.frames.begin(), run.frames.begin() + 4);
+      run.frames.push_back(example_frame(20, 3, 2, 1));
+    }
+  }
+  EXPECT_THAT(refusal(a, b), HasSubstr("frames"));
+  const Pairing pairing = pair_results(a, b, {.across = {Across::frames}});
+  for (const auto& [before, after] : pairing.experiments) {
+    for (size_t s = 0; s < 2; ++s) {
+      EXPECT_EQ(before->runs[s].frames.size(), 16U);
+      EXPECT_EQ(before->runs[s].frames.front().frame, 4);
+      EXPECT_TRUE(std::ranges::equal(before->runs[s].frames, after->runs[s].frames, {}, &FrameRecord::frame,
+                                     &FrameRecord::frame));
+    }
+  }
+  ASSERT_EQ(pairing.across.size(), 1U);
+  EXPECT_EQ(pairing.across[0].baseline, "0 to 19");
+  EXPECT_EQ(pairing.across[0].candidate, "4 to 20");
+  for (ExperimentResult& experiment : b.result.experiments)
+    for (SeedRun& run : experiment.runs) run.frames = {example_frame(30, 3, 2, 1)};
+  EXPECT_THAT(refusal(a, b, {.across = {Across::frames}}), HasSubstr("none that the baseline has"));
+}
+
 }  // namespace
 }  // namespace glovebench::reports

@@ -19,6 +19,7 @@ std::vector<Metric> alignment_metrics() {
   return {{.key = "matching_error_px",
            .unit = "px",
            .description = "equation (2) of the best match",
+           .formula = "sum over glove pixels a of min over pixels b of its color of |a - b|, / glove pixels",
            .place = 130,
            .of_any = matching_error_px},
           // Quality of the fit, not an error against the truth. It rises first when the sensor gets noisier or an
@@ -26,6 +27,7 @@ std::vector<Metric> alignment_metrics() {
           {.key = "icp_residual_mm",
            .unit = "mm",
            .description = "mean distance of the points from the aligned mesh",
+           .formula = "sum over the n points of the distance to the closest triangle of their color, / n",
            .place = 140,
            .gate = Metric::Gate{0.1, 0.01},
            .of_tracked = icp_residual_mm,

@@ -30,6 +30,7 @@ std::vector<Metric> mesh_metrics() {
       {.key = "vertex_error_mm",
        .unit = "mm",
        .description = "MPVPE, raw: mean distance of the vertices of the tracker's mesh in both postures and poses",
+       .formula = "sum over the n vertices of |T' v'_i - T v_i| / n",
        .heading = "vertices mm",
        .place = 100,
        .gate = Metric::Gate{0.2, 0.01},
@@ -37,6 +38,7 @@ std::vector<Metric> mesh_metrics() {
       {.key = "fingertip_error_mm",
        .unit = "mm",
        .description = "mean distance of the five fingertips",
+       .formula = "sum over the tips of |t'_i - t_i| / 5",
        .heading = "fingertips mm",
        .place = 110,
        .gate = Metric::Gate{0.2, 0.01},
@@ -44,6 +46,7 @@ std::vector<Metric> mesh_metrics() {
       {.key = "joint_error_mm",
        .unit = "mm",
        .description = "MPJPE, raw: mean distance of the 25 joints",
+       .formula = "sum over the joints of |j'_i - j_i| / 25",
        .heading = "joints mm",
        .place = 120,
        .of_tracked = [](const MeasuredFrame& frame) { return mean(frame.joint_errors_mm); }}};

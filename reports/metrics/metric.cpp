@@ -33,6 +33,13 @@ std::vector<Metric> metrics_if(Condition condition) {
 
 }  // namespace
 
+std::string_view Metric::averaged_over() const {
+  if (is_share()) return "all frames, lost ones too";
+  if (of_any) return "the frames that have one, lost ones too";
+  return is_partial ? "the tracked frames that have one; lost ones are left out"
+                    : "the tracked frames; lost ones are left out";
+}
+
 std::span<const Metric> metrics() {
   static const std::vector<Metric> all = sorted_metrics();
   return all;

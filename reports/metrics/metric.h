@@ -27,6 +27,7 @@ struct Metric {
   std::string_view key;   ///< in files, with unit: "_mm", "_deg", "_px", "_percent"
   std::string_view unit;  ///< for people: "mm", "deg", "px", "%"
   std::string_view description;
+  std::string_view formula = {};  ///< in plain text; primes mark the estimate
   std::string_view heading = {};  ///< in the table "More metrics"; empty: not there
   /// Order in files, then by key. Protocol ids depend on it: keep old places.
   int place = 1000;
@@ -41,6 +42,8 @@ struct Metric {
   std::string_view of_column = {};  ///< of a share: the column without which no frame has an answer
 
   bool is_share() const { return of_record != nullptr; }
+  /// The frames whose mean is reported, and what becomes of lost ones.
+  std::string_view averaged_over() const;
 };
 
 /// By place.

@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
 #include <stdexcept>
 
 #include "reports/example_result.h"
+#include "reports/metrics/glossary.h"
 
 namespace glovebench::reports {
 namespace {
@@ -20,10 +22,29 @@ TEST(Metrics, EachSaysWhatItIs) {
     const std::string suffix = metric.unit == "%" ? "_percent" : "_" + std::string(metric.unit);
     EXPECT_TRUE(metric.key.ends_with(suffix)) << metric.key;
     EXPECT_FALSE(metric.description.empty()) << metric.key;
+    EXPECT_FALSE(metric.formula.empty()) << metric.key;
     if (!metric.gate) continue;
     EXPECT_GT(metric.gate->minimum_effect, metric.gate->tolerance) << metric.key;
   }
   EXPECT_TRUE(std::ranges::is_sorted(metrics(), {}, &Metric::place));
+}
+
+TEST(Metrics, SayWhereLostFramesGo) {
+  EXPECT_EQ(metric_of("position_error_mm").averaged_over(), "the tracked frames; lost ones are left out");
+  EXPECT_EQ(metric_of("posture_rms_hidden_deg").averaged_over(),
+            "the tracked frames that have one; lost ones are left out");
+  EXPECT_EQ(metric_of("matching_error_px").averaged_over(), "the frames that have one, lost ones too");
+  EXPECT_EQ(metric_of("uncovered_percent").averaged_over(), "all frames, lost ones too");
+}
+
+TEST(Metrics, GlossaryHasAllOfThem) {
+  const Table table = glossary_table();
+  EXPECT_EQ(table.rows.size(), metrics().size());
+  std::istringstream text(glossary_text(80));
+  for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_THAT(glossary_text(80),
+              testing::HasSubstr("rotation_error_deg, compared\n    geodesic angle between the "
+                                 "hands\n    angle of R'^T R\n    mean over the tracked frames"));
 }
 
 TEST(Metrics, SharesAreNoColumns) {

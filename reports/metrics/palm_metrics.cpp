@@ -18,6 +18,7 @@ std::vector<Metric> palm_metrics() {
   return {{.key = "palm_error_mm",
            .unit = "mm",
            .description = "mean distance of the wrist and the four knuckles (MCP joints): the pose of the palm",
+           .formula = "(|w' - w| + sum over the knuckles of |k'_i - k_i|) / 5",
            .heading = "palm mm",
            .of_tracked = palm_error_mm}};
 }

@@ -6,6 +6,7 @@
 
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
+#include "reports/metrics/glossary.h"
 #include "reports/page/section.h"
 #include "reports/summary.h"
 #include "reports/text.h"
@@ -17,7 +18,10 @@ Section metrics_section(const RunResult& result) {
   return {"metrics", "More metrics",
           "<p>Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
           "hands.</p>\n" +
-              to_html(detail_summary(result))};
+              to_html(detail_summary(result)) +
+              "<details><summary>What each metric is</summary>\n<p>Primes mark the estimate, the rest is the truth."
+              "</p>\n" +
+              to_html(glossary_table()) + "</details>\n"};
 }
 
 Section command_section(const RunResult& result, const Timings& timings) {
@@ -179,8 +183,8 @@ std::vector<WorstFrame> worst_frames(const RunResult& result, int count) {
   return chosen;
 }
 
-std::string explain_command(const WorstFrame& worst) {
-  return fmt::format("glovebench explain . {} --experiment {} --seed {}", worst.frame.frame,
+std::string explain_command(const WorstFrame& worst, const std::string& folder) {
+  return fmt::format("glovebench explain {} {} --experiment {} --seed {}", shell_quoted(folder), worst.frame.frame,
                      shell_quoted(to_string(worst.key)), worst.seed);
 }
 

@@ -50,7 +50,7 @@ struct WorstFrame {
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
 /// Shows every stage of the frame, from the run's folder.
-std::string explain_command(const WorstFrame& worst);
+std::string explain_command(const WorstFrame& worst, const std::string& folder = ".");
 /// Experiment, frame, errors.
 std::string caption(const WorstFrame& worst);
 

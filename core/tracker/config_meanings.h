@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/tracker/tracker_config.h"
+
+namespace glovebench {
+
+std::span<const ConfigMeaning> config_meanings();
+/// An unknown field is a broken invariant.
+const ConfigMeaning& config_meaning(std::string_view field);
+
+}  // namespace glovebench

@@ -1,0 +1,52 @@
+#include "eval/settings_table.h"
+
+#include <filesystem>
+
+#include "core/base/file_set.h"
+#include "eval/regression/baseline.h"
+#include "reports/comparison/comparison_report.h"
+
+namespace glovebench::eval {
+namespace {
+
+/// Empty unless the run was measured one job at a time.
+std::optional<double> frame_ms(const FinishedRun& run) {
+  const reports::StageTimes times = load_stage_times(run.files);
+  if (times.threads != 1 || times.stages.empty()) return std::nullopt;
+  double ms = 0;
+  for (const reports::StageTimes::Stage& stage : times.stages) ms += stage.median_ms;
+  return ms;
+}
+
+/// The last part of a path that may end with a slash.
+std::string folder_name(const std::string& path) {
+  const std::filesystem::path absolute = std::filesystem::absolute(path).lexically_normal();
+  return (absolute.has_filename() ? absolute : absolute.parent_path()).filename().string();
+}
+
+}  // namespace
+
+reports::SettingsTable settings_table(const std::vector<std::string>& folders, reports::PairingOptions pairing,
+                                      const reports::CompareConfig& config) {
+  if (pairing.metrics.empty()) pairing.metrics = reports::headline_metrics();
+  std::vector<reports::SettingRun> runs;
+  for (const std::string& folder : folders) {
+    FinishedRun run = load_finished_run(folder);
+    const std::optional<double> ms = frame_ms(run);
+    run.results.name = folder_name(run.files.folder());
+    runs.push_back({std::move(run.results), ms});
+  }
+  return reports::compare_settings(runs, pairing, config);
+}
+
+void write_settings_table(const std::string& folder, const reports::SettingsTable& table) {
+  reports::require_own_folder(folder);
+  WholeFiles files(folder);
+  files.add("table.md", settings_markdown(table));
+  files.add("table.csv", to_csv(table.table));
+  files.add("table.tex", settings_latex(table));
+  files.add("index.html", settings_html(table));
+  files.commit();
+}
+
+}  // namespace glovebench::eval

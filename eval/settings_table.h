@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/comparison/settings_table.h"
+
+namespace glovebench::eval {
+
+/// The table of finished runs, named after their folders, in the headline metrics unless `pairing` has others.
+/// Times are those of runs that were measured one job at a time. Throws: Error; Incomparable, also for an
+/// unfinished run.
+reports::SettingsTable settings_table(const std::vector<std::string>& folders, reports::PairingOptions pairing = {},
+                                      const reports::CompareConfig& config = {});
+
+/// Writes the table as table.md, .csv, .tex and index.html.
+/// Throws: Error if the folder holds a run, or cannot be written.
+void write_settings_table(const std::string& folder, const reports::SettingsTable& table);
+
+}  // namespace glovebench::eval

@@ -1,0 +1,329 @@
+#include "reports/comparison/settings_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/tracker/tracker_config.h"
+#include "reports/comparison/comparison_text.h"
+#include "reports/comparison/gate_rule.h"
+#include "reports/page/page_frame.h"
+#include "reports/text.h"
+
+namespace glovebench::reports {
+namespace {
+
+/// Times that differ by less are not told apart.
+constexpr double kTimeShare = 0.1;
+constexpr const char* kTimeKey = "time_ms";
+
+/// A run beside the reference. Rows are those over all experiments, in the order of the metrics.
+struct Compared {
+  const SettingRun* setting;
+  std::optional<Comparison> comparison;  ///< empty: the reference itself
+  std::vector<ComparisonRow> rows;
+
+  const std::string& name() const { return setting->run.name; }
+  bool has(Verdict verdict) const { return std::ranges::count(rows, verdict, &ComparisonRow::verdict) > 0; }
+  bool is_worse() const { return std::ranges::any_of(rows, stops); }
+};
+
+/// Of an older run, fields that it lacks are as in the paper.
+bool has_paper_configuration(const SettingRun& setting) {
+  const nlohmann::json& configuration = setting.run.result.configuration;
+  const TrackerConfig paper = glovebench::profile("paper");
+  try {
+    const TrackerConfig own = config_from_json(configuration.at("tracker"), paper, setting.run.name);
+    return glovebench::to_json(own) == glovebench::to_json(paper);
+  } catch (const std::exception&) {  // of another version
+    return false;
+  }
+}
+
+void require_several(const std::vector<SettingRun>& runs) {
+  if (runs.size() < 2) throw Error("table", "runs", fmt::format("{}", runs.size()), "two or more");
+  std::set<std::string> names;
+  for (const SettingRun& each : runs)
+    if (!names.insert(each.run.name).second)
+      throw Error("table", "runs", each.run.name + " twice", "runs of different names");
+}
+
+/// Of all frames of an experiment that have a value, then over the experiments.
+std::optional<double> mean_of(const RunResult& result, const Metric& metric) {
+  std::vector<double> means;
+  for (const ExperimentResult& experiment : result.experiments) {
+    std::vector<double> values;
+    for (const SeedRun& run : experiment.runs)
+      for (const FrameRecord& frame : run.frames)
+        if (const auto value = value_of(metric, frame)) values.push_back(*value);
+    if (const auto value = mean(values)) means.push_back(*value);
+  }
+  return mean(means);
+}
+
+std::vector<Compared> compared_with(const std::vector<SettingRun>& runs, const SettingRun& reference,
+                                    const PairingOptions& pairing, CompareConfig config) {
+  config.family_error /= static_cast<double>(runs.size() - 1);
+  std::vector<Compared> all;
+  for (const SettingRun& each : runs) {
+    Compared& compared = all.emplace_back(Compared{&each, std::nullopt, {}});
+    if (&each == &reference) continue;
+    compared.comparison = compare_results(reference.run, each.run, nullptr, pairing, config);
+    std::ranges::copy_if(compared.comparison->rows, std::back_inserter(compared.rows),
+                         [](const ComparisonRow& row) { return row.experiment == kAllExperiments; });
+  }
+  return all;
+}
+
+Cell verdict_cell(const ComparisonRow& row) {
+  return Judgment{verdict_text(row), tone_of(row)};
+}
+
+Cell time_cell(double time_ms, double reference_ms) {
+  if (time_ms < (1 - kTimeShare) * reference_ms) return Judgment{"faster", Tone::better};
+  if (time_ms > (1 + kTimeShare) * reference_ms) return Judgment{"slower", Tone::worse};
+  return Judgment{"same", Tone::same};
+}
+
+Table empty_table() {
+  constexpr int kDigits = 3;
+  Table table = {"settings",
+                 "Settings",
+                 "",
+                 {{"quantity", "quantity"},
+                  {"setting", "setting"},
+                  {"mean", "mean", kDigits},
+                  {"difference", "difference", kDigits},
+                  {"low", "low", kDigits},
+                  {"high", "high", kDigits},
+                  {"verdict", "verdict"}},
+                 2,
+                 {}};
+  return table;
+}
+
+Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
+                   const std::vector<const Metric*>& metrics) {
+  Table table = empty_table();
+  const Cell none = Judgment{"-", Tone::same};
+  for (size_t m = 0; m < metrics.size(); ++m) {
+    for (const Compared& each : all) {
+      Row& row = table.rows.emplace_back(Row{std::string(metrics[m]->key), each.name()});
+      row.push_back(cell(mean_of(each.setting->run.result, *metrics[m])));
+      if (&each == &reference) {
+        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
+        continue;
+      }
+      const ComparisonRow& compared = each.rows[m];
+      const bool readable = has_interval(compared);
+      row.insert(row.end(), {cell(compared.difference), readable ? cell(compared.low) : Cell(),
+                             readable ? cell(compared.high) : Cell(), verdict_cell(compared)});
+    }
+  }
+  const auto has_time = [](const Compared& each) { return each.setting->time_ms.has_value(); };
+  if (std::ranges::none_of(all, has_time)) return table;
+  const std::optional<double> reference_ms = reference.setting->time_ms;
+  for (const Compared& each : all) {
+    const std::optional<double> ms = each.setting->time_ms;
+    const bool differs = &each != &reference && ms && reference_ms;
+    table.rows.push_back({kTimeKey, each.name(), cell(ms), differs ? Cell(*ms - *reference_ms) : Cell(), Cell(),
+                          Cell(), differs ? time_cell(*ms, *reference_ms) : none});
+  }
+  return table;
+}
+
+Table changes_of(const std::vector<Compared>& all) {
+  Table table = table_of({"setting", "field", "reference", "here"}, 4);
+  for (const Compared& each : all)
+    if (each.comparison)
+      for (const ConfigurationChange& change : each.comparison->configuration)
+        table.rows.push_back({each.name(), change.field, change.baseline.empty() ? "-" : change.baseline,
+                              change.candidate.empty() ? "-" : change.candidate});
+  return table;
+}
+
+std::vector<std::string> enough_lines(const std::vector<Compared>& all) {
+  std::vector<std::string> lines;
+  for (const Compared& each : all)
+    for (const ComparisonRow& row : each.rows)
+      if (const std::string enough = enough_text(row); !enough.empty())
+        lines.push_back(fmt::format("{}, {}: {}", each.name(), row.metric->key, enough));
+  return lines;
+}
+
+/// "position_error_mm (-0.310), uncovered_percent (-2.100)"
+std::string quantities_with(const Compared& compared, Verdict verdict) {
+  std::vector<std::string> texts;
+  for (const ComparisonRow& row : compared.rows)
+    if (row.verdict == verdict)
+      texts.push_back(fmt::format("{} ({})", row.metric->key, signed_number_text(row.difference)));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// The gains in minimum effects, so that quantities of different units add up.
+double gain_of(const Compared& compared) {
+  double gain = 0;
+  for (const ComparisonRow& row : compared.rows)
+    if (row.verdict == Verdict::better) gain -= *row.difference / row.minimum_effect;
+  return gain;
+}
+
+/// Null unless both times are known and differ enough.
+std::optional<double> speed_gain(const Compared& compared, const Compared& reference) {
+  const auto mine = compared.setting->time_ms, its = reference.setting->time_ms;
+  if (!mine || !its || *mine >= (1 - kTimeShare) * *its) return std::nullopt;
+  return 1 - *mine / *its;
+}
+
+/// Better in a quantity and worse in none; among several the one that gains most.
+const Compared* best_of(const std::vector<Compared>& all) {
+  const Compared* best = nullptr;
+  for (const Compared& each : all)
+    if (each.has(Verdict::better) && !each.is_worse() && (!best || gain_of(each) > gain_of(*best))) best = &each;
+  return best;
+}
+
+/// The same in every quantity and faster; among several the fastest.
+const Compared* fastest_of(const std::vector<Compared>& all, const Compared& reference) {
+  const Compared* fastest = nullptr;
+  for (const Compared& each : all) {
+    const bool is_same = !each.rows.empty() && std::ranges::count(each.rows, Verdict::same,
+                                                                  &ComparisonRow::verdict) == std::ssize(each.rows);
+    if (!is_same || !speed_gain(each, reference)) continue;
+    if (!fastest || *each.setting->time_ms < *fastest->setting->time_ms) fastest = &each;
+  }
+  return fastest;
+}
+
+/// What a setting that is not recommended would trade.
+std::string trade_text(const Compared& each, const Compared& reference) {
+  if (each.has(Verdict::better) && each.is_worse())
+    return fmt::format(" {} is better in {}, but worse in other quantities: a choice.", each.name(),
+                       quantities_with(each, Verdict::better));
+  const std::optional<double> gain = speed_gain(each, reference);
+  if (gain && !each.is_worse() && each.has(Verdict::not_enough_data))
+    return fmt::format(" {} takes {:.0f}% less time, but is undecided in {}.", each.name(), 100 * *gain,
+                       quantities_with(each, Verdict::not_enough_data));
+  return "";
+}
+
+std::string basis_of(const SettingRun& reference, size_t metrics) {
+  std::set<std::string> movements;
+  size_t frames = 0, seeds = 0;
+  for (const ExperimentResult& experiment : reference.run.result.experiments) {
+    movements.insert(experiment.key.trajectory);
+    frames += static_cast<size_t>(experiment.coverage.frames);
+    seeds = std::max(seeds, experiment.runs.size());
+  }
+  return fmt::format(
+      " This rests on {} frames of {} movement{} with {} noise seed{}, in {} metric{}; it says nothing about other "
+      "movements or hands, and the settings were compared with the reference, not with each other.",
+      frames, movements.size(), movements.size() == 1 ? "" : "s", seeds, seeds == 1 ? "" : "s", metrics,
+      metrics == 1 ? "" : "s");
+}
+
+std::string recommendation_of(const std::vector<Compared>& all, const Compared& reference, size_t metrics) {
+  const Compared *best = best_of(all), *fastest = fastest_of(all, reference);
+  std::string text;
+  if (best) {
+    text = fmt::format("Recommended: {}. It is better than {} in {} and worse in none.", best->name(),
+                       reference.name(), quantities_with(*best, Verdict::better));
+    if (best->has(Verdict::not_enough_data))
+      text += fmt::format(" Undecided: {}.", quantities_with(*best, Verdict::not_enough_data));
+  } else if (fastest) {
+    text =
+        fmt::format("Recommended: {}. Its errors are those of {} within the minimum effects, in {:.0f}% less time.",
+                    fastest->name(), reference.name(), 100 * *speed_gain(*fastest, reference));
+  } else {
+    text = fmt::format(
+        "Recommended: {}. No other setting is better in one quantity and worse in none, or equal and "
+        "faster.",
+        reference.name());
+  }
+  for (const Compared& each : all)
+    if (&each != best) text += trade_text(each, reference);
+  return text + basis_of(*reference.setting, metrics);
+}
+
+std::string explanation_of(const SettingsTable& settings, const CompareConfig& config, bool has_times) {
+  return fmt::format(
+      "Means are over the frames that have a value, then over the experiments; percent are of all frames. "
+      "Differences are from {}{}, frame by frame over the frames that both have; above zero is worse. The "
+      "intervals "
+      "low to high are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold together with "
+      "{:g}%. Verdicts as in `glovebench compare`. {}",
+      settings.reference, settings.is_paper ? ", the paper's settings" : ", the first run", config.block_frames,
+      100 * (1 - config.family_error),
+      has_times ? fmt::format("time_ms: medians of the stages of a frame, added up, processor time of one thread "
+                              "while no other job of the command ran; under {:.0f}% is no difference.",
+                              100 * kTimeShare)
+                : "No times: none of these runs was timed alone (several settings in one `glovebench run`, or "
+                  "--threads 1).");
+}
+
+}  // namespace
+
+std::vector<std::string> headline_metrics() {
+  return {"position_error_mm", "posture_rms_deg", "rotation_error_deg", "fingertip_error_mm", "uncovered_percent"};
+}
+
+SettingsTable compare_settings(const std::vector<SettingRun>& runs, const PairingOptions& pairing,
+                               const CompareConfig& config) {
+  require_several(runs);
+  auto reference = std::ranges::find_if(runs, has_paper_configuration);
+  SettingsTable settings;
+  settings.is_paper = reference != runs.end();
+  if (!settings.is_paper) reference = runs.begin();
+  settings.reference = reference->run.name;
+  const std::vector<Compared> all = compared_with(runs, *reference, pairing, config);
+  std::vector<const Metric*> metrics;
+  for (const Compared& each : all)
+    if (metrics.empty())
+      for (const ComparisonRow& row : each.rows) metrics.push_back(row.metric);
+  const Compared& first = all[static_cast<size_t>(reference - runs.begin())];
+  settings.table = table_of_all(all, first, metrics);
+  settings.changes = changes_of(all);
+  settings.enough = enough_lines(all);
+  settings.recommendation = recommendation_of(all, first, metrics.size());
+  const bool has_times = std::ranges::any_of(runs, [](const SettingRun& each) { return each.time_ms.has_value(); });
+  settings.explanation = explanation_of(settings, config, has_times);
+  return settings;
+}
+
+std::string settings_text(const SettingsTable& settings, size_t columns) {
+  std::string text = to_text(settings.table, true, columns) + "\n";
+  if (!settings.changes.rows.empty()) text += to_text(settings.changes, true, columns) + "\n";
+  if (!settings.enough.empty())
+    text += "Not enough data. Enough would be, if further movements vary as these do:\n";
+  for (const std::string& line : settings.enough) text += "  " + wrapped(line, columns, 2);
+  if (!settings.enough.empty()) text += "\n";
+  return text + wrapped(settings.recommendation, columns) + "\n" + wrapped(settings.explanation, columns);
+}
+
+std::string settings_markdown(const SettingsTable& settings) {
+  std::string text = escape_markdown(settings.recommendation) + "\n\n" + to_markdown(settings.table);
+  if (!settings.changes.rows.empty()) text += "\n" + to_markdown(settings.changes);
+  if (!settings.enough.empty()) text += "\nEnough data would be, if further movements vary as these do:\n\n";
+  for (const std::string& line : settings.enough) text += "- " + escape_markdown(line) + "\n";
+  return text + "\n" + escape_markdown(settings.explanation) + "\n";
+}
+
+std::string settings_html(const SettingsTable& settings) {
+  std::string body = "<p>" + escape_html(settings.recommendation) + "</p>\n" + to_html(settings.table);
+  if (!settings.changes.rows.empty()) body += to_html(settings.changes);
+  if (!settings.enough.empty())
+    body += "<p>Enough data would be, if further movements vary as these do:</p>\n<ul>\n";
+  for (const std::string& line : settings.enough) body += "<li>" + escape_html(line) + "</li>\n";
+  if (!settings.enough.empty()) body += "</ul>\n";
+  return html_document("glovebench settings", body + "<p>" + escape_html(settings.explanation) + "</p>\n");
+}
+
+std::string settings_latex(const SettingsTable& settings) {
+  return latex_comment(settings.recommendation) + to_latex(settings.table);
+}
+
+}  // namespace glovebench::reports
