@@ -212,7 +212,7 @@ TEST_F(DdsSecurity, KeysAreMadeOnceAndCheckedBeforeTheyAreUsed) {
   expect_refusal(refusal_of(path("old")), "/old/identity_ca.pem: certificate: found one that expired ");
   expect_refusal(
       finish(start({build_paths::program("glovebench"), "track", "--source", "fakenect:x", "--database",
-                    "DB_open_power", "-o", path("e"), "--robot", "dds:7", "--security", path("nothing")})),
+                    "DB_open_power", "-o", path("e.jsonl"), "--robot", "dds:7", "--security", path("nothing")})),
       "/nothing: folder: ");
 }
 
