@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 #include "eval/experiment.h"
 #include "eval/studies/study.h"
+#include "render/subjects/subject.h"
 #include "reports/metrics/coverage.h"
 #include "reports/results.h"
 #include "reports/summary.h"
@@ -40,11 +40,19 @@ constexpr std::array<FamilyColumn, 9> kFamilyColumns = {{
     {"fingertip_error_mm", "fingertips mm", nullptr},
 }};
 
-/// The experiments of a family that differ in their movement alone.
+/// The experiments of a family that differ in their movement, and maybe in the person who performs it.
 struct FamilyGroup {
-  ExperimentKey key;  ///< its trajectory is the family
+  ExperimentKey key;  ///< the first one's, with the family for its trajectory
   std::vector<Experiment> movements;
 };
+
+/// Persons are drawn from one population, so they share a group. A movement counts once in it.
+bool belongs_to(const FamilyGroup& group, ExperimentKey key, const Experiment& experiment) {
+  if (std::min(key.subject, group.key.subject) >= render::kFirstCapsuleSubject) key.subject = group.key.subject;
+  return key == group.key && std::ranges::none_of(group.movements, [&](const Experiment& other) {
+           return other.key.trajectory == experiment.key.trajectory;
+         });
+}
 
 std::vector<FamilyGroup> groups_of(std::span<const MeasuredRun> runs) {
   std::vector<FamilyGroup> groups;
@@ -52,7 +60,8 @@ std::vector<FamilyGroup> groups_of(std::span<const MeasuredRun> runs) {
     ExperimentKey key = experiment.key;
     key.trajectory = experiment.runs.front()->run.spec.setting;
     if (key.trajectory.empty()) continue;
-    auto group = std::ranges::find(groups, key, &FamilyGroup::key);
+    auto group =
+        std::ranges::find_if(groups, [&](const FamilyGroup& each) { return belongs_to(each, key, experiment); });
     if (group == groups.end()) group = groups.insert(group, {key, {}});
     group->movements.push_back(experiment);
   }
@@ -75,7 +84,11 @@ std::optional<double> mean_of(const Experiment& movement, const FamilyColumn& co
 }
 
 reports::Row row_of(const FamilyGroup& group) {
-  reports::Row row = reports::experiment_names(group.key);
+  const auto [first, last] = std::ranges::minmax_element(
+      group.movements, {}, [](const Experiment& movement) { return movement.key.subject; });
+  ExperimentKey names = group.key;
+  names.subject = first->key.subject;
+  reports::Row row = reports::experiment_names(names, last->key.subject);
   int64_t frames = 0;
   std::vector<std::vector<double>> values(kFamilyColumns.size());
   for (const Experiment& movement : group.movements) {
@@ -102,11 +115,8 @@ reports::Table empty_family_table() {
       "families",
       "Movements by family",
       "Each number is the mean over movements of their own means; low and high are the ends of its 95% interval "
-      "(Student's t over movements), so it speaks of other movements of the family. Fewer than five movements have "
-      "none, nor have movements that are all equal; those of shares are cut at 0 and 100%. Visible: of all frames, "
-      "those with at least 30% of the glove's camera-facing area in both images and in the working volume. Of "
-      "visible frames, lost ones included: found within 50 mm and 30 degrees; usable within 10 mm and 10 degrees, "
-      "fingertips within 20 mm on average. Lost: of all frames, those that the tracker calls lost; wrongly lost: "
+#include "render/subjects/subject.h"
+#include "reports/metrics/coverage.h"
       "though the whole hand is in view and in the working volume. Errors are of frames that the tracker answers, "
       "right or wrong, and so of the movements that have such frames (answered).",
       {{"family", "family"},

@@ -62,6 +62,25 @@ TEST(FamilyTable, HasMeansAndIntervalsOverMovements) {
   EXPECT_THAT(cells_of(table, palm, "rotation_error_deg"), testing::ElementsAre("-", "-", "-"));
 }
 
+TEST(FamilyTable, PersonsShareARowInWhichAMovementCountsOnce) {
+  std::vector<MeasuredRun> runs;
+  const auto add = [&runs](int seed, int subject) {
+    runs.push_back(movement_of("side", seed, seed));
+    runs.back().run.spec.subject = subject;
+  };
+  add(1, 4), add(2, 3), add(3, 22);
+  add(1, 5);             // again the first movement
+  add(1, 1), add(2, 2);  // the tracker's mesh
+  const reports::Table table = family_table(runs).value().tables.at(0);
+  std::vector<std::pair<std::string, int64_t>> rows;
+  for (const reports::Row& row : table.rows)
+    rows.emplace_back(std::get<std::string>(row[column_index(table, "truth")]),
+                      std::get<int64_t>(row[column_index(table, "movements")]));
+  EXPECT_THAT(rows, testing::ElementsAre(testing::Pair("source, subjects 3 to 22", 3),
+                                         testing::Pair("source, subject 5", 1), testing::Pair("source", 1),
+                                         testing::Pair("source, second subject", 1)));
+}
+
 TEST(FamilyTable, SharesLieBetween0And100) {
   std::vector<MeasuredRun> runs;
   for (int i = 1; i <= 5; ++i) {

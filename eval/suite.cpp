@@ -63,11 +63,29 @@ std::vector<std::string> movements_from(const JsonCursor& family_field, const Js
   return names;
 }
 
+/// Consecutive subjects, who perform an entry's movements in turn.
+struct Subjects {
+  int first = 1;
+  int count = 1;
+};
+
+Subjects subjects_from(const JsonCursor& entry) {
+  if (entry.has("subject")) {
+    if (entry.has("subjects")) entry["subjects"].fail("either subject or subjects");
+    return {static_cast<int>(entry["subject"].integer(1, render::kSubjectCount)), 1};
+  }
+  if (!entry.has("subjects")) return {};
+  const JsonCursor field = entry["subjects"];
+  field.expect_keys({"first", "count"});
+  const auto count = static_cast<int>(field["count"].integer(1, render::kSubjectCount));
+  return {static_cast<int>(field["first"].integer(1, render::kSubjectCount - count + 1)), count};
+}
+
 /// An entry of a suite's file: a trajectory, or movements of a family.
 std::vector<SuiteEntry> entries_from(const JsonCursor& field, const fs::path& folder) {
   const bool is_family = field.has("family");
   if (is_family) {
-    field.expect_keys({"family", "movements", "databases"}, {"subject", "noise", "frames"});
+    field.expect_keys({"family", "movements", "databases"}, {"subject", "subjects", "noise", "frames"});
   } else {
     field.expect_keys({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
   }
@@ -77,12 +95,13 @@ std::vector<SuiteEntry> entries_from(const JsonCursor& field, const fs::path& fo
     const std::string database = item.text();
     entry.databases.push_back(is_database_file(database) ? (folder / database).string() : database);
   }
-  if (field.has("subject")) entry.subject = static_cast<int>(field["subject"].integer(1, render::kSubjectCount));
   if (field.has("noise")) entry.noise = noise_from(field["noise"]);
   if (field.has("frames")) entry.frames = frames_from(field["frames"]);
+  const Subjects subjects = subjects_from(field);
   std::vector<SuiteEntry> entries;
   for (const std::string& name :
        is_family ? movements_from(field["family"], field["movements"]) : std::vector{field["trajectory"].text()}) {
+    entry.subject = subjects.first + static_cast<int>(entries.size()) % subjects.count;
     entries.push_back(entry);
     entries.back().trajectory = trajectories::is_trajectory_file(name) ? (folder / name).string() : name;
   }

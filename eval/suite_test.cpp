@@ -141,6 +141,31 @@ TEST(Suite, ReadsMovementsOfAFamily) {
   EXPECT_THAT(suite.entries[3].databases, ElementsAre("DB_open_power"));
 }
 
+TEST(Suite, PersonsPerformTheMovementsOfAFamilyInTurn) {
+  json suite = make_family_suite();
+  suite["experiments"][2]["movements"]["count"] = 5;
+  const auto subjects_of = [&suite] {
+    std::vector<int> subjects;
+    for (const SuiteEntry& entry : parse_suite(suite.dump(), "mine.json").entries)
+      if (entry.trajectory.starts_with("side_")) subjects.push_back(entry.subject);
+    return subjects;
+  };
+  EXPECT_THAT(subjects_of(), ElementsAre(1, 1, 1, 1, 1));
+  suite["experiments"][2]["subject"] = 7;
+  EXPECT_THAT(subjects_of(), ElementsAre(7, 7, 7, 7, 7));
+  suite["experiments"][2]["subjects"] = {{"first", 21}, {"count", 2}};
+  EXPECT_THAT(refusal_of(suite), HasSubstr("experiments[2].subjects"));
+  suite["experiments"][2].erase("subject");
+  EXPECT_THAT(subjects_of(), ElementsAre(21, 22, 21, 22, 21));
+  suite["experiments"][2]["subjects"]["count"] = 3;
+  EXPECT_THAT(refusal_of(suite), HasSubstr("experiments[2].subjects.first: found 21"));
+  suite["experiments"][2]["subjects"] = {{"first", 3}, {"count", 23}};
+  EXPECT_THAT(refusal_of(suite), HasSubstr("experiments[2].subjects.count: found 23"));
+  json named = make_suite();
+  named["experiments"][0]["subjects"] = {{"first", 3}, {"count", 2}};
+  EXPECT_THAT(refusal_of(named), HasSubstr("subjects")) << "one trajectory has no turns";
+}
+
 TEST(Suite, RefusesMovementsThatDoNotExist) {
   const auto changed = [](const std::string& place, const json& value) {
     json suite = make_family_suite();
@@ -277,13 +302,17 @@ TEST_F(SuitePlan, FamiliesHoldsTenMovementsOfEach) {
   Workbench workbench(test_workbench());
   const Plan planned = plan_suite(workbench, profile("paper"), load_suite("families"), "");
   std::map<std::string, int> movements;
+  std::set<int> subjects;
   for (const RunSpec& spec : planned.specs) {
+    subjects.insert(spec.subject);
     EXPECT_EQ(frames_of(spec).size(), 100U);
     EXPECT_TRUE(spec.trajectory->name.starts_with(spec.setting + "_")) << spec.trajectory->name;
     ++movements[spec.setting];
   }
   EXPECT_EQ(movements.size(), trajectories::movement_families().size());
   for (const auto& [family, count] : movements) EXPECT_EQ(count, 10) << family;
+  EXPECT_EQ(subjects.size(), 20U) << "nobody is left out";
+  EXPECT_EQ(*subjects.begin(), render::kFirstCapsuleSubject) << "none of them has the tracker's mesh";
 }
 
 TEST_F(SuitePlan, UnknownNamesAreListed) {

@@ -51,8 +51,10 @@ std::optional<double> fingertip_area(const ExperimentResult& experiment) {
   return experiment.fingertip_pck ? experiment.fingertip_pck->area : std::nullopt;
 }
 
-std::string truth_cell(const ExperimentKey& key) {
+std::string truth_cell(const ExperimentKey& key, std::optional<int> last_subject) {
   const std::string truth(to_string(key.truth));
+  if (last_subject.value_or(key.subject) != key.subject)
+    return fmt::format("{}, subjects {} to {}", truth, key.subject, *last_subject);
   if (key.subject == 1) return truth;
   return key.subject == 2 ? truth + ", second subject" : fmt::format("{}, subject {}", truth, key.subject);
 }
@@ -65,8 +67,9 @@ Table experiment_table(const std::vector<std::string>& measured) {
   return table;
 }
 
-Row experiment_names(const ExperimentKey& key) {
-  return {key.trajectory, key.database, truth_cell(key), fmt::format("{} x {}", key.noise.model, key.noise.factor)};
+Row experiment_names(const ExperimentKey& key, std::optional<int> last_subject) {
+  return {key.trajectory, key.database, truth_cell(key, last_subject),
+          fmt::format("{} x {}", key.noise.model, key.noise.factor)};
 }
 
 Table detail_summary(const RunResult& result) {

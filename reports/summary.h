@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,8 @@ namespace glovebench::reports {
 
 /// Rows are experiments; columns for trajectory, database, truth and noise precede `measured`.
 Table experiment_table(const std::vector<std::string>& measured);
-/// The cells of these four columns.
-Row experiment_names(const ExperimentKey& key);
+/// The cells of these four columns. `last_subject`: of a row about several.
+Row experiment_names(const ExperimentKey& key, std::optional<int> last_subject = {});
 
 /// Position error with interval, metrics without joint convention, jitter, latency, lost and false frames.
 Table detail_summary(const RunResult& result);

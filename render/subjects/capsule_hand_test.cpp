@@ -207,6 +207,36 @@ TEST(CapsuleHand, IsAsWideAsItsDimensionsSay) {
   }
 }
 
+TEST(CapsuleHand, FingersEndWhereTheirBonesAndPulpDo) {
+  for (const int seed : {3, 4, kOtherSeed}) {
+    const CapsuleHand& hand = hand_of(seed);
+    for (const Posture& posture : postures()) {
+      const PosedHand posed = hand.pose(posture);
+      for (int finger = 0; finger < 5; ++finger) {
+        const int joint = 3 + 5 * finger, patch = finger == 0 ? kThumbDistal : kIndexDistal + 3 * (finger - 1);
+        const double length = hand.dimensions().segments[finger][2] + hand.dimensions().pulp[finger];
+        double end = 0, level = 0;
+        for (const Triangle& t : hand.triangles()) {
+          if (t.patch != patch) continue;
+          for (const uint32_t v : t.vertices) {
+            const double along = -(posed.T_hand_joint[joint].inverse() * posed.vertices[v].cast<double>()).z();
+            if (along > end) end = along, level = hand.levels()[v];
+          }
+        }
+        // Vertices are 2.5 mm apart: up to 1.8 mm beside the end of a ball of 6 mm, which is 0.27 mm deep. A fold
+        // beside the end may reach farther.
+        EXPECT_NEAR(end, length + level, 0.0005) << "seed " << seed << ", finger " << finger;
+        // The tip of the metrics lies on the segment's axis inside the finger.
+        const Eigen::Vector3d tip =
+            posed.T_hand_joint[joint].inverse() * posed.T_hand_joint[joint + 1].translation();
+        EXPECT_LT(tip.head<2>().norm(), 1e-9);
+        EXPECT_LT(-tip.z(), length - 0.005);
+        EXPECT_GT(-tip.z(), length / 3);
+      }
+    }
+  }
+}
+
 TEST(CapsuleHand, FoldsAreOneToTwoMillimetresDeep) {
   std::set<int> depths_um;
   for (const int seed : {3, 4, kOtherSeed, 22}) {

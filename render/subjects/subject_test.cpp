@@ -2,11 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <set>
 
 #include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "render/rgbd_renderer.h"
+#include "render/subjects/surface_net.h"
 #include "render/test_hand.h"
 
 namespace glovebench::render {
@@ -42,6 +44,32 @@ TEST(Subject, RefusesANumberThatNoneHas) {
       EXPECT_THAT(std::string(e.what()), testing::AllOf(testing::HasSubstr("found " + std::to_string(number)),
                                                         testing::HasSubstr("expected 1 to 22")));
     }
+  }
+}
+
+TEST(SubjectLong, PersonsAreOneClosedSurfaceWithoutHandles) {
+  for (int number = kFirstCapsuleSubject; number <= kSubjectCount; ++number) {
+    const Subject hand = subject(number);
+    std::vector<std::array<uint32_t, 3>> corners;
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    std::map<uint32_t, uint32_t> next;  // towards the representative of a vertex's piece
+    const auto piece = [&next](uint32_t v) {
+      while (next.try_emplace(v, v).first->second != v) v = next[v] = next[next[v]];
+      return v;
+    };
+    for (const Triangle& t : hand.triangles()) {
+      corners.push_back(t.vertices);
+      EXPECT_LT(t.patch, kPatchCount);
+      for (int i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax({t.vertices[i], t.vertices[(i + 1) % 3]});
+        edges.emplace(a, b);
+        next[piece(a)] = piece(b);
+      }
+    }
+    EXPECT_TRUE(is_closed(corners)) << number;
+    const auto pieces = std::ranges::count_if(next, [](const auto& entry) { return entry.first == entry.second; });
+    EXPECT_EQ(pieces, 1) << number;
+    EXPECT_EQ(std::ssize(next) - std::ssize(edges) + std::ssize(corners), 2) << "Euler, subject " << number;
   }
 }
 
