@@ -1,6 +1,6 @@
-#include "reports/json_text.h"
 #include "reports/metrics/coverage.h"
 #include "reports/metrics/measure_frame.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 
