@@ -86,11 +86,12 @@ Table detail_summary(const RunResult& result) {
     row.push_back(mean_with_interval(experiment, "position_error_mm"));
     for (const Metric& metric : frame_metrics())
       if (!metric.heading.empty()) row.push_back(fixed(experiment.aggregate_of(metric.key).mean, 2));
-    row.insert(row.end(),
-               {fixed(experiment.pck.area, 3), fixed(fingertip_area(experiment), 3),
-                fixed(experiment.sequence.jitter_position_mm, 2), fixed(experiment.sequence.jitter_rotation_deg, 2),
-                fixed(experiment.sequence.latency_frames, 1), fixed(covered_percent(experiment), 1), coverage.lost,
-                coverage.false_tracked, coverage.false_lost, coverage.frames, coverage.visible});
+    for (const Cell& cell : std::initializer_list<Cell>{
+             fixed(experiment.pck.area, 3), fixed(fingertip_area(experiment), 3),
+             fixed(experiment.sequence.jitter_position_mm, 2), fixed(experiment.sequence.jitter_rotation_deg, 2),
+             fixed(experiment.sequence.latency_frames, 1), fixed(covered_percent(experiment), 1), coverage.lost,
+             coverage.false_tracked, coverage.false_lost, coverage.frames, coverage.visible})
+      row.push_back(cell);
   }
   return table;
 }
