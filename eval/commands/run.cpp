@@ -63,11 +63,11 @@ struct RunCommand {
   }
 
   void run_plan(Workbench& workbench, const Plan& plan) {
-    const int threads = workbench.config().threads;
     const RobotOutput robot_output = robot.output_of(workbench);
     RunStore store(common.output);
-    const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
-    const auto [result, timings] = write(common.output, workbench, plan, runs, threads, robot_output);
+    const std::vector<MeasuredRun> runs =
+        measure(workbench, execute(workbench, plan.specs, {workbench.config().threads, &store}));
+    const auto [result, timings] = write(common.output, workbench, plan, runs, robot_output, false);
     store.finish();
     if (common.quiet) return;
     if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
@@ -88,8 +88,7 @@ struct RunCommand {
     std::vector<std::string> folders;
     for (size_t s = 0; s < settings.size(); ++s) {
       folders.push_back(fmt::format("{}/{}", common.output, settings[s].name));
-      constexpr int kOneJob = 1;  // each frame was timed alone
-      write(folders.back(), workbench, with_tracker(plan, trackers[s]), runs[s], kOneJob, robot_output);
+      write(folders.back(), workbench, with_tracker(plan, trackers[s]), runs[s], robot_output, true);
     }
     const reports::SettingsTable table = settings_table(folders);
     write_settings_table(common.output, table);
@@ -100,12 +99,14 @@ struct RunCommand {
   }
 
   using Written = std::pair<reports::RunResult, reports::Timings>;
-  /// Writes the report of these runs, which were timed on as many threads.
+  /// Writes the report of these runs. `are_timed_apart`: the times of their stages are of one job at a time.
   Written write(const std::string& folder, Workbench& workbench, const Plan& plan,
-                const std::vector<MeasuredRun>& runs, int threads, const RobotOutput& robot_output) const {
+                const std::vector<MeasuredRun>& runs, const RobotOutput& robot_output, bool are_timed_apart) const {
     reports::RunResult result = results_of(plan, runs, workbench);
-    reports::Timings timings = timings_of(runs, threads);
+    reports::Timings timings = timings_of(runs, are_timed_apart ? 1 : workbench.config().threads);
     add_commands(result, timings, runs, robot_output);
+    if (are_timed_apart)  // those of commands were not
+      for (reports::ExperimentTiming& experiment : timings.experiments) experiment.command_ms.clear();
     if (auto families = family_table(runs)) result.studies.push_back(*std::move(families));
     note_resources(timings, start);
     const auto estimates = estimates_of(runs);
