@@ -392,7 +392,8 @@ TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list", "config", "--explain"}).out,
               AllOf(HasSubstr("lookup.cascade = \"16:500,64:3\""), HasSubstr("[0.3, 10], unit m")));
   EXPECT_THAT(run_glovebench({"list", "config", "--explain", "k"}).out,
-              AllOf(HasSubstr("lookup.cascade"), HasSubstr("section III-B"), Not(HasSubstr("volume.z_min_m"))));
+              AllOf(HasSubstr("lookup.cascade"), HasSubstr("section IV-B"), Not(HasSubstr("volume.z_min_m"))));
+  EXPECT_THAT(run_glovebench({"list", "config", "K nearest neighbor"}).out, HasSubstr("lookup.cascade"));
   EXPECT_THAT(run_glovebench({"list", "config", "Sub-Sampling"}).out, HasSubstr("icp.subsampling_factor"));
   EXPECT_THAT(refusal({"list", "config", "mood"}), HasSubstr("found mood"));
   EXPECT_THAT(run_glovebench({"list", "metrics"}).out,

@@ -154,6 +154,8 @@ Outcome report_runs(Workbench& workbench, const Plan& plan, std::span<const Meas
   const std::vector<Experiment> experiments = experiments_of(runs);
   Outcome outcome{results_of(plan, runs, workbench), timings_of(experiments, timed.threads)};
   add_commands(outcome.result, outcome.timings, runs, robot);
+  if (!timed.commands)
+    for (reports::ExperimentTiming& experiment : outcome.timings.experiments) experiment.command_ms.clear();
   if (auto families = family_table(runs)) outcome.result.studies.push_back(*std::move(families));
   add_studies(outcome.result);
   note_resources(outcome.timings, timed.start);

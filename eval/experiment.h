@@ -31,6 +31,7 @@ struct Outcome {
 struct Timed {
   int threads = 1;
   std::chrono::steady_clock::time_point start;
+  bool commands = true;  ///< false: the times of robot commands are of another number of threads, and left out
 };
 /// Writes the report of runs that were executed and measured: adds robot commands, the table of families and what
 /// `add_studies` adds.

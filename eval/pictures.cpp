@@ -117,8 +117,8 @@ ColorImage legend(const std::optional<reports::FrameErrors>& errors) {
                              {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
                                           *record["rotation_error_deg"])},
                              {fmt::format("posture {:.1f} deg (RMS of 22 angles)", *record["posture_rms_deg"])},
-                             {fmt::format("fingertips {:.1f} mm (thumb to little: {})",
-                                          *record["fingertip_error_mm"], fmt::join(tips, ", "))}});
+                             {fmt::format("fingertips {:.1f} mm", *record["fingertip_error_mm"])},
+                             {fmt::format("  thumb to little: {} mm", fmt::join(tips, ", "))}});
   return render::picture_of_text(lines, kCellWidth, kCellHeight);
 }
 

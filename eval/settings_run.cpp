@@ -29,16 +29,12 @@ std::vector<RunSpec> timed_specs(const Plan& plan) {
 }
 
 void take_times(std::vector<MeasuredRun>& runs, std::span<Run> timed) {
-  for (MeasuredRun& each : runs) {
-    each.run.stages.clear();
-    each.run.frame_ms.clear();
-  }
+  for (MeasuredRun& each : runs) each.run.stages.clear();
   for (Run& times : timed) {
     const auto run = std::ranges::find_if(runs, [&](const MeasuredRun& each) {
       return key_of(each.run.spec) == key_of(times.spec) && each.run.spec.seed == times.spec.seed;
     });
     run->run.stages = std::move(times.stages);
-    run->run.frame_ms = std::move(times.frame_ms);
   }
 }
 

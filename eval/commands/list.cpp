@@ -102,14 +102,15 @@ std::string explained_config(const std::string& word) {
   const size_t columns = terminal_columns();
   std::string all;
   for (const ConfigField& field : config_fields()) {
-    std::string text = fmt::format("{} = {}\n", field.what.field, field.preset);
+    std::string plain(field.what.field), text = fmt::format("{} = {}\n", field.what.field, field.preset);
     const auto add = [&](const std::string& line) {
+      plain += " " + line;
       text += std::string(kIndent, ' ') + reports::wrapped(line, columns, kIndent);
     };
     add(std::string(field.what.meaning));
     add(fmt::format("{}{}{}", field.range, field.unit.empty() ? "" : ", unit ", field.unit));
     add(field.what.paper.empty() ? "not in the paper" : fmt::format("paper: {}", field.what.paper));
-    if (word.empty() || has_word(text, word)) all += text;
+    if (word.empty() || has_word(plain, word)) all += text;
   }
   if (all.empty())
     throw Error("list config", "word", word, "one that a field's name, meaning or paper's words have");

@@ -81,10 +81,10 @@ struct RunCommand {
     std::vector<std::string> folders;
     for (size_t s = 0; s < settings.size(); ++s) {
       folders.push_back(fmt::format("{}/{}", common.output, settings[s].name));
-      constexpr int kOneJob = 1;  // each frame was timed alone
+      constexpr int kOneJob = 1;  // each frame was timed alone, but not its commands
       const Plan planned = with_tracker(plan, trackers[s]);
       const Outcome outcome =
-          report_runs(workbench, planned, runs[s], {kOneJob, start}, robot_output, folders.back());
+          report_runs(workbench, planned, runs[s], {kOneJob, start, false}, robot_output, folders.back());
       warn_of_lost_hands(folders.back(), outcome.result, planned.tracker.volume);
     }
     const reports::SettingsTable table = settings_table(folders);
