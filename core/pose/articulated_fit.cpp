@@ -16,8 +16,7 @@ constexpr double kPointsOfWeights = 1000;  ///< to which weights are normalized
 /// Information of 1,000 points, per mm^2 of the equations' rows. It is chosen on generated movements so that the
 /// deviations match the errors.
 constexpr double kInformation = 4;
-constexpr double kUnseenDeviation_deg = 15;  ///< of an angle without points; chosen in the same way
-constexpr double kOutlineSlack_px = 1;       ///< a vertex on the outline may lie this far from the nearest pixel
+constexpr double kOutlineSlack_px = 1;  ///< a vertex on the outline may lie this far from the nearest pixel
 
 double between(const double (&ends)[2], int step, int steps) {
   if (steps == 1) return ends[1];
@@ -114,8 +113,11 @@ class Run {
   /// Standard deviation of each angle, rad, from the points of the last equations.
   Posture deviation() const {
     StepMatrix information = kInformation * H_points_;
-    for (int a = 0; a < kAngleCount; ++a)
-      information(6 + a, 6 + a) += 1 / (kUnseenDeviation_deg * kUnseenDeviation_deg);
+    for (int a = 0; a < kAngleCount; ++a) {
+      // Without points an angle may lie anywhere between its limits: the variance of an even distribution.
+      const double range_deg = angle_infos()[a].max_deg - angle_infos()[a].min_deg;
+      information(6 + a, 6 + a) += 12 / (range_deg * range_deg);
+    }
     const StepMatrix covariance = information.ldlt().solve(StepMatrix::Identity());
     Posture result;
     for (int a = 0; a < kAngleCount; ++a)
