@@ -77,6 +77,19 @@ TEST_F(CalibrateHandLong, makes_a_hand_that_tracks_better) {
   run_trajectory("other.json", "paper", {"--hand", path("mine.json")});
   expect_fine(run_glovebench({"explain", path("paper"), "1", "--trajectory", path("other.json")}));
 
+  // The points lie off the mesh, but not off this person's hand.
+  const auto fit = [&](std::vector<std::string> flags) {
+    flags.insert(flags.end(), {"--method", "articulated"});
+    return track("moving", "DB_open_power", "estimates.jsonl", flags);
+  };
+  const ProgramRun without_hand = fit({});
+  EXPECT_EQ(without_hand.exit_code, 0);
+  EXPECT_THAT(without_hand.err, AllOf(HasSubstr("warning: "), HasSubstr("glovebench calibrate hand")));
+  EXPECT_EQ(std::count(without_hand.err.begin(), without_hand.err.end(), '\n'), 1) << without_hand.err;
+  EXPECT_THAT(without_hand.out, HasSubstr("see glovebench calibrate hand"));
+  expect_fine(fit({"--hand", path("mine.json")}));
+  EXPECT_EQ(fit({"--quiet"}).err, "");
+
   // A database of another hand is refused.
   for (const auto& [file, flags] : std::map<std::string, std::vector<std::string>>{
            {"own.glovedb", {"--hand", path("mine.json")}}, {"plain.glovedb", {}}}) {
@@ -100,6 +113,11 @@ TEST_F(CalibrateHandLong, refuses_a_recording_that_does_not_show_the_hand) {
   record("unturned", 32, 70, 5, 1);
   EXPECT_THAT(refusal(calibrate("unturned")), HasSubstr("unturned: turn of the hand: found"));
   EXPECT_FALSE(fs::exists(path("mine.json")));
+
+  // These recordings are of the mesh's own hand.
+  const ProgramRun tracked = track("unturned", "DB_open_power", "estimates.jsonl", {"--method", "articulated"});
+  expect_fine(tracked);
+  EXPECT_THAT(tracked.out, testing::Not(HasSubstr("calibrate hand")));
 }
 
 TEST_F(CalibrateHandLong, refuses_a_file_that_is_no_hand_of_the_tracker) {

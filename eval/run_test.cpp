@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/math.h"
 #include "eval/program.h"
 #include "eval/test_program.h"
 #include "trajectories/catalog.h"
+#include "trajectories/generation/families/movement.h"
 
 namespace glovebench::eval {
 namespace {
@@ -48,6 +50,46 @@ TEST(RunLong, a_capsule_hand_is_tracked_and_shares_no_images) {
     ASSERT_EQ(tracked.run.answers[f].status, TrackStatus::tracked);
     EXPECT_LT(tracked.errors[f].record["position_error_mm"].value(), 20);
     EXPECT_EQ(tracked.errors[f].record["position_error_mm"], again.errors[f].record["position_error_mm"]);
+  }
+}
+
+/// Errors of angles in units of their standard deviations.
+std::vector<double> relative_errors(const Run& run, bool hidden) {
+  std::vector<double> errors;
+  const std::span<const HandFrame> truth = frames_of(run.spec);
+  for (size_t f = 0; f < truth.size(); ++f) {
+    const TrackResult& answer = run.answers[f];
+    if (answer.status != TrackStatus::tracked) continue;
+    for (int a = 0; a < kAngleCount; ++a)
+      if ((answer.certainty->hidden >> a & 1) == hidden)
+        errors.push_back(std::abs(answer.posture[a] - truth[f].posture[a]) / answer.certainty->deviation[a]);
+  }
+  return errors;
+}
+
+TEST(RunLong, errors_of_angles_keep_to_their_deviations) {
+  Workbench workbench(test_workbench());
+  const trajectories::MovementMaterial material =
+      trajectories::load_movement_material(trajectory_folder(), HandModel::load(hand_mesh_path()).skeleton());
+  RunSpec spec = spec_of_tr4({});
+  spec.tracker.method = "articulated";
+  std::vector<double> of_seen, of_hidden;
+  for (const char* family : {"any", "fast"}) {
+    spec.trajectory = std::make_shared<const trajectories::Trajectory>(
+        generate_movement(trajectories::find_movement_family(family), 301, material, 60));
+    const Run run = execute(workbench, {&spec, 1}, {}).front();
+    std::ranges::copy(relative_errors(run, false), std::back_inserter(of_seen));
+    std::ranges::copy(relative_errors(run, true), std::back_inserter(of_hidden));
+  }
+  const auto share_within = [](const std::vector<double>& errors, double deviations) {
+    return static_cast<double>(std::ranges::count_if(errors, [&](double e) { return e < deviations; })) /
+           static_cast<double>(errors.size());
+  };
+  // Errors of neighboring frames are alike: two movements are not many, and two postures to start from are few.
+  for (const auto& errors : {of_seen, of_hidden}) {
+    ASSERT_GT(errors.size(), 100U);
+    EXPECT_NEAR(share_within(errors, 1), 0.68, 0.12);
+    EXPECT_NEAR(share_within(errors, 2), 0.95, 0.1);
   }
 }
 

@@ -81,6 +81,7 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
   result.icp_points = fitted.points;
   result.icp_iterations = fitted.steps;
   result.icp_residual = fitted.residual;
+  result.misfit = fitted.misfit;
   if (result.converged) result.certainty = {fitted.deviation, fitted.hidden};
   result.status = status_of(fitted.status);
   if (result.converged && fitted.residual > in_.config.max_residual) result.status = TrackStatus::poor_alignment;

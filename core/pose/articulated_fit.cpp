@@ -16,8 +16,9 @@ constexpr double kPointsOfWeights = 1000;  ///< to which weights are normalized
 /// Information of 1,000 points, per mm^2 of the equations' rows. It is chosen on generated movements so that the
 /// deviations match the errors.
 constexpr double kInformation = 4;
-constexpr double kUnseenDeviation_deg = 15;  ///< of an angle without points; chosen in the same way
-constexpr double kOutlineSlack_px = 1;       ///< a vertex on the outline may lie this far from the nearest pixel
+constexpr double kOutlineSlack_px = 1;  ///< a vertex on the outline may lie this far from the nearest pixel
+constexpr double kStray_mm = 6;         ///< farther points are of another patch or of no hand
+constexpr int kPatchPoints = 60;        ///< a patch of fewer points says little about the hand
 
 double between(const double (&ends)[2], int step, int steps) {
   if (steps == 1) return ends[1];
@@ -114,29 +115,60 @@ class Run {
   /// Standard deviation of each angle, rad, from the points of the last equations.
   Posture deviation() const {
     StepMatrix information = kInformation * H_points_;
-    for (int a = 0; a < kAngleCount; ++a)
-      information(6 + a, 6 + a) += 1 / (kUnseenDeviation_deg * kUnseenDeviation_deg);
+    for (int a = 0; a < kAngleCount; ++a) {
+      // Without points an angle may lie anywhere between its limits: the variance of an even distribution.
+      const double range_deg = angle_infos()[a].max_deg - angle_infos()[a].min_deg;
+      information(6 + a, 6 + a) += 12 / (range_deg * range_deg);
+    }
     const StepMatrix covariance = information.ldlt().solve(StepMatrix::Identity());
     Posture result;
     for (int a = 0; a < kAngleCount; ++a)
       result[a] = radians_from_degrees(std::sqrt(std::max(0.0, covariance(6 + a, 6 + a))));
     return result;
   }
-  /// The angles that move few of the points, as bits.
-  uint32_t hidden() const {
-    std::array<int, kPatchCount> of_patches{};
+  /// The points whose closest face is of a patch.
+  struct PatchPoints {
+    int all = 0;
+    int near = 0;           ///< within kStray_mm
+    double height_sum = 0;  ///< signed distances of the near ones from the surface, positive outside, mm
+  };
+  std::array<PatchPoints, kPatchCount> points_of_patches() const {
+    std::array<PatchPoints, kPatchCount> patches;
     for (size_t i = 0; i < matcher_.closest().size(); ++i) {
       const ClosestPoint& closest = matcher_.closest()[i];
       if (closest.face < 0) continue;
       const Surface::Face& face = matcher_.surface().faces(matcher_.cloud()[i].label)[closest.face];
-      ++of_patches[model_.triangles()[face.triangle].patch];
+      PatchPoints& patch = patches[model_.triangles()[face.triangle].patch];
+      ++patch.all;
+      const double distance_mm = 1000 * static_cast<double>(closest.distance);
+      if (distance_mm > kStray_mm) continue;
+      ++patch.near;
+      const Eigen::Vector3f normal = (face.b - face.a).cross(face.c - face.a);
+      const bool is_outside = normal.dot(matcher_.points_hand()[i].p - closest.p_hand) > 0;
+      patch.height_sum += is_outside ? distance_mm : -distance_mm;
     }
+    return patches;
+  }
+  /// RMS of the patches' mean heights over the surface, m: noise averages out of them, a wrong size does not.
+  std::optional<double> misfit(const std::array<PatchPoints, kPatchCount>& patches) const {
+    double squares = 0;
+    int count = 0;
+    for (const PatchPoints& patch : patches) {
+      if (patch.near < kPatchPoints) continue;
+      squares += patch.height_sum * patch.height_sum / patch.near;
+      count += patch.near;
+    }
+    if (count == 0) return {};
+    return std::sqrt(squares / count) / 1000;
+  }
+  /// The angles that move few of the points, as bits.
+  uint32_t hidden(const std::array<PatchPoints, kPatchCount>& patches) const {
     const size_t stride = (seen_.points.size() + points() - 1) / points();
     uint32_t hidden = 0;
     for (int a = 0; a < kAngleCount; ++a) {
       size_t moved_points = 0;
       for (int patch = 0; patch < kPatchCount; ++patch)
-        if (patches_moved()[a] >> patch & 1) moved_points += of_patches[patch] * stride;
+        if (patches_moved()[a] >> patch & 1) moved_points += patches[patch].all * stride;
       if (moved_points < kSeenPoints) hidden |= uint32_t{1} << a;
     }
     return hidden;
@@ -282,7 +314,9 @@ ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std:
   best.steps = schedule_.trial.steps + schedule_.rough.steps + schedule_.fine.steps;
   best.residual = fine.mean_distance();
   best.deviation = fine.deviation();
-  best.hidden = fine.hidden();
+  const auto patches = fine.points_of_patches();
+  best.misfit = fine.misfit(patches);
+  best.hidden = fine.hidden(patches);
   return best;
 }
 

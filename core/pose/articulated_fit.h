@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "core/camera/pinhole_camera.h"
@@ -50,6 +51,7 @@ struct ArticulatedEstimate {
   int points = 0;  ///< in `fine`
   int steps = 0;
   double residual = 0;                  ///< mean point-to-triangle distance before the last step, m
+  std::optional<double> misfit;         ///< as TrackResult::misfit
   Posture deviation = Posture::Zero();  ///< standard deviations, rad
   uint32_t hidden = 0;                  ///< bit a: angle a is hidden
 };

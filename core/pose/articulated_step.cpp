@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "core/base/math.h"
 
@@ -70,8 +71,8 @@ void PullSums::add(const RowSums& pulls_at_point, const BodyList& bodies) {
     for (int j = 0; j <= i; ++j) {
       const int low = std::min(bodies.body[i], bodies.body[j]), high = std::max(bodies.body[i], bodies.body[j]);
       Pair& pair = pairs_[high * (high + 1) / 2 + low];
+      if (!std::exchange(pair.is_used, true)) pair.products.setZero();
       pair.products += (bodies.share[i] * bodies.share[j]) * pulls_at_point.products;
-      pair.is_used = true;
     }
   }
 }

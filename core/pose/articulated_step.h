@@ -76,7 +76,7 @@ class PullSums {
  private:
   static constexpr int kPairs = kBodyCount * (kBodyCount + 1) / 2;
   struct Pair {
-    Eigen::Matrix<double, 21, 1> products = Eigen::Matrix<double, 21, 1>::Zero();
+    Eigen::Matrix<double, 21, 1> products;  ///< if used
     bool is_used = false;
   };
 

@@ -27,8 +27,10 @@ SurfacePull surface_pull(const Surface::Face& face, const ClosestPoint& closest,
   const Eigen::Vector3d q = closest.p_hand.cast<double>();
   const Eigen::Vector3d apart = p_hand.cast<double>() - q;
   const Eigen::Vector3d at = barycentric_in(face, closest.p_hand);
-  Eigen::Vector3d direction = (face.b - face.a).cross(face.c - face.a).normalized().cast<double>();
-  if (at.minCoeff() < kInside && apart.norm() > kNoDirection) direction = apart.normalized();
+  const bool along_the_line = at.minCoeff() < kInside && apart.norm() > kNoDirection;
+  const Eigen::Vector3d direction =
+      along_the_line ? Eigen::Vector3d(apart.normalized())
+                     : Eigen::Vector3d((face.b - face.a).cross(face.c - face.a).normalized().cast<double>());
   return {{q, direction, 1000 * direction.dot(apart), weight}, 1000 * apart, at};
 }
 

@@ -60,6 +60,8 @@ struct TrackResult {
   int icp_iterations = 0;
   double icp_residual = 0;  ///< final mean point-to-triangle distance, m
   std::optional<AngleCertainty> certainty;
+  /// How far whole patches of points lie off the refined hand, RMS, m: small unless the model has wrong sizes.
+  std::optional<double> misfit;
 };
 
 /// The stages of the methods, in the order of a frame.

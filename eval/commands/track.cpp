@@ -45,6 +45,25 @@ class Pace {
   std::chrono::steady_clock::time_point due_;
 };
 
+/// Whether the tracker's hand has other sizes than the one it sees.
+class HandCheck {
+ public:
+  void add(const TrackResult& result) {
+    if (result.status != TrackStatus::tracked || !result.misfit) return;
+    ++frames_;
+    far_ += *result.misfit > kFar;
+  }
+  bool asks_for_calibration() const { return frames_ >= kLeastFrames && 2 * far_ > frames_; }
+
+ private:
+  static constexpr int kLeastFrames = 30;
+  /// m. Medians of movements: at most 0.05 mm with the right hand or a calibrated one, with every noise model; at
+  /// least 0.14 mm with a hand 5% larger.
+  static constexpr double kFar = 0.09e-3;
+
+  int frames_ = 0, far_ = 0;
+};
+
 struct Track {
   CommonFlags common;
   SourceFlags from;
@@ -62,8 +81,9 @@ struct Track {
   int frames = 0, unusable = 0, tracked = 0;
   std::vector<double> latencies_ms;         ///< of frames that were tracked or lost
   std::vector<reports::Estimate> for_page;  ///< with `page`
-  std::optional<Error> failure;             ///< of the device, or of a command
-  bool is_whole = true;                     ///< all commands succeeded and all lines were written
+  HandCheck hand_check;
+  std::optional<Error> failure;  ///< of the device, or of a command
+  bool is_whole = true;          ///< all commands succeeded and all lines were written
 
   void run() {
     require_different_files({{"--output", common.output}, {"--robot-out", robot.output}, {"--page", page}});
@@ -112,6 +132,9 @@ struct Track {
           "colors "
           "other than those of --colors, or a hand outside of the working volume ({:g} to {:g} mm)\n",
           frames, 1000 * config.volume.z_min, 1000 * config.volume.z_max);
+    if (!common.quiet && hand_check.asks_for_calibration())
+      say("glovebench: warning: the hand has other sizes than the tracker's. To fit them: glovebench calibrate "
+          "hand, then --hand\n");
     if (!common.quiet)
       fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
                  counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
@@ -163,6 +186,7 @@ struct Track {
         latencies_ms.push_back(static_cast<double>(system_us() - arrived_us) / 1000);
         use(number, *frame, result);
         tracked += result.status == TrackStatus::tracked;
+        hand_check.add(result);
         status.show(result, source.dropped());
       }
       if (source.frame_count > 0) progress.show(static_cast<double>(frames) / source.frame_count);
