@@ -14,7 +14,7 @@ namespace {
 constexpr int kUsageError = 2;
 constexpr int kIncomparable = 3;
 
-void add_commands(glovebench::eval::Command program) {
+void add_commands(const glovebench::eval::Command& program) {
   using namespace glovebench::eval;
   add_reproduce(program);
   add_run(program);

@@ -36,7 +36,7 @@ class TrueNeighborSearch {
                                   const PinholeCamera& camera) const;
   /// Centroids of the patches' vertices.
   Eigen::Matrix3Xd patch_centers(const Eigen::Matrix3Xd& vertices) const;
-  int posture_of(int entry) const { return entry / kViewCount; }
+  static int posture_of(int entry) { return entry / kViewCount; }
 
   const HandModel& model_;
   std::vector<Eigen::Matrix3d> R_ray_hand_;      ///< by entry

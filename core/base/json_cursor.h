@@ -119,7 +119,8 @@ class JsonMembers {
 
   class Iterator {
    public:
-    Iterator(const JsonCursor& object, nlohmann::json::const_iterator member) : object_(&object), member_(member) {}
+    Iterator(const JsonCursor& object, const nlohmann::json::const_iterator& member)
+        : object_(&object), member_(member) {}
     std::pair<std::string, JsonCursor> operator*() const { return {member_.key(), (*object_)[member_.key()]}; }
     Iterator& operator++() {
       ++member_;

@@ -175,7 +175,7 @@ std::optional<double> slowest_other(const Selection& runs) {
 
 std::vector<Measure> time_measures(const Timed& timed) {
   const auto& [plain, fast] = timed;
-  const auto look_up = [&](const char* cascade) {
+  const auto look_up = [&plain = plain](const char* cascade) {
     return percentile(times_ms(select(plain, cascade, kLarge), "look_up"), 0.5);
   };
   const Selection small = select(plain, kTwoStages, kSmall);

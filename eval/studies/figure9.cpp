@@ -103,6 +103,7 @@ std::vector<Measure> time_measures(const Selection& sparsest) {
 
 std::vector<Measure> sampling_error_measures(const Runs& runs) {
   std::vector<Sample> errors;
+  errors.reserve(kFactors.size());
   for (const int factor : kFactors) errors.push_back(sample_of(of_factor(runs, factor), "position_error_mm"));
   const auto per_doubling = [](std::span<const double> means) {
     return std::optional(std::pow(means[1] / means[0], 1.0 / (kFactors.size() - 1)) - 1);

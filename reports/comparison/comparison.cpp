@@ -33,7 +33,7 @@ FrameDifferences frame_differences(const std::vector<const Metric*>& metrics, co
   result.first_frame = baseline.runs.front().frames.front().frame;
   for (const Metric* metric : metrics) {
     const auto by_seed = paired_differences(*metric, baseline.runs, candidate.runs).by_seed;
-    auto& differences = result.differences.emplace_back(metric).values;
+    auto& differences = result.differences.emplace_back(FrameDifferences::OfMetric{metric, {}}).values;
     for (size_t f = 0; f < by_seed.front().size(); ++f) {
       std::vector<double> values;
       for (const auto& row : by_seed)

@@ -50,6 +50,7 @@ std::string last_line(std::string text) {
 OpensslResult run_openssl(const std::string& folder, std::vector<std::string> arguments, std::string_view input) {
   arguments.insert(arguments.begin(), "openssl");
   std::vector<char*> words;
+  words.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
 

@@ -34,9 +34,9 @@ class MotionLog {
   void started(int64_t time_us, std::string_view from);
   void received(const ReceivedLine& line);
   /// `at_rest`: no joint moves before a new start.
-  void ticked(const RobotState& state, int64_t time_us, bool at_rest);
+  void ticked(const RobotState& its, int64_t time_us, bool at_rest);
   /// Writes that the joints stay in place.
-  void finish(const RobotState& state, int64_t time_us);
+  void finish(const RobotState& its, int64_t time_us);
 
   /// Returns true if the joints may move freely for `seconds`.
   bool may_move(const std::vector<double>& positions, double seconds);
