@@ -42,7 +42,7 @@ struct RunSpec {
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
-  double visible_percent = 0;  ///< reports/metrics/visibility.h; independent of the tracker
+  double visible_percent = 0;                     ///< reports/metrics/visibility.h; independent of the tracker
 };
 
 /// A tracker's answers by frame; measured_run.h computes errors.

@@ -124,10 +124,10 @@ ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurv
 
 /// The meaning of a result's numbers. Comparable results share all but metric_keys.
 struct Protocol {
-  int metric_definitions = 1;            ///< raised when a metric changes its meaning
-  std::vector<std::string> joint_order;  ///< the 22 angles
-  std::vector<std::string> metric_keys;  ///< of frames; versions differ
-  std::string association;               ///< of estimates and truths: "by time stamp, exact"
+  int metric_definitions = 1;                         ///< raised when a metric changes its meaning
+  std::vector<std::string> joint_order;               ///< the 22 angles
+  std::vector<std::string> metric_keys;               ///< of frames; versions differ
+  std::string association;                            ///< of estimates and truths: "by time stamp, exact"
   std::map<std::string, double> coverage_rules = {};  ///< metrics/coverage.h; empty in older results
 
   std::string id() const;  ///< hash of the above

@@ -30,7 +30,7 @@ struct Study {
   std::string_view name;   ///< "fig8"
   std::string_view title;  ///< "Figure 8: matching cascades"
   reports::StudyResult (*run)(const StudyContext& context);
-  double cpu_s;  ///< of one seed, roughly
+  double cpu_s;             ///< of one seed, roughly
   bool on_request = false;  ///< no part of a reproduction that names no parts
 };
 /// All studies in running order.
