@@ -148,8 +148,8 @@ Outcome carry_out(Workbench& workbench, const Plan& plan, const RobotOutput& rob
   return outcome;
 }
 
-Outcome report_runs(Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const Timed& timed,
-                    const RobotOutput& robot, const std::string& folder,
+Outcome report_runs(Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs,
+                    const TimedWith& timed, const RobotOutput& robot, const std::string& folder,
                     const std::function<void(reports::RunResult&)>& add_studies) {
   const std::vector<Experiment> experiments = experiments_of(runs);
   Outcome outcome{results_of(plan, runs, workbench), timings_of(experiments, timed.threads)};

@@ -28,7 +28,7 @@ struct Outcome {
   reports::RunResult result;
   reports::Timings timings;
 };
-struct Timed {
+struct TimedWith {
   int threads = 1;
   std::chrono::steady_clock::time_point start;
   bool commands = true;  ///< false: the times of robot commands are of another number of threads, and left out
@@ -37,7 +37,7 @@ struct Timed {
 /// `add_studies` adds.
 /// Throws: Error for a folder that cannot be written.
 Outcome report_runs(
-    Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const Timed& timed,
+    Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const TimedWith& timed,
     const RobotOutput& robot, const std::string& folder,
     const std::function<void(reports::RunResult&)>& add_studies = [](reports::RunResult&) {});
 

@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
+#include "eval/pictures.h"
 #include "eval/reproduction.h"
 #include "eval/settings_run.h"
 #include "eval/settings_table.h"
