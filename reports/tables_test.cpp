@@ -61,23 +61,25 @@ TEST(Figure4Csv, OneLineAnExperiment) {
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
             "run,experiment,trajectory,database,truth,subject,noise,noise_factor,seeds,frames,coverage,"
+            "visible_frames,found,usable,"
             "position_error_mm_mean,position_error_mm_interval_low,position_error_mm_interval_high,"
             "position_error_mm_paper,"
             "posture_rms_deg_mean,posture_rms_deg_interval_low,posture_rms_deg_interval_high,posture_rms_deg_paper,"
             "rotation_error_deg_mean,rotation_error_deg_interval_low,rotation_error_deg_interval_high,"
             "rotation_error_deg_paper,"
-            "fingertip_error_mm_mean,fingertip_error_mm_interval_low,fingertip_error_mm_interval_high");
+            "fingertip_error_mm_mean,fingertip_error_mm_interval_low,fingertip_error_mm_interval_high,"
+            "vertex_error_mm_mean,vertex_error_mm_interval_low,vertex_error_mm_interval_high");
   const std::string run = run_name(small_result());
   EXPECT_THAT(lines[1],
               testing::StartsWith(run + ",Tr4_DB_open_power_recorded_subject1_gradient_1,Tr4,DB_open_power,"
-                                        "recorded,1,gradient,1.0,2,4,0.75,4.0,"));
+                                        "recorded,1,gradient,1.0,2,4,0.75,4,0.75,0.75,4.0,"));
   EXPECT_THAT(lines[1], HasSubstr(",3.8814,3.0,"));
   EXPECT_EQ(lines[2], run +
                           ",Tr4_DB_open_power_source_subject2_gradient_1,Tr4,DB_open_power,source,2,gradient,1.0,"
-                          "1,2,0.0,,,,3.8814,,,,2.6012,,,,2.6955,,,");
+                          "1,2,0.0,2,0.0,0.0,,,,3.8814,,,,2.6012,,,,2.6955,,,,,,");
   EXPECT_EQ(lines[3], run +
                           ",Tr1_DB_20_postures_source_subject1_gradient_1,Tr1,DB_20_postures,source,1,gradient,1.0,"
-                          "0,0,,,,,7.3316,,,,18.0114,,,,11.6754,,,");
+                          "0,0,,0,,,,,,7.3316,,,,18.0114,,,,11.6754,,,,,,");
 }
 
 /// As `small_result`, but the first experiment is of a user's movement.

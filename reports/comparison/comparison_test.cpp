@@ -79,8 +79,8 @@ TEST(Comparison, HandComputed) {
     EXPECT_DOUBLE_EQ(*row.candidate, 4);
     EXPECT_DOUBLE_EQ(*row.difference, 2);
     // One block of two is drawn, so a mean is 1 or 3: standard error 1. Student's t of one degree of freedom is a
-    // Cauchy distribution, 1 / tan(pi p) above p = 0.01 / (2 * 20 rows).
-    const double half_width = 1 / std::tan(std::numbers::pi * 0.01 / 40);
+    // Cauchy distribution, 1 / tan(pi p) above p = 0.01 / (2 * 22 rows).
+    const double half_width = 1 / std::tan(std::numbers::pi * 0.01 / 44);
     EXPECT_NEAR(*row.high, 2 + half_width, 0.001 * half_width);
     EXPECT_NEAR(*row.low, 2 - half_width, 0.001 * half_width);
     EXPECT_EQ(row.verdict, Verdict::not_enough_data);
@@ -337,7 +337,7 @@ TEST(Comparison, SaysWhatWasCompared) {
   EXPECT_TRUE(comparison.has_noise_floor);
   EXPECT_THAT(
       comparison_explanation(comparison),
-      AllOf(HasSubstr("For these trajectories"), HasSubstr("all 40 together"), HasSubstr("1% of comparisons"),
+      AllOf(HasSubstr("For these trajectories"), HasSubstr("all 44 together"), HasSubstr("1% of comparisons"),
             HasSubstr("other noise seeds, so"), HasSubstr("at least 16 successive")));
 }
 
