@@ -59,7 +59,7 @@ TEST(ReproductionLong, TheLiteralReadingStandsBesideThePapers) {
   Workbench workbench(test_workbench());
   ReproductionOptions options = only({"paper-literal"});
   options.study.quick = true;
-  const Reproduction outcome = reproduce(workbench, options, {}, test_folder() + "/out");
+  const Outcome outcome = reproduce(workbench, options, {}, test_folder() + "/out");
   ASSERT_EQ(outcome.result.studies.size(), 1U);
   EXPECT_TRUE(outcome.result.experiments.empty() && outcome.result.studies[0].measures.empty());
   const reports::Table& table = outcome.result.studies[0].tables.at(0);

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/math.h"
 #include "eval/program.h"
 #include "eval/test_program.h"
 #include "trajectories/catalog.h"
@@ -77,7 +76,7 @@ TEST(RunLong, errors_of_angles_keep_to_their_deviations) {
   for (const char* family : {"any", "fast"}) {
     spec.trajectory = std::make_shared<const trajectories::Trajectory>(
         generate_movement(trajectories::find_movement_family(family), 301, material, 60));
-    const Run run = execute(workbench, {&spec, 1}, {}).front();
+    const auto run = execute(workbench, {&spec, 1}, {}).front();
     std::ranges::copy(relative_errors(run, false), std::back_inserter(of_seen));
     std::ranges::copy(relative_errors(run, true), std::back_inserter(of_hidden));
   }
