@@ -115,6 +115,8 @@ TEST_F(TrackLong, NamesDamagedFilesAndGoesOn) {
   for (const std::string& depth : depths) write_file(depth, "");
   EXPECT_THAT(track("dump", "DB_open_power", "none.jsonl").err, HasSubstr("usable frames: found none of 4"));
   EXPECT_FALSE(fs::exists(path("none.jsonl")));
+  EXPECT_EQ(track("dump", "DB_open_power", "none.csv").exit_code, 2);
+  EXPECT_FALSE(fs::exists(path("none.csv.partial"))) << "no heading without a line";
 }
 
 TEST_F(TrackLong, FullDiskKeepsTheOlderCommands) {

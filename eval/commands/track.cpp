@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/adapters/system_time.h"
 #include "core/base/error.h"
@@ -82,6 +83,7 @@ struct Track {
   std::vector<double> latencies_ms;         ///< of frames that were tracked or lost
   std::vector<reports::Estimate> for_page;  ///< with `page`
   HandCheck hand_check;
+  bool has_heading = false;      ///< of the CSV file
   std::optional<Error> failure;  ///< of the device, or of a command
   bool is_whole = true;          ///< all commands succeeded and all lines were written
 
@@ -106,7 +108,6 @@ struct Track {
     std::optional<TrackOverlay> pictures;
     if (!overlay.empty()) pictures.emplace(overlay, workbench.model(), source.device->calibration());
     LineFile output(common.output);
-    if (writes_csv) output.append(reports::estimates_heading());
     // After reading all files: opening a pipe may block, and a signal must end that.
     const Interruption interruption;
     setup.arm_start = outputs.arm_start().value_or(setup.arm_start);
@@ -115,35 +116,52 @@ struct Track {
     const auto start = std::chrono::steady_clock::now();
     track_all(source, *method, kept_results, [&](int number, const DeviceFrame& frame, const TrackResult& result) {
       if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
-      const reports::Estimate estimate{
-          0, number, result.timestamp_us, result.status, result.posture, result.T_camera_hand};
       if_it_fails([&] {
-        output.append(writes_csv ? reports::estimate_csv_line(estimate) : estimate_line(number, result));
+        append(output, writes_csv, number, result);
         if (pictures) pictures->add(number, frame, result);
       });
-      if (!page.empty()) for_page.push_back(estimate);
+      if (!page.empty()) for_page.push_back(estimate_of(number, result));
     });
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (frames == unusable) refuse();
     finish(output, outputs, pictures ? &*pictures : nullptr);
     if (!page.empty()) write_file(page, reports::track_page(from.source, for_page, page_scripts()));
-    if (!common.quiet && !failure && tracked == 0)
-      say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
-          "colors "
-          "other than those of --colors, or a hand outside of the working volume ({:g} to {:g} mm)\n",
-          frames, 1000 * config.volume.z_min, 1000 * config.volume.z_max);
-    if (!common.quiet && hand_check.asks_for_calibration())
-      say("glovebench: warning: the hand has other sizes than the tracker's. To fit them: glovebench calibrate "
-          "hand, then --hand\n");
-    if (!common.quiet)
-      fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
-                 counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
-    if (!common.quiet && !latencies_ms.empty())
-      fmt::print(messages(), "{:.1f} frames/s; from frame to estimate {:.1f} ms (median), {:.1f} ms (95%)\n",
-                 static_cast<double>(latencies_ms.size()) / spent.count(), *quantile_of(latencies_ms, 0.5),
-                 *quantile_of(latencies_ms, 0.95));
+    if (!common.quiet) {
+      warn(config.volume);
+      print_summary(source, spent.count());
+    }
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
+  }
+
+  static reports::Estimate estimate_of(int number, const TrackResult& result) {
+    return {0, number, result.timestamp_us, result.status, result.posture, result.T_camera_hand};
+  }
+
+  /// The heading of a CSV file comes with its first line.
+  void append(LineFile& output, bool writes_csv, int number, const TrackResult& result) {
+    if (!writes_csv) return output.append(estimate_line(number, result));
+    if (!std::exchange(has_heading, true)) output.append(reports::estimates_heading());
+    output.append(reports::estimate_csv_line(estimate_of(number, result)));
+  }
+
+  void warn(const WorkingVolume& volume) const {
+    if (!failure && tracked == 0)
+      say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
+          "colors other than those of --colors, or a hand outside of the working volume ({:g} to {:g} mm)\n",
+          frames, 1000 * volume.z_min, 1000 * volume.z_max);
+    if (hand_check.asks_for_calibration())
+      say("glovebench: warning: the hand has other sizes than the tracker's. To fit them: glovebench calibrate "
+          "hand, then --hand\n");
+  }
+
+  void print_summary(const TrackSource& source, double seconds) const {
+    fmt::print(messages(), "{}: {} of {} frames tracked{}{}\n", common.output, tracked, frames,
+               counted(unusable, "unusable"), counted(source.dropped(), "dropped"));
+    if (latencies_ms.empty()) return;
+    fmt::print(messages(), "{:.1f} frames/s; from frame to estimate {:.1f} ms (median), {:.1f} ms (95%)\n",
+               static_cast<double>(latencies_ms.size()) / seconds, *quantile_of(latencies_ms, 0.5),
+               *quantile_of(latencies_ms, 0.95));
   }
 
   /// Empty without `--robot`.
