@@ -67,9 +67,14 @@ std::string roff(const std::string& text) {
   return line.starts_with(".") || line.starts_with("'") ? "\\&" + line : line;
 }
 
+/// Lets lines break after commas, which have no spaces in lists of values.
+std::string breakable(const std::string& text) {
+  return replaced(text, ",", ",\\:");
+}
+
 std::string roff_option(const OptionText& option) {
   return fmt::format(".TP\n\\fB{}\\fR {}\n{}\n", roff(fmt::format("{}", fmt::join(option.names, ", "))),
-                     roff(option.value), roff(option.help));
+                     breakable(roff(option.value)), breakable(roff(option.help)));
 }
 
 /// All commands under `command` that have no commands under them. `name` includes the parents.
@@ -163,7 +168,7 @@ std::string describe_unknown(const CommandText& command, const std::string& word
 
 std::string man_page(const CommandText& program, const std::string& version) {
   std::string page = fmt::format(
-      ".TH GLOVEBENCH 1 \"\" \"glovebench {}\" \"User commands\"\n"
+      ".TH GLOVEBENCH 1 \"\" \"glovebench {}\" \"User commands\"\n.ad l\n"
       ".SH NAME\nglovebench \\- evaluate and benchmark color\\-glove hand tracking\n"
       ".SH SYNOPSIS\n.B glovebench\n.I COMMAND\n[\\fIOPTION\\fR ...]\n.SH DESCRIPTION\n{}\n",
       roff(version), roff(program.description));

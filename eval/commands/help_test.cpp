@@ -104,7 +104,7 @@ TEST(ManPage, HasEveryCommandAndEscapesWhatTheLanguageTakesForItsOwn) {
   const std::string page = man_page(kProgram, "1.2");
   EXPECT_THAT(page, HasSubstr("glovebench 1.2"));
   EXPECT_THAT(page, HasSubstr(".SS walker walk\nGoes there.\n"));
-  EXPECT_THAT(page, HasSubstr(".TP\n\\fB\\-s, \\-\\-speed\\fR TEXT:{slow,fast}=slow\nthe \\fBspeed\\fR\n"));
+  EXPECT_THAT(page, HasSubstr(".TP\n\\fB\\-s, \\-\\-speed\\fR TEXT:{slow,\\:fast}=slow\nthe \\fBspeed\\fR\n"));
   EXPECT_THAT(page, HasSubstr("\n\\&.hidden\n"));
   EXPECT_THAT(page, HasSubstr(".SS walker rest on\nAs it is.\n"));
   EXPECT_THAT(page, Not(HasSubstr(".SS walker rest\n"))) << "it does nothing by itself";
