@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -61,7 +62,12 @@ class Encoder {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, pipe_ends[0], STDIN_FILENO);
-    const int error = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+    // In a group of its own: Ctrl-C ends the session, which then ends the video.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    const int error = posix_spawnp(&process_, "ffmpeg", &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     close(pipe_ends[0]);
     input_ = pipe_ends[1];
@@ -80,11 +86,13 @@ class Encoder {
     if (written.error != 0) fail_ffmpeg(std::strerror(written.error));
   }
   void finish() {
-    if (const int status = wait(); status != 0) fail_ffmpeg(fmt::format("exit status {}", status));
+    const int status = wait();
+    if (WIFSIGNALED(status)) fail_ffmpeg(fmt::format("signal {}", WTERMSIG(status)));
+    if (WEXITSTATUS(status) != 0) fail_ffmpeg(fmt::format("exit code {}", WEXITSTATUS(status)));
   }
 
  private:
-  /// Ends the input. Returns the exit status; 0 if it has been waited for.
+  /// Ends the input. Returns the wait status; 0 if it has been waited for.
   int wait() {
     if (process_ == 0) return 0;
     close(input_);
@@ -112,32 +120,43 @@ class Video : public PictureSink {
   }
 
   void add(int, int64_t timestamp_us, const ColorImage& picture) override {
-    if (encoder_) return encoder_->add(picture);
-    if (!first_) {
-      first_ = picture;
+    if (!last_) {
       first_us_ = timestamp_us;
-      return;
+    } else {
+      if (!encoder_) start(timestamp_us);
+      const double seconds = static_cast<double>(timestamp_us - first_us_) * 1e-6;
+      repeat_last_until(std::lround(seconds * frame_rate_));
     }
-    start(1e6 / static_cast<double>(timestamp_us - first_us_));
-    encoder_->add(picture);
+    last_ = picture;
   }
   void finish() override {
-    if (!encoder_ && first_) start(1);
-    if (!encoder_) return;
+    if (!last_) return;
+    if (!encoder_) start(first_us_);
+    repeat_last_until(written_ + 1);
     encoder_->finish();
     is_finished_ = true;
-    fs::rename(partial_, path_);
+    std::error_code error;
+    fs::rename(partial_, path_, error);
+    if (error) throw Error(path_, "file", error.message(), "room for the video " + partial_);
   }
 
  private:
-  void start(double frame_rate) {
-    encoder_.emplace(partial_, first_->width(), first_->height(), std::clamp(frame_rate, 1.0, 240.0));
-    encoder_->add(*first_);
+  /// The time from the first picture to the second gives the frame rate.
+  void start(int64_t second_us) {
+    constexpr double kUnknownRate = 30;
+    const auto step_us = static_cast<double>(second_us - first_us_);
+    frame_rate_ = step_us > 0 ? std::clamp(1e6 / step_us, 1.0, 240.0) : kUnknownRate;
+    encoder_.emplace("file:" + partial_, last_->width(), last_->height(), frame_rate_);
+  }
+  void repeat_last_until(long count) {
+    for (; written_ < count; ++written_) encoder_->add(*last_);
   }
 
   std::string path_, partial_;
-  std::optional<ColorImage> first_;  ///< waits for the second, whose time gives the rate
+  std::optional<ColorImage> last_;  ///< stands until the next is due
   int64_t first_us_ = 0;
+  double frame_rate_ = 0;
+  long written_ = 0;
   std::optional<Encoder> encoder_;
   bool is_finished_ = false;
 };

@@ -20,9 +20,9 @@ class PictureSink {
   virtual void finish() {}
 };
 
-/// A folder of PNG files, FOLDER/000042.png, or a video (*.mp4) with the rate of its first two pictures, which the
-/// program ffmpeg encodes. A video stays FILE.partial.mp4 until `finish`.
-/// Throws: Error unless the folder is new or empty.
+/// A folder of PNG files, FOLDER/000042.png, or a video (*.mp4), which the program ffmpeg encodes. The first
+/// two pictures give its frame rate; a picture stands until the next is due. A video stays FILE.partial.mp4 until
+/// `finish`. Throws: Error unless the folder is new or empty.
 std::unique_ptr<PictureSink> open_picture_sink(const std::string& path);
 
 }  // namespace glovebench::eval

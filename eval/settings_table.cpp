@@ -1,6 +1,7 @@
 #include "eval/settings_table.h"
 
 #include <filesystem>
+#include <set>
 
 #include "core/base/file_set.h"
 #include "eval/regression/baseline.h"
@@ -10,8 +11,7 @@ namespace glovebench::eval {
 namespace {
 
 /// Empty unless the run was measured one job at a time.
-std::optional<double> frame_ms(const FinishedRun& run) {
-  const reports::StageTimes times = load_stage_times(run.files);
+std::optional<double> frame_ms(const reports::StageTimes& times) {
   if (times.threads != 1 || times.stages.empty()) return std::nullopt;
   double ms = 0;
   for (const reports::StageTimes::Stage& stage : times.stages) ms += stage.median_ms;
@@ -30,12 +30,16 @@ reports::SettingsTable settings_table(const std::vector<std::string>& folders, r
                                       const reports::CompareConfig& config) {
   if (pairing.metrics.empty()) pairing.metrics = reports::headline_metrics();
   std::vector<reports::SettingRun> runs;
+  std::set<std::string> processors;
   for (const std::string& folder : folders) {
     FinishedRun run = load_finished_run(folder);
-    const std::optional<double> ms = frame_ms(run);
+    const reports::StageTimes times = load_stage_times(run.files);
+    processors.insert(times.processor);
     run.results.name = folder_name(run.files.folder());
-    runs.push_back({std::move(run.results), ms});
+    runs.push_back({std::move(run.results), frame_ms(times)});
   }
+  if (processors.size() > 1)  // times of different machines say nothing of the settings
+    for (reports::SettingRun& run : runs) run.time_ms.reset();
   return reports::compare_settings(runs, pairing, config);
 }
 

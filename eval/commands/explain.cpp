@@ -79,10 +79,11 @@ struct Explain {
   static std::string checked_metric(const std::string& metric) {
     if (!reports::find_frame_metric(metric))
       throw Error("explain", "metric", quoted_excerpt(metric), one_of(reports::frame_metric_keys(), metric));
+    if (metric == "visible_percent") throw Error("explain", "metric", metric, "an error, of which more is worse");
     return metric;
   }
 
-  /// The frame with the largest value; lost frames have none.
+  /// The frame with the largest value. Lost frames have no errors.
   reports::WorstFrame worst(const std::vector<const ExperimentResult*>& experiments, const std::string& metric,
                             const std::string& path) const {
     std::optional<reports::WorstFrame> worst;

@@ -6,6 +6,7 @@ Each must end with exit code 0.
 """
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -24,9 +25,15 @@ def main():
         sys.exit(f"{page}: found no command, expected an indented line that begins with glovebench")
     with tempfile.TemporaryDirectory() as folder:
         search_path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
-        run = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", "\n".join(commands)], cwd=folder,
-                             env={**os.environ, "PATH": search_path}, stdin=subprocess.DEVNULL, check=False)
-    sys.exit(f"{page}: found exit code {run.returncode}, expected 0" if run.returncode else 0)
+        shell = subprocess.Popen(["bash", "-e", "-o", "pipefail", "-c", "\n".join(commands)], cwd=folder,
+                                 env={**os.environ, "PATH": search_path}, stdin=subprocess.DEVNULL,
+                                 start_new_session=True)
+        status = shell.wait()
+        try:  # what a failing page left in the background
+            os.killpg(shell.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    sys.exit(f"{page}: found exit code {status}, expected 0" if status else 0)
 
 
 if __name__ == "__main__":

@@ -159,7 +159,8 @@ std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFl
   for (ComparisonRow& row : rows) {
     const bool is_all = row.experiment == kAllExperiments;
     // The row over all tolerates two frames per experiment, as an experiment's own row does.
-    const int frames = is_all ? row.frames / static_cast<int>(std::max<size_t>(1, experiments)) : row.frames;
+    const int counted = row.metric->is_share() ? row.pairs : row.frames;  // a share is of the frames that have it
+    const int frames = is_all ? counted / static_cast<int>(std::max<size_t>(1, experiments)) : counted;
     // If an experiment is missing, the noise floor's row over all does not apply.
     const bool has_entry = floor && !(is_all && !pairing.only_in_baseline.empty());
     row.minimum_effect = minimum_effect(*row.metric, row.experiment, frames, seeds, has_entry ? floor : nullptr);

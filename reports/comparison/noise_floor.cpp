@@ -68,8 +68,12 @@ Spreads measure_spreads(const Metric& metric, const RunResult& result) {
   return spreads;
 }
 
-int frames_of(const ExperimentResult& experiment, int seeds) {
-  return seeds * static_cast<int>(experiment.runs.front().frames.size());
+/// Of a share, those that have an answer.
+int frames_of(const ExperimentResult& experiment, const Metric& metric, int seeds) {
+  const std::vector<FrameRecord>& frames = experiment.runs.front().frames;
+  if (!metric.is_share()) return seeds * static_cast<int>(frames.size());
+  return seeds * static_cast<int>(std::ranges::count_if(
+                     frames, [&](const FrameRecord& frame) { return value_of(metric, frame).has_value(); }));
 }
 
 /// One entry per row of a comparison that has a spread, without `detectable`.
@@ -89,7 +93,7 @@ std::vector<NoiseFloorEntry> measure_effects(const RunResult& result, const Nois
     for (size_t e = 0; e < result.experiments.size(); ++e) {
       const ExperimentResult& experiment = result.experiments[e];
       if (!spreads.experiments[e]) continue;
-      const int frames = frames_of(experiment, floor.seeds_per_result);
+      const int frames = frames_of(experiment, *metric, floor.seeds_per_result);
       all_frames += frames;
       add(to_string(experiment.key), *spreads.experiments[e], spreads.measured * (floor.seeds - 1), frames);
     }

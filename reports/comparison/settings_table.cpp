@@ -118,7 +118,12 @@ Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
         row.insert(row.end(), {Cell(), Cell(), Cell(), none});
         continue;
       }
-      const ComparisonRow& compared = each.rows[m];
+      const auto found = std::ranges::find(each.rows, metrics[m], &ComparisonRow::metric);
+      if (found == each.rows.end()) {  // of an older run, which lacks the metric
+        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
+        continue;
+      }
+      const ComparisonRow& compared = *found;
       const bool readable = has_interval(compared);
       row.insert(row.end(), {cell(compared.difference), readable ? cell(compared.low) : Cell(),
                              readable ? cell(compared.high) : Cell(), verdict_cell(compared)});
@@ -251,7 +256,7 @@ std::string recommendation_of(const std::vector<Compared>& all, const Compared& 
 
 std::string explanation_of(const SettingsTable& settings, const CompareConfig& config, bool has_times) {
   return fmt::format(
-      "Means are over the frames that have a value, then over the experiments; percent are of all frames. "
+      "Means are over the frames that have a value, then over the experiments. "
       "Differences are from {}{}, frame by frame over the frames that both have; above zero is worse. The "
       "intervals "
       "low to high are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold together with "
@@ -282,8 +287,8 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
   const std::vector<Compared> all = compared_with(runs, *reference, pairing, config);
   std::vector<const Metric*> metrics;
   for (const Compared& each : all)
-    if (metrics.empty())
-      for (const ComparisonRow& row : each.rows) metrics.push_back(row.metric);
+    for (const ComparisonRow& row : each.rows)
+      if (std::ranges::count(metrics, row.metric) == 0) metrics.push_back(row.metric);
   const Compared& first = all[static_cast<size_t>(reference - runs.begin())];
   settings.table = table_of_all(all, first, metrics);
   settings.changes = changes_of(all);

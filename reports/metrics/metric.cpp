@@ -34,7 +34,7 @@ std::vector<Metric> metrics_if(Condition condition) {
 }  // namespace
 
 std::string_view Metric::averaged_over() const {
-  if (is_share()) return "all frames, lost ones too";
+  if (is_share()) return of_column.empty() ? "all frames, lost ones too" : "the visible frames, lost ones too";
   if (of_any) return "the frames that have one, lost ones too";
   return is_partial ? "the tracked frames that have one; lost ones are left out"
                     : "the tracked frames; lost ones are left out";
