@@ -341,40 +341,6 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
   EXPECT_FALSE(fs::exists(path("nothing")));
 }
 
-TEST_F(CommandLine, HelpOfEverySubcommandNamesItsFlags) {
-  const std::vector<std::string> tracker = {"--profile", "--config", "--method", "--cascade"};
-  const std::vector<std::string> machine = {"--threads", "--cache", "--low-memory", "--quiet"};
-  const std::vector<std::string> random = {"--seed"};
-  const auto expect_flags = [](std::vector<std::string> command, const std::vector<std::vector<std::string>>& all) {
-    command.push_back("--help-all");
-    const ProgramRun run = run_glovebench(command);
-    EXPECT_EQ(run.exit_code, 0) << command[0];
-    EXPECT_EQ(run.err, "");
-    for (const auto& flags : all) {
-      for (const std::string& flag : flags) EXPECT_THAT(run.out, HasSubstr(flag)) << command[0];
-    }
-  };
-  expect_flags({}, {{"reproduce", "run", "record", "render", "track", "explain", "db", "list", "--version"}});
-  expect_flags({"reproduce"}, {tracker, machine, random, {"--output", "--trajectory", "--seeds", "--robot-out"}});
-  expect_flags({"run"}, {tracker,
-                         machine,
-                         random,
-                         {"--output", "--trajectory", "--database", "--truth", "--noise", "--gain", "--subject",
-                          "--seeds", "--robot-out", "--suite", "--filter", "--list", "--dry-run"}});
-  expect_flags({"record"}, {tracker, machine, random, {"--output", "--trajectory", "--database"}});
-  expect_flags({"render"},
-               {tracker, machine, random, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
-  expect_flags({"track"},
-               {tracker,
-                machine,
-                {"--source", "fakenect:", "freenect", "--database", "--output", "--left", "--calibration",
-                 "--frames", "--every-frame", "--format", "--overlay", "--page", "--as-fast-as-possible"}});
-  expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
-  expect_flags({"db"}, {{"build", "info"}});
-  expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});
-  expect_flags({"list"}, {{"trajectories", "databases", "suites", "methods", "angles", "config"}});
-}
-
 TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list"}).out,
               AllOf(HasSubstr("\n  subjects      The hands"), HasSubstr("\n  mapping "), HasSubstr("\n  config ")));
@@ -391,6 +357,8 @@ TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_EQ(json::parse(config.out).at("lookup").at("cascade"), "8:9");
   EXPECT_THAT(run_glovebench({"list", "config", "--explain"}).out,
               AllOf(HasSubstr("lookup.cascade = \"16:500,64:3\""), HasSubstr("[0.3, 10], unit m")));
+  EXPECT_THAT(run_glovebench({"list", "config", "--explain", "--cascade", "8:9"}).out,
+              HasSubstr("lookup.cascade = \"8:9\""));
   EXPECT_THAT(run_glovebench({"list", "config", "--explain", "k"}).out,
               AllOf(HasSubstr("lookup.cascade"), HasSubstr("section IV-B"), Not(HasSubstr("volume.z_min_m"))));
   EXPECT_THAT(run_glovebench({"list", "config", "K nearest neighbor"}).out, HasSubstr("lookup.cascade"));

@@ -41,6 +41,8 @@ class PictureFolder : public PictureSink {
   std::string folder_;
 };
 
+constexpr int kVideoRate = 30;  // frames/s
+
 [[noreturn]] void fail_ffmpeg(const std::string& found) {
   throw Error("ffmpeg", "program", found, "one that writes MP4 (Debian: ffmpeg), or a folder for the pictures");
 }
@@ -48,8 +50,8 @@ class PictureFolder : public PictureSink {
 /// A running ffmpeg that takes raw pictures on its standard input.
 class Encoder {
  public:
-  Encoder(const std::string& path, int width, int height, double frame_rate) {
-    const std::string size = fmt::format("{}x{}", width, height), rate = fmt::format("{:.3f}", frame_rate);
+  Encoder(const std::string& path, int width, int height) {
+    const std::string size = fmt::format("{}x{}", width, height), rate = std::to_string(kVideoRate);
     std::vector<std::string> words = {"ffmpeg",   "-y",      "-loglevel", "error",     "-f",         "rawvideo",
                                       "-pix_fmt", "rgb24",   "-s",        size,        "-framerate", rate,
                                       "-i",       "-",       "-c:v",      "libx264",   "-crf",       "20",
@@ -107,11 +109,14 @@ class Encoder {
   int input_ = -1;
 };
 
+/// 30 frames/s by the pictures' times: a picture stands until the next is due, one that comes too early is left
+/// out.
 class Video : public PictureSink {
  public:
-  explicit Video(const std::string& path)
+  Video(const std::string& path, int width, int height)
       : path_(path), partial_(path.substr(0, path.size() - 4) + ".partial.mp4") {
     const WholeFile probe(path);  // never committed: nothing stays
+    encoder_.emplace("file:" + partial_, width, height);
   }
   ~Video() override {
     encoder_.reset();
@@ -120,18 +125,12 @@ class Video : public PictureSink {
   }
 
   void add(int, int64_t timestamp_us, const ColorImage& picture) override {
-    if (!last_) {
-      first_us_ = timestamp_us;
-    } else {
-      if (!encoder_) start(timestamp_us);
-      const double seconds = static_cast<double>(timestamp_us - first_us_) * 1e-6;
-      repeat_last_until(std::lround(seconds * frame_rate_));
-    }
+    if (!last_) first_us_ = timestamp_us;
+    repeat_last_until(std::lround(static_cast<double>(timestamp_us - first_us_) * 1e-6 * kVideoRate));
     last_ = picture;
   }
   void finish() override {
     if (!last_) return;
-    if (!encoder_) start(first_us_);
     repeat_last_until(written_ + 1);
     encoder_->finish();
     is_finished_ = true;
@@ -141,30 +140,22 @@ class Video : public PictureSink {
   }
 
  private:
-  /// The time from the first picture to the second gives the frame rate.
-  void start(int64_t second_us) {
-    constexpr double kUnknownRate = 30;
-    const auto step_us = static_cast<double>(second_us - first_us_);
-    frame_rate_ = step_us > 0 ? std::clamp(1e6 / step_us, 1.0, 240.0) : kUnknownRate;
-    encoder_.emplace("file:" + partial_, last_->width(), last_->height(), frame_rate_);
-  }
   void repeat_last_until(long count) {
     for (; written_ < count; ++written_) encoder_->add(*last_);
   }
 
   std::string path_, partial_;
-  std::optional<ColorImage> last_;  ///< stands until the next is due
-  int64_t first_us_ = 0;
-  double frame_rate_ = 0;
-  long written_ = 0;
   std::optional<Encoder> encoder_;
+  std::optional<ColorImage> last_;
+  int64_t first_us_ = 0;
+  long written_ = 0;
   bool is_finished_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<PictureSink> open_picture_sink(const std::string& path) {
-  if (path.ends_with(".mp4")) return std::make_unique<Video>(path);
+std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height) {
+  if (path.ends_with(".mp4")) return std::make_unique<Video>(path, width, height);
   return std::make_unique<PictureFolder>(path);
 }
 

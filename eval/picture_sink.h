@@ -12,7 +12,7 @@ namespace glovebench::eval {
 class PictureSink {
  public:
   virtual ~PictureSink() = default;
-  /// Numbers and times rise; all pictures have one size.
+  /// Numbers and times rise.
   /// Throws: Error.
   virtual void add(int number, int64_t timestamp_us, const ColorImage& picture) = 0;
   /// Makes the file whole.
@@ -20,9 +20,9 @@ class PictureSink {
   virtual void finish() {}
 };
 
-/// A folder of PNG files, FOLDER/000042.png, or a video (*.mp4), which the program ffmpeg encodes. The first
-/// two pictures give its frame rate; a picture stands until the next is due. A video stays FILE.partial.mp4 until
-/// `finish`. Throws: Error unless the folder is new or empty.
-std::unique_ptr<PictureSink> open_picture_sink(const std::string& path);
+/// A folder of PNG files, FOLDER/000042.png, or a video of 30 frames/s (*.mp4), which the program ffmpeg encodes. A
+/// video stays FILE.partial.mp4 until `finish`. All pictures have this size, px.
+/// Throws: Error unless the folder is new or empty, or without ffmpeg.
+std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height);
 
 }  // namespace glovebench::eval

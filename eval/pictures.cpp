@@ -100,7 +100,7 @@ ColorImage overlay(const HandModel& model, const TrackResult& result, const Eige
       kEstimatedOutline);
 }
 
-/// What the outlines and E are, and the errors of a tracked frame.
+/// Explains the outlines and E, and lists the errors of a tracked frame.
 ColorImage legend(const std::optional<reports::FrameErrors>& errors) {
   std::vector<render::TextLine> lines = {{"white: the true hand", kTrueOutline},
                                          {"orange: the tracker's hand", kEstimatedOutline},

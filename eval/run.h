@@ -38,7 +38,7 @@ struct RunSpec {
   std::string setting = {};  ///< a study's name for it, or a movement's family; without effect
 };
 
-/// What the true images and the true surface show.
+/// Measured on the true images and the true surface.
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border

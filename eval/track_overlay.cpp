@@ -31,7 +31,9 @@ std::vector<render::Stroke> bones_of(const PosedHand& posed, const Eigen::Isomet
 
 TrackOverlay::TrackOverlay(const std::string& path, std::shared_ptr<const HandModel> hand,
                            const RgbdCalibration& calibration)
-    : sink_(open_picture_sink(path)), hand_(std::move(hand)), calibration_(calibration) {}
+    : sink_(open_picture_sink(path, calibration.rgb.width, calibration.rgb.height)),
+      hand_(std::move(hand)),
+      calibration_(calibration) {}
 
 void TrackOverlay::add(int number, const DeviceFrame& frame, const TrackResult& result) {
   const std::string caption = fmt::format("frame {}  {}", number, to_string(result.status));

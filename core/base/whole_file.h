@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Where an output goes (core/base/README.md): a file, or a stream (device, pipe, "-", /dev/fd/3).
+/// The target of an output (core/base/README.md): a file, or a stream (device, pipe, "-", /dev/fd/3).
 struct OutputTarget {
   bool is_stream = false;
   int descriptor = -1;  ///< of a stream that is already open

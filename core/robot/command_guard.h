@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// What a guard knows of the robot.
+/// The part of the robot that a guard knows.
 enum class GuardedPart {
   robot,  ///< all joints and `T_base_hand`: limits fingertips in the base frame
   hand,   ///< the hand's joints: limits speeds of fingertips in the forearm's frame

@@ -211,12 +211,22 @@ std::vector<std::string> TrackerConfig::problems() const {
   return problems;
 }
 
+namespace {
+
+const std::vector<std::string>& profile_names() {
+  static const std::vector<std::string> names = {"paper", "paper-literal"};
+  return names;
+}
+
+}  // namespace
+
 TrackerConfig profile(const std::string& name) {
+  if (std::ranges::count(profile_names(), name) == 0)
+    throw Error("profile", "name", name, one_of(profile_names(), name));
   TrackerConfig config;
   config.profile = name;
   if (name == "paper-literal") config.smoothing.pose_keep = config.smoothing.posture_keep;
-  if (name == "paper" || name == "paper-literal") return config;
-  throw Error("profile", "name", name, one_of({"paper", "paper-literal"}, name));
+  return config;
 }
 
 TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const std::string& where) {
@@ -239,13 +249,12 @@ TrackerConfig config_from_json(const json& j, const TrackerConfig& base, const s
   return config;
 }
 
-std::vector<ConfigField> config_fields() {
-  const TrackerConfig paper;
+std::vector<ConfigField> config_fields(const TrackerConfig& config) {
   std::vector<ConfigField> fields = {
-      {config_meaning("profile"), "", "paper", "\"paper\""},
+      {config_meaning("profile"), "", one_of(profile_names(), ""), json(config.profile).dump()},
       {config_meaning("method"), "", fmt::format("one of {}", fmt::join(method_names(), ", ")),
-       json(paper.method).dump()}};
-  visit_fields(paper, [&](const char* section, const char* key, const auto& value, const auto& range) {
+       json(config.method).dump()}};
+  visit_fields(config, [&](const char* section, const char* key, const auto& value, const auto& range) {
     fields.push_back({config_meaning(fmt::format("{}.{}", section, key)), unit_of(key), range_text(value, range),
                       written(value).dump()});
   });

@@ -69,7 +69,7 @@ TrackerConfig profile(const std::string& name);
 TrackerConfig config_from_json(const nlohmann::json& json, const TrackerConfig& base, const std::string& where);
 nlohmann::json to_json(const TrackerConfig& config);
 
-/// What a field of the configuration is.
+/// The description of a field of the configuration.
 struct ConfigMeaning {
   std::string_view field;  ///< "icp.max_points"
   std::string_view meaning;
@@ -77,11 +77,11 @@ struct ConfigMeaning {
 };
 struct ConfigField {
   ConfigMeaning what;
-  std::string unit;    ///< empty: none
-  std::string range;   ///< in words
-  std::string preset;  ///< JSON
+  std::string unit;   ///< empty: none
+  std::string range;  ///< in words
+  std::string value;  ///< JSON
 };
-/// All fields, in the order of the tracker's stages.
-std::vector<ConfigField> config_fields();
+/// All fields of `config`, in the order of the tracker's stages.
+std::vector<ConfigField> config_fields(const TrackerConfig& config);
 
 }  // namespace glovebench

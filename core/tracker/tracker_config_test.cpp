@@ -200,14 +200,14 @@ TEST(TrackerConfig, each_number_has_a_range) {
 }
 
 TEST(TrackerConfig, each_field_says_what_it_is) {
-  const std::vector<ConfigField> fields = config_fields();
+  const std::vector<ConfigField> fields = config_fields(TrackerConfig{});
   EXPECT_EQ(fields.size(), config_meanings().size()) << "a meaning for no field";
   json written;
   for (const ConfigField& field : fields) {
     EXPECT_FALSE(field.what.meaning.empty() || field.range.empty()) << field.what.field;
     std::string pointer = "/" + std::string(field.what.field);
     std::ranges::replace(pointer, '.', '/');
-    written[json::json_pointer(pointer)] = json::parse(field.preset);
+    written[json::json_pointer(pointer)] = json::parse(field.value);
   }
   EXPECT_EQ(written, to_json(TrackerConfig{}));
   const auto cascade =

@@ -116,5 +116,39 @@ TEST(ManPage, IsReadWithoutWarnings) {
   EXPECT_THAT(said_by("sh", "'" + build_paths::program("glovebench") + "' manual | groff -man -ww -z"), "");
 }
 
+TEST(Help, OfEveryCommandNamesItsFlags) {
+  const std::vector<std::string> tracker = {"--profile", "--config", "--method", "--cascade"};
+  const std::vector<std::string> machine = {"--threads", "--cache", "--low-memory", "--quiet"};
+  const std::vector<std::string> random = {"--seed"};
+  const auto expect_flags = [](std::vector<std::string> command, const std::vector<std::vector<std::string>>& all) {
+    command.push_back("--help-all");
+    const ProgramRun run = run_glovebench(command);
+    EXPECT_EQ(run.exit_code, 0) << command[0];
+    EXPECT_EQ(run.err, "");
+    for (const auto& flags : all) {
+      for (const std::string& flag : flags) EXPECT_THAT(run.out, HasSubstr(flag)) << command[0];
+    }
+  };
+  expect_flags({}, {{"reproduce", "run", "record", "render", "track", "explain", "db", "list", "--version"}});
+  expect_flags({"reproduce"}, {tracker, machine, random, {"--output", "--trajectory", "--seeds", "--robot-out"}});
+  expect_flags({"run"}, {tracker,
+                         machine,
+                         random,
+                         {"--output", "--trajectory", "--database", "--truth", "--noise", "--gain", "--subject",
+                          "--seeds", "--robot-out", "--suite", "--filter", "--list", "--dry-run"}});
+  expect_flags({"record"}, {tracker, machine, random, {"--output", "--trajectory", "--database"}});
+  expect_flags({"render"},
+               {tracker, machine, random, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
+  expect_flags({"track"},
+               {tracker,
+                machine,
+                {"--source", "fakenect:", "freenect", "--database", "--output", "--left", "--calibration",
+                 "--frames", "--every-frame", "--format", "--overlay", "--page", "--as-fast-as-possible"}});
+  expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
+  expect_flags({"db"}, {{"build", "info"}});
+  expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});
+  expect_flags({"list"}, {{"trajectories", "databases", "suites", "methods", "angles", "config"}});
+}
+
 }  // namespace
 }  // namespace glovebench::eval

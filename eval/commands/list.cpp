@@ -96,13 +96,13 @@ bool has_word(std::string text, std::string word) {
   return false;
 }
 
-/// The fields that name `word`, or all.
-std::string explained_config(const std::string& word) {
+/// The fields that name `word`, or all, with their values in `config`.
+std::string explained_config(const TrackerConfig& config, const std::string& word) {
   constexpr size_t kIndent = 4;
   const size_t columns = terminal_columns();
   std::string all;
-  for (const ConfigField& field : config_fields()) {
-    std::string plain(field.what.field), text = fmt::format("{} = {}\n", field.what.field, field.preset);
+  for (const ConfigField& field : config_fields(config)) {
+    std::string plain(field.what.field), text = fmt::format("{} = {}\n", field.what.field, field.value);
     const auto add = [&](const std::string& line) {
       plain += " " + line;
       text += std::string(kIndent, ' ') + reports::wrapped(line, columns, kIndent);
@@ -123,7 +123,7 @@ struct ListConfig {
   std::string word;
 
   void run() const {
-    if (explain || !word.empty()) return fmt::print("{}", explained_config(word));
+    if (explain || !word.empty()) return fmt::print("{}", explained_config(common.tracker_config(), word));
     fmt::print("{}\n", to_json(common.tracker_config()).dump(2));
   }
 };

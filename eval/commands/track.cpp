@@ -46,7 +46,7 @@ class Pace {
   std::chrono::steady_clock::time_point due_;
 };
 
-/// Whether the tracker's hand has other sizes than the one it sees.
+/// Finds out if the hand that is seen has other sizes than the tracker's.
 class HandCheck {
  public:
   void add(const TrackResult& result) {

@@ -45,7 +45,7 @@ struct ComparisonRow {
   int blocks = 0;                    ///< resampled blocks of frames
   int trajectories = 1;              ///< that the blocks are of
   /// Where there is not enough data: frames of all seeds that would decide if further movements vary as these do.
-  int enough_frames = 0;  ///< 0: none, or unknown
+  int enough_frames = 0;  ///< 0: unknown, as with fewer than kFewestBlocks blocks
   double minimum_effect = 0;
   bool is_measured = false;  ///< by a noise floor; else a default
   Verdict verdict = Verdict::not_enough_data;

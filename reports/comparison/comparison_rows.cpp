@@ -51,7 +51,8 @@ void set_interval(ComparisonRow& row, const Eigen::VectorXd& means, double tail_
 /// Judges the row, whose minimum effect is set.
 void judge(ComparisonRow& row, double tail_error) {
   row.verdict = verdict_of(row);
-  if (row.verdict == Verdict::not_enough_data && row.high) row.enough_frames = frames_that_decide(row, tail_error);
+  if (row.verdict == Verdict::not_enough_data && row.high && row.blocks >= kFewestBlocks)
+    row.enough_frames = frames_that_decide(row, tail_error);
 }
 
 ResampledRow experiment_row(const Metric& metric, const ExperimentResult& baseline,

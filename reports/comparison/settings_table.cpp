@@ -52,10 +52,23 @@ void require_several(const std::vector<SettingRun>& runs) {
       throw Error("table", "runs", each.run.name + " twice", "runs of different names");
 }
 
-/// Of all frames of an experiment that have a value, then over the experiments.
-std::optional<double> mean_of(const RunResult& result, const Metric& metric) {
+/// The experiments that some of the runs lack (`table --partial`).
+std::set<std::string> unshared(const std::vector<Compared>& all) {
+  std::set<std::string> names;
+  for (const Compared& each : all) {
+    if (!each.comparison) continue;
+    names.insert(each.comparison->only_in_baseline.begin(), each.comparison->only_in_baseline.end());
+    names.insert(each.comparison->only_in_candidate.begin(), each.comparison->only_in_candidate.end());
+  }
+  return names;
+}
+
+/// Of all frames of an experiment that have a value, then over the experiments but `left_out`.
+std::optional<double> mean_of(const RunResult& result, const Metric& metric,
+                              const std::set<std::string>& left_out) {
   std::vector<double> means;
   for (const ExperimentResult& experiment : result.experiments) {
+    if (left_out.contains(to_string(experiment.key))) continue;
     std::vector<double> values;
     for (const SeedRun& run : experiment.runs)
       for (const FrameRecord& frame : run.frames)
@@ -109,11 +122,12 @@ Table empty_table() {
 Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
                    const std::vector<const Metric*>& metrics) {
   Table table = empty_table();
+  const std::set<std::string> left_out = unshared(all);
   const Cell none = Judgment{"-", Tone::same};
   for (size_t m = 0; m < metrics.size(); ++m) {
     for (const Compared& each : all) {
       Row& row = table.rows.emplace_back(Row{std::string(metrics[m]->key), each.name()});
-      row.push_back(cell(mean_of(each.setting->run.result, *metrics[m])));
+      row.push_back(cell(mean_of(each.setting->run.result, *metrics[m], left_out)));
       if (&each == &reference) {
         row.insert(row.end(), {Cell(), Cell(), Cell(), none});
         continue;
@@ -216,10 +230,11 @@ std::string trade_text(const Compared& each, const Compared& reference) {
   return "";
 }
 
-std::string basis_of(const SettingRun& reference, size_t metrics) {
+std::string basis_of(const SettingRun& reference, size_t metrics, const std::set<std::string>& left_out) {
   std::set<std::string> movements;
   size_t frames = 0, seeds = 0;
   for (const ExperimentResult& experiment : reference.run.result.experiments) {
+    if (left_out.contains(to_string(experiment.key))) continue;
     movements.insert(experiment.key.trajectory);
     frames += static_cast<size_t>(experiment.coverage.frames);
     seeds = std::max(seeds, experiment.runs.size());
@@ -251,12 +266,12 @@ std::string recommendation_of(const std::vector<Compared>& all, const Compared& 
   }
   for (const Compared& each : all)
     if (&each != best) text += trade_text(each, reference);
-  return text + basis_of(*reference.setting, metrics);
+  return text + basis_of(*reference.setting, metrics, unshared(all));
 }
 
 std::string explanation_of(const SettingsTable& settings, const CompareConfig& config, bool has_times) {
   return fmt::format(
-      "Means are over the frames that have a value, then over the experiments. "
+      "Means are over the frames that have a value, then over the experiments that all runs have. "
       "Differences are from {}{}, frame by frame over the frames that both have; above zero is worse. The "
       "intervals "
       "low to high are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold together with "

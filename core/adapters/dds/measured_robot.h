@@ -71,7 +71,7 @@ class MeasuredRobot {
 /// A joint up to this far beyond a limit, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// Where the robot stands, for `CommandGuard::start_from`. `T_base_hand` counts only without an arm.
+/// The targets at which the robot stands, for `CommandGuard::start_from`. `T_base_hand` counts only without an arm.
 /// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);

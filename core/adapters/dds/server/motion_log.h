@@ -26,7 +26,7 @@ class MotionLog {
   /// Throws: Error if it cannot be opened or another server has it.
   MotionLog(const std::string& path, std::vector<std::string> names, std::vector<JointMotion> joints);
 
-  /// Where the joints start: the log's last place, else `rest`. `period_s`: time between ticks.
+  /// The joints' places at the start: the log's last ones, else `rest`. `period_s`: time between ticks.
   /// Throws: Error if the log has other joints, is too old or has lost its end.
   LoggedStart start(const std::vector<double>& rest, int64_t now_us, double max_age_s, double period_s) const;
 
