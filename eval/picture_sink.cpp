@@ -155,7 +155,9 @@ class Video : public PictureSink {
 }  // namespace
 
 std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height) {
-  if (path.ends_with(".mp4")) return std::make_unique<Video>(path, width, height);
+  const std::string ending = fs::path(path).extension();
+  if (ending == ".mp4") return std::make_unique<Video>(path, width, height);
+  if (!ending.empty() && !fs::is_directory(path)) throw Error(path, "ending", ending, ".mp4, or none for a folder");
   return std::make_unique<PictureFolder>(path);
 }
 

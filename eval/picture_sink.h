@@ -22,7 +22,7 @@ class PictureSink {
 
 /// A folder of PNG files, FOLDER/000042.png, or a video of 30 frames/s (*.mp4), which the program ffmpeg encodes. A
 /// video stays FILE.partial.mp4 until `finish`. All pictures have this size, px.
-/// Throws: Error unless the folder is new or empty, or without ffmpeg.
+/// Throws: Error unless the folder is new or empty, for another ending, or without ffmpeg.
 std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height);
 
 }  // namespace glovebench::eval

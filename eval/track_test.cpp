@@ -92,6 +92,8 @@ TEST_F(TrackLong, WritesAVideo) {
                                      without)),
               HasSubstr("ffmpeg: program: found No such file or directory"));
   EXPECT_FALSE(fs::exists(path("again.mp4")));
+  EXPECT_THAT(track("dump", "DB_open_power", "again.csv", {"--overlay", path("hand.avi")}).err,
+              HasSubstr("hand.avi: ending: found .avi, expected .mp4, or none for a folder"));
 }
 
 TEST_F(TrackLong, NamesDamagedFilesAndGoesOn) {
