@@ -78,7 +78,7 @@ class RegressionLong : public testing::Test {
 TEST_F(RegressionLong, EqualRunsAreTheSame) {
   const ProgramRun run = run_glovebench({"compare", path("run"), path("same"), "-o", path("report")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("0 worse, 0 better, 30 same, 0 not enough data"),
+  EXPECT_THAT(run.out, AllOf(HasSubstr("0 worse, 0 better, 33 same, 0 not enough data"),
                              HasSubstr("For these trajectories"), HasSubstr("(a default:")));
   for (const char* file :
        {"comparison.json", "comparison.md", "comparison.csv", "comparison.tex", "junit.xml", "index.html"})
