@@ -1,11 +1,14 @@
 #pragma once
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -69,6 +72,23 @@ inline std::string shared_test_folder() {
     if (entry.path() != folder) fs::remove_all(entry.path(), ignored);
   }
   return folder.string();
+}
+
+/// A folder in `home` that `fill` is called for once; other processes wait for the one that fills it.
+inline std::string filled_once(const std::string& home, const std::string& name,
+                               const std::function<void(const std::string& folder)>& fill) {
+  namespace fs = std::filesystem;
+  const std::string folder = home + "/" + name, half = folder + ".half";
+  const int lock = ::open((folder + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (lock < 0 || ::flock(lock, LOCK_EX) != 0) throw std::runtime_error(folder + ": cannot be locked");
+  if (!fs::exists(folder)) {
+    fs::remove_all(half);  // of a process that was killed
+    fs::create_directories(half);
+    fill(half);
+    fs::rename(half, folder);
+  }
+  ::close(lock);
+  return folder;
 }
 
 }  // namespace glovebench

@@ -82,33 +82,30 @@ std::string repeated(const std::string& part, size_t bytes = kHostileBytes) {
   return text;
 }
 /// An array that repeats one value.
-std::string array_of(const std::string& value) {
-  std::string text = "[" + repeated(value + ",");
+std::string array_of(const std::string& value, size_t bytes) {
+  std::string text = "[" + repeated(value + ",", bytes);
   text.back() = ']';
   return text;
 }
 /// An object of many keys.
-std::string object_of(const std::string& value) {
+std::string object_of(const std::string& value, size_t bytes) {
   std::string text = "{";
-  for (int i = 0; text.size() < kHostileBytes; ++i) text += fmt::format("\"{}\":{},", i, value);
+  for (int i = 0; text.size() < bytes; ++i) text += fmt::format("\"{}\":{},", i, value);
   text.back() = '}';
   return text;
 }
 
-const std::vector<std::pair<std::string, std::string>>& hostile_values() {
-  static const std::vector<std::pair<std::string, std::string>> values = {
-      {"zeros", array_of("0")},
-      {"empty arrays", array_of("[]")},
-      {"empty objects", array_of("{}")},
-      {"empty texts", array_of("\"\"")},
-      {"objects in objects", array_of(R"({"":{"":{"":{"":{}}}}})")},
-      {"arrays in arrays", array_of("[[[[[[[[]]]]]]]]")},
-      {"keys", object_of("0")},
-      {"keys of objects", object_of("{}")},
-      {"a text", "\"" + repeated("x") + "\""},
-      {"digits", repeated("1")},
-  };
-  return values;
+std::vector<std::pair<std::string, std::string>> hostile_values(size_t bytes) {
+  return {{"zeros", array_of("0", bytes)},
+          {"empty arrays", array_of("[]", bytes)},
+          {"empty objects", array_of("{}", bytes)},
+          {"empty texts", array_of("\"\"", bytes)},
+          {"objects in objects", array_of(R"({"":{"":{"":{"":{}}}}})", bytes)},
+          {"arrays in arrays", array_of("[[[[[[[[]]]]]]]]", bytes)},
+          {"keys", object_of("0", bytes)},
+          {"keys of objects", object_of("{}", bytes)},
+          {"a text", "\"" + repeated("x", bytes) + "\""},
+          {"digits", repeated("1", bytes)}};
 }
 
 /// Adds the places in a document; of an array only the first item's.
@@ -185,19 +182,21 @@ std::vector<Reader> json_readers() {
 }
 
 TEST(ReaderMemoryLong, of_json_is_bounded_whatever_it_holds) {
+  const auto values = hostile_values(kHostileBytes);
   for (const Reader& reader : json_readers()) {
     ASSERT_EQ(reading(reader, reader.valid).error, "") << reader.name;
-    for (const auto& [what, value] : hostile_values()) expect_bounded(reader, value, what);
+    for (const auto& [what, value] : values) expect_bounded(reader, value, what);
   }
 }
 
 TEST(ReaderMemoryLong, of_json_is_bounded_at_each_place) {
+  const auto values = hostile_values(kHostileBytes / 3);  // hundreds of places
   for (const Reader& reader : json_readers()) {
     const json document = json::parse(reader.valid);
     std::vector<json::json_pointer> places;
     add_places(document, json::json_pointer(), places);
     for (size_t i = 1; i < places.size(); ++i) {
-      const auto& [what, value] = hostile_values()[i % hostile_values().size()];
+      const auto& [what, value] = values[i % values.size()];
       expect_bounded(reader, with_value_at(document, places[i], value), what + " at " + places[i].to_string());
     }
   }

@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -32,43 +31,34 @@ struct Session {
 
   Session(const Chessboard& a_board, int poses)
       : board(a_board), T_ir_boards(poses_before(truth, a_board, poses, 1)) {
-    BoardLens ir_lens{"ir", truth.ir, truth.ir_lens}, rgb_lens{"rgb", truth.rgb, truth.rgb_lens};
-    // Tests that start together begin at different poses, so that they share the work.
-    for (int k = 0; k < poses; ++k) {
-      const int i = (k + 7 * static_cast<int>(::getpid())) % poses;
-      corners_of(ir_lens, T_ir_boards[i], i);
-      corners_of(rgb_lens, truth.T_rgb_ir * T_ir_boards[i], i);
-    }
+    const std::string corners = filled_once(shared_test_folder(), "corners", [&](const std::string& folder) {
+      const auto T_rgb_boards = [&](const Eigen::Isometry3d& T) { return truth.T_rgb_ir * T; };
+      find_in_pictures(folder + "/ir-", BoardCamera(truth.ir, truth.ir_lens), "ir", std::identity());
+      find_in_pictures(folder + "/rgb-", BoardCamera(truth.rgb, truth.rgb_lens), "rgb", T_rgb_boards);
+    });
     for (int i = 0; i < poses; ++i) {
-      add(ir, corners_of(ir_lens, T_ir_boards[i], i), i);
-      add(rgb, corners_of(rgb_lens, truth.T_rgb_ir * T_ir_boards[i], i), i);
+      add(ir, read_corners(fmt::format("{}/ir-{}", corners, i)), i);
+      add(rgb, read_corners(fmt::format("{}/rgb-{}", corners, i)), i);
     }
   }
 
  private:
-  /// A camera that takes no time until it takes a picture.
-  struct BoardLens {
-    const char* name;
-    PinholeCamera pinhole;
-    LensDistortion lens;
-    std::optional<BoardCamera> camera = {};
-  };
-
-  /// From one test process to the next: a picture takes a twentieth of a second, and its corners stay the same.
-  Corners corners_of(BoardLens& of, const Eigen::Isometry3d& T, int i) const {
-    const std::string file = fmt::format("{}/corners-{}-{}", shared_test_folder(), of.name, i);
-    Corners corners;
-    if (std::filesystem::exists(file)) {
-      const std::string bytes = read_file(file);
-      corners.resize(bytes.size() / sizeof(Eigen::Vector2d));
-      for (size_t c = 0; c < corners.size(); ++c)
-        std::memcpy(corners[c].data(), bytes.data() + c * sizeof(Eigen::Vector2d), sizeof(Eigen::Vector2d));
-    } else {
-      if (!of.camera) of.camera.emplace(of.pinhole, of.lens);
-      RandomStream noise(1, of.name, i, "picture");
-      corners = find_corners(of.camera->picture(T, board, noise), board).value_or(Corners{});
-      write_file(file, {reinterpret_cast<const char*>(corners.data()), corners.size() * sizeof(Eigen::Vector2d)});
+  /// Takes the pictures of one camera, a twentieth of a second each, and writes the corners that are found.
+  void find_in_pictures(const std::string& path, const BoardCamera& camera, const char* name,
+                        const auto& T_camera_board) const {
+    for (size_t i = 0; i < T_ir_boards.size(); ++i) {
+      RandomStream noise(1, name, static_cast<int64_t>(i), "picture");
+      const Corners corners =
+          find_corners(camera.picture(T_camera_board(T_ir_boards[i]), board, noise), board).value_or(Corners{});
+      write_file(path + std::to_string(i),
+                 {reinterpret_cast<const char*>(corners.data()), corners.size() * sizeof(Eigen::Vector2d)});
     }
+  }
+  static Corners read_corners(const std::string& file) {
+    const std::string bytes = read_file(file);
+    Corners corners(bytes.size() / sizeof(Eigen::Vector2d));
+    for (size_t c = 0; c < corners.size(); ++c)
+      std::memcpy(corners[c].data(), bytes.data() + c * sizeof(Eigen::Vector2d), sizeof(Eigen::Vector2d));
     return corners;
   }
   static void add(BoardViews& views, Corners corners, int i) {

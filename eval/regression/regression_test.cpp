@@ -1,5 +1,6 @@
 // Runs compare, gate and calibrate noise on the user's own suite.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "ci/build_paths.h"
 #include "core/base/hash.h"
 #include "eval/program.h"
 #include "eval/test_program.h"
@@ -37,8 +39,14 @@ class RegressionLong : public testing::Test {
         {"experiments",
          {{{"trajectory", "wave.json"}, {"truth", "source"}, {"databases", {"DB_open_power", "DB_open_pinch"}}}}}};
     write_file(path("mine.json"), suite.dump());
-    const ProgramRun run = run_suite("run");
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto built = fs::last_write_time(build_paths::program("glovebench")).time_since_epoch().count();
+    const std::string name = fmt::format("own-suite-{}", built);
+    const std::string run = filled_once(shared_test_folder(), name, [](const std::string& folder) {
+      const ProgramRun made = run_suite("run");
+      ASSERT_EQ(made.exit_code, 0) << made.err;
+      fs::copy(path("run"), folder, fs::copy_options::recursive);
+    });
+    fs::copy(run, path("run"), fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     fs::copy(path("run"), path("same"), fs::copy_options::recursive);
   }
 

@@ -53,29 +53,31 @@ std::vector<double> print_point(Workbench& workbench, int subject, const LightPo
 TEST(LightCurvesLong, a_table_of_a_recording_is_no_worse_than_the_trackers_own) {
   Workbench workbench(test_workbench());
   // Usual light, warm and weak light, a drift of the white balance, a glove with other dyes.
-  const std::vector<LightPoint> points = {
-      {1, {}}, {0.35, {.strength = 0.35, .temperature_k = 3200}}, {1.25, {}, Eigen::Vector3d(1, 1.25, 1)}};
-  for (const int subject : {1, 2})
-    for (const LightPoint& point : points) {
-      const std::vector<double> right = print_point(workbench, subject, point);
-      // Measured: 96.0 to 96.7% and, with the filter, 98.2 to 98.4%; the own table 88.5 to 95.5% and 95.5 to 98.1%.
-      EXPECT_GT(right[3], right[0] + 0.3);
-      EXPECT_GE(right[4], right[2] - 0.05) << "the filter mends most of what either misses";
-      EXPECT_GT(right[3], 95.5);
-      EXPECT_GT(right[4], 98.0) << "the target";
-    }
+  const std::vector<std::pair<int, LightPoint>> points = {
+      {2, {1, {}}},
+      {1, {0.35, {.strength = 0.35, .temperature_k = 3200}}},
+      {2, {1.25, {}, Eigen::Vector3d(1, 1.25, 1)}}};
+  for (const auto& [subject, point] : points) {
+    const std::vector<double> right = print_point(workbench, subject, point);
+    // Measured: 96.0 to 96.7% and, with the filter, 98.2 to 98.4%; the own table 88.5 to 95.5% and 95.5 to 98.1%.
+    EXPECT_GT(right[3], right[0] + 0.3);
+    EXPECT_GE(right[4], right[2] - 0.05) << "the filter mends most of what either misses";
+    EXPECT_GT(right[3], 95.5);
+    EXPECT_GT(right[4], 98.0) << "the target";
+  }
 }
 
 TEST(LightCurvesLong, a_table_of_a_recording_goes_on_where_the_trackers_own_breaks) {
   Workbench workbench(test_workbench());
-  for (const int subject : {1, 2})
-    for (const LightPoint& point : {LightPoint{0.18, {.strength = 0.18}}, LightPoint{2500, {.temperature_k = 2500}},
-                                    LightPoint{1.667, {}, Eigen::Vector3d(1, 1.667, 1)}}) {
-      const std::vector<double> right = print_point(workbench, subject, point);
-      EXPECT_LT(right[0], 92) << "or the point says nothing";
-      EXPECT_GT(right[3], 95.5);
-      EXPECT_GT(right[4], 98.0);
-    }
+  const std::vector<std::pair<int, LightPoint>> points = {{1, {0.18, {.strength = 0.18}}},
+                                                          {2, {2500, {.temperature_k = 2500}}},
+                                                          {1, {1.667, {}, Eigen::Vector3d(1, 1.667, 1)}}};
+  for (const auto& [subject, point] : points) {
+    const std::vector<double> right = print_point(workbench, subject, point);
+    EXPECT_LT(right[0], 92) << "or the point says nothing";
+    EXPECT_GT(right[3], 95.5);
+    EXPECT_GT(right[4], 98.0);
+  }
 }
 
 TEST(LightCurvesLong, make_a_table_for_each_axis) {
