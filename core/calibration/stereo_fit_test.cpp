@@ -75,6 +75,15 @@ const Session& session() {
   return session;
 }
 
+/// Fewer pictures: a fit to half of them takes an eighth of the time.
+Session half_of_the_session() {
+  Session half = session();
+  half.T_ir_boards.resize(half.T_ir_boards.size() / 2);
+  half.ir.views.resize(half.T_ir_boards.size());
+  half.rgb.views.resize(half.T_ir_boards.size());
+  return half;
+}
+
 /// The same poses before lenses that are also a little askew, with the corners where they are.
 Session askew_session() {
   Session askew = session();
@@ -113,9 +122,9 @@ Errors errors_of(const RgbdCalibration& found, const RgbdCalibration& truth) {
               Eigen::AngleAxisd(found.T_rgb_ir.linear() * truth.T_rgb_ir.linear().transpose()).angle())};
 }
 
-/// Fits to eight times noise of 0.3 px in each coordinate; the largest of what the fits err by.
+/// Fits to four times noise of 0.3 px in each coordinate; the largest of what the fits err by.
 Errors worst_with_noise(const Session& session, LensModel lens, const char* title) {
-  constexpr int kSeeds = 8;
+  constexpr int kSeeds = 4;
   Errors squares, worst;
   for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const StereoFit fit = fit_stereo(with_noise(session.ir, 0.3, seed, "ir"),
@@ -184,7 +193,7 @@ TEST(StereoFit, RecoversTheTruthFromPictures) {
 }
 
 TEST(StereoFit, RotationTakesPointsFromIrToRgb) {
-  const Session& s = session();
+  const Session s = half_of_the_session();
   const Eigen::Matrix3d found = fit_stereo(s.ir, s.rgb, s.board, LensModel::radial).calibration.T_rgb_ir.linear();
   const auto apart_deg = [&](const Eigen::Matrix3d& R) {
     return degrees_from_radians(Eigen::AngleAxisd(found * R.transpose()).angle());
@@ -215,7 +224,7 @@ TEST(StereoFitLong, LensesThatAreAskewCostTheRotation) {
 }
 
 TEST(StereoFitLong, LeavesOutWhatDoesNotFit) {
-  const Session& s = session();
+  const Session s = half_of_the_session();
   BoardViews ir = s.ir, rgb = s.rgb;
   ir.views[3].corners[10] += Eigen::Vector2d(25, 0);      // one corner of one picture
   std::swap(rgb.views[7].corners, rgb.views[8].corners);  // the board was moved in between
@@ -229,12 +238,12 @@ TEST(StereoFitLong, LeavesOutWhatDoesNotFit) {
   EXPECT_LT(errors_of(fit.calibration, s.truth).rotation_deg, 0.15);
   const nlohmann::json report = report_json(fit, s.board);
   EXPECT_EQ(report.at("stereo").at("left_out").size(), 2U);
-  EXPECT_EQ(report.at("stereo").at("pairs").size(), 27U);
+  EXPECT_EQ(report.at("stereo").at("pairs").size(), 12U);
   EXPECT_THAT(report_text(fit), HasSubstr("left out, pair 7: does not fit"));
 }
 
 TEST(StereoFit, ARowThatRunsTheOtherWayChangesNothing) {
-  const Session& s = session();
+  const Session s = half_of_the_session();
   BoardViews rgb = s.rgb;
   for (size_t i = 0; i < rgb.views.size(); i += 2) std::ranges::reverse(rgb.views[i].corners);
   const StereoFit fit = fit_stereo(s.ir, rgb, s.board, LensModel::radial);
@@ -243,7 +252,7 @@ TEST(StereoFit, ARowThatRunsTheOtherWayChangesNothing) {
 }
 
 TEST(StereoFitLong, RefusesWhatTellsTooLittle) {
-  const Session& s = session();
+  const Session s = half_of_the_session();
   const auto first = [](BoardViews views, size_t count) {
     views.views.resize(count);
     return views;
@@ -271,7 +280,7 @@ TEST(StereoFitLong, RefusesWhatTellsTooLittle) {
 }
 
 TEST(StereoFit, AModelLeavesOtherCoefficientsAtZero) {
-  const Session& s = session();
+  const Session s = half_of_the_session();
   const LensDistortion radial = fit_stereo(s.ir, s.rgb, s.board, LensModel::radial).calibration.ir_lens;
   EXPECT_NE(radial.k1, 0);
   EXPECT_NE(radial.k2, 0);

@@ -67,12 +67,14 @@ class BoardCamera {
   Image<uint8_t> picture(const Eigen::Isometry3d& T_camera_board, const Chessboard& board,
                          RandomStream& noise) const {
     const Eigen::Isometry3d T_board_camera = T_camera_board.inverse();
-    const Eigen::Vector3d origin = T_board_camera.translation();
+    const Eigen::Vector3d origin = T_board_camera.translation(), right = T_board_camera.linear().col(0),
+                          down = T_board_camera.linear().col(1), ahead = T_board_camera.linear().col(2);
     Image<uint8_t> picture(camera_.width, camera_.height);
     for (size_t pixel = 0; pixel < picture.size(); ++pixel) {
       double sum = 0;
       for (size_t i = 0; i < kRays; ++i) {
-        const Eigen::Vector3d ray = T_board_camera.linear() * rays_[pixel * kRays + i].homogeneous();
+        const Eigen::Vector2d& xy = rays_[pixel * kRays + i];
+        const Eigen::Vector3d ray = xy.x() * right + xy.y() * down + ahead;
         const double along = -origin.z() / ray.z();
         sum += along > 0 ? gray_at((origin + along * ray).head<2>(), board) : 90;
       }
