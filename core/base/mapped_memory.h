@@ -16,8 +16,8 @@ class MappedMemory {
   /// Zeros, in large pages if possible.
   /// Throws: std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// Maps a file for reading. It may be replaced (WholeFile), but access to bytes that were cut off ends the
-  /// process (SIGBUS).
+  /// Maps a file for reading. A WholeFile may replace the file. If another program shortens it, access to lost
+  /// bytes ends the process (SIGBUS).
   /// Throws: Error.
   static MappedMemory of_file(const std::string& path);
   /// Maps an open file for writing.
@@ -27,12 +27,12 @@ class MappedMemory {
   MappedMemory(MappedMemory&& other) noexcept;
   MappedMemory& operator=(MappedMemory&& other) noexcept;
 
-  /// Frees a file's pages wholly in this range until the next access. No effect on `zeros`.
+  /// Frees a file's pages that lie wholly in this range until the next access. No effect on `zeros`.
   void release(size_t offset, size_t bytes) const;
   /// Turns off read-ahead.
   void expect_random_reads(size_t offset, size_t bytes) const;
 
-  /// Throws: Error if the file was changed since `of_file`.
+  /// Throws: Error if the file changed since `of_file`.
   void require_unchanged() const;
 
   std::span<const uint8_t> bytes() const { return {data_, size_}; }

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// The entry that X_KIND.cpp defines; X is its name, if it has one.
+/// Checks the entry that X_KIND.cpp defines: X is its name, if it has one.
 template <typename Entry>
 Entry named(std::string_view name, Entry entry) {
   if constexpr (requires { entry.name; }) check(entry.name == name, "an entry has the name of its file");

@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// Limits on images: a small file cannot claim much memory.
+/// Limits on images, so that a small file cannot claim much memory.
 inline constexpr int kMostSide_px = 4096;
 inline constexpr int kMostPixels = 1 << 21;  // a little over 1920x1080
 

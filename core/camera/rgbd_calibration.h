@@ -10,7 +10,7 @@
 
 namespace glovebench {
 
-/// A Kinect's calibrated depth: z = 1 / (a * raw + b), raw: 11-bit disparity. With baseline B, focal length f (px)
+/// A Kinect's depth calibration: z = 1 / (a * raw + b), raw: 11-bit disparity. With baseline B, focal length f (px)
 /// and disparity d at infinity, a = -1 / (8 f B), b = d / (8 f B).
 struct DisparityLine {
   double a_per_m = 0;  ///< below 0
@@ -39,8 +39,8 @@ struct RgbdCalibration {
 
 RgbdCalibration synthetic_calibration();
 
-/// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right. Real colors are some
-/// pixels off.
+/// A Kinect's design values: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right. Colors of a real
+/// device are some pixels off.
 RgbdCalibration nominal_kinect_calibration();
 
 /// Reads {"version": 1, "ir": CAMERA, "rgb": CAMERA, "T_rgb_ir": {"rotation": 3 rows of 3, "translation_m": 3}},
@@ -54,7 +54,7 @@ nlohmann::json to_json(const RgbdCalibration& calibration);
 
 inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes
 
-/// The text of a file with the same calibration, bit for bit.
+/// The text of a file. Reading it gives the same calibration, bit for bit.
 std::string calibration_text(const RgbdCalibration& calibration);
 /// Throws: Error.
 RgbdCalibration load_calibration(const std::string& path);

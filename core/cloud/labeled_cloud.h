@@ -26,7 +26,7 @@ struct LabeledPoint {
 /// Paper: equation 1.
 struct LabeledCloud {
   RecycledVector<LabeledPoint> points;
-  LabelImage labels;        ///< those of `points`, 0 elsewhere
+  LabelImage labels;        ///< of `points`, 0 elsewhere
   int labeled_outside = 0;  ///< glove pixels with depth outside the volume
   int labeled_cut_off = 0;  ///< of these, within kCutOffMargin
 };

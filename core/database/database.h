@@ -33,14 +33,14 @@ uint8_t field_cap(double cap_share, int size);
 /// Paper: section III.
 class Database {
  public:
-  /// Renders all views; `threads` do not change the result. Each thread calls `renderers` once; `progress` gets the
-  /// share done.
+  /// Renders all views. The result does not depend on `threads`. Each thread calls `renderers` once; `progress`
+  /// gets the share done.
   /// Throws: Error without postures, or for a size that repeats or is outside 4..64 px.
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes,
                         DatabaseMemory memory = DatabaseMemory::normal);
-  /// Builds a file that may exceed memory; returns its `content_hash()`.
+  /// Builds a file that may exceed memory. Returns its `content_hash()`.
   /// Throws: Error as `build`, or if the disk is full.
   static std::string build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
                                 const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
@@ -51,12 +51,12 @@ class Database {
   void save(const std::string& path) const;
   /// Loads the file's sizes among `sizes` and checks hashes and values. Labels and fields stay mapped (see
   /// MappedMemory::of_file). Uses the caller's TBB arena.
-  /// Throws: Error naming file and fault.
+  /// Throws: Error with file and fault.
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
   /// Recomputes the fields of all loaded sizes. Uses the caller's TBB arena.
   /// Throws: Error if a stored field differs.
   void check() const;
-  /// Throws: Error if the file changed since.
+  /// Throws: Error if the file changed since loading.
   void require_unchanged() const { bytes_->require_unchanged(); }
   static std::string input_hash(const PostureSet& postures, const HandModel& model, const ViewConfig& views);
 

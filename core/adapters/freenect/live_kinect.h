@@ -11,18 +11,18 @@ namespace glovebench {
 
 struct LiveOptions {
   int index = 0;  ///< of libfreenect's devices
-  /// Makes fakenect wait for slow readers. A real Kinect loses packets.
+  /// Makes fakenect wait for slow readers. Has no effect on a real Kinect.
   bool every_frame = false;
-  double silence_limit = 10;                     ///< s without a frame until the device counts as failed
-  std::string calibration_name = "calibration";  ///< file, for messages
+  double silence_limit = 10;                     ///< s without a frame before the device counts as failed
+  std::string calibration_name = "calibration";  ///< file name for messages
   std::function<bool()> interrupted;             ///< polled at 10 Hz; true ends the stream
 };
 
-/// Images without a frame.
+/// Images that became no frame.
 struct LiveLosses {
   int late = 0;       ///< fetched too late, after the first `next_frame`
   int unpaired = 0;   ///< depth images without a color image near in time
-  int went_back = 0;  ///< not later than the image before
+  int went_back = 0;  ///< not later than the previous image
 
   int total() const { return late + unpaired + went_back; }
 };
@@ -33,19 +33,19 @@ struct LiveLosses {
 /// Throws: Error, after earlier frames, if the device is unplugged, silent for `silence_limit`, or memory runs out.
 class LiveKinect : public Device {
  public:
-  /// When the last fetched frame was complete, microseconds since 1970; 0 before.
+  /// Time of the last complete fetched frame, microseconds since 1970. 0 before the first.
   virtual int64_t arrived_us() const = 0;
   virtual LiveLosses losses() const = 0;
-  /// Why the stream ended; empty before, and after a failure.
+  /// Why the stream ended. Empty before the end and after a failure.
   virtual std::string end() const = 0;
 };
 
 extern const bool kHasFreenect;
 
-/// Starts both streams and their thread. fakenect, loaded in place of libfreenect, plays a recording and lets the
-/// thread end only at a pause.
-/// Throws: Error if the device is missing or refuses, the calibration is not 640x480, this build has no
-/// libfreenect, or fakenect's recording (FAKENECT_PATH) is damaged.
+/// Starts both streams and their thread. fakenect replaces libfreenect to play a recording; its thread ends only at
+/// a pause.
+/// Throws: Error if the device is missing or refuses, the calibration is not 640x480, this build lacks libfreenect,
+/// or fakenect's recording (FAKENECT_PATH) is damaged.
 std::unique_ptr<LiveKinect> open_kinect(const RgbdCalibration& calibration, const LiveOptions& options = {});
 
 }  // namespace glovebench
