@@ -7,11 +7,10 @@
 
 namespace glovebench {
 
-/// Stored distances are in 1/kFieldScale px; a straight step is 3, a diagonal one 4.
+/// Stored distances are in 1/kFieldScale px. A straight step is 3, a diagonal one 4.
 inline constexpr int kFieldScale = 3;
 
-/// Distance of each pixel to the nearest one of `color` by two-pass chamfering; `cap` at most, also without the
-/// color.
+/// Distance of each pixel to the nearest one of `color` by two-pass chamfering, at most `cap`.
 /// Paper: section III-B.
 void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 
@@ -22,7 +21,7 @@ struct RowRange {
 
 /// The same, faster: relaxes whole rows.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
-/// The same for rows `wanted`; others are undefined.
+/// Only for rows `wanted`; others are undefined.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
 /// The fields of all colors in turn.
 void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields);

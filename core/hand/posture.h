@@ -39,7 +39,7 @@ enum Angle : int {
 };
 
 /// Name in files, and limits of a human hand. Positive flexion bends to the palm, positive abduction turns to the
-/// thumb; zero is straight and in line with the palm.
+/// thumb. Zero is straight and in line with the palm.
 struct AngleInfo {
   std::string_view name;
   double min_deg;

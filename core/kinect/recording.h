@@ -23,7 +23,7 @@ namespace glovebench {
 /// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
  public:
-  /// `calibration` replaces the folder's, which fakenect's recordings lack.
+  /// `calibration` replaces the folder's. Recordings of fakenect have none.
   /// Throws: Error if index or calibration is missing or malformed, a file is listed twice, or there is no pair.
   explicit RecordingDevice(const std::string& folder,
                            const std::optional<RgbdCalibration>& calibration = std::nullopt);
@@ -40,7 +40,7 @@ class RecordingDevice : public Device {
   const std::vector<std::string>& changed() const { return changed_; }
 
  private:
-  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file names
+  using Pair = FramePairer<std::string, std::string>::Pair;
 
   std::string read_text(const std::string& name, uint64_t max_bytes);
 
@@ -62,7 +62,7 @@ class RecordingWriter {
   /// Depth time stamps must rise. An equal color time stamp means the same image.
   /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
-  /// Makes the folder a recording; without it all frames are lost.
+  /// Completes the recording. Without it all frames are lost.
   /// Throws: Error without frames.
   void finish();
 

@@ -19,9 +19,9 @@ class Rectification {
   /// Throws: Error as `require_unfolded`.
   Rectification(const PinholeCamera& camera, const LensDistortion& lens);
 
-  /// Nearest pixel, to mix no surfaces. Empty pixels are 2047.
+  /// Takes the nearest pixel, so it mixes no surfaces. Empty pixels are 2047.
   Image<uint16_t> operator()(const Image<uint16_t>& raw_disparity) const;
-  /// Interpolated. Empty pixels are black.
+  /// Interpolates. Empty pixels are black.
   ColorImage operator()(const ColorImage& color) const;
 
  private:

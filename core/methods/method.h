@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Tracks one hand. All memory of the frames before is in their results.
+/// Tracks one hand. Keeps no state between frames but the results.
 class Method {
  public:
   virtual ~Method() = default;
@@ -34,12 +34,12 @@ struct MethodInputs {
 struct MethodEntry {
   std::string_view name;         ///< X
   std::string_view description;  ///< one line
-  /// Throws: Error as Tracker does.
+  /// Throws: Error as Tracker.
   std::unique_ptr<Method> (*make)(const MethodInputs& inputs);
 };
 /// Sorted by name.
 std::span<const MethodEntry> methods();
-/// Throws: Error listing the known names.
+/// Throws: Error for an unknown name.
 const MethodEntry& find_method(std::string_view name);
 
 }  // namespace glovebench

@@ -5,7 +5,6 @@
 
 namespace glovebench {
 
-/// The default.
 inline constexpr std::string_view kPaperMethod = "schroeder2012";
 /// Sorted names: the X of this folder's X_method.cpp.
 std::span<const std::string_view> method_names();

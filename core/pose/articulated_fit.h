@@ -17,16 +17,16 @@ struct HandObservation {
   const PinholeCamera& camera;
 };
 
-/// Gauss-Newton steps. Pairs are first and last value; widths and weights change in equal ratios, the share in
-/// equal steps.
+/// Gauss-Newton steps. Pairs are first and last value. Widths and weights change in equal ratios, shares in equal
+/// steps.
 struct FitStage {
   int steps;                ///< >= 1
-  int rigid_steps;          ///< first steps, which move the pose only
+  int rigid_steps;          ///< first steps, which move only the pose
   int max_points;           ///< uniform stride down to at most this many
   double tukey_mm[2];       ///< farther points have no weight
   double start_weight[2];   ///< of the start's posture, per square degree
   double tangential[2];     ///< relative weight of a distance along the surface
-  bool outline_moves_pose;  ///< false: it moves the angles only
+  bool outline_moves_pose;  ///< false: only the angles
 };
 /// Each start runs `trial`, the best of them `rough`, the best of those `fine`. Weights are normalized to 1,000
 /// points.
@@ -38,7 +38,7 @@ struct FitSchedule {
   double previous_weight = 0.003;  ///< of the previous posture, per square degree
   double outline_weight = 1;       ///< of a vertex outside the mask
   int outline_stride = 3;          ///< every nth vertex
-  double score_cut_mm = 15;        ///< distances count at most this when starts are compared
+  double score_cut_mm = 15;        ///< limit of distances in the comparison of starts
 };
 
 /// An angle that moves fewer points is hidden.
@@ -64,15 +64,15 @@ struct FaceBodies {
   std::array<std::array<float, kMost>, 3> share{};
 };
 
-/// Refines pose and posture by iterative closest points of equal color and by the outline of the mask, with a
-/// posture prior and joint limits.
+/// Refines pose and posture by iterative closest points of equal color and the outline of the mask, with a posture
+/// prior and joint limits.
 class ArticulatedFit {
  public:
   /// `implementation`: of the closest-point search.
   ArticulatedFit(std::shared_ptr<const HandModel> model, const FitSchedule& schedule,
                  Implementation implementation);
 
-  /// `starts` is not empty; `previous`, the last posture, may be null.
+  /// `starts` is not empty. `previous`: the last posture; may be null.
   ArticulatedEstimate operator()(const HandObservation& seen, std::span<const ArticulatedPose> starts,
                                  const Posture* previous) const;
 

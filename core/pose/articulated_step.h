@@ -12,8 +12,7 @@ struct ArticulatedPose {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
 };
 
-/// Unknowns of a step: rotation about the hand origin (degrees), translation (mm), both in the hand frame, and 22
-/// angles (degrees).
+/// Unknowns of a step, hand frame: rotation about the origin (degrees), translation (mm), 22 angles (degrees).
 inline constexpr int kUnknowns = 6 + kAngleCount;
 using StepVector = Eigen::Matrix<double, kUnknowns, 1>;
 using StepMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
@@ -34,11 +33,11 @@ struct NormalEquations {
   StepMatrix H = StepMatrix::Zero();
   StepVector g = StepVector::Zero();
 
-  /// Draws an angle by `away_deg`; `weight` is per square degree.
+  /// Pulls an angle by `away_deg`. `weight`: per square degree.
   void hold(int angle, double away_deg, double weight);
 };
 
-/// The equations as written: one Jacobian row for each pull.
+/// One Jacobian row per pull.
 class PlainPullSums {
  public:
   explicit PlainPullSums(const std::array<Screw, kAngleCount>& screws) : screws_(screws) {}
@@ -85,7 +84,7 @@ class PullSums {
   std::array<Vector6d, kBodyCount> sums_;
 };
 
-/// Solves H step = g within joint limits (active set); `only_pose` fixes all angles. Empty if a motion is
+/// Solves H step = g within joint limits (active set). `only_pose` fixes all angles. Empty if a motion is
 /// undetermined.
 std::optional<StepVector> solve_within_limits(const NormalEquations& equations, const Posture& posture,
                                               bool only_pose = false);

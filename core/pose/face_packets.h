@@ -27,10 +27,10 @@ struct FacePackets {
     int32_t face;        ///< in Surface::faces
   };
 
-  RecycledVector<Face> faces;                    ///< padded with the last
-  RecycledVector<Boxes<kFaces>> face_boxes;      ///< one per packet; padding is very far
-  RecycledVector<Boxes<kPackets>> packet_boxes;  ///< padding is very far
-  float slack = 0;                               ///< rounding error of a corner, m
+  RecycledVector<Face> faces;                ///< padded with the last
+  RecycledVector<Boxes<kFaces>> face_boxes;  ///< one per packet; padding is very far
+  RecycledVector<Boxes<kPackets>> packet_boxes;
+  float slack = 0;  ///< rounding error of a corner, m
 
   int packet_count() const { return static_cast<int>(face_boxes.size()); }
   void assign(std::span<const Surface::Face> surface_faces);

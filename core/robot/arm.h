@@ -25,14 +25,14 @@ struct ArmJointInfo {
 };
 const std::array<ArmJointInfo, kArmJointCount>& arm_joint_infos();
 
-/// T_base_flange. Base axes: x ahead, y left, z up; the flange's z leaves the arm.
+/// T_base_flange. Base axes: x ahead, y left, z up. The flange's z points away from the arm.
 Eigen::Isometry3d arm_flange_pose(const ArmJoints& joints);
 
-/// Inverse kinematics; core/adapters/kdl implements it.
+/// Inverse kinematics (core/adapters/kdl).
 class ArmSolver {
  public:
   virtual ~ArmSolver() = default;
-  /// Joint angles within the limits, near `start`; empty if none were found.
+  /// Joint angles within the limits, near `start`. Empty if none were found.
   virtual std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const = 0;
 };
 
@@ -47,13 +47,13 @@ struct MountedArm {
 /// Elbow up, flange 0.6 m ahead of the base, looking down.
 inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, 1.04, 1.5708};
 
-/// Solves in small steps between poses, so that joint angles never jump.
+/// Solves in small steps between poses, so joint angles never jump.
 class ArmFollower {
  public:
   explicit ArmFollower(std::shared_ptr<const ArmSolver> solver, const ArmJoints& start = kArmAtRest)
       : solver_(std::move(solver)), joints_(start) {}
 
-  /// Moves the flange to a pose. Returns false and stays if it is out of reach.
+  /// Moves the flange to a pose. If it is out of reach, returns false and stays.
   bool follow(const Eigen::Isometry3d& T_base_flange);
   const ArmJoints& joints() const { return joints_; }
 

@@ -9,7 +9,6 @@
 
 namespace glovebench {
 
-/// The robot's task.
 enum class CommandState {
   following,  ///< goes to the targets
   holding,    ///< hand not seen: stays at the last targets
@@ -20,7 +19,7 @@ constexpr auto names_of(CommandState) {
 }
 static_assert(kCountOf<CommandState> == static_cast<int>(CommandState::stopped) + 1, "each value has a name");
 
-/// How a command was changed; `_speed`: slowed down.
+/// How a command was changed. `_speed`: slowed down.
 enum class Intervention {
   stale,              ///< dropped: its time stamp is not later, or its frame's goes back
   not_finite,         ///< refused
@@ -51,7 +50,7 @@ static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }
-  /// Saturates at INT64_MAX; ignores counts below 1.
+  /// Saturates at INT64_MAX. Ignores counts below 1.
   void add(Intervention kind, int64_t count = 1) {
     int64_t& sum = counts_[static_cast<size_t>(kind)];
     if (count > 0) sum += std::min(count, std::numeric_limits<int64_t>::max() - sum);

@@ -5,8 +5,7 @@
 
 namespace glovebench {
 
-/// Fingertips of the right human hand, thumb to little, in the hand frame.
-/// Units: m.
+/// Fingertips of the right human hand, thumb to little. Hand frame, m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
 /// Maps postures so that a pinch stays a pinch (core/robot/README.md). Fits the vector from thumb to finger where

@@ -18,8 +18,7 @@ constexpr auto names_of(ShadowCoupling) {
   return std::to_array<std::string_view>({"series", "even"});
 }
 
-/// The last two joints of a finger.
-/// Units: rad.
+/// The last two joints of a finger, rad.
 struct CoupledJoints {
   double distal;    ///< J1, never above J2
   double proximal;  ///< J2
@@ -29,7 +28,7 @@ CoupledJoints split_motor(double motor, ShadowCoupling coupling);
 /// J1's share of a small motion of the motor, 0 to 1.
 double distal_share(double motor, ShadowCoupling coupling);
 
-/// The joints at a share (0 to 1) of the way; the motor goes straight. A deviation of `from` from the model fades.
+/// The joints at a share (0 to 1) of the way. The motor goes straight. A deviation of `from` from the model fades.
 /// J1 stays below J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
@@ -66,7 +65,7 @@ inline constexpr int kShadowJointCount = 24;
 inline constexpr int kShadowActuatorCount = 20;
 
 /// A joint's limits and source: robot angle = sign * human angle. THJ5 turns the thumb across the palm, THJ4 lifts
-/// it off; WRJ1 bends to the palm, WRJ2 turns to the thumb.
+/// it off. WRJ1 bends to the palm, WRJ2 turns to the thumb.
 struct ShadowJointInfo {
   std::string_view name;
   double min_deg;
@@ -76,7 +75,7 @@ struct ShadowJointInfo {
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// A motor. J0 drives two joints; its target is their sum.
+/// J0 drives two joints. Its target is their sum.
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;
@@ -84,8 +83,7 @@ struct ShadowActuatorInfo {
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, flagged where they differ from the request.
-/// Units: rad.
+/// Targets within the limits, rad. Flags mark where they differ from the request.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};
   std::array<bool, kShadowJointCount> joint_clamped{};

@@ -39,10 +39,10 @@ struct AngleCertainty {
   uint32_t hidden = 0;                  ///< bit a: angle a is hardly seen
 };
 
-/// The answer for one frame, (theta, R, P).
+/// The result for one frame, (theta, R, P).
 /// Paper: section III-C.
 struct TrackResult {
-  int64_t timestamp_us = 0;  ///< of the depth
+  int64_t timestamp_us = 0;  ///< of the depth image
   TrackStatus status = TrackStatus::no_hand;
 
   Posture posture = Posture::Zero();                                ///< smoothed, rad
@@ -54,13 +54,13 @@ struct TrackResult {
   RecycledVector<Match> matches;
 
   bool ambiguous = false;  ///< rotations differ by more than 60 degrees
-  bool converged = false;  ///< of the alignment
-  int cloud_points = 0;    ///< |C|
+  bool converged = false;
+  int cloud_points = 0;  ///< |C|
   int icp_points = 0;
   int icp_iterations = 0;
   double icp_residual = 0;  ///< final mean point-to-triangle distance, m
   std::optional<AngleCertainty> certainty;
-  /// How far whole patches of points lie off the refined hand, RMS, m: small unless the model has wrong sizes.
+  /// RMS distance of whole patches of points from the refined hand, m. Small unless the model has wrong sizes.
   std::optional<double> misfit;
 };
 
@@ -88,11 +88,10 @@ static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each v
 /// Called when a stage begins, so that a caller with a clock can time it. A frame may enter a stage twice. Not
 /// empty.
 using StageObserver = std::function<void(Stage stage)>;
-/// Observes nothing.
 inline void unobserved(Stage) {}
 
 /// A JSON object without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
-/// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known angle_deviations_deg and
+/// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known, angle_deviations_deg and
 /// hidden (names). A lost frame has no posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
