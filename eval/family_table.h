@@ -8,7 +8,7 @@
 
 namespace glovebench::eval {
 
-/// Errors of generated movements: a row for each family, database, hand and noise, with means and Student's 95%
+/// Errors of generated movements: one row per family, database, hand and noise, with means and Student's 95%
 /// intervals over movements. Empty without such runs.
 std::optional<reports::StudyResult> family_table(std::span<const MeasuredRun> runs);
 

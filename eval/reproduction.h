@@ -14,7 +14,7 @@ struct ReproductionOptions {
   StudyOptions study;
   std::vector<std::string> trajectories;             ///< of Figure 4; empty: all five
   std::vector<reports::NoiseSetting> noises = {{}};  ///< of Figure 4
-  std::vector<std::string> only;  ///< parts to run (part_names); empty: all, or with `trajectories` Figure 4 alone
+  std::vector<std::string> only;  ///< part_names to run; empty: all, or with `trajectories` Figure 4 alone
 };
 
 /// "fig4", "fig5", "fig6" and the studies.
@@ -28,7 +28,7 @@ int exit_code_of(const reports::RequiredClaims& required, const ReproductionOpti
 /// Throws: Error for an unknown part.
 Plan plan_reproduction(const ReproductionOptions& options);
 
-/// The parts with their work and estimated times, and which databases exist. Builds nothing.
+/// The parts, their estimated times and existing databases. Builds nothing.
 std::string describe_reproduction(Workbench& workbench, const ReproductionOptions& options);
 
 using ShowResults = std::function<void(const reports::RunResult& so_far)>;

@@ -7,9 +7,9 @@
 
 namespace glovebench::eval {
 
-/// The table of finished runs, named after their folders, in the headline metrics unless `pairing` has others.
-/// Times are those of runs that were measured one job at a time. Throws: Error; Incomparable, also for an
-/// unfinished run.
+/// The table of finished runs, named after their folders. Shows the headline metrics unless `pairing` has others,
+/// and times only of runs that were measured one job at a time.
+/// Throws: Error. Incomparable, also for an unfinished run.
 reports::SettingsTable settings_table(const std::vector<std::string>& folders, reports::PairingOptions pairing = {},
                                       const reports::CompareConfig& config = {});
 

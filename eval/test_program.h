@@ -77,7 +77,6 @@ struct ProgramSetting {
   _exit(127);
 }
 
-/// A running program and the files of its output.
 struct StartedProgram {
   pid_t process = -1;
   std::string out;
@@ -108,7 +107,7 @@ inline ProgramRun run_program(const std::vector<std::string>& command, const Pro
   return finish_program(start_program(command, setting));
 }
 
-/// Starts glovebench with the tests' cache.
+/// With the tests' cache.
 inline StartedProgram start_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
   arguments.insert(arguments.begin(), build_paths::program("glovebench"));
   setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());

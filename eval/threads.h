@@ -10,7 +10,7 @@
 
 namespace glovebench::eval {
 
-/// Calls work(i) for i = 0..count-1 on `threads` threads; parallel code inside `work` shares them.
+/// Calls work(i) for i = 0..count-1 on `threads` threads. Parallel code inside `work` shares them.
 template <typename Work>
 void in_parallel(int threads, size_t count, const Work& work) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -15,10 +15,10 @@ struct TrueNeighbor {
   double distance = 0;  ///< mean between equal vertices, m
 };
 
-/// Finds the entry with the smallest mean vertex distance to a true hand; ties go to the smaller entry.
-/// Hands are compared at one origin and along one ray, which a look-up cannot see: the smallest rotation turns the
-/// ray through the middle of the bounding square (an entry's `box_ray`) to the optical axis.
-/// `model`: the database's hand; both must outlive the search. Immutable, shared between threads.
+/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. A look-up
+/// sees neither distance nor direction of the hand, so hands are compared at one origin and along one ray: the
+/// smallest rotation turns the ray through the middle of the bounding square (an entry's `box_ray`) to the optical
+/// axis. `model`: the database's hand. Both must outlive the search. Thread-safe.
 class TrueNeighborSearch {
  public:
   TrueNeighborSearch(const HandModel& model, const Database& database);
@@ -26,7 +26,7 @@ class TrueNeighborSearch {
   /// The hand must be in front of the camera.
   TrueNeighbor nearest(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                        const PinholeCamera& camera) const;
-  /// Plain: every vertex of every entry.
+  /// Compares every vertex of every entry.
   TrueNeighbor nearest_plain(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                              const PinholeCamera& camera) const;
 
@@ -34,7 +34,6 @@ class TrueNeighborSearch {
   /// Vertices with the hand's ray turned to the optical axis; hand origin.
   Eigen::Matrix3Xd seen_along_ray(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                                   const PinholeCamera& camera) const;
-  /// Centroids of the patches' vertices.
   Eigen::Matrix3Xd patch_centers(const Eigen::Matrix3Xd& vertices) const;
   static int posture_of(int entry) { return entry / kViewCount; }
 

@@ -4,8 +4,8 @@
 
 namespace glovebench::render {
 
-/// An off-screen OpenGL 4.5 core context (OSMesa). Threads draw in turn with equal images: making a context current
-/// waits for other threads. A thread has at most one current context. Mesa's own threads are off
+/// An off-screen OpenGL 4.5 core context (OSMesa). Making it current waits for other threads, so threads draw in
+/// turn, with equal images. A thread has at most one current context. Mesa's own threads are off
 /// (LP_NUM_THREADS=0); create the first context while no thread uses the environment.
 class Context {
  public:

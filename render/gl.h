@@ -22,7 +22,7 @@ inline constexpr double kFar = 10.0;
 /// (glFrontFace(GL_CW)).
 Eigen::Matrix4f projection(const PinholeCamera& camera);
 
-/// A compiler error is a broken invariant.
+/// Throws: std::logic_error for a compiler error.
 class Program {
  public:
   Program(const std::string& vertex_source, const std::string& fragment_source);

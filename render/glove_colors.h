@@ -16,7 +16,7 @@ enum class Shader {
 /// to 6500 K. Index 0 is unused.
 const std::array<Eigen::Vector3f, kColorCount + 1>& glove_albedos(Shader shader);
 
-/// Colors of labels in pictures; 0 is black.
+/// Colors of labels in pictures. 0 is black.
 const std::array<Rgb, kColorCount + 1>& label_palette();
 
 }  // namespace glovebench::render

@@ -36,7 +36,7 @@ struct SurfaceMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;  ///< unit length
   std::vector<uint8_t> materials;        ///< of each vertex
-  std::vector<uint32_t> indices;         ///< three a triangle
+  std::vector<uint32_t> indices;         ///< three per triangle
 };
 
 struct SceneConfig {
@@ -52,7 +52,7 @@ struct Scene {
 };
 Scene make_scene(const SceneConfig& config);
 
-/// The bare forearm, 200 mm, at the hand's cuff in any posture; forearm joint's frame.
+/// The bare forearm, 200 mm, at the hand's cuff in any posture. Forearm joint's frame.
 SurfaceMesh make_forearm(const PosedHand& hand);
 
 }  // namespace glovebench::render

@@ -1,7 +1,5 @@
 #pragma once
 
-// OpenGL programs of the RGB-D renderer.
-
 namespace glovebench::render {
 
 /// Attributes: position, normal, material, patch, pattern position, object frame.

@@ -12,7 +12,7 @@ class Option;
 
 namespace glovebench::eval {
 
-/// Restricts an option; each call returns the same one.
+/// Restricts an option. Each call returns the same option.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
@@ -29,9 +29,9 @@ class Option {
   Option count(int values) const;
   /// A list whose option is repeated for each value, so it takes no word that follows.
   Option repeated() const;
-  /// A list that commas may separate, too.
+  /// A list that commas may separate.
   Option comma_separated() const;
-  /// `other` is declared before.
+  /// `other` must be declared before.
   Option needs(const std::string& other) const;
   /// Only --help-all shows it.
   Option rare() const;
@@ -69,18 +69,18 @@ class Command {
   Command(CLI::App& app, Action& chosen) : app_(&app), chosen_(&chosen) {}
 
   /// With subcommands, the user must name one unless the command `runs` by itself. Each line of the description is
-  /// a paragraph; lists of commands show the first.
+  /// a paragraph. Lists of commands show the first.
   Command subcommand(const std::string& name, const std::string& description) const;
-  /// The same command; the help shows its options under `heading`.
+  /// The same command. The help shows its options under `heading`.
   Command group(const std::string& heading) const;
   /// Adds an option for `value`. `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help
-  /// shows the default unless it is empty or the option required. A bool is a flag; a transform is X Y Z (m) QW QX
+  /// shows the default unless it is empty or the option required. A bool is a flag. A transform is X Y Z (m) QW QX
   /// QY QZ. The source lists all types.
   /// Throws: Error for a transform that is not finite or has no unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
   bool given(const std::string& name) const;
-  /// So far, with subcommands.
+  /// The options so far, with subcommands.
   CommandText text() const;
   /// Sets the action. Its result is the exit code; void: 0.
   template <typename Does>

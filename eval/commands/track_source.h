@@ -19,11 +19,11 @@ struct TrackSource {
 };
 
 struct SourceFlags {
-  std::string source;       ///< "fakenect:FOLDER" or "freenect[:INDEX]"
+  std::string source;       ///<  "fakenect:FOLDER" or "freenect[:INDEX]"
   std::string calibration;  ///< file; empty: the recording's, else a nominal Kinect's
   bool every_frame = false;
 
-  /// --source, with its help, and --calibration.
+  /// Adds --source and --calibration.
   void add(Command command, const std::string& help);
 };
 
@@ -31,12 +31,12 @@ struct SourceFlags {
 /// Throws: Error for an unknown kind, a missing device or recording, or a build without libfreenect.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
-/// Gives `take` up to `count` frames spread over a recording, or the first ones of a live device. Damaged frames
-/// are skipped and, unless `quiet`, named on stderr. `title`: of the progress bar.
+/// Gives `take` up to `count` frames spread over a recording, or the first ones of a live device. Skips damaged
+/// frames; names them on stderr unless `quiet`. `title`: of the progress bar.
 void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
                  const std::function<void(const DeviceFrame&)>& take);
 
-/// Names on stderr the changed files of a recording, unless `quiet`.
+/// Names a recording's changed files on stderr unless `quiet`.
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);
 
 }  // namespace glovebench::eval

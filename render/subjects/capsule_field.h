@@ -6,7 +6,7 @@
 
 namespace glovebench::render {
 
-/// Balls on a segment, radius linear, m.
+/// Balls on a segment. The radius changes linearly. m.
 struct Capsule {
   Eigen::Vector3d a;
   Eigen::Vector3d b;
@@ -15,8 +15,8 @@ struct Capsule {
 };
 
 enum class Joining : uint8_t {
-  palm,    ///< of palm and forearm, with each other
-  segment  ///< of fingers, with each other and the palm
+  palm,    ///< palm and forearm, with each other
+  segment  ///< fingers, with each other and the palm
 };
 
 struct UnionPart {
@@ -44,7 +44,7 @@ inline constexpr double kSegmentJoining = 0.0015;
 /// k inside the palm, m.
 inline constexpr double kPalmJoining = 0.005;
 
-/// Moves `p` along the gradient to this level by Newton steps; may stop short in creases.
+/// Moves `p` along the gradient to this level by Newton steps. May stop short in creases.
 Eigen::Vector3d project_to_level(std::span<const Capsule> capsules, std::span<const UnionPart> parts, double level,
                                  Eigen::Vector3d p);
 

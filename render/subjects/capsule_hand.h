@@ -27,10 +27,10 @@ class CapsuleHand {
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
-  /// The right hand's; a left hand mirrors it.
+  /// Of the right hand. A left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
-  /// Field value at each vertex, m: glove and folds; NaN at the cuff's flat end.
+  /// Field value at each vertex, m: glove and folds. NaN at the cuff's flat end.
   const std::vector<double>& levels() const { return levels_; }
   /// The field that vertex `v` follows, of placed capsules.
   FieldSample field_at(size_t v, const std::vector<Capsule>& placed, const Eigen::Vector3d& p) const;

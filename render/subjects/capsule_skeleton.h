@@ -7,7 +7,7 @@
 
 namespace glovebench::render {
 
-/// The right hand's skeleton, hand frame of core/README.md; index and little MCP at equal height fix +y.
+/// The right hand's skeleton, hand frame of core/README.md. Index and little MCP at equal height fix +y.
 /// `definition` gives the thumb's zero. Tilts each joint by a few random degrees.
 Skeleton make_skeleton(const HandDimensions& hand, const Skeleton& definition, uint64_t seed);
 

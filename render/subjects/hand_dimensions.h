@@ -28,7 +28,7 @@ struct Published {
 };
 Published published_length(bool woman);
 Published published_breadth(bool woman);
-/// Published length for both sexes. `segment`: 0..2 as in HandDimensions::segments, 3: pulp.
+/// For both sexes. `segment`: 0..2 as in HandDimensions::segments, 3: pulp.
 Published published_segment(int finger, int segment);
 
 /// Draws segments around the length's and girths around the breadth's.

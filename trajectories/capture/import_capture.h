@@ -11,7 +11,7 @@
 
 namespace glovebench::trajectories {
 
-/// Fits files with equal points as one capture, a second apart; mirrors a left hand.
+/// Fits files with equal points as one capture, a second apart. Mirrors a left hand.
 /// Throws: Error.
 HandFit import_capture(const std::vector<std::string>& paths, const Format& format, Side side,
                        const MarkerLayout& layout, const HandModel& right_hand);
@@ -31,7 +31,7 @@ Trajectory trajectory_of(const HandFit& fit, const CapturePlacement& placement, 
 PostureSet postures_of(const HandFit& fit, const std::string& name, size_t count,
                        const std::vector<std::string>& names);
 
-/// A CSV with a line for each frame.
+/// CSV, a line per frame.
 std::string residual_table(const HandFit& fit);
 
 std::string summary(const HandFit& fit);
