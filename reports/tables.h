@@ -21,13 +21,13 @@ struct Variant {
 };
 const std::array<Variant, 3>& figure4_variants();
 
-/// Figure 4's databases for Tr1 to Tr5: the one with just its grasp first, the largest last. Empty names for
-/// another trajectory.
+/// Figure 4's databases for Tr1 to Tr5: the one with only its grasp first, the largest last. Empty names for other
+/// trajectories.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
-/// Whether all experiments, of which there is one or more, are Figure 4's, with any noise.
+/// Whether there are experiments and all are Figure 4's, with any noise.
 bool is_figure4(const RunResult& result);
 
-/// One trajectory with one database; null where not run.
+/// One trajectory with one database. Null where not run.
 struct Figure4Row {
   std::string trajectory;
   std::string database;
@@ -53,7 +53,7 @@ std::string errors_csv(const RunResult& result);
 /// Percent of all frames.
 std::optional<double> covered_percent(const ExperimentResult& experiment);
 
-// Every CSV names run (run_name) and experiment in its first columns.
+// The first columns of every CSV name run (run_name) and experiment.
 
 /// Columns "run" to "noise_factor", and their cells.
 nlohmann::ordered_json experiment_columns();

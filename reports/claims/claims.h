@@ -24,7 +24,7 @@ constexpr auto names_of(Rule::Kind) {
   return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});
 }
 bool holds(const Rule& rule, double value);
-/// True if any value from low to high satisfies the rule.
+/// Whether any value from low to high satisfies the rule.
 bool meets(const Rule& rule, double low, double high);
 /// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);
@@ -54,7 +54,7 @@ struct ClaimDefinition {
 /// The first change writes the claim.
 struct ClaimChange {
   std::string date;                   ///< "2026-11-21"
-  std::optional<std::string> commit;  ///< empty only for the newest change, which cannot name itself
+  std::optional<std::string> commit;  ///< empty only for the newest change
   ClaimDefinition definition;
   std::vector<std::string> set;         ///< changed fields; none: only the measuring program changed
   std::optional<std::string> came_out;  ///< published measurements, commits in brackets; empty: none
@@ -101,11 +101,11 @@ int change_count(const Claim& claim);
 const ClaimSet& claim_set();
 const std::vector<Claim>& claims();
 
-/// Throws: Error naming `where` and the field.
+/// Throws: Error.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
-/// A sentence for each change of `earlier`; empty if `later` only adds. A missing commit or `came_out` may be
-/// filled once.
+/// One sentence per change of `earlier`. Empty if `later` only adds. A missing commit or `came_out` may be filled
+/// once.
 std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

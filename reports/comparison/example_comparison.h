@@ -99,7 +99,6 @@ inline void append_example_experiment(Comparison& comparison, const ExperimentKe
   comparison.frames.push_back(std::move(frames));
 }
 
-/// Experiments that are worse, better, unchanged and losing frames.
 inline ComparisonReport full_comparison() {
   ComparisonReport report = small_comparison();
   Comparison& comparison = report.comparison;

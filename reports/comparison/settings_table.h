@@ -9,29 +9,28 @@
 
 namespace glovebench::reports {
 
-/// A finished run in a table of several.
 struct SettingRun {
-  NamedResult run;                ///< the name is the row's
+  NamedResult run;                ///< its name is the row's
   std::optional<double> time_ms;  ///< of a frame, measured while no other job ran; empty: unknown
 };
 
-/// Several runs of the same frames, each compared with one of them, the reference.
+/// Several runs of the same frames, each compared with the reference.
 struct SettingsTable {
   std::string reference;
   bool is_paper = false;            ///< the reference has the paper's configuration
   Table table;                      ///< quantity, setting, mean, difference with its interval, verdict
   Table changes;                    ///< fields in which a setting differs from the reference
-  std::vector<std::string> enough;  ///< how much data would decide, a line for each undecided row
+  std::vector<std::string> enough;  ///< one line per undecided row: how much data would decide
   std::string recommendation;
   std::string explanation;
 };
 
-/// The metrics of a table unless others are chosen: what the tracker is used for.
+/// The default metrics of a table.
 std::vector<std::string> headline_metrics();
 
 /// Compares each run with the one that has the paper's configuration, else with the first. All intervals of the
 /// table hold together (CompareConfig::family_error).
-/// Throws: Error for fewer than two runs or a repeated name; Incomparable.
+/// Throws: Error for fewer than two runs or a repeated name. Incomparable.
 SettingsTable compare_settings(const std::vector<SettingRun>& runs, const PairingOptions& pairing,
                                const CompareConfig& config = {});
 

@@ -8,8 +8,8 @@ namespace glovebench::reports {
 
 struct FrameRecord;
 
-// The rules of coverage. They stand in the protocol of each result, and no tracker's configuration changes them: a
-// new rule is a new protocol.
+// The rules of coverage. Each result's protocol contains them, so a new rule is a new protocol. The tracker's
+// configuration does not change them.
 
 /// The hand is visible if at least this share of its camera-facing area is in both images and in the volume.
 inline constexpr double kVisible_percent = 30;
@@ -23,11 +23,11 @@ inline constexpr double kUsableFingertips_mm = 20;  ///< mean of the five
 /// All of the above by name.
 std::map<std::string, double> coverage_rules();
 
-// Errors are compared as files hold them (rounded to 1e-6), so a result that is read counts as the one written.
+// Errors are compared with the precision of files (1e-6), so a result counts the same before and after a file.
 
-/// False for a frame of an older result, which does not say how much of the hand was visible.
+/// False for a frame of an older result without visibility.
 bool is_visible(const FrameRecord& frame);
-/// Tracked and below the usable errors. An error that the result lacks contradicts nothing.
+/// Whether the frame is tracked with errors below the usable ones. Ignores errors that the result lacks.
 bool is_usable(const FrameRecord& frame);
 
 }  // namespace glovebench::reports
