@@ -25,7 +25,7 @@ inline std::string shared_folder(const std::string& name) {
   return path;
 }
 
-/// A private folder: empty at first, removed at the end.
+/// Private, empty at first, removed at the end.
 class TestFolder {
  public:
   TestFolder() {
@@ -50,14 +50,13 @@ class TestFolder {
   std::string path_ = testing::TempDir() + "glovebench-test-XXXXXX";
 };
 
-/// The folder of the running test or suite, until the program ends.
+/// Of the running test or suite, until the program ends.
 inline const std::string& test_folder() {
   static std::map<const testing::TestInfo*, TestFolder> folders;
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// A folder for expensive files, which all processes of this build of the executable share. Removes those of other
-/// builds.
+/// For expensive files, which all processes of this build of the executable share. Removes those of other builds.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// An enumeration with values 0, 1, 2, ... and names beside it: `constexpr auto names_of(Color) { return
+/// An enumeration of 0, 1, 2, ... with names beside it: `constexpr auto names_of(Color) { return
 /// std::to_array<std::string_view>({"red", "green"}); }`
 template <typename Enum>
 concept Named = std::is_enum_v<Enum> && requires(Enum value) {
@@ -23,7 +23,7 @@ template <Named Enum>
 inline constexpr int kCountOf = static_cast<int>(kNamesOf<Enum>.size());
 
 /// A namespace with its own `to_string` needs `using glovebench::to_string`.
-/// Throws: std::out_of_range for a value without name.
+/// Throws: std::out_of_range without a name.
 template <Named Enum>
 constexpr std::string_view to_string(Enum value) {
   return kNamesOf<Enum>.at(static_cast<size_t>(value));

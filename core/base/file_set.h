@@ -14,14 +14,14 @@
 
 namespace glovebench {
 
-// A set is the files of one folder that change together (core/base/README.md). A writer replaces manifest.json
-// first, then moves the new files from FOLDER/.staged/. After a crash the next writer moves them.
+// A set: files of one folder that change together (core/base/README.md). A writer replaces manifest.json, then
+// moves the new files from FOLDER/.staged/. After a crash the next writer moves them.
 
 inline constexpr const char* kManifest = "manifest.json";
-/// Bytes, for about 1.7 million files.
+/// Bytes, for 1.7 million files.
 inline constexpr uint64_t kLargestManifest = uint64_t{256} << 20;
 
-/// A file of the set is missing, changed or damaged.
+/// A file is missing, changed or damaged.
 class BrokenSet : public Error {
  public:
   using Error::Error;
@@ -31,7 +31,7 @@ struct ManifestEntry {
   uint64_t bytes = 0;
   std::string hash;
 };
-/// Entries by path in the folder.
+/// By path in the folder.
 using Manifest = std::map<std::string, ManifestEntry>;
 
 /// Throws: Error beyond `max_bytes`.
@@ -50,14 +50,14 @@ class FileSet {
 
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// Whether the manifest names the file. Without a manifest: whether it exists.
+  /// Whether the manifest names the file or, without a manifest, it exists.
   bool has(const std::string& name) const;
   /// Throws: BrokenSet if it differs from the manifest, Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
 
   struct Found {
     std::string content;
-    bool is_changed = false;  ///< differs from the manifest
+    bool is_changed = false;
   };
   /// Reads a file that may differ from the manifest or be missing there.
   /// Throws: Error.
@@ -74,8 +74,8 @@ class FileSet {
   std::optional<Manifest> manifest_;
 };
 
-/// Locks a folder for one writer, where the file system supports locks.
-/// Throws: Error if another process holds the lock for over 10 s.
+/// Locks a folder for one writer, where the file system can.
+/// Throws: Error if another process holds it for over 10 s.
 class FolderLock {
  public:
   explicit FolderLock(const std::string& folder);
@@ -87,7 +87,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Writes a set under a FolderLock. Files that are not named stay. Without `commit` nothing changes.
+/// Writes a set under a FolderLock. Other files stay. Without `commit` nothing changes.
 /// Throws: Error, from every function.
 class WholeFiles {
  public:
@@ -99,10 +99,10 @@ class WholeFiles {
   const Manifest& manifest() const { return manifest_; }
   /// `name` may contain folders. A replaced file keeps its mode. A new manifest gets the permissions that all files
   /// share.
-  /// Throws: Error, also if the file is a link.
+  /// Throws: Error, also for a link.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
   void remove(const std::string& name);
-  /// The added files in order.
+  /// In order.
   const std::vector<std::string>& names() const { return added_; }
   void commit();
 

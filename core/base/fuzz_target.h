@@ -11,9 +11,9 @@
 
 namespace glovebench {
 
-/// Code that eval/fuzz_main.cpp runs on any bytes. It may throw only an Error of one line.
+/// Runs on any bytes (eval/fuzz_main.cpp). May throw only an Error of one line.
 struct FuzzTarget {
-  std::string name;  ///< as in NAME_fuzz.cpp and ci/corpora/NAME
+  std::string name;  ///< of NAME_fuzz.cpp and ci/corpora/NAME
   std::function<void(std::string_view bytes)> run;
 };
 
@@ -37,7 +37,7 @@ void without_error(const Run& run) {
   }
 }
 
-/// Reads the input as values, then zeros.
+/// The input as values, then zeros.
 class FuzzInput {
  public:
   explicit FuzzInput(std::string_view bytes) : left_(bytes) {}

@@ -19,8 +19,8 @@ class JsonItems;
 class JsonMembers;
 
 /// Reads a JSON value strictly. Document and `where` must outlive the cursor.
-/// Throws: Error(where, "frames[17].angles_deg[3]", found, expected) for missing or unknown keys and for wrong
-/// kinds or ranges.
+/// Throws: Error(where, "frames[17].angles_deg[3]", found, expected) for missing or unknown keys, wrong kinds or
+/// ranges.
 class JsonCursor {
  public:
   JsonCursor(const nlohmann::json& value, const std::string& where, std::string path = "")
@@ -28,7 +28,7 @@ class JsonCursor {
   JsonCursor(const nlohmann::json& value, std::string&& where, std::string path = "") = delete;
   JsonCursor(nlohmann::json&& value, const std::string& where, std::string path = "") = delete;
 
-  /// Requires all `required` keys and allows only `optional` ones besides.
+  /// Requires all `required` keys. Allows only `optional` ones besides.
   void expect_keys(std::initializer_list<std::string_view> required,
                    std::initializer_list<std::string_view> optional = {}) const {
     expect_keys({required.begin(), required.end()}, {optional.begin(), optional.end()});
@@ -84,7 +84,7 @@ class JsonCursor {
   friend class JsonMembers;
 };
 
-/// An array that makes cursors on access, to save memory.
+/// Makes cursors on access, to save memory.
 class JsonItems {
  public:
   explicit JsonItems(const JsonCursor& array) : array_(array) {}

@@ -18,10 +18,10 @@ class LineFile {
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Adds the line end. Writes nothing after an error.
-  /// Throws: Error with the name of the partial file.
+  /// Adds the line end. After an error nothing is written.
+  /// Throws: Error with the partial file.
   void append(std::string_view line);
-  /// Throws: Error with the name of the partial file, also if it lacks a line.
+  /// Throws: Error with the partial file, also if it lacks a line.
   void finish();
   /// "3 lines in NAME.partial". Empty without lines.
   std::string kept() const;

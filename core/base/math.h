@@ -14,7 +14,7 @@ constexpr double radians_from_degrees(double degrees) {
 constexpr double degrees_from_radians(double radians) {
   return radians * 180.0 / std::numbers::pi;
 }
-/// The angle between two rotations, 0 to pi rad. Exactly 0 if they are equal.
+/// 0 to pi rad. Exactly 0 if the rotations are equal.
 inline double angle_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   if (from == to) return 0;
   return Eigen::Quaterniond(from).normalized().angularDistance(Eigen::Quaterniond(to).normalized());

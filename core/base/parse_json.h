@@ -7,11 +7,10 @@
 
 namespace glovebench {
 
-/// Nesting uses the stack.
+/// Protects the stack.
 inline constexpr size_t kDeepestNesting = 64;
 
-/// Limit of a document's memory: a constant and a part for each byte of text. The project's own files need 3 to 10
-/// per byte.
+/// Memory of a document, plus a part per byte of text. The project's files need 3 to 10.
 inline constexpr uint64_t kJsonBytes = uint64_t{8} << 20;
 inline constexpr uint64_t kJsonBytesPerByte = 12;
 inline constexpr uint64_t kCborBytesPerByte = 64;

@@ -30,7 +30,7 @@ struct RecyclingAllocator {
   friend bool operator==(const RecyclingAllocator&, const RecyclingAllocator&) { return true; }
 };
 
-/// A vector for data of one frame. Reuses the memory of earlier frames.
+/// For data of one frame. Reuses the memory of earlier frames.
 template <typename T>
 using RecycledVector = std::vector<T, RecyclingAllocator<T>>;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Excerpts and suggestions for error messages, and safe names for paths.
+// Texts for error messages, and safe names for paths.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-// Excerpts are ASCII and are cut at a maximum length.
+// Excerpts are ASCII and short.
 
 /// "?" replaces unprintable bytes.
 std::string printable(std::string_view text);
@@ -41,7 +41,7 @@ std::string checked_name(std::string name, const std::string& where, const std::
 /// "FOLDER/NAME". The name may contain folders.
 /// Throws: Error for an absolute name, or a part that is empty, begins with a dot or has control characters.
 std::string path_within(const std::string& folder, std::string_view name);
-/// The same for writing or removing.
+/// For writing or removing.
 /// Throws: Error also if a folder in the name is a symbolic link.
 std::string place_within(const std::string& folder, std::string_view name);
 

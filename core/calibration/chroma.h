@@ -36,7 +36,7 @@ inline bool is_overexposed(const Rgb& rgb) {
 
 struct KnownChroma {
   Chroma place = Chroma::Zero();
-  double reach = 0;  ///< distance within which no new peak counts
+  double reach = 0;  ///< within it no new peak counts
 };
 
 /// Density of samples in the chroma plane, smoothed by a Gaussian of peak 1 and deviation `width`. Skips samples
@@ -47,8 +47,8 @@ class ChromaDensity {
 
   /// Weighted share of samples around `chroma`. 0 outside -1.2 to 2.
   double at(const Chroma& chroma) const;
-  /// At most `most` local maxima above `share`, highest first, outside the reach and slope of known ones. A found
-  /// peak becomes known with `reach`.
+  /// At most `most` local maxima above `share`, highest first, outside the reach and slope of known ones. Peaks
+  /// become known with `reach`.
   std::vector<Chroma> peaks(std::vector<KnownChroma> known, double reach, double share, size_t most) const;
 
  private:

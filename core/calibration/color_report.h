@@ -11,10 +11,10 @@
 
 namespace glovebench::calibration {
 
-/// How well a table separates a recording's colors. Index 0 is "not glove" or "no label".
+/// How well a table separates a recording's colors. Index 0: "not glove" or "no label".
 struct ColorSeparation {
-  /// [true color][table's label], shares of a row. Empty without pixels. Pixels are drawn from the color's Gaussian
-  /// with camera noise.
+  /// [true color][table's label], shares of a row. Empty without pixels. Drawn from the color's Gaussian with
+  /// camera noise.
   std::array<std::optional<std::array<double, kColorCount + 1>>, kColorCount + 1> confusion;
   std::array<int, kColorCount + 1> nearest{};              ///< label
   std::array<double, kColorCount + 1> nearest_distance{};  ///< chroma
@@ -35,8 +35,8 @@ nlohmann::ordered_json color_report_json(const ColorSamples& samples, const Glov
 std::string color_report_markdown(const ColorSamples& samples, const GloveColorFit& fit,
                                   const ColorSeparation& separation);
 
-/// A picture for checking a color table by eye: views beside their labels, and the (U, V) plane with the table's
-/// regions, the pixels and the fitted Gaussians.
+/// For checking a color table by eye: views beside their labels, and the (U, V) plane with the table's regions, the
+/// pixels and the fitted Gaussians.
 ColorImage color_picture(std::span<const VolumeView> views, const ColorSamples& samples, const GloveColorFit& fit,
                          const ColorTable& table);
 

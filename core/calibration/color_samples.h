@@ -12,20 +12,20 @@ namespace glovebench::calibration {
 struct SampleConfig {
   WorkingVolume volume;
   RegistrationConfig registration;
-  double surface_step = 0.02;  ///< depth step between surfaces, m, > 0
+  double surface_step = 0.02;  ///< depth step, m, > 0
   int beyond_stride = 16;      ///< keep every nth pixel, >= 1
 };
 
 struct ColorSample {
   Rgb rgb{};
-  uint16_t frame = 0;  ///< number, in the order added
+  uint16_t frame = 0;
 };
 
 /// A pixel that mixes two colors, between even pixels of both.
 struct MixedSample {
   Rgb rgb{};
   Rgb near{};   ///< nearest even pixel, in the volume
-  Rgb other{};  ///< even pixel within 3 px that differs most from `near`
+  Rgb other{};  ///< even pixel within 3 px, most different from `near`
   bool other_is_inside = false;
 };
 
@@ -36,7 +36,7 @@ struct VolumeView {
 };
 VolumeView view_volume(const DeviceFrame& frame, const RgbdCalibration& calibration, const SampleConfig& config);
 
-/// Collects pixels of an unlabeled recording. An even pixel shares surface and color with its four neighbors.
+/// Pixels of an unlabeled recording. An even pixel shares surface and color with its four neighbors.
 class ColorSamples {
  public:
   explicit ColorSamples(SampleConfig config = {}) : config_(config) {}

@@ -18,7 +18,6 @@ struct TrackedView {
 /// The view of a frame. Empty if the hand was lost. `inputs`: of the method.
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
-/// The hand's motion over the views.
 struct ShownMotion {
   int views = 0;
   double seconds = 0;                ///< from first to last view
@@ -26,7 +25,7 @@ struct ShownMotion {
   std::array<double, 5> bend_deg{};  ///< thumb to little: range of the two middle joints' bending
 };
 ShownMotion motion_of(std::span<const TrackedView> views);
-/// Throws: Error with `where` unless there are enough views, the fingers open and close, and the hand turns.
+/// Throws: Error unless there are enough views, the fingers open and close, and the hand turns.
 void require_motion(const ShownMotion& motion, const std::string& where);
 
 }  // namespace glovebench::calibration

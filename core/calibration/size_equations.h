@@ -9,7 +9,7 @@ namespace glovebench::calibration {
 using SizeVector = Eigen::Matrix<double, kSizeCount, 1>;
 using SizeMatrix = Eigen::Matrix<double, kSizeCount, kSizeCount>;
 
-/// Derivatives of the posed surface by angles and sizes, from differences of posed hands.
+/// Derivatives of the posed surface by angles and sizes, from differences.
 class SurfaceMotion {
  public:
   explicit SurfaceMotion(const HandModel& model);

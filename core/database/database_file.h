@@ -26,7 +26,7 @@ struct DatabaseHeader {
   std::set<int> sizes_px;
 };
 
-/// A part of the file. Its pieces are hashed in parallel.
+/// Its pieces are hashed in parallel.
 struct Section {
   enum class Kind { box_rays, labels, fields };
 
@@ -64,7 +64,7 @@ class DatabaseLayout {
   /// Hash of angles, box rays, labels and fields. Equal for both memory modes.
   std::string content_hash() const;
 
-  /// Writes the header with the sections' hashes.
+  /// Writes the header with hashes.
   void seal(MappedMemory& file);
   /// Checks the sections of these sizes and makes rows of their fields.
   /// Throws: Error for a wrong hash or value.

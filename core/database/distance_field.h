@@ -7,10 +7,10 @@
 
 namespace glovebench {
 
-/// Stored distances are in 1/kFieldScale px. A straight step is 3, a diagonal one 4.
+/// Distances are in 1/kFieldScale px: 3 for a straight step, 4 for a diagonal one.
 inline constexpr int kFieldScale = 3;
 
-/// Distance of each pixel to the nearest one of `color` by two-pass chamfering, at most `cap`.
+/// Distance to the nearest pixel of `color` by two-pass chamfering, at most `cap`.
 /// Paper: section III-B.
 void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 
@@ -19,11 +19,11 @@ struct RowRange {
   int first = 0, last = 0;
 };
 
-/// The same, faster: relaxes whole rows.
+/// Faster: relaxes whole rows.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
-/// Only for rows `wanted`; others are undefined.
+/// Only for rows `wanted`.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
-/// The fields of all colors in turn.
+/// All colors in turn.
 void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields);
 
 }  // namespace glovebench

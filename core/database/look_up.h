@@ -33,8 +33,8 @@ struct TinyImages {
 };
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade);
 
-/// The mean distance from the query's glove pixels to the entry's nearest pixel of the same color, px. 0 without
-/// glove pixels.
+/// Mean distance from the query's glove pixels to the entry's nearest pixel of the same color, px. 0 without glove
+/// pixels.
 /// Paper: equation (2).
 float distance(const Database& database, int entry, const LabelImage& query);
 
@@ -45,11 +45,11 @@ struct LookUpTrace {
   std::vector<std::vector<int>> kept;
 };
 
-/// A search. All give the same matches and trace. X_look_up.cpp in core/database/look_ups defines `LookUpEntry
+/// All searches give the same matches and trace. X_look_up.cpp in core/database/look_ups defines `LookUpEntry
 /// X_look_up()`.
 struct LookUpEntry {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
+  std::string_view name;
+  std::string_view description;
   RecycledVector<Match> (*look_up)(const Database& database, const TinyImages& query, const Cascade& cascade,
                                    LookUpTrace* trace);
 };

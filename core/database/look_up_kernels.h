@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// Chunks of 64 pixels, padded by 0.
+/// Padded by 0.
 struct QueryLabels {
   static constexpr size_t kChunk = 64;
   static constexpr size_t kLargest = 64 * 64;
@@ -22,7 +22,7 @@ struct FieldChunk {
   uint8_t color;
 };
 
-// Inner loops of the look-up (Highway). All instruction sets give equal results.
+// Inner loops (Highway). All instruction sets give equal results.
 
 /// Weighted sums of rows for each entry, at most 65535, and each block's minimum. `sums` has room for whole blocks.
 void add_rows(const FieldRows& field_rows, std::span<const WeightedRow> rows, std::span<uint16_t> sums,

@@ -17,7 +17,7 @@ class MadeDistances {
   uint32_t sum(int entry, uint32_t limit) const;
 
  private:
-  /// One color's pixels of the query.
+  /// One color of the query.
   struct Part {
     uint8_t color = 0;
     size_t pixels = 0;

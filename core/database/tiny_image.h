@@ -11,7 +11,7 @@ namespace glovebench {
 /// Edge lengths, px.
 /// Paper: section III.
 inline constexpr std::array<int, 4> kTinySizes = {8, 16, 32, 64};
-/// Edge limits of chamfer_field, px. Distances must fit a byte.
+/// Of chamfer_field. Distances must fit a byte.
 inline constexpr int kSmallestTinySize = 4, kLargestTinySize = 64;
 
 /// Half-open pixel ranges. May extend beyond the image.
@@ -21,17 +21,17 @@ struct Square {
   int side = 0;
 };
 
-/// Centered on the bounding box of labeled pixels. Side 0 without any.
+/// Around the middle of the labeled pixels' bounding box. Side 0 without any.
 Square bounding_square(const LabelImage& labels);
 
 /// Unit vector to the center.
 Eigen::Vector3d square_ray(const Square& square, const PinholeCamera& camera);
 
-/// Scales the square to size x size. A cell takes its most frequent label; ties go to the glove, then to the
+/// Scales the square to size x size. A cell takes its most frequent label. Ties go to the glove, then to the
 /// smaller label.
 LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square, int size);
 
-/// The same, faster.
+/// Faster.
 LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int size);
 
 /// Two labels per byte, the first in the low half.

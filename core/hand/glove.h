@@ -38,10 +38,10 @@ enum Patch : uint8_t {
 struct Triangle {
   std::array<uint32_t, 3> vertices;  ///< counter-clockwise from outside
   uint8_t label;                     ///< 1..kColorCount
-  uint8_t patch;                     ///< Patch
+  uint8_t patch;
 };
 
-/// A closed mesh. Each triangle lies in one patch.
+/// Closed. Each triangle lies in one patch.
 struct GlovedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Influence> influences;

@@ -18,11 +18,11 @@ std::array<Screw, kAngleCount> angle_screws(const HandModel& model, const PosedH
 inline constexpr int kBodyCount = 17;
 /// Bits of the angles that move a body. None for body 0, the palm.
 uint32_t angles_of_body(int body);
-/// Shares of the bodies in a surface point. Their sum is 1.
+/// Shares of the bodies in a surface point, sum 1.
 using BodyShares = std::array<float, kBodyCount>;
 std::vector<BodyShares> body_shares(const HandModel& model);
 
-/// How much a surface point follows each angle, 0..1: sum of the shares of the bodies that it moves.
+/// How much a surface point follows each angle, 0..1: the summed shares of the bodies that it moves.
 using AngleShares = Eigen::Matrix<float, kAngleCount, 1>;
 AngleShares angle_shares(const BodyShares& shares);
 

@@ -7,9 +7,8 @@
 
 namespace glovebench {
 
-/// Hand sizes, as factors on the package's mesh. `kScale` is of the whole hand; others are relative to it.
-/// Segments: metacarpal, proximal, distal of the thumb; proximal, intermediate, distal of index, middle, ring,
-/// little.
+/// Factors on the package's mesh. `kScale` is of the whole hand; others are relative to it. Segments: metacarpal,
+/// proximal, distal of the thumb; proximal, intermediate, distal of index, middle, ring, little.
 inline constexpr int kSegmentCount = 15;
 enum HandSize : int {
   kScale,
@@ -27,7 +26,7 @@ enum HandSize : int {
 using HandSizes = std::array<double, kSizeCount>;
 inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
 
-/// Names in files, such as "index_proximal_length".
+/// In files, such as "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();
 
 /// How a gloved hand differs from the package's mesh.
@@ -37,14 +36,14 @@ struct HandShape {
     ones.fill(1);
     return ones;
   }();
-  double patch_border_shift = 0;  ///< of patch borders towards the fingertips, m
+  double patch_border_shift = 0;  ///< towards the fingertips, m
 };
 
-/// The second subject: 5% larger, segments +-8%, patch borders shifted by 2 mm.
+/// 5% larger, segments +-8%, patch borders shifted by 2 mm.
 HandShape second_subject();
 
-/// Scales the hand and stretches palm and segments. Ignores `shape.patch_border_shift`. `mesh`: hand frame, bind
-/// pose, with forearm.
+/// Scales the hand and stretches palm and segments, without `patch_border_shift`. `mesh`: hand frame, bind pose,
+/// with forearm.
 RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
 }  // namespace glovebench

@@ -10,7 +10,7 @@
 
 namespace glovebench {
 
-/// The Kinect's 60 MHz clock. Its 32 bits wrap every 71.6 s.
+/// 60 MHz. Its 32 bits wrap every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
 /// Converts ticks to microseconds without wraps. Successive stamps must be less than 35.8 s apart.
@@ -38,14 +38,14 @@ class TickClock {
 
 struct PairingRules {
   int64_t max_gap_us = 50'000;                              ///< in a pair
-  int64_t restart_us = 1'000'000;                           ///< a larger step back is a restart of the clock
+  int64_t restart_us = 1'000'000;                           ///< a larger step back restarts the clock
   size_t max_waiting = std::numeric_limits<size_t>::max();  ///< of each kind
 };
 
 /// Pairs each depth image with the color image nearest in time, the earlier of two. A depth image waits for a color
 /// image that is not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`. Color
-/// images are copied. Pairs come in order of time. Drops an image that is not later than its kind's last one. A
-/// restart of the clock drops waiting images instead, and times go back.
+/// images are copied. Pairs come in order of time. Drops an image that is not later than its kind's last. A restart
+/// of the clock drops waiting images instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:
@@ -84,7 +84,7 @@ class FramePairer {
   }
 
   int unpaired() const { return unpaired_; }
-  /// Images that were not later than their kind's last.
+  /// Images not later than their kind's last.
   int went_back() const { return went_back_; }
 
  private:
@@ -111,7 +111,7 @@ class FramePairer {
   void pair_up() {
     while (!depths_.empty()) {
       const int64_t time_us = depths_.front().first;
-      // Earlier color images are farther from this depth image and from all later ones.
+      // Earlier color images are farther from this and all later depth images.
       while (colors_.size() > 1 && colors_[1].first <= time_us) colors_.pop_front();
       const bool decided = !colors_.empty() && colors_.back().first >= time_us;
       if (!decided && may_wait()) return;

@@ -34,7 +34,7 @@ class RecordingDevice : public Device {
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
-  /// Dropped images whose time stamp repeats.
+  /// Images with a repeated time stamp.
   int repeated_count() const { return repeated_count_; }
   /// Calibration and index, if they differ from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }
@@ -70,7 +70,7 @@ class RecordingWriter {
   WholeFiles files_;
   std::string folder_;
   RgbdCalibration calibration_;
-  std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp, name
+  std::vector<std::pair<int64_t, std::string>> index_;
   int64_t last_depth_us_ = -1;
   int64_t last_color_us_ = -1;
 };

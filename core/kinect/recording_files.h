@@ -25,8 +25,7 @@ RecordedName parse_recorded_name(std::string_view name, const std::string& where
 std::string encode_pgm(const Image<uint16_t>& raw_disparity);
 std::string encode_ppm(const ColorImage& color);
 
-/// Throws: Error unless the content is exactly one image of that size (11-bit disparity). The same for
-/// `decode_ppm`.
+/// Throws: Error unless the content is exactly one image of that size (11-bit disparity). So does `decode_ppm`.
 Image<uint16_t> decode_pgm(std::string_view content, int width, int height, const std::string& path);
 ColorImage decode_ppm(std::string_view content, int width, int height, const std::string& path);
 
@@ -42,12 +41,12 @@ struct RecordingEntry {
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
 
-/// Images by time, depth before color, then in order of the list.
+/// By time, depth before color, then in order of the list.
 /// Throws: Error if it is malformed or lists a file twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 
 /// Checks sizes and headers of the files, because fakenect ends the program at a bad one.
-/// Throws: Error with the first bad file.
+/// Throws: Error.
 void check_fakenect_dump(const std::string& folder);
 
 }  // namespace glovebench

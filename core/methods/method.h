@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Tracks one hand. Keeps no state between frames but the results.
+/// Tracks one hand. Its only memory are the previous results.
 class Method {
  public:
   virtual ~Method() = default;
@@ -27,13 +27,13 @@ struct MethodInputs {
   std::shared_ptr<const HandModel> model;
   std::shared_ptr<const Database> database;
   std::shared_ptr<const ColorTable> table;
-  ViewRendererFactory renderers = {};  ///< for methods that compare rendered images; may be empty
+  ViewRendererFactory renderers = {};  ///< to compare rendered images; may be empty
 };
 
 /// X_method.cpp in this folder defines `MethodEntry X_method()`.
 struct MethodEntry {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
+  std::string_view name;
+  std::string_view description;
   /// Throws: Error as Tracker.
   std::unique_ptr<Method> (*make)(const MethodInputs& inputs);
 };

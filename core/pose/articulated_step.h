@@ -12,23 +12,23 @@ struct ArticulatedPose {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
 };
 
-/// Unknowns of a step, hand frame: rotation about the origin (degrees), translation (mm), 22 angles (degrees).
+/// Hand frame: rotation about the origin (degrees), translation (mm), 22 angles (degrees).
 inline constexpr int kUnknowns = 6 + kAngleCount;
 using StepVector = Eigen::Matrix<double, kUnknowns, 1>;
 using StepMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// The distance that a surface point should move along a direction.
+/// How far a surface point should move along a direction.
 struct Pull {
   Eigen::Vector3d q;          ///< hand frame, m
   Eigen::Vector3d direction;  ///< hand frame
   double distance_mm = 0;
   double weight = 1;
 };
-/// The motion along the pull's direction per degree of rotation and mm of translation.
+/// Motion along the pull's direction per degree of rotation and mm of translation.
 Vector6d row_of(const Pull& pull);
 
-/// Normal equations H step = g.
+/// H step = g.
 struct NormalEquations {
   StepMatrix H = StepMatrix::Zero();
   StepVector g = StepVector::Zero();
@@ -61,11 +61,11 @@ struct RowSums {
   Vector6d sum = Vector6d::Zero();
 
   void add(const Pull& pull);
-  /// Adds a pull along each axis.
+  /// A pull along each axis.
   void add_along_axes(const Eigen::Vector3d& q, const Eigen::Vector3d& apart_mm, double weight);
 };
 
-/// The same equations, faster: sums for each pair of bodies that share points.
+/// The same, faster: sums for each pair of bodies that share points.
 class PullSums {
  public:
   explicit PullSums(const std::array<Screw, kAngleCount>& screws);
@@ -75,7 +75,7 @@ class PullSums {
  private:
   static constexpr int kPairs = kBodyCount * (kBodyCount + 1) / 2;
   struct Pair {
-    Eigen::Matrix<double, 21, 1> products;  ///< if used
+    Eigen::Matrix<double, 21, 1> products;
     bool is_used = false;
   };
 

@@ -55,7 +55,7 @@ HWY_INLINE Mask all(Mask a, Mask b, Mask c) {
   return hn::And(a, hn::And(b, c));
 }
 
-/// Repeats `closest_on_triangle` exactly, because other rounding could select another face.
+/// Repeats `closest_on_triangle` exactly: other rounding could select another face.
 HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& face) {
   const Vectors a = set(face.a), b = set(face.b), c = set(face.c), ab = set(face.ab), ac = set(face.ac);
   const Vectors ap = p - a, bp = p - b, cp = p - c;
@@ -100,7 +100,7 @@ struct Nearest {
       : squared(hn::Set(kFloats, kInfinity)),
         face(hn::Set(kInts, -1)),
         p{hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)} {}
-  /// Takes a nearer face. Of equally near faces, takes the smaller index. Ignores NaN.
+  /// Takes a nearer face; of equally near ones, the smaller index. Ignores NaN.
   HWY_INLINE void consider(const Vectors& points, const FacePackets::Face& candidate) {
     const Vectors closest = closest_on_face(points, candidate), apart = closest - points;
     const Floats distance2 = dot(apart, apart);

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// The triangles of a posed hand that face a viewpoint, by color. Hand frame, m.
+/// Triangles of a posed hand that face a viewpoint, by color. Hand frame, m.
 class Surface {
  public:
   struct Face {
@@ -19,7 +19,7 @@ class Surface {
     uint32_t triangle;  ///< in the model
   };
   enum class Coloring { by_color, any_color };
-  /// Label of all faces and points with `any_color`.
+  /// Label of all with `any_color`.
   static constexpr uint8_t kAnyColor = 0;
 
   Surface() = default;

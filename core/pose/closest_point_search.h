@@ -26,7 +26,7 @@ struct GroupScratch {
   RecycledVector<float> doubt;          ///< rounding error of each distance, m
 };
 
-/// Counts over all calls.
+/// Over all calls.
 struct SearchWork {
   int64_t groups = 0;
   int64_t nearest = 0;  ///< distinct nearest faces per group
@@ -34,8 +34,8 @@ struct SearchWork {
   int64_t boxes = 0;
 };
 
-/// Gives the results of `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`), faster. An
-/// object serves one set of points that moves little between calls. Later calls do not allocate.
+/// Gives the results of `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`), faster.
+/// Serves one set of points that moves little between calls. Later calls do not allocate.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;

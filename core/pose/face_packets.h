@@ -12,11 +12,11 @@ namespace glovebench {
 template <int kCount>
 struct alignas(64) Boxes {
   float low[3][kCount], high[3][kCount];  ///< [axis][box], m
-  float length[kCount];                   ///< longest edge of a face, m
+  float length[kCount];                   ///< longest edge, m
   float blur[kCount];                     ///< `rounding_blur`, 1/m
 };
 
-/// One color's faces in packets.
+/// Faces of one color.
 struct FacePackets {
   static constexpr int kFaces = 8;     ///< per packet
   static constexpr int kPackets = 16;  ///< per group, for the widest vectors
@@ -37,7 +37,7 @@ struct FacePackets {
 };
 
 /// Rounding may place the closest point of a thin face outside it by blur * D^2, D being the point's distance.
-/// Infinite for a face without area.
+/// Infinite without area.
 float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Closest-point searches with equal results. `plain` follows the paper line by line.
+/// Both searches give equal results. `plain` follows the paper line by line.
 enum class Implementation { plain, fast };
 constexpr auto names_of(Implementation) {
   return std::to_array<std::string_view>({"plain", "fast"});
@@ -42,23 +42,23 @@ RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, siz
 /// Takes the smallest stride that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
-/// The given rotation, and the translation that centers the camera-facing faces on the cloud.
+/// The given rotation, with the camera-facing faces centered on the cloud.
 /// Paper: section III-C.
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points);
 
 /// X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`.
 struct AlignmentEntry {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
-  /// `points`: at least 3, camera frame, m, with the labels of the surface's faces.
+  std::string_view name;
+  std::string_view description;
+  /// `points`: at least 3, camera frame, m, labeled as the surface's faces.
   Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                      const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 };
 /// Sorted by name.
 std::span<const AlignmentEntry> alignments();
 
-/// Aligns part of the cloud by the configured alignment, each point to the closest visible triangle of its color.
+/// Aligns part of the cloud, each point to the closest visible triangle of its color.
 /// Throws: Error for an unknown alignment.
 /// Paper: section III-C, equation (3).
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,

@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// The result of the look-up: theta, R-hat-prime.
+/// The look-up's theta, R-hat-prime.
 /// Paper: sections III-B and III-C.
 struct CoarseEstimate {
   Posture posture = Posture::Zero();  ///< rad
@@ -21,7 +21,7 @@ struct CoarseEstimate {
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
                            const Eigen::Vector3d& query_ray, double epsilon);
 
-/// Markley et al. 2007: largest eigenvector of the weighted sum of q q^T.
+/// Largest eigenvector of the weighted sum of q q^T (Markley et al. 2007).
 Eigen::Quaterniond mean_rotation(std::span<const Eigen::Quaterniond> rotations, std::span<const double> weights);
 
 }  // namespace glovebench

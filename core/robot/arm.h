@@ -8,10 +8,9 @@
 
 namespace glovebench {
 
-/// The arm that carries the hand, a Mitsubishi PA-10-7C.
+/// A Mitsubishi PA-10-7C.
 inline constexpr int kArmJointCount = 7;
-/// Joint angles from base to flange.
-/// Units: rad.
+/// From base to flange, rad.
 using ArmJoints = std::array<double, kArmJointCount>;
 
 /// Limits, speed and Denavit-Hartenberg row, T = R_z(angle) * T_z(d) * R_x(alpha), a = 0.
@@ -40,7 +39,6 @@ struct MountedArm {
   const ArmSolver* solver = nullptr;  ///< must outlive this
   Eigen::Isometry3d T_flange_wrist;   ///< mount of the forearm
 
-  /// The frame of WRJ2.
   Eigen::Isometry3d T_base_wrist(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_wrist; }
 };
 

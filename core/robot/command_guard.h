@@ -28,20 +28,20 @@ class CommandGuard {
   explicit CommandGuard(const CommandLimits& limits = {}, GuardedPart part = GuardedPart::robot,
                         std::optional<MountedArm> arm = std::nullopt);
 
-  /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling.
+  /// Where the robot stands. J1 and J2 may differ from ShadowCoupling.
   /// Throws: Error unless values are finite and within limits, J1 is not above J2, and an arm's joints are given.
   void start_from(const RobotTargets& measured);
 
-  /// The safe command, at the command's own time. Empty if time did not advance.
+  /// The safe command, at its own time. Empty if time did not advance.
   std::optional<RobotCommand> guard(const RobotCommand& command) { return guard(command, command.timestamp_us); }
-  /// The same at `now_us` of a monotonic clock. A stale command counts only if the stream had stopped.
+  /// At `now_us` of a monotonic clock. A stale command counts only if the stream had stopped.
   std::optional<RobotCommand> guard(const RobotCommand& command, int64_t now_us);
   /// The command at `now_us` if none came. Empty if time did not advance.
   std::optional<RobotCommand> tick(int64_t now_us);
 
   /// The state at a time without further commands.
   CommandState state_at(int64_t now_us) const;
-  /// Interventions since construction. `RobotCommand::interventions` counts those since the last sent command.
+  /// Since construction. `RobotCommand::interventions` counts since the last sent command.
   const Interventions& interventions() const { return total_; }
   /// For an arm alone, the workspace is kShadowWristReach smaller on all sides.
   const CommandLimits& limits() const { return limits_; }
@@ -58,7 +58,7 @@ class CommandGuard {
   std::optional<MountedArm> arm_;
   Interventions total_, pending_;
   CommandState state_ = CommandState::stopped;
-  std::optional<RobotTargets> goal_;  ///< last good command, within limits
+  std::optional<RobotTargets> goal_;  ///< within limits
   std::optional<RobotTargets> sent_;
   std::optional<int64_t> now_us_;    ///< of the last output
   std::optional<int64_t> good_us_;   ///< of the last good command

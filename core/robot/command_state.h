@@ -21,18 +21,18 @@ static_assert(kCountOf<CommandState> == static_cast<int>(CommandState::stopped) 
 
 /// How a command was changed. `_speed`: slowed down.
 enum class Intervention {
-  stale,              ///< dropped: its time stamp is not later, or its frame's goes back
-  not_finite,         ///< refused
-  not_rigid,          ///< refused: invalid rotation
-  joint_limit,        ///< a joint was moved into its limits, or J1 under J2
-  coupling,           ///< J1 and J2 did not follow ShadowCoupling
+  stale,        ///< dropped: time stamp not later, or the frame's goes back
+  not_finite,   ///< refused
+  not_rigid,    ///< refused: invalid rotation
+  joint_limit,  ///< moved into the limits, or J1 under J2
+  coupling,
   actuator_mismatch,  ///< motors did not fit their joints
   joint_speed,
   workspace,  ///< hand or fingertips were moved into it
   hand_speed,
   hand_turn_speed,
   fingertip_speed,
-  arm_limit,  ///< a joint was moved into its limits
+  arm_limit,
   arm_speed,
   arm_unreachable,  ///< no joint angles near the last ones, which are kept
   hold,
@@ -46,7 +46,7 @@ constexpr auto names_of(Intervention) {
 }
 static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1, "each value has a name");
 
-/// Number of commands with each kind.
+/// Commands of each kind.
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }

@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Fingertips of the right human hand, thumb to little. Hand frame, m.
+/// Right hand, thumb to little. Hand frame, m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
 /// Maps postures so that a pinch stays a pinch (core/robot/README.md). Fits the vector from thumb to finger where
@@ -24,7 +24,7 @@ class FingertipMapping {
  private:
   Skeleton skeleton_;
   ShadowCoupling coupling_;
-  /// The last result minus the direct mapping, rad.
+  /// Minus the direct mapping, rad.
   Eigen::Matrix<double, kShadowActuatorCount, 1> last_ = Eigen::Matrix<double, kShadowActuatorCount, 1>::Zero();
 };
 

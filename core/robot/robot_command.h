@@ -19,7 +19,6 @@ struct RobotTargets {
   std::optional<ArmJoints> arm;                                   ///< rad; empty without ArmSolver
 };
 
-/// The command for one frame.
 /// Paper: section V.
 struct RobotCommand {
   int64_t frame_timestamp_us = 0;
@@ -72,17 +71,15 @@ class RobotCommandSink {
  public:
   virtual ~RobotCommandSink() = default;
   virtual void send(const RobotCommand& command) = 0;
-  /// Ends the stream.
   /// Throws: Error if commands could not be delivered.
   virtual void finish() = 0;
 };
 
-/// One command as a line of JSON (core/robot/command.schema.json) without the line end. Numbers are rounded to 1e-6
-/// of their unit.
+/// A line of JSON (core/robot/command.schema.json) without line end. Numbers are rounded to 1e-6 of their unit.
 /// Throws: Error if a number is not finite.
 std::string to_json_line(const RobotCommand& command);
 
-/// Writes commands to a LineFile.
+/// Writes to a LineFile.
 /// Throws: Error, from every function, if the disk is full.
 class JsonLinesSink : public RobotCommandSink {
  public:

@@ -14,7 +14,7 @@ struct ColorModel {
   int min_luma = 28;                      ///< darker cells get no label, 0..255
 };
 
-/// Builds a color table from views with true labels under several lightings.
+/// Builds a color table from labeled views under several lightings.
 class ColorCalibration {
  public:
   explicit ColorCalibration(ColorSpace space = ColorSpace::yuv) : space_(space) {}

@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// What a frame shows to the fit of pose and posture.
+/// Input of the fit of pose and posture.
 struct HandView {
   RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at the edge of a surface
   HandMask mask;

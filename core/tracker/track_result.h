@@ -19,10 +19,10 @@ enum class TrackStatus {
   tracked,
   no_hand,         ///< too few glove pixels
   outside_volume,  ///< at least a third of the glove is too near or too far
-  cut_by_border,   ///< the glove touches the image border too long
+  cut_by_border,   ///< glove touches the image border too long
   several_hands,   ///< more than one large glove-colored object
   too_few_points,
-  degenerate_cloud,  ///< the points lie on one line
+  degenerate_cloud,  ///< points on one line
   no_shared_color,   ///< cloud and visible model share none
   poor_match,        ///< nearest entry beyond `max_matching_error`
   poor_alignment,    ///< final mean distance above `max_residual`
@@ -60,11 +60,11 @@ struct TrackResult {
   int icp_iterations = 0;
   double icp_residual = 0;  ///< final mean point-to-triangle distance, m
   std::optional<AngleCertainty> certainty;
-  /// RMS distance of whole patches of points from the refined hand, m. Small unless the model has wrong sizes.
+  /// RMS distance of whole patches of points from the refined hand, m. Large if the model has wrong sizes.
   std::optional<double> misfit;
 };
 
-/// The stages of the methods, in the order of a frame.
+/// In the order of a frame.
 enum class Stage {
   registration,
   segmentation,
@@ -85,14 +85,13 @@ constexpr auto names_of(Stage) {
 }
 static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
 
-/// Called when a stage begins, so that a caller with a clock can time it. A frame may enter a stage twice. Not
-/// empty.
+/// Called when a stage begins, so that the caller can time it. A frame may enter a stage twice. Not empty.
 using StageObserver = std::function<void(Stage stage)>;
 inline void unobserved(Stage) {}
 
-/// A JSON object without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
-/// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known, angle_deviations_deg and
-/// hidden (names). A lost frame has no posture and pose.
+/// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
+/// icp_iterations, icp_residual_mm, ambiguous, converged; if known, angle_deviations_deg and hidden (names). A lost
+/// frame has no posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

@@ -23,7 +23,7 @@ void check_inputs(const TrackerConfig& config, const HandModel& model, const Dat
 /// `tracked` for `converged` and `not_converged`.
 TrackStatus status_of(AlignmentStatus status);
 
-/// Color-glove tracking of one hand from device frames in time order.
+/// Tracks one hand, frames in time order.
 /// Paper: Schröder et al. 2012.
 class Tracker {
  public:
@@ -49,7 +49,7 @@ class Tracker {
   std::shared_ptr<const ColorTable> table_;
 };
 
-/// The database's answer for a label image.
+/// The look-up's result for a label image.
 /// Paper: sections III-B and III-C.
 struct HandLookUp {
   TrackStatus status = TrackStatus::no_hand;  ///< tracked, no_hand or poor_match

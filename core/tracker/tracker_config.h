@@ -18,7 +18,7 @@ struct SegmentationConfig {
   ColorSpace color_space = ColorSpace::yuv;
   bool majority_filter = false;    ///< 3x3 (not in the paper)
   bool surface_majority = false;   ///< of neighbors within 2 cm depth (not in the paper)
-  bool largest_component = false;  ///< keep only that one (not in the paper)
+  bool largest_component = false;  ///< not in the paper
 };
 
 struct LookupConfig {
@@ -38,20 +38,19 @@ struct DetectionConfig {
   int min_pixels = 150;  ///< of the glove, >= 3; fewer: `no_hand`
   /// A second component above this share of the largest means `several_hands`, (0, 1].
   double second_hand_share = 0.3;
-  double component_depth_step = 0.05;  ///< depth step between components, m, > 0
+  double component_depth_step = 0.05;  ///< between components, m, > 0
   int max_border_pixels = 40;          ///< of the glove, >= 0; more: `cut_by_border`
   /// The same for single fingers, as a share of the square root of all glove pixels, > 0.
   double max_border_share = 0.35;
 };
 
-/// A named, complete configuration.
 struct TrackerConfig {
   std::string profile = "paper";
   std::string method{kPaperMethod};  ///< one of `method_names`
   RegistrationConfig registration;
   SegmentationConfig segmentation;
   WorkingVolume volume;
-  ViewConfig views;  ///< of the databases
+  ViewConfig views;
   DetectionConfig detection;
   LookupConfig lookup;
   IcpConfig icp;

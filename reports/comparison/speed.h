@@ -31,7 +31,7 @@ struct SpeedRow {
   double limit = 0;  ///< slower if `best` is below
   bool slower = false;
 };
-/// Half the baseline's ratio, because other processors and load change it less. Near 1, the square root of the
+/// Half the baseline's ratio, because other processors and load change it less. Below 4, the square root of the
 /// ratio.
 double speed_limit(double baseline);
 

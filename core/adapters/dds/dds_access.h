@@ -14,12 +14,12 @@ struct DdsAccess {
   bool operator==(const DdsAccess&) const = default;
 };
 
-/// DDS topic names. ROS 2 adds `rt/` in front of its own names.
+/// ROS 2 adds `rt/` to its names.
 struct Topics {
   const char* hand;          ///< JointTrajectory
   const char* wrist;         ///< JointTrajectory
   const char* arm;           ///< PoseStamped of the wrist
-  const char* joint_states;  ///< JointState of the commanded joints
+  const char* joint_states;  ///< JointState as commanded
 };
 
 namespace topics {
@@ -31,7 +31,7 @@ inline constexpr Topics kOwn = {"rt/glovebench/hand/command", "rt/glovebench/wri
 inline constexpr Topics kController = {"rt/rh_trajectory_controller/command",
                                        "rt/rh_wr_trajectory_controller/command", "rt/pa10/command/pose",
                                        "rt/joint_states"};
-/// JointState from the robot's driver.
+/// JointState by the robot's driver.
 inline constexpr const char* kMeasuredJointStates = "rt/glovebench/measured_joint_states";
 
 }  // namespace topics

@@ -20,15 +20,14 @@
 namespace glovebench {
 
 /// Returns `result`.
-/// Throws: Error if it is a Cyclone DDS error code.
+/// Throws: Error for an error code.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// Limits of message size and of messages that wait in a reader. They bound the memory that other processes can
-/// use.
+/// Limits of messages, which bound the memory that other processes can use.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
-inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s
+inline constexpr int kMaxWaiting = 10'000;        // in a reader: a flood of 0.1 s
 
-/// Messages that a writer keeps, as in ROS 2.
+/// Of a writer, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
 /// Messages dropped for their size since the process began.
@@ -36,11 +35,11 @@ int64_t dds_messages_too_large();
 
 struct DdsDomain;
 
-/// A participant in a domain. It makes the other entities.
+/// A participant in a domain, which makes the other entities.
 class DdsParticipant {
  public:
-  /// Throws: Error for a domain outside 0..230, an unknown interface, an interface together with CYCLONEDDS_URI, or
-  /// a second access to the domain.
+  /// Throws: Error for a domain outside 0..230, an unknown interface, an interface besides CYCLONEDDS_URI, or a
+  /// second access to the domain.
   explicit DdsParticipant(int domain, const DdsAccess& access = {});
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
@@ -48,10 +47,9 @@ class DdsParticipant {
   dds_entity_t entity() const { return entity_; }
 
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
-  /// Quality of service as in ROS 2: reliable, volatile, the last 10 messages.
+  /// As in ROS 2: reliable, volatile, the last 10 messages.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile. When `max_waiting` messages wait, senders wait too, so a flood removes no message of
-  /// others.
+  /// Reliable, volatile. Senders wait while `max_waiting` messages wait, so a flood removes no message of others.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
   /// Keeps the last `depth` messages of other participants.
   dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
@@ -72,7 +70,7 @@ class DdsWriter {
   void write(const Message& message, int64_t source_ns) const {
     checked_dds(DdsType<Message>::write(writer_, message, source_ns), topic_, "a message to be sent");
   }
-  /// Returns false if listeners still lack messages after `timeout_s`.
+  /// Returns false if listeners still lack messages.
   bool wait_for_listeners(double timeout_s) const {
     return dds_wait_for_acks(writer_, static_cast<dds_duration_t>(timeout_s * 1e9)) == DDS_RETCODE_OK;
   }
@@ -101,29 +99,28 @@ class DdsOtherWriters {
   std::vector<std::string> topics_;
   dds_instance_handle_t own_ = 0;
   dds_entity_t publications_;
-  std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with their topics
+  std::map<dds_instance_handle_t, std::string> writers_;
 };
 
-/// A reader ignores messages of more writers than this.
+/// A reader ignores further writers.
 inline constexpr size_t kMostWriters = 64;
 
-/// Messages ignored for that reason since the process began.
+/// Such messages since the process began.
 int64_t dds_messages_of_too_many();
 
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The writer's participant, even if it is gone. Empty beyond kMostWriters; such messages are counted.
+  /// The writer's participant, even if it is gone. Empty beyond kMostWriters; counts such messages.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
-  /// Participants of all present writers, including those that never sent.
+  /// Participants of present writers, perhaps without messages.
   std::set<uint64_t> present();
 
  private:
-  /// Empty if the writer is gone.
   std::optional<uint64_t> look_up(dds_instance_handle_t writer) const;
 
   dds_entity_t reader_;
-  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;  ///< of writers that have sent
+  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;
 };
 
 template <typename Message>
@@ -144,7 +141,7 @@ class DdsReader {
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
 
-  /// The next message. Decodes it only if `is_wanted(sender)`, so a flood from others costs little.
+  /// The next message. Decodes it only if `is_wanted(sender)`, so floods of others cost little.
   template <typename IsWanted>
   std::optional<Received> take(const IsWanted& is_wanted) {
     for (;;) {
@@ -173,7 +170,6 @@ class DdsReader {
   DdsSenders senders_;
 };
 
-/// Waits until a reader has a message.
 class DdsWaitset {
  public:
   explicit DdsWaitset(const DdsParticipant& participant);

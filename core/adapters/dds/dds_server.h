@@ -13,13 +13,12 @@ struct DdsServerOptions {
   int domain = 0;
   DdsAccess access;
   ServedRobot robot;
-  /// Path of the log. Empty: no log.
+  /// Empty: no log.
   std::string log;
-  /// Largest age of the log's last state, s.
+  /// Limit for the log's last state, s.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
   std::function<bool()> stopping;  ///< polled at 100 Hz; true ends the server
-  /// Shows a line to the user.
   std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -28,7 +27,7 @@ struct DdsServerSummary {
   int64_t lost_log_lines = 0;
 };
 
-/// Serves a robot over DDS until `stopping`. Receives commands and sends JointState at 100 Hz.
+/// Serves a robot over DDS until `stopping`. Sends JointState at 100 Hz.
 /// Throws: Error if the domain or log is unusable, or another server uses one of them.
 DdsServerSummary serve(const DdsServerOptions& options);
 

@@ -16,14 +16,14 @@ struct DdsSinkOptions {
   bool alone = false;                                      ///< allow no other writer on the topics
 };
 
-/// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md). Slow listeners do not block it.
+/// Sends commands as a ROS 2 node would (core/adapters/dds/README.md). Slow listeners do not block it.
 class DdsSink : public RobotCommandSink {
  public:
   /// `domain`: 0..230.
   /// Throws: Error if domain or network is unusable or, if `alone`, another writer appears within 1 s.
   explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
 
-  /// Sets the source time of the next command, microseconds since 1970. Default: the time of sending.
+  /// Sets the source time of the next command, microseconds since 1970. Default: time of sending.
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
   /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
   void send(const RobotCommand& command) override;
@@ -35,7 +35,7 @@ class DdsSink : public RobotCommandSink {
 
  private:
   DdsParticipant participant_;
-  std::optional<DdsOtherWriters> others_;  ///< first, so that it searches before this writes
+  std::optional<DdsOtherWriters> others_;  ///< first: searches before this writes
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
   std::optional<DdsWriter<ros::PoseStamped>> arm_;
   std::optional<int64_t> arrived_ns_;

@@ -13,7 +13,7 @@ namespace glovebench {
 struct RobotBusOptions {
   int domain = 0;  ///< 0..230
   DdsAccess access;
-  /// Send to the robot's controllers instead of `robot-server`.
+  /// Not to `robot-server` but to the robot's controllers.
   bool to_controller = false;
   bool arm = true;  ///< command the controller's arm
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
@@ -28,10 +28,10 @@ class RobotBus {
 
   /// The arm at the start, rad. Empty unless a controller's arm is commanded.
   virtual std::optional<ArmJoints> arm_start() const = 0;
-  /// Returns the command's time in microseconds: the first frame's time stamp plus the time since. With a
-  /// controller, first gives the measured state to the guard.
+  /// Returns the command's time, microseconds: the first frame's time stamp plus the time since. With a controller,
+  /// first calls `start_from` of the guard.
   virtual int64_t start(CommandGuard& guard, const RobotCommand& command) = 0;
-  /// `arrived_us`: time of the complete frame, microseconds since 1970.
+  /// `arrived_us`: time of the complete frame, since 1970.
   virtual void send(const RobotCommand& safe, int64_t arrived_us) = 0;
   /// Waits up to 1 s until listeners have all messages.
   virtual void finish() = 0;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// DDS Security documents and keys. `openssl` makes certificates and signatures (EC P-256, SHA-256).
+/// DDS Security. `openssl` makes certificates and signatures (EC P-256, SHA-256).
 namespace glovebench {
 
 /// Seconds since 1970.
@@ -14,7 +14,7 @@ struct Validity {
   int64_t end_s = 0;
 };
 
-/// A role's topics as fnmatch patterns.
+/// Topics as fnmatch patterns.
 struct SecurityRole {
   std::string name;
   std::vector<std::string> writes, reads;
@@ -26,8 +26,7 @@ const std::vector<SecurityRole>& security_roles();
 std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
-/// Makes a folder of keys for all roles (core/adapters/dds/README.md, "DDS Security"). `others`: roles whose
-/// validity differs.
+/// Makes keys for all roles (core/adapters/dds/README.md, "DDS Security"). `others`: roles with another validity.
 /// Throws: Error if the folder is not empty or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});

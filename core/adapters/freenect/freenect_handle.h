@@ -8,10 +8,9 @@ namespace glovebench {
 
 /// " (libfreenect: ...)" with the library's last complaint, or "".
 std::string last_complaint();
-/// Throws: Error with the last complaint unless `success`.
+/// Throws: Error with it unless `success`.
 void require_freenect(bool success, const char* field, const std::string& expected);
 
-/// libfreenect with one open device.
 class FreenectHandle {
  public:
   /// Throws: Error if the device is missing or cannot be opened.

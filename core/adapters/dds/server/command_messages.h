@@ -10,7 +10,7 @@
 #include "core/base/enum_names.h"
 #include "core/robot/robot_command.h"
 
-/// ROS messages for hand and arm. The structs check no content.
+/// ROS messages, whose content is unchecked.
 namespace glovebench::ros {
 
 /// builtin_interfaces/Time and Duration
@@ -53,18 +53,18 @@ struct JointState {
 
 namespace glovebench {
 
-/// The outcome of a message. Checks run in this order.
+/// The outcome of a message, in the order of the checks.
 enum class Receipt {
   foreign,       ///< another sender owns the stream
   bad_time,      ///< before 1970, or nanoseconds of 1 s or more
-  wrong_joints,  ///< not exactly the topic's joints (any order)
+  wrong_joints,  ///< not exactly the topic's joints
   wrong_points,  ///< not one point with one position per joint
   wrong_frame,
   not_finite,
-  not_rotation,  ///< quaternion is not of unit length
+  not_rotation,  ///< no unit quaternion
   stale,         ///< older than `silence_s`, or delayed by a gap
   starting,      ///< its stream is younger than 0.2 s
-  went_back,     ///< stamp not after the sender's last one
+  went_back,     ///< stamp not after the sender's last
   accepted,
 };
 constexpr auto names_of(Receipt) {
@@ -78,13 +78,13 @@ struct RobotState {
   int64_t clock_us = 0;  ///< monotonic
   CommandState state = CommandState::stopped;
   std::vector<double> position;  ///< rad
-  std::vector<double> velocity;  ///< rad/s, since the previous state
+  std::vector<double> velocity;  ///< rad/s, since the last state
 };
 
-/// The frame of the arm's poses.
+/// Of the arm's poses.
 inline constexpr const char* kBaseFrame = "base_link";
 
-/// ROS names (`rh_FFJ1` ...): of the hand's controller, of the wrist's, and all 24 in the order of ShadowJoint.
+/// ROS names (`rh_FFJ1` ...) of the hand's controller, of the wrist's, and of all in the order of ShadowJoint.
 const std::vector<std::string>& hand_trajectory_names();
 const std::vector<std::string>& wrist_trajectory_names();
 const std::vector<std::string>& hand_joint_names();
@@ -95,17 +95,17 @@ const std::vector<std::string>& arm_joint_names();
 ros::Time ros_time(int64_t time_us);
 int64_t nanoseconds(const ros::Time& time);
 
-/// Largest age, or lead, of a trusted measured state.
+/// Largest age or lead of a trusted state.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
-/// Time for a controller to reach a command's targets. On a straight path this keeps the guard's speeds.
+/// Time for a controller to reach targets. A straight path then keeps the guard's speeds.
 int64_t time_to_targets_us(double longest_step_s);
 
-/// A command's targets (required) as one point, to reach in `time_us`. The stamp is the frame's time.
+/// A command's targets (required) as one point, to reach in `time_us`, with the frame's time stamp.
 /// Throws: Error if a target is not finite.
 ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us);
 ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us);
-/// The pose of WRJ2 in kBaseFrame that puts the hand at T_base_hand.
+/// The pose of WRJ2 in kBaseFrame for T_base_hand.
 ros::PoseStamped pose_message(const RobotCommand& command);
 
 struct JointsRead {

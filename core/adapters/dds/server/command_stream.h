@@ -14,7 +14,7 @@
 
 namespace glovebench {
 
-/// One moment on two clocks, microseconds.
+/// One moment on two clocks.
 struct ServerTime {
   int64_t clock_us = 0;   ///< monotonic
   int64_t system_us = 0;  ///< since 1970; may jump
@@ -23,12 +23,12 @@ struct ServerTime {
 struct Arrival {
   uint64_t sender = 0;  ///< one per process
   int64_t source_ns = 0;
-  int64_t now_us = 0;  ///< time of reception, monotonic
+  int64_t now_us = 0;  ///< reception, monotonic
 };
 
-/// Decides which messages a server follows: valid, fresh, in time order, from one owner. Rules:
-/// core/adapters/dds/README.md ("The server"). Reads no clock. A gap between ticks, or a jump of the owner's clock,
-/// releases the owner and drops its goals.
+/// Selects the messages that a server follows: valid, fresh, in time order, from one owner
+/// (core/adapters/dds/README.md, "The server"). Reads no clock. A gap between ticks, or a jump of the owner's
+/// clock, releases the owner and drops its goals.
 class CommandStream {
  public:
   /// `topics`: their number.
@@ -36,14 +36,14 @@ class CommandStream {
 
   /// Whether the sender is not the owner. Counts such messages.
   bool ignores(uint64_t sender, int64_t now_us);
-  /// Judges and counts a message. `found`: the outcome of the content checks.
+  /// Judges and counts a message. `found`: outcome of the content checks.
   Receipt receive(const Arrival& arrival, int topic, const ros::Time& stamp, Receipt found);
   void tick(const ServerTime& now);
   /// Whether the last accepted message of a topic (or of any) still counts: at most `silence_s` old, with no gap or
   /// new owner since.
   bool is_current(int topic, int64_t now_us) const;
   bool is_current(int64_t now_us) const;
-  /// Releases an owner that is not present.
+  /// Releases an absent owner.
   void keep_only(const std::set<uint64_t>& present);
 
   /// How often a sender became owner.
@@ -52,10 +52,10 @@ class CommandStream {
   int64_t count(Receipt receipt) const { return receipts_[static_cast<size_t>(receipt)]; }
 
  private:
-  /// For one topic of one sender.
+  /// Of one sender on one topic.
   struct Delays {
     std::deque<std::pair<int64_t, int64_t>> smallest;  ///< per second: start, smallest delay, us
-    std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time, us
+    std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time
     bool started = false;
     int64_t heard_us = 0, source_us = 0, delay_us = 0;  ///< last message
 
@@ -77,12 +77,12 @@ class CommandStream {
   int64_t silence_us_, release_us_;
   std::array<int64_t, kCountOf<Receipt>> receipts_{};
   std::map<std::pair<uint64_t, int>, Delays> delays_;
-  std::optional<int64_t> seen_us_, apart_us_;  ///< last tick: time, difference of the clocks
+  std::optional<int64_t> seen_us_, apart_us_;  ///< last tick: time, difference of clocks
   std::optional<int64_t> settled_us_;          ///< earlier messages are stale
   int64_t gaps_ = 0;
   std::optional<uint64_t> owner_;
   int64_t owners_ = 0;
-  int64_t good_us_ = 0;                                       ///< owner's last accepted message
+  int64_t good_us_ = 0;
   std::vector<std::optional<int64_t>> stamps_ns_, until_us_;  ///< by topic: last stamp; end of its effect
 };
 

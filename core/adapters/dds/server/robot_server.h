@@ -21,7 +21,7 @@ namespace glovebench {
 //   stated     The tick holds unless MotionLog allows the motion.
 //   sent       The tick's RobotState goes to the joints (dds_server.cpp).
 
-/// `pose`: of the wrist, for the arm.
+/// `pose`: of the wrist.
 enum class RobotTopic { fingers, wrist, pose };
 inline constexpr int kRobotTopicCount = 3;
 std::string_view to_string(RobotTopic topic);
@@ -32,7 +32,7 @@ struct ServedRobot {
 
   GuardedPart part() const;
   std::string name() const;  ///< "hand", "arm" or "hand and arm"
-  /// All joints: the hand's (ShadowJoint), then the arm's.
+  /// The hand's (ShadowJoint), then the arm's.
   std::vector<std::string> names() const;
   std::vector<double> at_rest() const;  ///< rad: open hand, kArmAtRest
   std::vector<JointMotion> motions(const CommandLimits& limits) const;
@@ -44,18 +44,17 @@ struct StartPlace {
   double tolerance = radians_from_degrees(1e-6);  ///< rad: twice the log's rounding
 };
 
-/// Serves hand, arm or both, without middleware or clock. Limits: core/robot/README.md ("The guard"). A topic
-/// without a current message (CommandStream) moves nothing. The coupling splits the sum of J1 and J2.
+/// Serves hand, arm or both, without middleware or clock. Topics without a current message (CommandStream) move
+/// nothing. The coupling splits the sum of J1 and J2.
 class RobotServer {
  public:
   /// Moves joints that exceed a limit by at most the start's tolerance onto it.
   /// Throws: Error if the start is farther outside, or the limits have problems.
   RobotServer(const CommandLimits& limits, const ServedRobot& robot, const StartPlace& start);
 
-  /// Takes a message for the server's joints.
   Receipt receive(RobotTopic topic, const ros::JointTrajectory& message, const Arrival& arrival);
   Receipt receive(RobotTopic topic, const ros::PoseStamped& message, const Arrival& arrival);
-  /// The joints' next state. Time must have advanced. `may_move` = false holds the joints.
+  /// Time must have advanced. `may_move` = false holds the joints.
   RobotState tick(const ServerTime& now, bool may_move = true);
   /// Units: rad.
   const std::vector<double>& positions() const { return last_.position; }
@@ -74,11 +73,11 @@ class RobotServer {
   ServedRobot robot_;
   CommandGuard guard_;
   CommandStream stream_;
-  RobotTargets stands_;  ///< last place sent
+  RobotTargets stands_;
   std::array<double, kShadowJointCount> hand_goal_{};
   Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();
-  std::array<bool, kRobotTopicCount> wanted_{};  ///< by topic: has a goal
-  bool changed_ = false;                         ///< the guard lacks the newest goal
+  std::array<bool, kRobotTopicCount> wanted_{};  ///< by topic
+  bool changed_ = false;                         ///< guard lacks the newest goal
   bool ticked_ = false;
   RobotState last_;
 };

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// The log line of a received message (core/adapters/dds/README.md).
+/// A received message (core/adapters/dds/README.md).
 struct ReceivedLine {
   int64_t time_us = 0;  ///< reception, system time
   std::string_view topic;
@@ -20,28 +20,28 @@ struct ReceivedLine {
   int64_t source_us = 0;
 };
 
-/// JSON without the line end. Angles are rounded to 1e-6 degrees. `time_us` is system time.
+/// JSON without line end. Angles are rounded to 1e-6 degrees. `time_us`: system time.
 std::string received_line(const ReceivedLine& received);
 std::string state_line(const RobotState& state, int64_t time_us, const std::vector<std::string>& names);
-/// Until the next such line, the joints stay inside the interval, rounded outward.
+/// The joints stay inside the interval, rounded outward, until the next such line.
 std::string interval_line(const JointInterval& interval, int64_t time_us, const std::vector<std::string>& names);
-/// `from`: source of the joints' positions.
+/// `from`: of the joints' positions.
 std::string start_line(int64_t time_us, std::string_view from);
 
 struct LoggedState {
   int64_t time_us = 0;            ///< system time
   std::vector<double> positions;  ///< rad
 };
-/// The last state near a log's end, joints in the order of `names`. Empty if there is none. Ignores cut lines.
+/// The last state near a log's end, in the order of `names`, if any. Ignores cut lines.
 /// Throws: Error if it has other joints, or the text is no log.
 std::optional<LoggedState> last_state(std::string_view log, const std::vector<std::string>& names,
                                       const std::string& path);
-/// The last interval, likewise.
+/// Likewise.
 /// Throws: Error if it has other joints, or a minimum above its maximum.
 std::optional<JointInterval> last_interval(std::string_view log, const std::vector<std::string>& names,
                                            const std::string& path);
 std::string age_text(const LoggedState& state, int64_t now_us);
-/// Default of `max_age_s`. A failed server restarts sooner.
+/// Default of `max_age_s`.
 inline constexpr double kMaxLogAge = 600;
 /// Throws: Error with a remedy if the state is older than `max_age_s` (joints may have moved) or over 1 s in the
 /// future.

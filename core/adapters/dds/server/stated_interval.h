@@ -28,11 +28,11 @@ class StatedInterval {
   explicit StatedInterval(std::vector<JointMotion> joints) : joints_(std::move(joints)) {}
 
   /// The interval to state now, if any: the reach of 0.5 s, or the place at rest. Repeats every second, and in
-  /// motion before less than 0.25 s remain.
+  /// motion before the reach falls below 0.25 s.
   std::optional<JointInterval> next(const std::vector<double>& positions, bool at_rest, int64_t now_us);
   /// `line`: its number in the log; 0 if lost.
   void stated(JointInterval interval, uint64_t line, int64_t now_us);
-  /// Arguments as in LogWriter::Progress.
+  /// As in LogWriter::Progress.
   void update(uint64_t done, uint64_t durable, uint64_t failed);
   /// Whether the joints may move freely for `seconds`.
   bool allows(const std::vector<double>& positions, double seconds) const;
