@@ -20,10 +20,10 @@ struct Movement {
   std::vector<HandFrame> frames;
 };
 
-/// Every 19th frame of the five source trajectories. The robust alignment's width was chosen on them.
+/// Every 19th frame of the five source trajectories, on which the robust alignment's width was chosen.
 std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
 
-/// 70 fixed frames of ten random movements. Never used for tuning.
+/// 70 fixed frames of ten random movements, never used for tuning.
 std::vector<Movement> held_out_movements(const std::string& trajectory_folder);
 
 /// GLOVEBENCH_CACHE, the user's cache folder or a new temporary one.
@@ -70,7 +70,7 @@ struct BenchData {
 void prepare(const Settings& settings);
 const BenchData& data();
 
-/// Shown for a library that the build lacks.
+/// For a library that the build lacks.
 inline constexpr const char* kMissing = "missing";
 
 /// Adds a counter: time for one of `count` items.
@@ -84,7 +84,7 @@ struct BytesTouched {
 inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";
 void set_bytes_touched(benchmark::State& state, const BytesTouched& touched);
 
-/// Peak resident memory, bytes.
+/// Bytes.
 double peak_memory();
 
 }  // namespace glovebench::bench

@@ -22,10 +22,10 @@ struct EngineRatio {
   double ratio = 0;
   double low = 0, high = 0;  ///< over repetitions
 };
-/// Ratios by stage, plain first.
+/// By stage, plain first.
 std::vector<EngineRatio> engine_ratios(const Measurements& measurements);
 
-/// Compares a stage's time with the minimum for reading its bytes.
+/// A stage's time and the minimum for reading its bytes.
 struct StageFloor {
   std::string benchmark;
   double bytes = 0;

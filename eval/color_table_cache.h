@@ -26,7 +26,7 @@ ColorTableConfig one_lighting(ColorSpace space);
 ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config = {});
 
-/// Hash of the sources of `calibrate_colors`.
+/// Of the sources of `calibrate_colors`.
 std::string color_table_source_hash();
 
 /// With all lightings. Cached in `folder` by the hash of inputs and sources. Replaces a damaged or outdated file.

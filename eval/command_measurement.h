@@ -12,7 +12,7 @@
 
 namespace glovebench::eval {
 
-/// Robot commands as `track` sends them.
+/// As `track` sends them.
 struct CommandStream {
   std::vector<RobotCommand> commands;  ///< in time order, at most one per result
   std::vector<double> command_ms;      ///< processor time by result

@@ -14,10 +14,10 @@
 
 namespace glovebench::eval {
 
-/// A folder with good.json (right hand) and left.json.
+/// Has good.json (right hand) and left.json.
 class CommandTest : public testing::Test {
  protected:
-  static constexpr int kFrames = 4;  ///< in a trajectory
+  static constexpr int kFrames = 4;
 
   void SetUp() override {
     folder_ = test_folder();

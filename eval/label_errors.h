@@ -15,13 +15,12 @@ namespace glovebench::eval {
 /// For tests: strength 0.5 to 2, 3000 to 6500 K, new directions.
 std::vector<render::Lighting> held_out_lightings();
 
-/// Label errors of a color table, in IR pixels. Ignores glove pixels without color. Labels count only inside the
-/// working volume.
+/// In IR pixels. Ignores glove pixels without color. Labels count only inside the working volume.
 struct LabelErrors {
   int glove = 0;       ///< true glove pixels
-  int missed = 0;      ///< glove pixels without a label
+  int missed = 0;      ///< without a label
   int labeled = 0;     ///< pixels with a label
-  int wrong = 0;       ///< pixels with a false label
+  int wrong = 0;       ///< with a false label
   int mislabeled = 0;  ///< glove pixels without the true label
   int interior = 0;    ///< glove pixels whose 8 neighbors have the same true label
   int interior_missed = 0;

@@ -8,14 +8,12 @@
 
 namespace glovebench::eval {
 
-/// Receives the pictures of a sequence.
 class PictureSink {
  public:
   virtual ~PictureSink() = default;
   /// Numbers and times must rise.
   /// Throws: Error.
   virtual void add(int number, int64_t timestamp_us, const ColorImage& picture) = 0;
-  /// Completes the file.
   /// Throws: Error.
   virtual void finish() {}
 };

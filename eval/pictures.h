@@ -16,7 +16,7 @@ namespace glovebench::eval {
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// The command that shows the frame of the run in `folder`, with flags for a user's own trajectory or database.
+/// Shows the frame of the run in `folder`, with flags for a user's own trajectory or database.
 std::string complete_command(const reports::WorstFrame& worst, const std::string& folder = ".");
 
 /// All tracker stages of one frame, and its errors. The frame is tracked alone, so without the filter.

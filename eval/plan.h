@@ -8,7 +8,7 @@
 namespace glovebench::eval {
 
 struct Plan {
-  TrackerConfig tracker;       ///< for all runs
+  TrackerConfig tracker;
   std::vector<RunSpec> specs;  ///< runs of the same frames in sequence
   std::string suite = {};      ///< empty: none
   bool quick = false;          ///< few frames; no conclusions

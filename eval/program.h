@@ -26,14 +26,13 @@ std::string share_folder();
 std::string hand_mesh_path();
 std::string trajectory_folder();
 std::string suite_folder();
-/// Chart scripts in running order, with licenses.
+/// In running order, with licenses.
 /// Throws: Error if one is missing.
 std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.
 std::string default_cache_folder();
 
-/// Built-in ("Tr4"), generated ("side_3") or a file (*.json). `truth`: selects a built-in one's kind; a file must
-/// be of this kind.
+/// Built-in ("Tr4"), generated ("side_3") or a file (*.json). `truth`: the kind to select, or that a file must be.
 /// Throws: Error for an unknown name, another kind or a bad file.
 trajectories::Trajectory load_truth(const std::string& name_or_file, std::optional<reports::TruthKind> truth);
 /// The built-in truth of an experiment. Null for a user's file.

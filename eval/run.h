@@ -28,7 +28,7 @@ struct FrameRange {
 struct RunSpec {
   std::shared_ptr<const trajectories::Trajectory> trajectory;
   FrameRange frames = {};
-  int subject = 1;  ///< in front of the camera
+  int subject = 1;
   reports::NoiseSetting noise = {};
   uint64_t seed = 1;
   std::string database = {};
@@ -38,14 +38,14 @@ struct RunSpec {
   std::string setting = {};  ///< label without effect: a study's setting or a movement's family
 };
 
-/// Measured on the true images and the true surface.
+/// On the true images and the true surface.
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
   double visible_percent = 0;                     ///< see reports/metrics/visibility.h
 };
 
-/// A tracker's results by frame. measured_run.h computes errors.
+/// Results by frame, without errors (measured_run.h).
 struct Run {
   RunSpec spec;
   std::vector<TrackResult> answers;
@@ -64,14 +64,14 @@ bool share_images(const RunSpec& a, const RunSpec& b);
 
 struct RunOptions {
   int threads = 1;
-  RunStore* store = nullptr;  ///< loads stored runs, stores others
+  RunStore* store = nullptr;  ///< loads and stores runs
 };
 /// Renders, adds noise and tracks, in the order of `specs`. Trackers get only device frames and calibration.
 /// `threads` change only times. Neighbors that share images are rendered once.
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
-/// Hash of all inputs except the program.
+/// Of all inputs except the program.
 std::string run_key(Workbench& workbench, const RunSpec& spec);
 
 }  // namespace glovebench::eval

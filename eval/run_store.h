@@ -27,7 +27,7 @@ class RunStore {
   /// Throws: Error if it cannot be written.
   void save(const std::string& key, const std::string& content) const;
 
-  /// Removes mark and parts at once.
+  /// Removes the mark.
   /// Throws: Error.
   void finish();
 

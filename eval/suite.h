@@ -9,7 +9,7 @@
 namespace glovebench::eval {
 
 struct SuiteEntry {
-  std::string trajectory;  ///< *.json file, or name, also of a generated movement
+  std::string trajectory;  ///< name, also of a generated movement, or *.json file
   std::optional<reports::TruthKind>
       truth;                           ///< kind of a named trajectory, or required kind of a file; empty: either
   std::vector<std::string> databases;  ///< names or files
@@ -18,7 +18,7 @@ struct SuiteEntry {
   FrameRange frames;
 };
 
-/// Experiments for a commit or a night, all with the same seeds.
+/// For a commit or a night, all with the same seeds.
 struct Suite {
   std::string name;  ///< empty: command line
   std::string description;

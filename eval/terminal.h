@@ -14,7 +14,7 @@
 
 #include "core/tracker/track_result.h"
 
-// A user's terminal: its width, messages on stderr, and signals.
+// A user's terminal.
 
 namespace glovebench::eval {
 
@@ -55,7 +55,7 @@ class Progress {
   int last_percent_ = -1;
 };
 
-/// Tracking status. Reads no clock.
+/// Reads no clock.
 class LiveStatus {
  public:
   static constexpr size_t kFrames = 60;  ///< two seconds
@@ -87,7 +87,7 @@ class StatusLine {
  private:
   bool enabled_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double last_ = 0;  ///< s
+  double last_ = 0;
   LiveStatus status_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Counts a thread's heap memory by replacing C library functions. Include it in one source of a test program.
+// Counts a thread's heap memory by replacing C library functions. Include it in one source of a program.
 
 #include <malloc.h>
 

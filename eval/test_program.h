@@ -51,9 +51,9 @@ struct ProgramRun {
   std::string err;
 };
 struct ProgramSetting {
-  std::map<std::string, std::string> environment = {};  ///< additional
-  rlim_t max_file_bytes = RLIM_INFINITY;                ///< acts like a full disk
-  bool unheard = false;                                 ///< output pipes have no reader
+  std::map<std::string, std::string> environment = {};
+  rlim_t max_file_bytes = RLIM_INFINITY;  ///< acts like a full disk
+  bool unheard = false;                   ///< output pipes have no reader
 };
 
 /// In the child: becomes the program, or ends with 127.
@@ -82,7 +82,6 @@ struct StartedProgram {
   std::string out;
   std::string err;
 };
-/// `command` begins with the program's path.
 inline StartedProgram start_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
   static const TestFolder folder;
   static int count = 0;
@@ -127,7 +126,7 @@ inline std::map<std::string, std::string> read_folder(const std::string& folder)
   return files;
 }
 
-/// A report without what differs between runs: timings.json, manifest, the page's command times.
+/// Without what differs between runs: timings.json, manifest, the page's command times.
 inline std::map<std::string, std::string> read_timeless(const std::string& folder) {
   std::map<std::string, std::string> files = read_folder(folder);
   EXPECT_EQ(files.erase("timings.json") + files.erase("manifest.json"), 2U);

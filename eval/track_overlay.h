@@ -11,7 +11,7 @@
 
 namespace glovebench::eval {
 
-/// Draws outline and joints of the tracked hand over a recording's color images.
+/// Draws outline and joints of the tracked hand over color images.
 class TrackOverlay {
  public:
   /// `path`: as open_picture_sink.

@@ -31,19 +31,19 @@ class TrueNeighborSearch {
                              const PinholeCamera& camera) const;
 
  private:
-  /// Vertices with the hand's ray turned to the optical axis; hand origin.
+  /// About the hand origin, its ray turned to the optical axis.
   Eigen::Matrix3Xd seen_along_ray(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                                   const PinholeCamera& camera) const;
   Eigen::Matrix3Xd patch_centers(const Eigen::Matrix3Xd& vertices) const;
   static int posture_of(int entry) { return entry / kViewCount; }
 
   const HandModel& model_;
-  std::vector<Eigen::Matrix3d> R_ray_hand_;      ///< by entry
-  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< by posture, m
-  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< by posture, m
+  std::vector<Eigen::Matrix3d> R_ray_hand_;
+  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< m
+  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< m
   std::vector<int> patch_of_vertex_;
-  Eigen::VectorXd vertex_weights_;  ///< equal, sum 1
-  Eigen::VectorXd patch_weights_;   ///< vertex shares, sum 1
+  Eigen::VectorXd vertex_weights_;
+  Eigen::VectorXd patch_weights_;
 };
 
 }  // namespace glovebench::eval

@@ -38,7 +38,7 @@ class Workbench {
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
-  /// Of the synthetic Kinect's cameras, whatever `calibration` is, because colors do not depend on geometry.
+  /// Of the synthetic Kinect's cameras, because colors do not depend on geometry.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
@@ -50,14 +50,13 @@ class Workbench {
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// A tracker whose stages can be inspected.
+  /// Its stages can be inspected.
   /// Throws: Error if another method is configured.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 
  private:
   WorkbenchConfig config_;
   DatabaseCache database_cache() const;
-  /// From the program's data or an added file.
   PostureSet postures_of(const std::string& name) const;
 
   std::recursive_mutex mutex_;

@@ -14,7 +14,7 @@ struct FrameKey {
   int64_t frame = 0;
 };
 
-/// Random numbers of one image row (SplitMix64).
+/// For one image row (SplitMix64).
 class RowRandom {
  public:
   explicit RowRandom(uint64_t state) : state_(state) {}
@@ -47,7 +47,7 @@ class RowRandom {
 
 std::vector<uint64_t> row_seeds(const FrameKey& key, std::string_view purpose, int rows);
 
-/// Standard deviation of each 8-bit channel.
+/// Standard deviation per 8-bit channel.
 inline constexpr double kColorSigma_gray = 2.0;
 
 ColorImage add_color_noise(const ColorImage& color, double sigma_gray, const FrameKey& key);

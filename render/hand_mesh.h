@@ -8,7 +8,7 @@
 
 namespace glovebench::render {
 
-/// Triangles for drawing. Each patch has its own vertices at borders.
+/// For drawing. Each patch has its own vertices at borders.
 struct HandMesh {
   std::vector<uint32_t> source;   ///< vertex of the hand
   std::vector<uint8_t> labels;    ///< 1..kColorCount
@@ -17,7 +17,7 @@ struct HandMesh {
 };
 HandMesh make_hand_mesh(std::span<const Triangle> triangles);
 
-/// The hand's values for the mesh's vertices.
+/// The hand's values at the mesh's vertices.
 std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, std::span<const Eigen::Vector3f> values);
 
 /// Area-weighted unit normals, outward, hand frame.

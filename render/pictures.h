@@ -20,9 +20,9 @@ ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, co
 struct Stroke {
   Eigen::Vector2d from_px, to_px;
 };
-/// Draws lines with a dot at each end and a dark edge.
+/// With a dot at each end and a dark edge.
 ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line);
-/// Writes a line of ASCII text at the upper left.
+/// A line of ASCII text at the upper left.
 ColorImage overlay_text(const ColorImage& color, const std::string& text);
 std::string encode_png(const ColorImage& image);
 /// `quality`: 0 to 100.
@@ -42,7 +42,7 @@ struct TextLine {
   std::string text;
   Rgb color = {230, 230, 230};
 };
-/// One line below another, as large as the titles of a montage.
+/// Lines as large as the titles of a montage.
 ColorImage picture_of_text(const std::vector<TextLine>& lines, int width, int height);
 
 /// The whole image if nothing is labeled.

@@ -19,7 +19,7 @@ struct RgbdImages {
 };
 
 /// Draws a hand in a scene from a Kinect's two cameras, without shadows. Color is the mean of 2x2 samples, depth
-/// and truth are one sample. For one thread at a time.
+/// and truth are one. For one thread at a time.
 class RgbdRenderer {
  public:
   /// Throws: Error without OpenGL.
@@ -27,7 +27,7 @@ class RgbdRenderer {
   ~RgbdRenderer();
 
   RgbdImages render(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand, const Lighting& lighting);
-  /// True labels in RGB pixels.
+  /// In RGB pixels.
   LabelImage render_color_labels(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
   const RgbdCalibration& calibration() const { return calibration_; }
 

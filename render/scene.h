@@ -12,7 +12,7 @@ namespace glovebench::render {
 /// Diffuse, with a Blinn-Phong highlight and a fixed pattern.
 struct Material {
   Eigen::Vector3f albedo = Eigen::Vector3f::Zero();  ///< linear RGB, 0..1
-  float gloss = 0;                                   ///< of the highlight, 0..1
+  float gloss = 0;
   float shininess = 20;
   float pattern = 0;           ///< relative amplitude, 0..1
   float pattern_size = 0.01f;  ///< m
@@ -35,17 +35,17 @@ enum SceneMaterial : uint8_t {
 struct SurfaceMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;  ///< unit length
-  std::vector<uint8_t> materials;        ///< of each vertex
+  std::vector<uint8_t> materials;        ///< of vertices
   std::vector<uint32_t> indices;         ///< three per triangle
 };
 
 struct SceneConfig {
   Shader shader = Shader::first_subject;
-  bool clutter = true;             ///< objects in similar colors on the table
+  bool clutter = true;             ///< objects of similar colors on the table
   bool clutter_in_volume = false;  ///< one more box, in the working volume (z 0.90 m)
 };
 
-/// Surroundings in the IR camera's frame: table top (1.0 m x 0.74 m at 1.06 m) and floor at 1.78 m.
+/// In the IR camera's frame: table top (1.0 m x 0.74 m at 1.06 m) and floor at 1.78 m.
 struct Scene {
   SurfaceMesh surroundings;
   std::vector<Material> materials;  ///< kMaterialCount

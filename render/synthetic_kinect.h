@@ -15,8 +15,8 @@ struct SyntheticKinectConfig {
   Lighting lighting;
   NoiseConfig noise;
   uint64_t seed = 1;
-  std::string sequence;  ///< selects the noise streams
-  int first_frame = 0;   ///< in the sequence, selects its noise
+  std::string sequence;
+  int first_frame = 0;  ///< selects the noise
 };
 
 /// Adds color noise, depth noise and 11-bit disparity.
@@ -24,7 +24,7 @@ struct SyntheticKinectConfig {
 DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                               const NoiseConfig& noise, const FrameKey& key);
 
-/// A Kinect before a rendered hand, for one thread at a time.
+/// For one thread at a time.
 class SyntheticKinect : public Device {
  public:
   /// Throws: Error without OpenGL or for an impossible configuration.
@@ -34,9 +34,9 @@ class SyntheticKinect : public Device {
   const RgbdCalibration& calibration() const override { return renderer_.calibration(); }
   std::optional<DeviceFrame> next_frame() override;
 
-  /// Ideal images of the last frame, for the evaluator only.
+  /// Of the last frame, for the evaluator only.
   const RgbdImages& truth() const;
-  /// The hand in these images, for the evaluator only.
+  /// In these images, for the evaluator only.
   const PosedHand& true_hand() const;
 
  private:

@@ -9,10 +9,10 @@ namespace glovebench::reports {
 
 bool has_commands(const RunResult& result);
 
-/// Explains the tables below. Each has one row per experiment.
+/// Of the tables below, with one row per experiment.
 std::string command_explanation();
 Table command_stream_table(const RunResult& result);
-/// Changed or refused commands by reason. No rows without any.
+/// By reason. No rows without any.
 Table command_intervention_table(const RunResult& result);
 /// Errors against the truth's commands, and smoothness.
 Table command_error_table(const RunResult& result);
@@ -21,7 +21,7 @@ Table command_latency_table(const RunResult& result, const Timings& timings);
 
 /// tables/commands.csv, without times.
 std::string commands_csv(const RunResult& result);
-/// The section of summary.md. Empty without commands.
+/// For summary.md. Empty without commands.
 std::string commands_markdown(const RunResult& result);
 
 }  // namespace glovebench::reports

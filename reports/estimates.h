@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// A smoothed estimate of the tracker.
+/// Smoothed.
 struct Estimate {
   uint64_t seed = 0;
   int frame = 0;
@@ -34,7 +34,7 @@ std::string estimates_csv(const ExperimentEstimates& estimates);
 /// Without line ends.
 std::string estimates_heading();
 std::string estimate_csv_line(const Estimate& estimate);
-/// Throws: Error for other content than estimates_csv writes.
+/// Throws: Error for other content.
 std::vector<Estimate> read_estimates(const std::string& path);
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);
 

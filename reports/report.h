@@ -18,12 +18,12 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
                                       const PageMaterial& material = {},
                                       const std::vector<ExperimentEstimates>& estimates = {});
 
-// A run for services that keep benchmark histories.
+// For services that keep benchmark histories.
 
 /// Bencher Metric Format: benchmark = experiment, measure = gated metric, lower_value and upper_value = bootstrap
 /// interval.
 std::string bencher_json(const RunResult& result);
-/// github-action-benchmark's customSmallerIsBetter: one entry per experiment and gated metric.
+/// customSmallerIsBetter: one entry per experiment and gated metric.
 std::string github_action_benchmark_json(const RunResult& result);
 
 }  // namespace glovebench::reports

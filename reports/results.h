@@ -49,7 +49,6 @@ struct NoiseSetting {
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
 };
 
-/// One trajectory tracked with one database.
 struct ExperimentKey {
   std::string trajectory;  ///< "Tr4"
   std::string database;    ///< "DB_open_power"
@@ -62,7 +61,7 @@ struct ExperimentKey {
 /// For file names: "Tr4_DB_open_power_recorded_subject1_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
-/// Consecutive frames under one noise seed.
+/// Consecutive, under one noise seed.
 struct SeedRun {
   uint64_t seed = 0;
   std::vector<FrameRecord> frames;
@@ -140,10 +139,10 @@ class Incomparable : public Error {
   using Error::Error;
 };
 
-/// Content hashes. Not in the protocol, so part of a run compares with the whole.
+/// Not in the protocol, so part of a run compares with the whole.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
-  std::map<std::string, std::string> databases;  ///< Database::content_hash by name
+  std::map<std::string, std::string> databases;  ///< content_hash by name
   std::string hand_model;                        ///< the tracker's
   std::string color_table;
 
@@ -152,7 +151,7 @@ struct InputHashes {
 /// "source/Tr4".
 std::string truth_name(const ExperimentKey& key);
 
-/// All results of a run. The same commit gives equal results.
+/// The same commit gives equal results.
 struct RunResult {
   Protocol protocol;
   InputHashes inputs;
@@ -161,7 +160,7 @@ struct RunResult {
   std::string commit;
   nlohmann::json configuration = nlohmann::json::object();
   std::vector<ExperimentResult> experiments;
-  std::vector<StudyResult> studies;  ///< of a reproduction
+  std::vector<StudyResult> studies;
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };

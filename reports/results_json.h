@@ -9,7 +9,7 @@
 
 namespace glovebench::reports {
 
-/// Columns of a frame in results.json and CSV files.
+/// In results.json and CSV files.
 std::vector<std::string> frame_columns(std::span<const std::string> metric_keys);
 nlohmann::ordered_json frame_row(const FrameRecord& frame, std::span<const std::string> metric_keys);
 
@@ -19,7 +19,7 @@ std::string results_json(const RunResult& result);
 void write_results(const std::string& path, const RunResult& result);
 
 /// Drops unknown metrics except their protocol keys. Missing ones are empty.
-/// Throws: Error for other content than results_json writes, such as a wrong protocol id or count.
+/// Throws: Error for other content, such as a wrong protocol id or count.
 RunResult read_results(const std::string& path);
 RunResult parse_results(const std::string& text, const std::string& where);
 

@@ -10,7 +10,7 @@ namespace glovebench::reports {
 
 /// Rows are experiments. Columns for trajectory, database, truth and noise precede `measured`.
 Table experiment_table(const std::vector<std::string>& measured);
-/// The cells of these four columns. `last_subject`: of a row about several.
+/// For these four columns. `last_subject`: of a row about several.
 Row experiment_names(const ExperimentKey& key, std::optional<int> last_subject = {});
 
 /// Position error with interval, metrics without joint convention, jitter, latency, lost and false frames.
@@ -18,20 +18,20 @@ Table detail_summary(const RunResult& result);
 
 /// Position, posture, rotation, fingertips, vertices, found and usable of each experiment.
 Table headline_table(const RunResult& result);
-/// Explains `headline_table`, plain text.
+/// Plain text.
 std::string headline_explanation();
-/// The headline for a terminal. Names that all experiments share stand above the table.
+/// Names that all experiments share stand above the table.
 std::string headline_text(const RunResult& result, size_t columns);
-/// The headline as LaTeX, after a comment that names the run.
+/// After a comment that names the run.
 std::string errors_latex(const RunResult& result);
 
-/// Warning for a quick run, plain text; else empty.
+/// Plain text; empty unless the run was quick.
 std::string quick_note(const RunResult& result);
 
-/// summary.md: claims, tables, explanations, studies, robot commands, protocol.
+/// Claims, tables, explanations, studies, robot commands, protocol.
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
 std::string study_markdown(const StudyResult& study);
-/// Explains the tables, plain text.
+/// Plain text.
 std::string summary_explanation();
 
 }  // namespace glovebench::reports

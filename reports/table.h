@@ -46,7 +46,7 @@ struct Table {
   std::string title;
   std::string explanation;  ///< of the columns, plain text
   std::vector<Column> columns;
-  int name_columns = 1;  ///< the first columns name a row
+  int name_columns = 1;  ///< first columns, which name a row
   std::vector<Row> rows;
 
   friend bool operator==(const Table&, const Table&) = default;
@@ -67,10 +67,9 @@ nlohmann::ordered_json cell_json(const Cell& cell);
 std::string to_markdown(const Table& table);
 /// `plots`: an SVG per row, after the names.
 std::string to_html(const Table& table, const std::vector<std::string>& plots = {});
-/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings, such as to span columns.
+/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings.
 std::string to_latex(const Table& table, const std::string& heading = "");
-/// Text for a terminal. The widest columns shrink to fit. `grouped`: the first column becomes a line above its
-/// rows.
+/// The widest columns shrink to fit. `grouped`: the first column becomes a line above its rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
 /// Keys, then values to 1e-6. `names`: columns in front, with the value of every row.
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});

@@ -27,8 +27,7 @@ std::string shortened(const std::string& text, size_t columns);
 /// room for as many in front.
 std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
 
-/// One line per member of objects and arrays, but one line per array of plain values. Equal values give equal
-/// bytes. Numbers must be finite.
+/// One line per member, but one per array of plain values. Equal values give equal bytes. Numbers must be finite.
 std::string format_json(const nlohmann::ordered_json& json);
 
 /// Rounds to 1e-6, without minus zero.

@@ -11,12 +11,12 @@ namespace glovebench::trajectories {
 
 // The data folder. README.md lists its files.
 
-/// The ground truths of section IV.
+/// Of section IV.
 const std::vector<std::string>& ground_truth_names();
 /// "pinch" or "power".
 /// Throws: Error for another name.
 std::string grasp_of(std::string_view trajectory);
-/// The databases with its grasp, the grasp-specific one first.
+/// Those with its grasp, the grasp-specific one first.
 /// Throws: Error for another name.
 std::vector<std::string> databases_of(std::string_view trajectory);
 const std::vector<std::string>& posture_set_names();

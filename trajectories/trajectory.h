@@ -28,7 +28,7 @@ struct Provenance {
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
-/// A ground truth: how the hand moves before the camera.
+/// A ground truth: the hand before the camera.
 struct Trajectory {
   std::string name;
   std::string description;
@@ -47,14 +47,13 @@ inline constexpr double kQuaternionNormTolerance = 1e-3;
 /// Throws: Error.
 Trajectory parse_trajectory(std::string_view text, const std::string& where);
 
-/// The canonical file: degrees and mm to 0.001, quaternions to 1e-7 with w >= 0. Parsing reproduces it byte for
-/// byte.
+/// Degrees and mm to 0.001, quaternions to 1e-7 with w >= 0. Parsing reproduces it byte for byte.
 /// Throws: Error if it could not be read again.
 std::string canonical_text(const Trajectory& trajectory);
 /// Throws: Error.
 void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
-/// Hash of the canonical file, which identifies a truth in results.
+/// Of the canonical file. Identifies a truth in results.
 std::string hash(const Trajectory& trajectory);
 
 }  // namespace glovebench::trajectories

@@ -52,7 +52,7 @@ std::string properties_table(const std::vector<Trajectory>& trajectories,
 /// Empty unless the angles, which files hold in degrees, look like radians.
 std::string angle_doubt(std::span<const Posture> postures);
 
-/// `angle_doubt`, and whether most frames lie nearer or farther than the working volume.
+/// Also whether most frames lie nearer or farther than the working volume.
 std::vector<std::string> unit_doubts(const Trajectory& trajectory, const WorkingVolume& volume);
 
 }  // namespace glovebench::trajectories

@@ -38,7 +38,7 @@ class ClosestPointPeer {
 using MakeClosestPointPeer = std::unique_ptr<ClosestPointPeer> (*)(const Surface& surface);
 extern const MakeClosestPointPeer kEmbree, kCgal;
 
-/// Aligns points with the centers of faces seen at the start, without colors.
+/// Uses centers of the faces seen at the start, without colors.
 using AlignPeer = Alignment (*)(const Surface& surface, std::span<const LabeledPoint> points,
                                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 extern const AlignPeer kPcl;
@@ -46,7 +46,7 @@ extern const AlignPeer kPcl;
 /// Starts a search at the point's last face, or at that of the previous point of its color.
 class WarmStart {
  public:
-  /// The point on that face. Face -1 if there is none. `last`: the point's last result, or face -1.
+  /// The point on that face, or face -1. `last`: the point's last result, or face -1.
   ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
     const int face = last.face >= 0 ? last.face : faces_[point.label];
     if (face < 0) return {};

@@ -27,7 +27,7 @@ struct LabeledPoint {
 struct LabeledCloud {
   RecycledVector<LabeledPoint> points;
   LabelImage labels;        ///< of `points`, 0 elsewhere
-  int labeled_outside = 0;  ///< glove pixels outside the volume
+  int labeled_outside = 0;  ///< glove pixels with depth outside the volume
   int labeled_cut_off = 0;  ///< of these, within kCutOffMargin
 };
 

@@ -70,7 +70,7 @@ struct TrackerChoices {
   /// Throws: Error if two flags have several values.
   void choose(CommonFlags& common) const;
   bool are_several() const;
-  /// One configuration per value of the repeated flag, after the paper's if it is none of them. The other flags are
+  /// One configuration per value of the repeated flag, after the paper's if it is none of them. Other flags are
   /// those of `common`.
   /// Throws: Error for a bad value, equal names, or other views of the databases.
   std::vector<NamedTracker> trackers(const CommonFlags& common) const;
@@ -107,10 +107,10 @@ struct FileFlag {
   std::string path;         ///< empty: none
   std::string ending = {};  ///< required; empty: any
 };
-/// Checks all files that a command writes or could overwrite.
+/// For all files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
-/// The same before the work.
+/// Before the work.
 /// Throws: Error also for another ending, or a file that cannot be written.
 void require_writable_files(const std::vector<FileFlag>& files);
 
@@ -125,7 +125,7 @@ struct RobotFlags {
   MountingFlag mounting;
   LimitsFlag limits;
 
-  /// Returns the option of `output`.
+  /// The option of `output`.
   Option add(Command command, const std::string& what);
   /// Throws: Error for an arm that this build lacks.
   RobotSetup setup(Workbench& workbench) const;

@@ -8,13 +8,13 @@
 
 namespace glovebench::eval {
 
-/// The text of --help: description, `usage`, arguments, options by group, commands. Rare options only if `all`.
+/// Description, `usage`, arguments, options by group, commands. Rare options only if `all`.
 std::string help_text(const CommandText& command, const std::string& usage, bool all, size_t columns);
 
 /// The commands below `command`, with the first lines of their descriptions.
 std::string commands_text(const CommandText& command, size_t columns);
 
-/// For an unknown word after `command`: "unknown flag --ouptut; did you mean --output?".
+/// "unknown flag --ouptut; did you mean --output?"
 std::string describe_unknown(const CommandText& command, const std::string& word);
 
 /// For man(1).

@@ -12,7 +12,7 @@ class Option;
 
 namespace glovebench::eval {
 
-/// Restricts an option. Each call returns the same option.
+/// Restricts an option. Each call returns it.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
@@ -25,7 +25,6 @@ class Option {
   Option named_file() const;
   Option existing_file() const;
   Option existing_folder() const;
-  /// A list of exactly this many values.
   Option count(int values) const;
   /// A list whose option is repeated for each value, so it takes no word that follows.
   Option repeated() const;
@@ -52,7 +51,7 @@ struct OptionText {
   bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// A command as help, man page and completion show it.
+/// For help, man page and completion.
 struct CommandText {
   std::string name;
   std::string description;
@@ -71,7 +70,7 @@ class Command {
   /// With subcommands, the user must name one unless the command `runs` by itself. Each line of the description is
   /// a paragraph. Lists of commands show the first.
   Command subcommand(const std::string& name, const std::string& description) const;
-  /// The same command. The help shows its options under `heading`.
+  /// The help shows its options under `heading`.
   Command group(const std::string& heading) const;
   /// Adds an option for `value`. `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help
   /// shows the default unless it is empty or the option required. A bool is a flag. A transform is X Y Z (m) QW QX
@@ -80,9 +79,9 @@ class Command {
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
   bool given(const std::string& name) const;
-  /// The options so far, with subcommands.
+  /// So far, with subcommands.
   CommandText text() const;
-  /// Sets the action. Its result is the exit code; void: 0.
+  /// Sets the action, whose result is the exit code; void: 0.
   template <typename Does>
   void runs(Does does) const {
     if constexpr (std::is_void_v<std::invoke_result_t<Does>>) {

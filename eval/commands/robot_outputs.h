@@ -23,7 +23,6 @@ struct BusFlags {
   DdsAccess access(const std::string& role) const { return {interface, security, role}; }
 };
 
-/// Sends robot commands to a file, a bus, both or neither.
 class RobotOutputs {
  public:
   /// `file`: JSON Lines; empty: none.
@@ -31,17 +30,16 @@ class RobotOutputs {
   RobotOutputs(const std::string& file, const std::optional<RobotBusOptions>& bus);
 
   bool any() const { return file_ || bus_; }
-  /// The arm's joints at the start. Empty without a controller.
+  /// At the start. Empty without a controller.
   std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
   /// Guards and sends a command. A robot's clock is the first frame's stamp plus wall time. With a controller,
-  /// motion starts at the measured joints, also after a lost hand. `arrived_us`: arrival of the frame, microseconds
-  /// since 1970.
+  /// motion starts at the measured joints, also after a lost hand. `arrived_us`: of the frame, since 1970.
   /// Throws: Error, also if the robot is not measured.
   void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
   /// `whole`: gives the file its name. Otherwise its lines stay at `kept()`, and an older file remains.
   /// Throws: Error.
   void finish(bool whole = true);
-  /// Path of unfinished lines. Empty without any.
+  /// Path of unfinished lines, if any.
   std::string kept() const { return file_ ? file_->kept() : ""; }
 
  private:

@@ -14,16 +14,16 @@ struct TrackSource {
   std::unique_ptr<Device> device;
   int frame_count = 0;                    ///< 0: live
   std::function<int()> dropped;           ///< lost images and frames
-  std::function<int64_t()> arrived_us;    ///< completion of the last frame, us since 1970
+  std::function<int64_t()> arrived_us;    ///< of the last complete frame, since 1970
   std::function<std::string()> ended_by;  ///< why a live device ended
 };
 
 struct SourceFlags {
-  std::string source;       ///<  "fakenect:FOLDER" or "freenect[:INDEX]"
+  std::string source;       ///< "fakenect:FOLDER" or "freenect[:INDEX]"
   std::string calibration;  ///< file; empty: the recording's, else a nominal Kinect's
   bool every_frame = false;
 
-  /// Adds --source and --calibration.
+  /// --source and --calibration.
   void add(Command command, const std::string& help);
 };
 

@@ -15,7 +15,7 @@
 
 namespace glovebench::eval {
 
-/// A bus for one test, with other processes on it.
+/// A bus with other processes on it.
 class DdsBus : public testing::Test {
  protected:
   void SetUp() override {

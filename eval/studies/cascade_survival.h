@@ -5,7 +5,7 @@
 
 namespace glovebench::eval {
 
-/// One stage of a cascade in a database, over all frames.
+/// In a database, over all frames.
 struct StageSurvival {
   std::string database;
   Cascade cascade;

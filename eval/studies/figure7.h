@@ -18,10 +18,10 @@ struct Figure7Setup {
 /// Paper: Figure 7.
 Figure7Setup figure7_setup(bool quick);
 
-/// Ranks all entries for each query and size. Bootstrap intervals are over queries. Ranks do not depend on threads.
+/// Bootstrap intervals are over queries. Ranks do not depend on threads.
 reports::StudyResult measure_figure7(const StudyContext& context, const Figure7Setup& setup);
 
-/// Rank of an entry, from 1. Ties share their mean rank.
+/// From 1. Ties share their mean rank.
 double rank_of(std::span<const float> errors, int entry);
 
 }  // namespace glovebench::eval

@@ -25,10 +25,10 @@ struct LightAxis {
 /// Strength 1/8 to 4 times the default's, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two each.
 std::vector<LightAxis> light_axes(bool quick);
 
-/// An unlabeled recording for calibration: Tr2, Tr3 and Tr5, which no curve measures.
+/// Unlabeled, for calibration: Tr2, Tr3 and Tr5, which no curve measures.
 calibration::ColorSamples record_under(Workbench& workbench, int subject, const LightPoint& point, int frames);
 
-/// A labeling method. `errors` is empty where calibration failed.
+/// `errors` is empty where calibration failed.
 struct LightWay {
   std::string name;
   std::optional<LabelErrors> errors;

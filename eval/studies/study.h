@@ -14,7 +14,7 @@ namespace glovebench::eval {
 struct StudyOptions {
   TrackerConfig tracker;
   std::vector<uint64_t> seeds = {1};
-  bool quick = false;             ///< few frames and queries: a test, not a measurement
+  bool quick = false;             ///< a test, not a measurement
   std::vector<Cascade> cascades;  ///< of Figure 8; empty: the paper's
 };
 
@@ -25,7 +25,6 @@ struct StudyContext {
   RunStore* store = nullptr;
 };
 
-/// A figure of the paper, or a question about it.
 struct Study {
   std::string_view name;   ///< "fig8"
   std::string_view title;  ///< "Figure 8: matching cascades"
@@ -46,7 +45,7 @@ struct Setting {
   bool clutter_in_volume = false;
 };
 
-/// All frames, or a stretch in a quick reproduction.
+/// In a quick reproduction, only a stretch.
 FrameRange frames_of(const StudyOptions& options);
 
 /// Each setting with each database on these trajectories (empty: all five; quick: one), with the study's seeds and
@@ -56,17 +55,17 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
                                  const std::vector<std::string>& trajectories = {});
 
 using Runs = std::vector<MeasuredRun>;
-/// Runs `study_specs` for errors. Runs share the machine, so their times mean little.
+/// For errors. Runs share the machine, so their times mean little.
 Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
                   const std::vector<std::string>& databases, reports::TruthKind truth,
                   const std::vector<std::string>& trajectories = {});
-/// Runs for times, on source truths: one tracker at a time, a stretch of each movement. Not stored.
+/// For times, on source truths: one tracker at a time, a stretch of each movement. Not stored.
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
                    const std::vector<std::string>& databases, Implementation implementation,
                    const std::vector<std::string>& trajectories = {});
 std::string times_explanation();
 
-/// Runs of one setting and database, by trajectory, then seed.
+/// By trajectory, then seed.
 using Selection = std::vector<const MeasuredRun*>;
 /// At least one run. `runs` must outlive the result.
 Selection select(const Runs& runs, std::string_view setting, std::string_view database);
@@ -76,7 +75,7 @@ Sample sample_of(const Selection& runs,
 Sample sample_of(const Selection& runs, std::string_view metric);
 /// [trajectory][seed].
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs);
-/// Times of a stage (empty: of whole frames), all frames and runs.
+/// Of a stage (empty: whole frames), all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
 
@@ -93,7 +92,7 @@ reports::StudyResult run_figure8(const StudyContext& context);
 reports::StudyResult run_figure9(const StudyContext& context);
 reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
-/// Figure 4 with profiles paper and paper-literal side by side. Decides no claim.
+/// Figure 4 with profiles paper and paper-literal. Decides no claim.
 reports::StudyResult run_paper_literal(const StudyContext& context);
 /// monocular.depth_error_cm is of the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);

@@ -37,8 +37,8 @@ struct NoiseConfig {
 
 /// Depth errors before 11-bit quantization. render/noise/X_noise.cpp defines `DepthNoise X_noise()`.
 struct DepthNoise {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
+  std::string_view name;
+  std::string_view description;
   /// Depth at unlimited resolution, m. Missing values (0) stay missing. `key` seeds all random numbers.
   DepthImage (*add)(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,
                     const FrameKey& key);

@@ -6,7 +6,7 @@
 
 namespace glovebench::render {
 
-/// Balls on a segment. The radius changes linearly. m.
+/// Balls on a segment, radius linear, m.
 struct Capsule {
   Eigen::Vector3d a;
   Eigen::Vector3d b;
@@ -31,7 +31,6 @@ struct FieldSample {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 };
 
-/// Signed distance from a capsule.
 FieldSample distance_to(const Capsule& capsule, const Eigen::Vector3d& p);
 
 /// Smooth union of distances d_i with shares s_i: -k log sum s_i exp(-d_i / k), at most the smallest distance of a

@@ -17,7 +17,7 @@ inline constexpr double kMostBorderShift = 0.003;
 /// Interpolated lattice noise in [-1, 1]. `scale`: step of the lattice, m.
 double smooth_noise(uint64_t seed, const Eigen::Vector3d& p, const Eigen::Vector3d& scale);
 
-/// A posed hand's glove, as functions on its surface.
+/// Functions on a posed hand's surface.
 class CapsuleGlove {
  public:
   CapsuleGlove(const std::vector<HandCapsule>& capsules, std::vector<Capsule> placed,

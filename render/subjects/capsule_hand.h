@@ -23,7 +23,7 @@ class CapsuleHand {
   /// Faster than `pose`.
   JointPoses joints(const Posture& posture) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// Hash of surface, folds and skeleton.
+  /// Of surface, folds and skeleton.
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
@@ -32,7 +32,7 @@ class CapsuleHand {
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
   /// Field value at each vertex, m: glove and folds. NaN at the cuff's flat end.
   const std::vector<double>& levels() const { return levels_; }
-  /// The field that vertex `v` follows, of placed capsules.
+  /// The field that vertex `v` follows.
   FieldSample field_at(size_t v, const std::vector<Capsule>& placed, const Eigen::Vector3d& p) const;
 
  private:

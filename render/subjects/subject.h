@@ -18,7 +18,7 @@ inline constexpr int kSubjectCount = 22;
 /// Copies share the hand.
 class Subject {
  public:
-  // Implicit, because every tracker's hand can be a subject.
+  // Implicit: every tracker's hand can be a subject.
   Subject(std::shared_ptr<const HandModel> model) : hand_(std::move(model)) {}
   Subject(std::shared_ptr<const CapsuleHand> hand) : hand_(std::move(hand)) {}
 

@@ -41,7 +41,7 @@ struct ClaimDefinition {
   std::string source;       ///< section or figure of the paper
   std::string paper_value;  ///< as printed; "": no number
   std::string measured;     ///< what, on which truth, meaning of the rule
-  std::string measure;      ///< name of a Measure
+  std::string measure;      ///< of a Measure
   Rule rule;
   ClaimKind kind = ClaimKind::reproduction;
   bool required = false;   ///< else the run fails
@@ -73,7 +73,7 @@ struct Claim {
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// A change of how all claims are judged.
+/// Of how all claims are judged.
 struct JudgingChange {
   std::string date;
   std::optional<std::string> commit;  ///< as in ClaimChange
@@ -94,7 +94,7 @@ struct ClaimSet {
 /// A field of claims.json as text: "below 10", "true".
 /// Throws: std::logic_error for another field.
 std::string field_text(const ClaimDefinition& definition, std::string_view field);
-/// Changes of the claim after the first.
+/// After the first.
 int change_count(const Claim& claim);
 
 /// reports/data/claims.json.

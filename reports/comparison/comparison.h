@@ -20,15 +20,15 @@ constexpr auto names_of(Verdict) {
   return std::to_array<std::string_view>({"better", "worse", "same", "not enough data"});
 }
 
-/// Name of rows over all experiments: means of their differences.
+/// Rows over all experiments: means of their differences.
 inline constexpr std::string_view kAllExperiments = "all";
 
-/// With fewer blocks of frames, the interval is too wide to be read.
+/// With fewer blocks of frames, an interval is too wide to be read.
 inline constexpr int kFewestBlocks = 5;
 
 struct CompareConfig {
   double family_error = 0.01;  ///< of all intervals together (Bonferroni), in (0, 1)
-  int block_frames = 16;       ///< fewest frames of a block, >= 16; successive frames are not independent
+  int block_frames = 16;       ///< minimum, >= 16; successive frames are not independent
   int resamples = 4000;        ///< >= 100
   uint64_t seed = 1;
 };
@@ -42,10 +42,10 @@ struct ComparisonRow {
   std::optional<double> candidate;
   std::optional<double> difference;  ///< candidate - baseline; positive is worse
   std::optional<double> low, high;   ///< simultaneous interval
-  int blocks = 0;                    ///< resampled blocks of frames
-  int trajectories = 1;              ///< of the blocks
-  /// Without enough data: frames of all seeds that would decide if further movements vary as these do.
-  int enough_frames = 0;  ///< 0: unknown, as with fewer than kFewestBlocks blocks
+  int blocks = 0;                    ///< resampled, of frames
+  int trajectories = 1;
+  /// Frames of all seeds that would decide if further movements vary as these do.
+  int enough_frames = 0;  ///< 0: decided, or unknown, as with fewer than kFewestBlocks blocks
   double minimum_effect = 0;
   bool is_measured = false;  ///< by a noise floor; else a default
   Verdict verdict = Verdict::not_enough_data;
@@ -60,7 +60,7 @@ struct ChangedFrame {
   std::optional<double> candidate_vertex_error_mm;
 };
 
-/// Differences per frame of one experiment: means over seeds with both values.
+/// Per frame of one experiment: means over seeds with both values.
 struct FrameDifferences {
   std::string experiment;
   int first_frame = 0;
@@ -87,7 +87,7 @@ struct Comparison {
   bool other_seeds = false;  ///< noise seeds differ, so noise is not paired
   bool has_noise_floor = false;
   std::vector<std::string> preselected;  ///< metrics chosen before the comparison; empty: all
-  std::vector<ComparisonRow> rows;       ///< all experiments first, then each
+  std::vector<ComparisonRow> rows;       ///< all experiments first
   std::vector<FrameDifferences> frames;
   std::vector<ChangedFrame> worst;  ///< most changed first; at most kWorstFrames
   std::vector<ConfigurationChange> configuration;
@@ -105,7 +105,6 @@ inline constexpr int kWorstFrames = 6;
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});
 
-/// What intervals and verdicts mean.
 std::string comparison_explanation(const Comparison& comparison);
 
 }  // namespace glovebench::reports

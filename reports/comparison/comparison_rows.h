@@ -7,7 +7,7 @@
 
 namespace glovebench::reports {
 
-/// Number of rows that share the family error: all experiments and each.
+/// Rows that share the family error: all experiments and each.
 int row_count(size_t metrics, size_t experiments);
 /// All experiments first, then each. `draws` must have the seed and resamples of `config`.
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,

@@ -16,13 +16,13 @@ struct OutcomeCount {
 };
 /// Each row counts once. "worse in places" only if there is such a row.
 std::vector<OutcomeCount> outcome_counts(const Comparison& comparison);
-/// "2 worse, 1 worse in places, 1 better, 33 same, 0 not enough data", then slower stages if speed was measured.
+/// "2 worse, 1 worse in places, 1 better, 33 same, 0 not enough data", then slower stages.
 std::string outcome_line(const ComparisonReport& report);
 
 /// Changed, not judged, or stopping.
 bool is_worth_reading(const ComparisonRow& row);
 
-/// One group per experiment, in order.
+/// By experiment, in order.
 std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison);
 
 /// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1". Other forms stay.
@@ -47,9 +47,9 @@ std::string result_sentence(const ComparedResult& result);
 /// `worse` for rows that stop the change.
 Tone tone_of(const ComparisonRow& row);
 
-/// Readable experiments, quantities, numbers. Verdict last.
+/// Verdict last.
 Table rows_table(std::span<const ComparisonRow> rows);
-/// The other tables: enough data, speed, configuration, uncompared metrics, stage times (for information).
+/// Enough data, speed, configuration, uncompared metrics, stage times (for information).
 std::vector<Table> comparison_tables(const ComparisonReport& report);
 /// Moves a last verdict beside the names, so narrow screens show it.
 Table verdict_first(Table table);

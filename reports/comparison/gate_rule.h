@@ -11,15 +11,15 @@
 // worse by at least its minimum effect, if a row rises by its sure effect, or if a stage becomes slower.
 //
 // The minimum effect comes from the noise floor: in 99% of comparisons, other noise seeds cause less. Without a
-// noise floor it is a default. The sure effect is two minimum effects; for a share of frames it is one. A few
-// blocks of frames give a wide interval, so a rise in one stretch of a movement is not significant. The sure effect
-// finds it.
+// noise floor it is a default. The sure effect is two minimum effects; for a share of frames it is one. A rise in
+// one stretch of a movement lies in few blocks of frames, so its interval is wide and the rise is not significant.
+// The sure effect finds it.
 
 namespace glovebench::reports {
 
-/// What another machine can cause. At least two frames for a share. `frames`: of all seeds.
+/// What another machine can cause; for a share, at least two frames. `frames`: of all seeds.
 double least_effect(const Metric& metric, int frames);
-/// The noise floor's effect or the default, at least least_effect. It grows if a result has fewer `seeds` than the
+/// The noise floor's effect or the default, at least least_effect. Grows if a result has fewer `seeds` than the
 /// floor, because a mean of fewer seeds varies more. `floor` may be null.
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
@@ -36,8 +36,8 @@ double missing_to_stop(const ComparisonRow& row);
 
 struct GateDecision {
   std::vector<std::string> failures;  ///< one line each: experiment, metric, numbers
-  std::vector<std::string> warnings;  ///< possible regressions without enough data, and gaps in the comparison
-  bool has_places = false;            ///< a failure is worse in places
+  std::vector<std::string> warnings;  ///< possible regressions without enough data, and gaps
+  bool has_places = false;
   bool passed() const { return failures.empty(); }
 };
 GateDecision decide(const Comparison& comparison, const std::vector<SpeedRow>& speed);

@@ -8,7 +8,7 @@
 
 namespace glovebench::reports {
 
-/// Effect of other noise seeds on one row of a comparison.
+/// Of other noise seeds on one row of a comparison.
 struct NoiseFloorEntry {
   std::string experiment;     ///< name or kAllExperiments
   std::string quantity;       ///< metric key
@@ -33,7 +33,7 @@ struct NoiseFloor {
   std::string date;  ///< ISO 8601, UTC
   std::vector<NoiseFloorEntry> entries;
 
-  /// Null if there is none.
+  /// Null if absent.
   const NoiseFloorEntry* find(std::string_view experiment, std::string_view quantity) const;
   friend bool operator==(const NoiseFloor&, const NoiseFloor&) = default;
 };
@@ -46,7 +46,7 @@ struct NoiseFloor {
 NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error = 0.01);
 
 std::string noise_floor_json(const NoiseFloor& floor);
-/// Throws: Error for other content than noise_floor_json writes.
+/// Throws: Error for other content.
 NoiseFloor read_noise_floor(const std::string& path);
 NoiseFloor parse_noise_floor(const std::string& text, const std::string& where);
 

@@ -50,11 +50,11 @@ class Draws {
   std::map<std::pair<std::string, int>, Eigen::MatrixXd> drawn_;
 };
 
-/// Mean difference per resample. NaN without a pair.
+/// Per resample. NaN without a pair.
 Eigen::VectorXd resampled_means(const BlockSums& sums, const std::string& trajectory, Draws& draws);
 /// Standard deviation without NaN. Empty if over half are NaN.
 std::optional<double> standard_error(const Eigen::VectorXd& means);
-/// Quantile that Student's t exceeds with this probability.
+/// Student's t exceeds it with this probability.
 double student_t_above(double probability, int degrees_of_freedom);
 
 }  // namespace glovebench::reports

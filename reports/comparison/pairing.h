@@ -11,7 +11,7 @@
 
 namespace glovebench::reports {
 
-/// `name`: file or folder, for messages.
+/// `name`: file or folder.
 struct NamedResult {
   std::string name;
   RunResult result;
@@ -30,12 +30,12 @@ struct PairingOptions {
   bool partial = false;
   /// Otherwise noise, subject and frames must be equal. Across frames, compares those of both results.
   std::vector<Across> across = {};
-  std::vector<std::string> metrics = {};  ///< keys of gated metrics, chosen before the comparison; empty: all
+  std::vector<std::string> metrics = {};  ///< gated, chosen before the comparison; empty: all
 
   bool is_across(Across what) const { return std::ranges::find(across, what) != across.end(); }
 };
 
-/// A difference in the configuration, or in what runs are compared across.
+/// In the configuration, or in what runs are compared across.
 struct ConfigurationChange {
   std::string field;     ///< "icp.max_iterations"
   std::string baseline;  ///< JSON; empty if absent
@@ -45,11 +45,11 @@ struct ConfigurationChange {
 /// Run i and frame j of both results belong together. Points into the results.
 struct Pairing {
   std::vector<const Metric*> metrics;                                                    ///< gated
-  std::vector<std::pair<const ExperimentResult*, const ExperimentResult*>> experiments;  ///<  baseline, candidate
-  std::vector<std::string> only_in_baseline;                                             ///< names of experiments
+  std::vector<std::pair<const ExperimentResult*, const ExperimentResult*>> experiments;  ///< baseline, candidate
+  std::vector<std::string> only_in_baseline;                                             ///< experiments
   std::vector<std::string> only_in_candidate;
   std::vector<ConfigurationChange> across = {};                   ///< difference in PairingOptions::across
-  std::vector<std::shared_ptr<const ExperimentResult>> cut = {};  ///< experiments with only the shared frames
+  std::vector<std::shared_ptr<const ExperimentResult>> cut = {};  ///< with only the shared frames
 };
 
 /// Gated metrics of both results, and why others are not compared.

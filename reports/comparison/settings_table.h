@@ -14,12 +14,12 @@ struct SettingRun {
   std::optional<double> time_ms;  ///< of a frame, measured while no other job ran; empty: unknown
 };
 
-/// Several runs of the same frames, each compared with the reference.
+/// Runs of the same frames, each compared with the reference.
 struct SettingsTable {
   std::string reference;
-  bool is_paper = false;            ///< the reference has the paper's configuration
+  bool is_paper = false;            ///< reference has the paper's configuration
   Table table;                      ///< quantity, setting, mean, difference with its interval, verdict
-  Table changes;                    ///< fields in which a setting differs from the reference
+  Table changes;                    ///< fields that differ from the reference
   std::vector<std::string> enough;  ///< one line per undecided row: how much data would decide
   std::string recommendation;
   std::string explanation;
@@ -30,13 +30,13 @@ std::vector<std::string> headline_metrics();
 
 /// Compares each run with the one that has the paper's configuration, else with the first. All intervals of the
 /// table hold together (CompareConfig::family_error).
-/// Throws: Error for fewer than two runs or a repeated name. Incomparable.
+/// Throws: Error for fewer than two runs or a repeated name; Incomparable.
 SettingsTable compare_settings(const std::vector<SettingRun>& runs, const PairingOptions& pairing,
                                const CompareConfig& config = {});
 
 std::string settings_text(const SettingsTable& settings, size_t columns);
 std::string settings_markdown(const SettingsTable& settings);
-std::string settings_html(const SettingsTable& settings);  ///< a page
+std::string settings_html(const SettingsTable& settings);
 std::string settings_latex(const SettingsTable& settings);
 
 }  // namespace glovebench::reports

@@ -20,12 +20,12 @@ inline constexpr double kFoundPosition_mm = 50, kFoundRotation_deg = 30;
 inline constexpr double kUsablePosition_mm = 10, kUsableRotation_deg = 10;
 inline constexpr double kUsableFingertips_mm = 20;  ///< mean of the five
 
-/// All of the above by name.
+/// By name.
 std::map<std::string, double> coverage_rules();
 
 // Errors are compared with the precision of files (1e-6), so a result counts the same before and after a file.
 
-/// False for a frame of an older result without visibility.
+/// False for a frame of an older result.
 bool is_visible(const FrameRecord& frame);
 /// Whether the frame is tracked with errors below the usable ones. Ignores errors that the result lacks.
 bool is_usable(const FrameRecord& frame);

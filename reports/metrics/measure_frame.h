@@ -18,8 +18,8 @@ struct FrameTruth {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
   JointPoses T_hand_joint;                        ///< of the rendered hand
   std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
-  bool trackable = false;                      ///< enough glove in the working volume, none cut by the image border
-  std::optional<double> visible_percent = {};  ///< see visibility.h; empty if not requested
+  bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
+  std::optional<double> visible_percent = {};     ///< see visibility.h; empty if not requested
 };
 
 /// Input of metrics. All values are finite.

@@ -59,7 +59,7 @@ const Metric& metric_of(std::string_view key);
 /// Index in frame_metrics().
 /// Throws: std::logic_error for an unknown key.
 size_t metric_index(std::string_view key);
-/// Empty for an unknown key, such as of another version.
+/// Empty for an unknown key.
 std::optional<size_t> find_frame_metric(std::string_view key);
 
 /// 100 or 0 for a share. Empty if the frame has no value.

@@ -6,7 +6,7 @@
 
 namespace glovebench::trajectories {
 
-/// Parameters of a person's hand: palm joints, segment lengths, marker positions. 0 is the nominal hand.
+/// Palm joints, segment lengths and marker positions of a person. 0 is the nominal hand.
 class HandParameters {
  public:
   explicit HandParameters(const CaptureHand& nominal);

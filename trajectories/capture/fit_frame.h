@@ -16,7 +16,7 @@ struct PosturePrior {
 };
 
 double prior_cost(const Posture& posture, const PosturePrior& prior);
-/// Adds the prior to a state's normal equations.
+/// To a state's normal equations.
 void add_prior(const Posture& posture, const PosturePrior& prior, Eigen::Ref<Eigen::MatrixXd> H,
                Eigen::Ref<Eigen::VectorXd> b);
 
@@ -46,11 +46,11 @@ struct FrameFit {
   double cost = 0;
 };
 
-/// Fits a state to points by damped Gauss-Newton with Cauchy's weights, joint limits and a prior about `start`.
+/// Fits a state by damped Gauss-Newton with Cauchy's weights, joint limits and a prior about `start`.
 FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
                    const FrameFitOptions& options = {});
 
-/// Distances of points from their markers, m. NaN for gaps.
+/// From the markers, m. NaN for gaps.
 std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                     const HandState& state);
 

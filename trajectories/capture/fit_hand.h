@@ -31,7 +31,7 @@ struct HandFit {
   int missing_points = 0;  ///< of labeled markers, in all frames
 };
 
-/// Fits a right hand, its postures and its poses to captured points. `markers`: from place_markers.
+/// Fits a right hand and its movement to captured points. `markers`: from place_markers.
 /// Throws: Error if the capture is no hand.
 HandFit fit_hand(const MarkerSequence& sequence, const std::vector<PlacedMarker>& markers, const Skeleton& skeleton,
                  const std::string& where);

@@ -31,10 +31,10 @@ inline Eigen::Vector3d gap() {
 inline bool is_seen(const Eigen::Vector3d& point) {
   return point.allFinite();
 }
-/// Whether the name is "unlabeled...", "unnamed..." (any case) or "*...".
+/// "unlabeled...", "unnamed..." (any case) or "*...".
 bool is_unlabeled(const std::string& name);
 
-/// Reads a cell of seconds.
+/// Seconds.
 /// Throws: Error.
 int64_t timestamp_from(std::string_view cell, const std::string& where, const std::string& field);
 
@@ -54,12 +54,12 @@ void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSeq
 /// The format "csv", mm to 0.001.
 std::string csv_markers(const MarkerSequence& sequence);
 
-/// Largest distance of a marker's point from its prediction, m.
+/// From a marker's prediction to its point, m.
 inline constexpr double kLabelGate = 0.015;
 
 struct Relabeling {
   std::vector<Eigen::Vector3d> points;  ///< by marker; or a gap
-  int corrected = 0;                    ///< markers whose point changed or went away
+  int corrected = 0;                    ///< markers whose point changed or vanished
 };
 
 /// Assigns points within kLabelGate to markers by the least sum of squared distances. A marker's own point counts

@@ -13,7 +13,7 @@ namespace glovebench::trajectories {
 
 inline constexpr double kFrameRateHz = 15;
 
-/// A value at a frame. `value_at` interpolates along minimum-jerk profiles.
+/// `value_at` interpolates along minimum-jerk profiles.
 template <typename Value>
 struct Keyframe {
   int frame = 0;
@@ -71,7 +71,7 @@ Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
 /// faces the camera. Roll is about camera y, pitch about x, yaw about z.
 Eigen::Quaterniond hand_rotation(double yaw, double pitch, double roll);
 
-/// Plays the script at 15 Hz.
+/// At 15 Hz.
 Trajectory perform(const MotionScript& script);
 
 }  // namespace glovebench::trajectories

@@ -24,13 +24,12 @@ struct MovementMaterial {
 /// Throws: Error.
 MovementMaterial load_movement_material(const std::string& data_folder, const Skeleton& skeleton);
 
-/// A movement at 15 Hz. It depends only on family, seed and material. A shorter movement is the beginning of a
-/// longer one.
+/// At 15 Hz. Depends only on family, seed and material. A shorter movement is the beginning of a longer one.
 /// Throws: Error if the ranges allow no posture or pose.
 Trajectory generate_movement(const MovementFamily& family, uint64_t seed, const MovementMaterial& material,
                              int frame_count = kMovementFrames);
 
-/// "side_3" for family `side` and seed 3.
+/// "side_3".
 std::string movement_name(const MovementFamily& family, uint64_t seed);
 struct NamedMovement {
   const MovementFamily* family = nullptr;
@@ -39,7 +38,7 @@ struct NamedMovement {
 /// Empty for other names.
 std::optional<NamedMovement> find_movement(std::string_view name);
 
-/// The angle between the back of the hand and the camera, deg: 0 if the back faces it, 180 if the palm does.
+/// Between the back of the hand and the camera, deg: 0 if the back faces it, 180 if the palm does.
 double tilt_deg(const Eigen::Matrix3d& R_camera_hand);
 
 }  // namespace glovebench::trajectories

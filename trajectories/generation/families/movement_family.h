@@ -22,8 +22,8 @@ inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance
 inline constexpr double kMostOverlap = 2e-3;          ///< of parts of a hand, m
 inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways
 
-/// A kind of movement, as ranges to draw from. Poses and postures go from one random key to the next along
-/// minimum-jerk profiles and rest there for a moment, independently of each other.
+/// Ranges to draw from. Poses and postures go from one random key to the next along minimum-jerk profiles and rest
+/// there for a moment, independently of each other.
 struct MovementFamily {
   std::string_view name;
   std::string_view description;
@@ -44,7 +44,7 @@ struct MovementFamily {
   std::array<Range, 2> bends;  ///< of alternate keys
   double wrist;                ///< largest share of the wrist's limits
   Range posture_s;             ///< from one posture to the next, s
-  bool captured = false;       ///< people's postures instead of random ones
+  bool captured = false;       ///< people's postures, not random ones
 };
 
 /// In the order of lists.
