@@ -7,8 +7,8 @@
 namespace glovebench::eval {
 
 /// The folder of a run in progress. After a crash the same command resumes and writes the same bytes.
-/// FOLDER/.unfinished/ marks the run. It holds `lock` (flock) and a file per finished part: a line with program
-/// hash, key and checksum, then the content.
+/// FOLDER/.unfinished/ marks the run and holds a lock and the finished parts, each with program hash, key and
+/// checksum.
 class RunStore {
  public:
   /// Throws: Error if another run holds the folder or it cannot be written.
@@ -27,7 +27,7 @@ class RunStore {
   /// Throws: Error if it cannot be written.
   void save(const std::string& key, const std::string& content) const;
 
-  /// Removes the mark.
+  /// Removes mark and parts at once.
   /// Throws: Error.
   void finish();
 

@@ -12,7 +12,7 @@ Plan with_tracker(Plan plan, const TrackerConfig& tracker);
 
 /// Runs the plan with each tracker. Returns a list per tracker, in the order of the plan. All trackers see the same
 /// images, rendered once. Stage times come from a second pass over the first frames of each experiment's first
-/// seed. There, one job runs at a time, and trackers take turns frame by frame.
+/// seed: one job at a time, trackers in turn frame by frame.
 /// Throws: as `execute`.
 std::vector<std::vector<MeasuredRun>> run_settings(Workbench& workbench, const Plan& plan,
                                                    std::span<const TrackerConfig> trackers,

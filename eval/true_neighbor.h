@@ -16,9 +16,9 @@ struct TrueNeighbor {
 };
 
 /// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. A look-up
-/// sees neither distance nor direction of the hand, so hands are compared at one origin and along one ray: the
-/// smallest rotation turns the ray through the middle of the bounding square (an entry's `box_ray`) to the optical
-/// axis. `model`: the database's hand. Both must outlive the search. Thread-safe.
+/// sees neither distance nor direction of the hand, so hands are compared at one origin and along one ray, through
+/// the middle of the bounding square (an entry's `box_ray`). `model`: the database's hand. Both must outlive the
+/// search. Thread-safe.
 class TrueNeighborSearch {
  public:
   TrueNeighborSearch(const HandModel& model, const Database& database);

@@ -10,9 +10,8 @@
 
 namespace glovebench::reports {
 
-/// Writes a run's folder (reports/README.md lists the files) and returns the files' names. timings.json, the page's
-/// latencies, studies' tables and claims also depend on times. The files are one set (core/base/file_set.h) that
-/// replaces an older report as a whole.
+/// Writes a run's folder (reports/README.md lists the files) and returns the files' names. The files are one set
+/// (core/base/file_set.h), which replaces an older report as a whole.
 /// Throws: Error if the folder cannot be written; an older report then stays.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const PageMaterial& material = {},

@@ -43,9 +43,9 @@ struct PairingRules {
 };
 
 /// Pairs each depth image with the color image nearest in time, the earlier of two. A depth image waits for a color
-/// image that is not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`. Color
-/// images are copied. Pairs come in order of time. Drops an image that is not later than its kind's last. A restart
-/// of the clock drops waiting images instead, and times go back.
+/// image that is not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`.
+/// Copies color images. Pairs come in order of time. Drops an image that is not later than its kind's last. A
+/// restart of the clock drops waiting images instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:

@@ -9,8 +9,8 @@ namespace glovebench {
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
 /// Maps postures so that a pinch stays a pinch (core/robot/README.md). Fits the vector from thumb to finger where
-/// it is short, and fades into the direct mapping where it is long. Levenberg-Marquardt starts at the last result
-/// and moves the motors, except the wrist's, as little as possible.
+/// it is short, and fades into the direct mapping where it is long. Starts at the last result and moves the motors,
+/// except the wrist's, as little as possible.
 class FingertipMapping {
  public:
   explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)

@@ -25,6 +25,7 @@ class Option {
   Option named_file() const;
   Option existing_file() const;
   Option existing_folder() const;
+  /// Exactly this many values.
   Option count(int values) const;
   /// A list whose option is repeated for each value, so it takes no word that follows.
   Option repeated() const;

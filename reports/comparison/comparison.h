@@ -97,10 +97,9 @@ struct Comparison {
 };
 inline constexpr int kWorstFrames = 6;
 
-/// Compares frame by frame and seed by seed. Blocks of frames and seeds are resampled within each sequence
-/// (rescaled bootstrap of Rao and Wu, n - 1 of n). Experiments on one trajectory share draws. Intervals are +-
-/// Student's t (blocks - 1 degrees of freedom) times the bootstrap's standard error, at the level that keeps the
-/// family error over all rows. `floor` gives minimum effects; may be null.
+/// Compares frame by frame and seed by seed (ci/README.md, "When a change counts"). Blocks of frames and seeds are
+/// resampled within each sequence (rescaled bootstrap of Rao and Wu, n - 1 of n); experiments on one trajectory
+/// share draws. Student's t has blocks - 1 degrees of freedom. `floor` gives minimum effects; may be null.
 /// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});

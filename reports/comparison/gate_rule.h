@@ -7,13 +7,10 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/speed.h"
 
-// The rule that stops a change (ci/README.md, "When a change counts"). A change fails if a row is significantly
-// worse by at least its minimum effect, if a row rises by its sure effect, or if a stage becomes slower.
-//
-// The minimum effect comes from the noise floor: in 99% of comparisons, other noise seeds cause less. Without a
-// noise floor it is a default. The sure effect is two minimum effects; for a share of frames it is one. A rise in
-// one stretch of a movement lies in few blocks of frames, so its interval is wide and the rise is not significant.
-// The sure effect finds it.
+// The rule that stops a change (ci/README.md, "When a change counts"): a row is significantly worse by at least its
+// minimum effect, a row rises by its sure effect, or a stage becomes slower. Other noise seeds cause less than the
+// minimum effect in 99% of comparisons. The sure effect is twice as large; for a share of frames it is one minimum
+// effect. It finds a rise in few blocks of frames, whose interval is too wide to be significant.
 
 namespace glovebench::reports {
 

@@ -38,10 +38,9 @@ struct NoiseFloor {
   friend bool operator==(const NoiseFloor&, const NoiseFloor&) = default;
 };
 
-/// From a result with many seeds. The minimum effect is Student's t at the family error over all entries, times the
-/// spread of a difference of means of `seeds_per_result` seeds. It is at least the metric's tolerance and, for a
-/// share, two frames. `detectable` comes from comparisons of disjoint seeds with a constant added to one. Rows
-/// without values or intervals have no entry. The caller sets the date.
+/// From a result with many seeds (ci/README.md, "Baselines"). The minimum effect is at least the metric's tolerance
+/// and, for a share, two frames. `detectable` comes from comparisons of disjoint seeds with a constant added to
+/// one. Rows without values or intervals have no entry. The caller sets the date.
 /// Throws: Error for fewer than kSeedsForEach * seeds_per_result seeds, or seeds that differ between experiments.
 NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error = 0.01);
 

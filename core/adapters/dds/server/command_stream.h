@@ -28,7 +28,7 @@ struct Arrival {
 
 /// Selects the messages that a server follows: valid, fresh, in time order, from one owner
 /// (core/adapters/dds/README.md, "The server"). Reads no clock. A gap between ticks, or a jump of the owner's
-/// clock, releases the owner and drops its goals.
+/// clock, releases the owner.
 class CommandStream {
  public:
   /// `topics`: their number.
