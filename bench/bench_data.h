@@ -20,7 +20,7 @@ struct Movement {
   std::vector<HandFrame> frames;
 };
 
-/// Every 19th frame of the five source trajectories, on which the robust alignment's width was chosen.
+/// Every 19th frame of the five source trajectories. The robust alignment's width was chosen on them.
 std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
 
 /// 70 fixed frames of ten random movements, never used for tuning.

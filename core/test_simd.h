@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs a test on each instruction set of processor and build.
+// Runs a test on each instruction set.
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

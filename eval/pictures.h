@@ -19,7 +19,7 @@ reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, cons
 /// Shows the frame of the run in `folder`, with flags for a user's own trajectory or database.
 std::string complete_command(const reports::WorstFrame& worst, const std::string& folder = ".");
 
-/// All tracker stages of one frame, and its errors. The frame is tracked alone, so without the filter.
+/// All tracker stages of one frame, and its errors. The frame is tracked alone, without the filter.
 /// Throws: Error if the frame does not exist or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
 

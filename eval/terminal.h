@@ -18,7 +18,7 @@
 
 namespace glovebench::eval {
 
-/// Drops text that nobody can read (full or closed pipe, lost terminal), so work never stops.
+/// Drops text that nobody can read (full or closed pipe, lost terminal).
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);

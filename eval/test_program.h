@@ -137,7 +137,6 @@ inline std::map<std::string, std::string> read_timeless(const std::string& folde
   return files;
 }
 
-/// A moving right hand that begins to close.
 inline nlohmann::json make_trajectory_json(const std::string& name, int frame_count) {
   nlohmann::json names = nlohmann::json::array(), frames = nlohmann::json::array();
   for (const AngleInfo& info : angle_infos()) names.push_back(info.name);

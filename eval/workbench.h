@@ -38,7 +38,7 @@ class Workbench {
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
-  /// Of the synthetic Kinect's cameras, because colors do not depend on geometry.
+  /// Of the synthetic Kinect's cameras, whatever `calibration` is.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);

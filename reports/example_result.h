@@ -8,8 +8,6 @@
 #include "reports/example_studies.h"
 #include "reports/results.h"
 
-// For tests and a look at the page.
-
 namespace glovebench::reports {
 
 /// Other errors are multiples of these.

@@ -139,7 +139,7 @@ class Incomparable : public Error {
   using Error::Error;
 };
 
-/// Not in the protocol, so part of a run compares with the whole.
+/// Outside the protocol, so part of a run compares with the whole.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
   std::map<std::string, std::string> databases;  ///< content_hash by name

@@ -64,8 +64,8 @@ struct BootstrapConfig {
   double level = 0.95;    ///< in (0, 1)
   uint64_t seed = 1;
 };
-/// Of the mean over seeds (rows) and frames (columns; empty if lost). Resamples seeds and blocks of frames
-/// together, because seeds share the movement. Empty for fewer than two blocks or no values.
+/// Interval of the mean over seeds (rows) and frames (columns; empty if lost). Resamples seeds and blocks of frames
+/// together. Empty for fewer than two blocks or no values.
 std::optional<ConfidenceInterval> confidence_interval(
     const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config = {});
 
@@ -79,8 +79,8 @@ struct Draw {
   std::vector<int> seeds;
   std::vector<int> frames;
 };
-/// Of a statistic over strata. Resamples seeds and blocks of frames in each. `statistic` gets one draw per stratum
-/// and may be empty. The interval is empty if `statistic` always is, or for fewer than five blocks in all.
+/// Interval of a statistic over strata. Resamples seeds and blocks of frames in each. `statistic` gets one draw per
+/// stratum and may be empty. Empty if `statistic` always is, or for fewer than five blocks in all.
 std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
@@ -88,12 +88,11 @@ std::optional<ConfidenceInterval> stratified_interval(
 
 /// |T| is below it with probability `level`, 0..1.
 double student_quantile(double level, int degrees_of_freedom);
-/// Of the mean of independent values. Empty for fewer than five values, and for equal ones, which do not show how
-/// others would vary.
+/// Interval of the mean of independent values. Empty for fewer than five values, and for equal ones.
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
                                                    double level = 0.95);
 
-/// A kilometer in mm, so that sums of squares stay finite.
+/// A kilometer in mm. Sums of squares stay finite.
 inline constexpr double kLargestError = 1e6;
 
 nlohmann::ordered_json aggregate_json(const Aggregate& aggregate);

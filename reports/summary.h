@@ -22,13 +22,12 @@ Table headline_table(const RunResult& result);
 std::string headline_explanation();
 /// Names that all experiments share stand above the table.
 std::string headline_text(const RunResult& result, size_t columns);
-/// After a comment that names the run.
+/// LaTeX after a comment that names the run.
 std::string errors_latex(const RunResult& result);
 
 /// Plain text; empty unless the run was quick.
 std::string quick_note(const RunResult& result);
 
-/// Claims, tables, explanations, studies, robot commands, protocol.
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
 std::string study_markdown(const StudyResult& study);
 /// Plain text.

@@ -21,7 +21,7 @@ std::string fixed(const std::optional<double>& value, int digits);
 inline constexpr size_t kTerminalColumns = 120;
 /// UTF-8 characters, one column each.
 size_t text_width(std::string_view text);
-/// Cuts the middle, because names differ at their ends.
+/// Cuts the middle.
 std::string shortened(const std::string& text, size_t columns);
 /// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces. The first has
 /// room for as many in front.

@@ -30,7 +30,7 @@ struct Timings {
   std::string commit;
   std::string date;  ///< ISO 8601, UTC
   double wall_s = 0;
-  /// Of the process, because experiments run side by side.
+  /// Of the whole process.
   std::optional<double> peak_memory_mb;
   std::vector<ExperimentTiming> experiments;
 };

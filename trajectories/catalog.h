@@ -16,7 +16,7 @@ const std::vector<std::string>& ground_truth_names();
 /// "pinch" or "power".
 /// Throws: Error for another name.
 std::string grasp_of(std::string_view trajectory);
-/// Those with its grasp, the grasp-specific one first.
+/// Databases with its grasp, the grasp-specific one first.
 /// Throws: Error for another name.
 std::vector<std::string> databases_of(std::string_view trajectory);
 const std::vector<std::string>& posture_set_names();

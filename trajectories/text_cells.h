@@ -28,7 +28,7 @@ class Lines {
   size_t number_ = 0;
 };
 
-/// If it fills the cell. May be NaN or infinite.
+/// The number that fills the cell, also NaN or infinite.
 std::optional<double> number_in(std::string_view cell);
 /// Throws: Error unless the cell is a number from `min` to `max`.
 double number_from(std::string_view cell, double min, double max, const std::string& where,

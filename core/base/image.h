@@ -57,7 +57,6 @@ using LabelImage = Image<uint8_t>;
 /// Paper: section III-A.
 inline constexpr int kColorCount = 10;
 
-/// From left to right.
 template <typename Visit>
 void for_each_nonzero(const Image<uint8_t>& image, int v, const Visit& visit) {
   const uint8_t* const row = image.data() + static_cast<size_t>(v) * image.width();

@@ -10,7 +10,7 @@ namespace glovebench {
 /// Protects the stack.
 inline constexpr size_t kDeepestNesting = 64;
 
-/// Memory of a document, plus a part per byte of text. The project's files need 3 to 10.
+/// Limits of a document's memory: a constant, plus a part per byte of text.
 inline constexpr uint64_t kJsonBytes = uint64_t{8} << 20;
 inline constexpr uint64_t kJsonBytesPerByte = 12;
 inline constexpr uint64_t kCborBytesPerByte = 64;

@@ -41,7 +41,7 @@ std::string checked_name(std::string name, const std::string& where, const std::
 /// "FOLDER/NAME". The name may contain folders.
 /// Throws: Error for an absolute name, or a part that is empty, begins with a dot or has control characters.
 std::string path_within(const std::string& folder, std::string_view name);
-/// For writing or removing.
+/// The same for writing or removing.
 /// Throws: Error also if a folder in the name is a symbolic link.
 std::string place_within(const std::string& folder, std::string_view name);
 

@@ -35,8 +35,7 @@ nlohmann::ordered_json color_report_json(const ColorSamples& samples, const Glov
 std::string color_report_markdown(const ColorSamples& samples, const GloveColorFit& fit,
                                   const ColorSeparation& separation);
 
-/// For checking a color table by eye: views beside their labels, and the (U, V) plane with the table's regions, the
-/// pixels and the fitted Gaussians.
+/// For checking a color table by eye: views with labels, and the (U, V) plane with regions, pixels and Gaussians.
 ColorImage color_picture(std::span<const VolumeView> views, const ColorSamples& samples, const GloveColorFit& fit,
                          const ColorTable& table);
 

@@ -27,7 +27,7 @@ ColorSeeds parse_glove_colors(std::string_view text, const std::string& where);
 /// Throws: Error.
 ColorSeeds load_seeds(const std::string& path);
 
-/// Change of light and camera from seeds to recording.
+/// Change of light and camera between seeds and recording.
 struct RecordedLight {
   Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< on linear R, G, B; G = 1
   /// Factor on the chroma: > 1 in weak light, < 1 with haze or reflections.

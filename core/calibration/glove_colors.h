@@ -10,7 +10,7 @@
 
 namespace glovebench::calibration {
 
-/// Allows little change of light, because a recording shows it.
+/// For a recording, which shows its light: allows little change of it.
 ColorModel recorded_color_model();
 
 struct GloveColorConfig {

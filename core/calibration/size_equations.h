@@ -21,7 +21,7 @@ class SurfaceMotion {
 
  private:
   const HandModel& model_;
-  std::vector<HandModel> stretched_;  ///< by size, each 1% larger
+  std::vector<HandModel> stretched_;
 };
 
 /// Normal equations of one view: H sizes = g with pose and posture eliminated, and their step for a step of the

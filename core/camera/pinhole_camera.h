@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// A small file cannot claim more memory.
+/// Limits of images from files.
 inline constexpr int kMostSide_px = 4096;
 inline constexpr int kMostPixels = 1 << 21;  // a little over 1920x1080
 

@@ -19,11 +19,11 @@ struct RowRange {
   int first = 0, last = 0;
 };
 
-/// Faster: relaxes whole rows.
+/// The same, faster.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
-/// Only for rows `wanted`.
+/// The same for rows `wanted` only.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
-/// All colors in turn.
+/// The fields of all colors in turn.
 void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields);
 
 }  // namespace glovebench

@@ -24,8 +24,8 @@ struct WeightedRow {
 };
 
 /// One size's distance fields for a search over all entries: blocks of 64 entries, a row per color and cell, a
-/// value per entry. In large images a cell holds the minimum of 4 x 4 or 8 x 8 pixels, so sums over cells are lower
-/// bounds.
+/// value per entry. In large images a cell holds the minimum of 4 x 4 or 8 x 8 pixels. Sums over cells are then
+/// lower bounds.
 class FieldRows {
  public:
   static constexpr int kBlock = 64;            ///< entries: a cache line

@@ -45,7 +45,7 @@ std::string path_in_recording(const std::string& folder, const std::string& name
 /// Throws: Error if it is malformed or lists a file twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 
-/// Checks sizes and headers of the files, because fakenect ends the program at a bad one.
+/// Checks sizes and headers of the files. fakenect ends the program at a bad one.
 /// Throws: Error.
 void check_fakenect_dump(const std::string& folder);
 

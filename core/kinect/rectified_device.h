@@ -19,7 +19,7 @@ class Rectification {
   /// Throws: Error as `require_unfolded`.
   Rectification(const PinholeCamera& camera, const LensDistortion& lens);
 
-  /// Takes the nearest pixel, so it mixes no surfaces. Pixels from outside are 2047.
+  /// Takes the nearest pixel. Pixels from outside are 2047.
   Image<uint16_t> operator()(const Image<uint16_t>& raw_disparity) const;
   /// Interpolates. Pixels from outside are black.
   ColorImage operator()(const ColorImage& color) const;

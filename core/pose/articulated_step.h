@@ -61,11 +61,11 @@ struct RowSums {
   Vector6d sum = Vector6d::Zero();
 
   void add(const Pull& pull);
-  /// A pull along each axis.
+  /// Adds a pull along each axis.
   void add_along_axes(const Eigen::Vector3d& q, const Eigen::Vector3d& apart_mm, double weight);
 };
 
-/// The same, faster: sums for each pair of bodies that share points.
+/// The same, faster.
 class PullSums {
  public:
   explicit PullSums(const std::array<Screw, kAngleCount>& screws);

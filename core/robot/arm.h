@@ -45,13 +45,13 @@ struct MountedArm {
 /// Elbow up, flange 0.6 m ahead of the base, looking down.
 inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, 1.04, 1.5708};
 
-/// Solves in small steps between poses, so joint angles never jump.
+/// Solves in small steps, so joint angles never jump.
 class ArmFollower {
  public:
   explicit ArmFollower(std::shared_ptr<const ArmSolver> solver, const ArmJoints& start = kArmAtRest)
       : solver_(std::move(solver)), joints_(start) {}
 
-  /// Moves the flange to a pose. If it is out of reach, returns false and stays.
+  /// Moves the flange to a pose. Returns false and stays if it is out of reach.
   bool follow(const Eigen::Isometry3d& T_base_flange);
   const ArmJoints& joints() const { return joints_; }
 

@@ -24,7 +24,7 @@ enum class Intervention {
   stale,        ///< dropped: time stamp not later, or the frame's goes back
   not_finite,   ///< refused
   not_rigid,    ///< refused: invalid rotation
-  joint_limit,  ///< moved into the limits, or J1 under J2
+  joint_limit,  ///< moved into its limits, or J1 under J2
   coupling,
   actuator_mismatch,  ///< motors did not fit their joints
   joint_speed,

@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Right hand, thumb to little. Hand frame, m.
+/// Of the right hand, thumb to little. Hand frame, m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
 /// Maps postures so that a pinch stays a pinch (core/robot/README.md). Fits the vector from thumb to finger where

@@ -9,7 +9,7 @@ namespace glovebench {
 
 /// Thumb to little. Hand frame, m.
 using Fingertips = Eigen::Matrix<double, 3, 5>;
-/// Of fingertip f (rows 3 f to 3 f + 2) by the joints, m/rad.
+/// Derivatives of fingertip f (rows 3 f to 3 f + 2) by the joints, m/rad.
 using FingertipJacobian = Eigen::Matrix<double, 15, kShadowJointCount>;
 
 /// Largest distance of fingertips from the hand frame's origin and from WRJ2, m.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Fingertips from Shadow's dimensions, independent of the library.
+// Shadow's dimensions, independent of the library.
 
 #include <Eigen/Core>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Checks streams of guarded commands, independent of the guard.
+// Independent of the guard.
 
 #include <cmath>
 #include <string>

@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Of the newest `count` results. Null if all were lost.
+/// The last tracked one of the newest `count` results. Null if all were lost.
 const TrackResult* last_tracked(std::span<const TrackResult> previous, int count);
 
 /// Filters by x = keep * previous + (1 - keep) * new. A lost frame repeats the last values. After `forget_after`

@@ -110,7 +110,7 @@ struct FileFlag {
 /// For all files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
-/// Before the work.
+/// The same before the work.
 /// Throws: Error also for another ending, or a file that cannot be written.
 void require_writable_files(const std::vector<FileFlag>& files);
 

@@ -12,7 +12,7 @@ class Option;
 
 namespace glovebench::eval {
 
-/// Restricts an option. Each call returns it.
+/// Restricts an option. Each call returns the same one.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
@@ -27,7 +27,7 @@ class Option {
   Option existing_folder() const;
   /// Exactly this many values.
   Option count(int values) const;
-  /// A list whose option is repeated for each value, so it takes no word that follows.
+  /// A list whose option is repeated for each value.
   Option repeated() const;
   /// A list that commas may separate.
   Option comma_separated() const;

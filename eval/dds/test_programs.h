@@ -15,7 +15,6 @@
 
 namespace glovebench::eval {
 
-/// A bus with other processes on it.
 class DdsBus : public testing::Test {
  protected:
   void SetUp() override {

@@ -5,7 +5,7 @@
 
 namespace glovebench::eval {
 
-/// In a database, over all frames.
+/// One stage in a database, over all frames.
 struct StageSurvival {
   std::string database;
   Cascade cascade;

@@ -14,7 +14,7 @@ struct LightPoint {
   render::Lighting lighting;
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  ///< gains on linear R, G, B
 };
-/// The one thing that varies.
+/// One thing that varies.
 struct LightAxis {
   std::string table;  ///< "light_strength"
   std::string title;

@@ -55,11 +55,11 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
                                  const std::vector<std::string>& trajectories = {});
 
 using Runs = std::vector<MeasuredRun>;
-/// For errors. Runs share the machine, so their times mean little.
+/// Runs for errors. Their times mean little, because runs share the machine.
 Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
                   const std::vector<std::string>& databases, reports::TruthKind truth,
                   const std::vector<std::string>& trajectories = {});
-/// For times, on source truths: one tracker at a time, a stretch of each movement. Not stored.
+/// Runs for times, on source truths: one tracker at a time, a stretch of each movement. Not stored.
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
                    const std::vector<std::string>& databases, Implementation implementation,
                    const std::vector<std::string>& trajectories = {});

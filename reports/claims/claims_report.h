@@ -7,7 +7,7 @@
 
 namespace glovebench::reports {
 
-// Texts depend on times, because some claims are about times.
+// Texts may depend on times.
 
 /// "3.88 [3.50, 4.20] mm"; "-": no value.
 std::string measured_text(const ClaimVerdict& verdict);

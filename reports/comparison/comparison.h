@@ -84,7 +84,7 @@ struct Comparison {
   ComparedResult candidate;
   CompareConfig config;
   int seeds = 0;             ///< maximum per experiment
-  bool other_seeds = false;  ///< noise seeds differ, so noise is not paired
+  bool other_seeds = false;  ///< noise seeds differ; noise is not paired
   bool has_noise_floor = false;
   std::vector<std::string> preselected;  ///< metrics chosen before the comparison; empty: all
   std::vector<ComparisonRow> rows;       ///< all experiments first

@@ -51,7 +51,7 @@ Tone tone_of(const ComparisonRow& row);
 Table rows_table(std::span<const ComparisonRow> rows);
 /// Enough data, speed, configuration, uncompared metrics, stage times (for information).
 std::vector<Table> comparison_tables(const ComparisonReport& report);
-/// Moves a last verdict beside the names, so narrow screens show it.
+/// Moves a last verdict beside the names, for narrow screens.
 Table verdict_first(Table table);
 
 }  // namespace glovebench::reports

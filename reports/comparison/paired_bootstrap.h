@@ -34,8 +34,7 @@ struct BlockSums {
 BlockSums block_sums(const PairedDifferences& differences, int block_frames);
 
 /// How often each resample (row) has each block or seed. n - 1 of n are drawn, so the variance is unbiased even for
-/// small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws, because they share its difficult
-/// moments.
+/// small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws.
 class Draws {
  public:
   Draws(uint64_t seed, int resamples) : seed_(seed), resamples_(resamples) {}
@@ -54,7 +53,7 @@ class Draws {
 Eigen::VectorXd resampled_means(const BlockSums& sums, const std::string& trajectory, Draws& draws);
 /// Standard deviation without NaN. Empty if over half are NaN.
 std::optional<double> standard_error(const Eigen::VectorXd& means);
-/// Student's t exceeds it with this probability.
+/// The value that Student's t exceeds with this probability.
 double student_t_above(double probability, int degrees_of_freedom);
 
 }  // namespace glovebench::reports

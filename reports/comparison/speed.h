@@ -31,8 +31,7 @@ struct SpeedRow {
   double limit = 0;  ///< slower if `best` is below
   bool slower = false;
 };
-/// Half the baseline's ratio, because other processors and load change it less. Below 4, the square root of the
-/// ratio.
+/// Half the baseline's ratio; below 4, its square root.
 double speed_limit(double baseline);
 
 /// In the baseline's order. New ratios are not compared.

@@ -8,8 +8,7 @@ namespace glovebench::reports {
 
 struct FrameRecord;
 
-// The rules of coverage. Each result's protocol contains them, so a new rule is a new protocol. The tracker's
-// configuration does not change them.
+// The rules of coverage. Each result's protocol contains them: a new rule is a new protocol.
 
 /// The hand is visible if at least this share of its camera-facing area is in both images and in the volume.
 inline constexpr double kVisible_percent = 30;
@@ -23,7 +22,7 @@ inline constexpr double kUsableFingertips_mm = 20;  ///< mean of the five
 /// By name.
 std::map<std::string, double> coverage_rules();
 
-// Errors are compared with the precision of files (1e-6), so a result counts the same before and after a file.
+// Errors are compared with the precision of files (1e-6).
 
 /// False for a frame of an older result.
 bool is_visible(const FrameRecord& frame);

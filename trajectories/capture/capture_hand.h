@@ -28,7 +28,7 @@ HandState moved(const HandState& state, const StateStep& step);
 
 /// Capture frame.
 std::vector<Eigen::Vector3d> predict_points(const CaptureHand& hand, const HandState& state);
-/// Of predict_points, three rows per marker.
+/// Derivative of predict_points, three rows per marker.
 Eigen::MatrixXd state_jacobian(const CaptureHand& hand, const HandState& state);
 
 /// Of the frame that holds a marker, in the hand frame.

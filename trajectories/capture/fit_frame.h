@@ -16,7 +16,7 @@ struct PosturePrior {
 };
 
 double prior_cost(const Posture& posture, const PosturePrior& prior);
-/// To a state's normal equations.
+/// Adds the prior to a state's normal equations.
 void add_prior(const Posture& posture, const PosturePrior& prior, Eigen::Ref<Eigen::MatrixXd> H,
                Eigen::Ref<Eigen::VectorXd> b);
 
@@ -50,7 +50,7 @@ struct FrameFit {
 FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
                    const FrameFitOptions& options = {});
 
-/// From the markers, m. NaN for gaps.
+/// From their markers, m. NaN for gaps.
 std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                     const HandState& state);
 

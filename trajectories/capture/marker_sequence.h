@@ -63,7 +63,7 @@ struct Relabeling {
 };
 
 /// Assigns points within kLabelGate to markers by the least sum of squared distances. A marker's own point counts
-/// as half as far, so noise swaps nothing. `predicted` and `labeled` have one item per marker.
+/// as half as far. `predicted` and `labeled` have one item per marker.
 Relabeling relabel(const std::vector<Eigen::Vector3d>& predicted, const std::vector<Eigen::Vector3d>& labeled,
                    const std::vector<Eigen::Vector3d>& unlabeled);
 

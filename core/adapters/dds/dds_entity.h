@@ -15,15 +15,14 @@
 #include "core/adapters/dds/dds_access.h"
 #include "core/adapters/dds/dds_types.h"
 
-/// Owns an entity of Cyclone DDS.
-/// Throws: Error if the library refuses.
+/// Throws: Error, from every function, if Cyclone DDS refuses.
 namespace glovebench {
 
 /// Returns `result`.
 /// Throws: Error for an error code.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// Limits of messages, which bound the memory that other processes can use.
+/// Limits of messages, which bound the memory that others can use.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
 inline constexpr int kMaxWaiting = 10'000;        // in a reader: a flood of 0.1 s
 
@@ -35,7 +34,7 @@ int64_t dds_messages_too_large();
 
 struct DdsDomain;
 
-/// A participant in a domain, which makes the other entities.
+/// Makes the other entities in a domain.
 class DdsParticipant {
  public:
   /// Throws: Error for a domain outside 0..230, an unknown interface, an interface besides CYCLONEDDS_URI, or a
@@ -49,7 +48,7 @@ class DdsParticipant {
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
   /// As in ROS 2: reliable, volatile, the last 10 messages.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile. Senders wait while `max_waiting` messages wait, so a flood removes no message of others.
+  /// Reliable, volatile. Senders wait while `max_waiting` messages wait.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
   /// Keeps the last `depth` messages of other participants.
   dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
@@ -113,7 +112,7 @@ class DdsSenders {
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
   /// The writer's participant, even if it is gone. Empty beyond kMostWriters; counts such messages.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
-  /// Participants of present writers, perhaps without messages.
+  /// Participants of present writers, even without messages.
   std::set<uint64_t> present();
 
  private:
@@ -141,7 +140,7 @@ class DdsReader {
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
 
-  /// The next message. Decodes it only if `is_wanted(sender)`, so floods of others cost little.
+  /// The next message. Decodes it only if `is_wanted(sender)`.
   template <typename IsWanted>
   std::optional<Received> take(const IsWanted& is_wanted) {
     for (;;) {

@@ -36,7 +36,7 @@ struct MovementFamily {
   Range tilt_axis_deg;  ///< in the image, from the hand's breadth (0) to its length (90); reversed in half of the
                         ///< movements
   double yaw_deg;       ///< about the optical axis, either way
-  // Ways between keys. The slower of both sets the time, so peaks are at most these.
+  // Ways between keys. The slower of both sets the time.
   Range speed;      ///< peak, m/s
   Range turn_rate;  ///< peak, rad/s
 

@@ -81,7 +81,6 @@ struct RobotState {
   std::vector<double> velocity;  ///< rad/s, since the last state
 };
 
-/// Of the arm's poses.
 inline constexpr const char* kBaseFrame = "base_link";
 
 /// ROS names (`rh_FFJ1` ...) of the hand's controller, of the wrist's, and of all in the order of ShadowJoint.
@@ -95,7 +94,7 @@ const std::vector<std::string>& arm_joint_names();
 ros::Time ros_time(int64_t time_us);
 int64_t nanoseconds(const ros::Time& time);
 
-/// Largest age or lead of a trusted state.
+/// Largest age or lead of a trusted measured state.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
 /// Time for a controller to reach targets. A straight path then keeps the guard's speeds.

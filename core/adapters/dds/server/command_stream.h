@@ -14,7 +14,6 @@
 
 namespace glovebench {
 
-/// One moment on two clocks.
 struct ServerTime {
   int64_t clock_us = 0;   ///< monotonic
   int64_t system_us = 0;  ///< since 1970; may jump
@@ -52,7 +51,7 @@ class CommandStream {
   int64_t count(Receipt receipt) const { return receipts_[static_cast<size_t>(receipt)]; }
 
  private:
-  /// Of one sender on one topic.
+  /// For one topic of one sender.
   struct Delays {
     std::deque<std::pair<int64_t, int64_t>> smallest;  ///< per second: start, smallest delay, us
     std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time

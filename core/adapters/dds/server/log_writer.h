@@ -15,8 +15,7 @@ int64_t changed_us(const std::string& path);
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines in a thread of its own, so callers never wait for the disk. A lost line still updates the file's
-/// time.
+/// Appends lines in a thread of its own. A lost line still updates the file's time.
 class LogWriter {
  public:
   /// Throws: Error if the file cannot be opened, or another LogWriter has this regular file.

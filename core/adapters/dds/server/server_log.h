@@ -25,7 +25,7 @@ std::string received_line(const ReceivedLine& received);
 std::string state_line(const RobotState& state, int64_t time_us, const std::vector<std::string>& names);
 /// The joints stay inside the interval, rounded outward, until the next such line.
 std::string interval_line(const JointInterval& interval, int64_t time_us, const std::vector<std::string>& names);
-/// `from`: of the joints' positions.
+/// `from`: source of the joints' positions.
 std::string start_line(int64_t time_us, std::string_view from);
 
 struct LoggedState {
