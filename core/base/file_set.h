@@ -14,8 +14,7 @@
 
 namespace glovebench {
 
-// A set: files of one folder that change together (core/base/README.md). A writer replaces manifest.json, then
-// moves the new files from FOLDER/.staged/. After a crash the next writer moves them.
+// A set: files of one folder that change together (core/base/README.md).
 
 inline constexpr const char* kManifest = "manifest.json";
 /// Bytes, for 1.7 million files.
@@ -111,7 +110,7 @@ class WholeFiles {
   FolderLock lock_;
   Manifest manifest_;
   std::vector<std::string> added_, removed_;
-  mode_t mode_ = 0644;  ///< of a new manifest
+  mode_t mode_ = 0644;
   bool is_committed_ = false;
 };
 

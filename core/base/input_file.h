@@ -38,13 +38,9 @@ class InputFile {
 };
 
 // Largest accepted files (core/README.md), bytes.
-/// Trajectories and posture sets.
 inline constexpr uint64_t kLargestMovement = uint64_t{64} << 20;
-/// Some million frames.
 inline constexpr uint64_t kLargestResults = 256'000'000;
-/// Times, ratios, noise floors.
 inline constexpr uint64_t kLargestSmallFile = 16'000'000;
-/// All others.
 inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// Throws: Error if it is missing, unreadable or larger than `max_bytes`.

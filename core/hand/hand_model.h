@@ -15,7 +15,7 @@
 
 namespace glovebench {
 
-/// Hand frame, m: origin midway between wrist joint and middle MCP, -z to the fingertips, +y dorsal.
+/// Hand frame of core/README.md, m.
 struct PosedHand {
   RecycledVector<Eigen::Vector3f> vertices;
   JointPoses T_hand_joint;

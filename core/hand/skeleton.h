@@ -27,15 +27,14 @@ const std::array<int, 5>& fingertip_joints();
 using JointPoses = std::array<Eigen::Isometry3d, kJointCount>;
 
 /// The right hand's kinematic tree. A joint's rotation in its parent is R_zero_before * R_y(abduction) *
-/// R_x(-flexion) * R_zero_after. At zero, fingers point to -z of the hand frame; the thumb's base keeps its bind
-/// orientation.
+/// R_x(-flexion) * R_zero_after. core/README.md defines zero.
 class Skeleton {
  public:
   Skeleton() = default;
   explicit Skeleton(const JointPoses& T_hand_joint_bind);
 
   JointPoses pose(const Posture& posture) const;
-  /// Of each angle, unit, right-handed, hand frame.
+  /// Unit axis of each angle, right-handed, hand frame.
   std::array<Eigen::Vector3d, kAngleCount> axes(const JointPoses& T_hand_joint) const;
   const Posture& bind_posture() const { return bind_posture_; }
 

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Tracks one hand. Its only memory are the previous results.
+/// Tracks one hand. Its only memory are previous results.
 class Method {
  public:
   virtual ~Method() = default;
@@ -37,7 +37,6 @@ struct MethodEntry {
   /// Throws: Error as Tracker.
   std::unique_ptr<Method> (*make)(const MethodInputs& inputs);
 };
-/// Sorted by name.
 std::span<const MethodEntry> methods();
 /// Throws: Error for an unknown name.
 const MethodEntry& find_method(std::string_view name);

@@ -63,8 +63,7 @@ struct FaceBodies {
   std::array<std::array<float, kMost>, 3> share{};
 };
 
-/// Refines pose and posture by iterative closest points of equal color and the outline of the mask, with a posture
-/// prior and joint limits.
+/// Refines pose and posture (core/README.md, "The method `articulated`").
 class ArticulatedFit {
  public:
   /// `implementation`: of the closest-point search.

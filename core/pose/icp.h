@@ -55,7 +55,6 @@ struct AlignmentEntry {
   Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                      const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 };
-/// Sorted by name.
 std::span<const AlignmentEntry> alignments();
 
 /// Aligns part of the cloud, each point to the closest visible triangle of its color.

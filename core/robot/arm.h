@@ -24,7 +24,7 @@ struct ArmJointInfo {
 };
 const std::array<ArmJointInfo, kArmJointCount>& arm_joint_infos();
 
-/// T_base_flange. Base axes: x ahead, y left, z up. The flange's z points away from the arm.
+/// T_base_flange. The flange's z points away from the arm.
 Eigen::Isometry3d arm_flange_pose(const ArmJoints& joints);
 
 /// Inverse kinematics (core/adapters/kdl).

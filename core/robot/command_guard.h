@@ -4,11 +4,11 @@
 
 namespace glovebench {
 
-/// What a guard controls and limits.
+/// What a guard controls. core/robot/README.md has the limits of each.
 enum class GuardedPart {
-  robot,  ///< all joints and `T_base_hand`; limits fingertips in the base frame
-  hand,   ///< the hand's joints; limits fingertip speeds in the forearm's frame
-  arm,    ///< the wrist (WRJ2) as `T_base_hand`; limits all points within kShadowWristReach
+  robot,  ///< all joints and `T_base_hand`
+  hand,   ///< the hand's joints
+  arm,    ///< the wrist (WRJ2) as `T_base_hand`
 };
 
 /// Makes commands safe for every sink (core/robot/README.md). Reads no clock. For any input, the output has these
@@ -28,13 +28,13 @@ class CommandGuard {
   explicit CommandGuard(const CommandLimits& limits = {}, GuardedPart part = GuardedPart::robot,
                         std::optional<MountedArm> arm = std::nullopt);
 
-  /// Where the robot stands. J1 and J2 may differ from ShadowCoupling.
+  /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling.
   /// Throws: Error unless values are finite and within limits, J1 is not above J2, and an arm's joints are given.
   void start_from(const RobotTargets& measured);
 
   /// The safe command, at its own time. Empty if time did not advance.
   std::optional<RobotCommand> guard(const RobotCommand& command) { return guard(command, command.timestamp_us); }
-  /// At `now_us` of a monotonic clock. A stale command counts only if the stream had stopped.
+  /// The same at `now_us` of a monotonic clock. A stale command counts only if the stream had stopped.
   std::optional<RobotCommand> guard(const RobotCommand& command, int64_t now_us);
   /// The command at `now_us` if none came. Empty if time did not advance.
   std::optional<RobotCommand> tick(int64_t now_us);
@@ -58,7 +58,7 @@ class CommandGuard {
   std::optional<MountedArm> arm_;
   Interventions total_, pending_;
   CommandState state_ = CommandState::stopped;
-  std::optional<RobotTargets> goal_;  ///< within limits
+  std::optional<RobotTargets> goal_;
   std::optional<RobotTargets> sent_;
   std::optional<int64_t> now_us_;    ///< of the last output
   std::optional<int64_t> good_us_;   ///< of the last good command

@@ -83,7 +83,7 @@ struct ShadowActuatorInfo {
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, rad. Flags mark changes of the request.
+/// Targets within the limits, rad. Flags mark those that the limits changed.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};
   std::array<bool, kShadowJointCount> joint_clamped{};
@@ -91,7 +91,7 @@ struct ShadowHandTargets {
   std::array<bool, kShadowActuatorCount> actuator_clamped{};
 };
 
-/// From the joints' targets.
+/// Fills the motors from the joints.
 void make_actuators(ShadowHandTargets& hand);
 
 /// Each joint takes its source's angle, clamped. The coupling splits the clamped sum of J1 and J2.

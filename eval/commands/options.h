@@ -60,7 +60,7 @@ struct CommandText {
   std::vector<CommandText> subcommands;
 };
 
-/// A copyable handle. Its values and actions must live as long as the program.
+/// Copyable. Its values and actions must live as long as the program.
 class Command {
  public:
   using Action = std::function<int()>;
@@ -75,12 +75,12 @@ class Command {
   Command group(const std::string& heading) const;
   /// Adds an option for `value`. `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help
   /// shows the default unless it is empty or the option required. A bool is a flag. A transform is X Y Z (m) QW QX
-  /// QY QZ. The source lists all types.
+  /// QY QZ.
   /// Throws: Error for a transform that is not finite or has no unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
   bool given(const std::string& name) const;
-  /// So far, with subcommands.
+  /// The options so far, with subcommands.
   CommandText text() const;
   /// Sets the action, whose result is the exit code; void: 0.
   template <typename Does>

@@ -45,7 +45,7 @@ struct Setting {
   bool clutter_in_volume = false;
 };
 
-/// In a quick reproduction, only a stretch.
+/// All frames, or a stretch in a quick reproduction.
 FrameRange frames_of(const StudyOptions& options);
 
 /// Each setting with each database on these trajectories (empty: all five; quick: one), with the study's seeds and
@@ -75,7 +75,7 @@ Sample sample_of(const Selection& runs,
 Sample sample_of(const Selection& runs, std::string_view metric);
 /// [trajectory][seed].
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs);
-/// Of a stage (empty: whole frames), all frames and runs.
+/// Times of a stage (empty: of whole frames), all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
 

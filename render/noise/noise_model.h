@@ -43,7 +43,6 @@ struct DepthNoise {
   DepthImage (*add)(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,
                     const FrameKey& key);
 };
-/// Sorted by name.
 std::span<const DepthNoise> depth_noises();
 /// Throws: Error for an unknown name.
 const DepthNoise& find_depth_noise(std::string_view name);

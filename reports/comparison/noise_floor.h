@@ -8,7 +8,7 @@
 
 namespace glovebench::reports {
 
-/// Of other noise seeds on one row of a comparison.
+/// The effect of other noise seeds on one row of a comparison.
 struct NoiseFloorEntry {
   std::string experiment;     ///< name or kAllExperiments
   std::string quantity;       ///< metric key

@@ -10,7 +10,7 @@ struct FrameRecord;
 
 // The rules of coverage. Each result's protocol contains them: a new rule is a new protocol.
 
-/// The hand is visible if at least this share of its camera-facing area is in both images and in the volume.
+/// Of the hand's camera-facing area, in both images and in the volume.
 inline constexpr double kVisible_percent = 30;
 inline constexpr double kVolumeNear_mm = 400, kVolumeFar_mm = 950;  ///< z in the IR camera's frame
 /// A frame is found, or "covered", below these errors.
@@ -19,7 +19,7 @@ inline constexpr double kFoundPosition_mm = 50, kFoundRotation_deg = 30;
 inline constexpr double kUsablePosition_mm = 10, kUsableRotation_deg = 10;
 inline constexpr double kUsableFingertips_mm = 20;  ///< mean of the five
 
-/// By name.
+/// All rules by name.
 std::map<std::string, double> coverage_rules();
 
 // Errors are compared with the precision of files (1e-6).

@@ -51,7 +51,7 @@ std::span<const Metric> metrics();
 /// Columns of frames, in the order of FrameRecord::values.
 std::span<const Metric> frame_metrics();
 std::vector<std::string> frame_metric_keys();
-/// For comparisons and the gate.
+/// Those of comparisons and the gate.
 std::span<const Metric> gated_metrics();
 
 /// Throws: std::logic_error for an unknown key.

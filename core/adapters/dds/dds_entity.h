@@ -26,7 +26,7 @@ dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
 inline constexpr int kMaxWaiting = 10'000;        // in a reader: a flood of 0.1 s
 
-/// Of a writer, as in ROS 2.
+/// Depth of a writer, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
 /// Messages dropped for their size since the process began.
@@ -101,10 +101,10 @@ class DdsOtherWriters {
   std::map<dds_instance_handle_t, std::string> writers_;
 };
 
-/// A reader ignores further writers.
+/// A reader ignores messages of further writers.
 inline constexpr size_t kMostWriters = 64;
 
-/// Such messages since the process began.
+/// Messages ignored for that reason since the process began.
 int64_t dds_messages_of_too_many();
 
 class DdsSenders {

@@ -42,8 +42,7 @@ class LiveKinect : public Device {
 
 extern const bool kHasFreenect;
 
-/// Starts both streams and their thread. fakenect, in place of libfreenect, plays a recording; its thread ends only
-/// at a pause.
+/// Starts both streams and their thread. fakenect, in place of libfreenect, plays a recording.
 /// Throws: Error if the device is missing or refuses, the calibration is not 640x480, this build lacks libfreenect,
 /// or fakenect's recording (FAKENECT_PATH) is damaged.
 std::unique_ptr<LiveKinect> open_kinect(const RgbdCalibration& calibration, const LiveOptions& options = {});

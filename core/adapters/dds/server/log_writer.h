@@ -38,14 +38,14 @@ class LogWriter {
   };
   Progress progress() const;
 
-  /// Ends input. Waits up to 2 s for the disk, then drops the rest.
+  /// Waits up to 2 s for the disk, then drops the rest.
   void finish();
 
  private:
   struct Shared;
   static void write_lines(const std::shared_ptr<Shared>& shared);
 
-  std::shared_ptr<Shared> shared_;  ///< the thread may outlive this
+  std::shared_ptr<Shared> shared_;
   std::thread thread_;
 };
 

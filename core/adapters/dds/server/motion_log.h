@@ -26,7 +26,7 @@ class MotionLog {
   /// Throws: Error if it cannot be opened or another server has it.
   MotionLog(const std::string& path, std::vector<std::string> names, std::vector<JointMotion> joints);
 
-  /// The log's last joints, else `rest`. `period_s`: time between ticks.
+  /// The joints of the log's last state, else `rest`. `period_s`: time between ticks.
   /// Throws: Error if the log has other joints, is too old or lacks its end.
   LoggedStart start(const std::vector<double>& rest, int64_t now_us, double max_age_s, double period_s) const;
 
@@ -35,7 +35,7 @@ class MotionLog {
   void received(const ReceivedLine& line);
   /// `at_rest`: no joint moves before a new start.
   void ticked(const RobotState& its, int64_t time_us, bool at_rest);
-  /// Records that the joints stay.
+  /// Records that the joints stay in place.
   void finish(const RobotState& its, int64_t time_us);
 
   /// Whether the joints may move freely for `seconds`.

@@ -13,13 +13,9 @@
 
 namespace glovebench {
 
-// Stages of a message:
-//   received   RobotServer::receive gets it with its Arrival.
-//   judged     read_joints or read_pose checks it, then CommandStream. Only `accepted` messages go on.
-//   followed   It is its topic's goal until the next one.
-//   limited    A tick moves towards the goal as far as CommandGuard allows.
-//   stated     The tick holds unless MotionLog allows the motion.
-//   sent       The tick's RobotState goes to the joints (dds_server.cpp).
+// A message passes RobotServer::receive, read_joints or read_pose, and CommandStream. If it is `accepted`, it is
+// its topic's goal until the next one. A tick moves towards the goal as far as CommandGuard and MotionLog allow.
+// The tick's RobotState goes to the joints (dds_server.cpp).
 
 /// `pose`: of the wrist.
 enum class RobotTopic { fingers, wrist, pose };
@@ -76,8 +72,8 @@ class RobotServer {
   RobotTargets stands_;
   std::array<double, kShadowJointCount> hand_goal_{};
   Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();
-  std::array<bool, kRobotTopicCount> wanted_{};  ///< by topic
-  bool changed_ = false;                         ///< guard lacks the newest goal
+  std::array<bool, kRobotTopicCount> wanted_{};
+  bool changed_ = false;
   bool ticked_ = false;
   RobotState last_;
 };

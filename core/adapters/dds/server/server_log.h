@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// A received message (core/adapters/dds/README.md).
+/// The log line of a message (core/adapters/dds/README.md).
 struct ReceivedLine {
   int64_t time_us = 0;  ///< reception, system time
   std::string_view topic;
