@@ -26,10 +26,11 @@ ColorTableConfig one_lighting(ColorSpace space);
 ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config = {});
 
-/// Of the sources of `calibrate_colors`.
+/// Hash of the sources of `calibrate_colors`.
 std::string color_table_source_hash();
 
-/// With all lightings. Cached in `folder` by the hash of inputs and sources. Replaces a damaged or outdated file.
+/// Calibrates with all lightings. Caches the table in `folder` by the hash of inputs and sources. Replaces a
+/// damaged or outdated file.
 ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space = ColorSpace::yuv);

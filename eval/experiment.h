@@ -21,7 +21,7 @@ struct Experiment {
 /// In order of first appearance. `runs` must outlive the result. Each seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
 
-/// Without robot commands and studies.
+/// Results without robot commands and studies.
 reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> runs, Workbench& workbench);
 
 struct Outcome {

@@ -15,7 +15,7 @@ namespace glovebench::eval {
 /// For tests: strength 0.5 to 2, 3000 to 6500 K, new directions.
 std::vector<render::Lighting> held_out_lightings();
 
-/// In IR pixels. Ignores glove pixels without color. Labels count only inside the working volume.
+/// Label errors in IR pixels. Ignores glove pixels without color. Labels count only inside the working volume.
 struct LabelErrors {
   int glove = 0;       ///< true glove pixels
   int missed = 0;      ///< without a label

@@ -19,7 +19,7 @@ struct MeasuredRun {
 /// `subject`: the rendered hand.
 std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& tracker_hand,
                                           const render::Subject& subject);
-/// On the workbench's threads, in the order of `runs`.
+/// Measures on the workbench's threads, in the order of `runs`.
 std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs);
 
 /// Jitter: RMS change of the pose error between frames while the truth rests (under 1 mm, 0.5 deg, and 0.5 deg of

@@ -26,7 +26,7 @@ std::string share_folder();
 std::string hand_mesh_path();
 std::string trajectory_folder();
 std::string suite_folder();
-/// In running order, with licenses.
+/// Chart scripts in running order, with licenses.
 /// Throws: Error if one is missing.
 std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.

@@ -38,7 +38,7 @@ struct RunSpec {
   std::string setting = {};  ///< label without effect: a study's setting or a movement's family
 };
 
-/// On the true images and the true surface.
+/// Measured on the true images and the true surface.
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
@@ -71,7 +71,7 @@ struct RunOptions {
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
-/// Of all inputs except the program.
+/// Hash of all inputs except the program.
 std::string run_key(Workbench& workbench, const RunSpec& spec);
 
 }  // namespace glovebench::eval

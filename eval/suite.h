@@ -18,7 +18,7 @@ struct SuiteEntry {
   FrameRange frames;
 };
 
-/// For a commit or a night, all with the same seeds.
+/// Experiments for a commit or a night, all with the same seeds.
 struct Suite {
   std::string name;  ///< empty: command line
   std::string description;
@@ -34,7 +34,7 @@ Suite parse_suite(std::string_view text, const std::string& path);
 Suite load_suite(const std::string& name_or_file);
 std::vector<std::string> suite_names();
 
-/// Of the first trajectory. The workbench must have the same.
+/// Side of the first trajectory. The workbench must have the same.
 /// Throws: Error if it cannot be read.
 Side side_of(const Suite& suite);
 

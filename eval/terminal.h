@@ -14,8 +14,6 @@
 
 #include "core/tracker/track_result.h"
 
-// A user's terminal.
-
 namespace glovebench::eval {
 
 /// Drops text that nobody can read (full or closed pipe, lost terminal).

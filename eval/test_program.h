@@ -25,7 +25,6 @@
 
 namespace glovebench::eval {
 
-/// Shared by all tests.
 inline std::string test_cache_folder() {
   return shared_folder(fmt::format("glovebench-test-cache-{}-{}", kDatabaseVersion, getuid()));
 }
@@ -116,7 +115,6 @@ inline ProgramRun run_glovebench(const std::vector<std::string>& arguments, cons
   return finish_program(start_glovebench(arguments, setting));
 }
 
-/// Contents by relative path.
 inline std::map<std::string, std::string> read_folder(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

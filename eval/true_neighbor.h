@@ -31,7 +31,7 @@ class TrueNeighborSearch {
                              const PinholeCamera& camera) const;
 
  private:
-  /// About the hand origin, with its ray turned to the optical axis.
+  /// Vertices about the hand origin, with its ray turned to the optical axis.
   Eigen::Matrix3Xd seen_along_ray(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                                   const PinholeCamera& camera) const;
   Eigen::Matrix3Xd patch_centers(const Eigen::Matrix3Xd& vertices) const;

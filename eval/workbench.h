@@ -38,7 +38,7 @@ class Workbench {
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
-  /// Of the synthetic Kinect's cameras, whatever `calibration` is.
+  /// The table for the synthetic Kinect's cameras, whatever `calibration` is.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
@@ -50,7 +50,7 @@ class Workbench {
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// Its stages can be inspected.
+  /// A tracker whose stages can be inspected.
   /// Throws: Error if another method is configured.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 

@@ -14,7 +14,7 @@ struct FrameKey {
   int64_t frame = 0;
 };
 
-/// For one image row (SplitMix64).
+/// Random numbers of one image row (SplitMix64).
 class RowRandom {
  public:
   explicit RowRandom(uint64_t state) : state_(state) {}

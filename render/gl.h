@@ -1,6 +1,6 @@
 #pragma once
 
-// For this folder's sources only.
+// OpenGL for this folder's sources only.
 #include <GL/gl.h>
 #include <GL/glcorearb.h>
 
@@ -14,7 +14,7 @@
 
 namespace glovebench::render::gl {
 
-/// Of drawing, m.
+/// Limits of drawn depth, m.
 inline constexpr double kNear = 0.05;
 inline constexpr double kFar = 10.0;
 

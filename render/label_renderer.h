@@ -26,7 +26,7 @@ class LabelRenderer : public ViewRenderer {
 };
 
 ViewRendererFactory label_renderer_factory();
-/// Of the sources that determine a database (ci/source_hash.cmake).
+/// Hash of the sources that determine a database (ci/source_hash.cmake).
 std::string database_source_hash();
 
 }  // namespace glovebench::render

@@ -20,9 +20,9 @@ ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, co
 struct Stroke {
   Eigen::Vector2d from_px, to_px;
 };
-/// With a dot at each end and a dark edge.
+/// Draws lines with a dot at each end and a dark edge.
 ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line);
-/// A line of ASCII text at the upper left.
+/// Writes a line of ASCII text at the upper left.
 ColorImage overlay_text(const ColorImage& color, const std::string& text);
 std::string encode_png(const ColorImage& image);
 /// `quality`: 0 to 100.

@@ -45,7 +45,7 @@ struct SceneConfig {
   bool clutter_in_volume = false;  ///< one more box, in the working volume (z 0.90 m)
 };
 
-/// In the IR camera's frame: table top (1.0 m x 0.74 m at 1.06 m) and floor at 1.78 m.
+/// Surroundings in the IR camera's frame: table top (1.0 m x 0.74 m at 1.06 m) and floor at 1.78 m.
 struct Scene {
   SurfaceMesh surroundings;
   std::vector<Material> materials;  ///< kMaterialCount

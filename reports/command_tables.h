@@ -9,10 +9,10 @@ namespace glovebench::reports {
 
 bool has_commands(const RunResult& result);
 
-/// Of the tables below, with one row per experiment.
+/// Explains the tables below, which have one row per experiment.
 std::string command_explanation();
 Table command_stream_table(const RunResult& result);
-/// By reason. No rows without any.
+/// Interventions by reason. No rows without any.
 Table command_intervention_table(const RunResult& result);
 /// Errors against the truth's commands, and smoothness.
 Table command_error_table(const RunResult& result);

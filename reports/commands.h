@@ -14,7 +14,7 @@
 
 namespace glovebench::reports {
 
-/// RMS. Smaller is smoother (Flash and Hogan 1985). Noise dominates it in a tracked hand: compare it with the
+/// RMS jerk. Smaller is smoother (Flash and Hogan 1985). Noise dominates it in a tracked hand: compare it with the
 /// truth's.
 struct Jerk {
   std::optional<double> joints_deg_s3;

@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// Smoothed.
+/// A smoothed estimate.
 struct Estimate {
   uint64_t seed = 0;
   int frame = 0;

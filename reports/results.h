@@ -61,7 +61,7 @@ struct ExperimentKey {
 /// For file names: "Tr4_DB_open_power_recorded_subject1_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
-/// Consecutive, under one noise seed.
+/// Consecutive frames under one noise seed.
 struct SeedRun {
   uint64_t seed = 0;
   std::vector<FrameRecord> frames;

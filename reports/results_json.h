@@ -9,7 +9,7 @@
 
 namespace glovebench::reports {
 
-/// In results.json and CSV files.
+/// Columns in results.json and CSV files.
 std::vector<std::string> frame_columns(std::span<const std::string> metric_keys);
 nlohmann::ordered_json frame_row(const FrameRecord& frame, std::span<const std::string> metric_keys);
 

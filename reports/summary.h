@@ -10,7 +10,7 @@ namespace glovebench::reports {
 
 /// Rows are experiments. Columns for trajectory, database, truth and noise precede `measured`.
 Table experiment_table(const std::vector<std::string>& measured);
-/// For these four columns. `last_subject`: of a row about several.
+/// Cells of these four columns. `last_subject`: of a row about several.
 Row experiment_names(const ExperimentKey& key, std::optional<int> last_subject = {});
 
 /// Position error with interval, metrics without joint convention, jitter, latency, lost and false frames.

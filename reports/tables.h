@@ -21,12 +21,13 @@ struct Variant {
 };
 const std::array<Variant, 3>& figure4_variants();
 
-/// For Tr1 to Tr5: the database with only its grasp first, the largest last. Empty names for other trajectories.
+/// Databases for Tr1 to Tr5: the one with only its grasp first, the largest last. Empty names for other
+/// trajectories.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
 /// Whether there are experiments and all are Figure 4's, with any noise.
 bool is_figure4(const RunResult& result);
 
-/// Null where not run.
+/// Pointers are null where not run.
 struct Figure4Row {
   std::string trajectory;
   std::string database;
@@ -46,7 +47,7 @@ Table figure4_summary(const RunResult& result, const PaperNumbers& paper, const 
 std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 /// One line per experiment, with intervals and the paper's numbers.
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
-/// For all experiments, without the paper's numbers.
+/// As `figure4_csv`, for all experiments, without the paper's numbers.
 std::string errors_csv(const RunResult& result);
 
 /// Percent of all frames.
@@ -58,7 +59,7 @@ std::optional<double> covered_percent(const ExperimentResult& experiment);
 nlohmann::ordered_json experiment_columns();
 nlohmann::ordered_json experiment_cells(const std::string& run, const ExperimentKey& key);
 
-/// Run, experiment, seed, then frame_columns. Empty cells have no value.
+/// Columns: run, experiment, seed, then frame_columns. Empty cells have no value.
 std::string frames_csv(const std::string& run, const ExperimentResult& experiment);
 /// Errors per frame, beside the paper's, which are of another movement.
 std::string curve_csv(const std::string& run, const ExperimentResult& experiment, const PaperCurve& paper);

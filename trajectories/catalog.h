@@ -11,7 +11,7 @@ namespace glovebench::trajectories {
 
 // The data folder. README.md lists its files.
 
-/// Of section IV.
+/// The ground truths of section IV.
 const std::vector<std::string>& ground_truth_names();
 /// "pinch" or "power".
 /// Throws: Error for another name.

@@ -14,7 +14,7 @@ struct ResidentMemory {
 ResidentMemory resident_memory();
 void reset_peak();
 
-/// Major faults read from disk.
+/// Major page faults read from disk.
 struct PageFaults {
   int64_t major = 0, minor = 0;
 };

@@ -30,7 +30,7 @@ struct ManifestEntry {
   uint64_t bytes = 0;
   std::string hash;
 };
-/// By path in the folder.
+/// Entries by path.
 using Manifest = std::map<std::string, ManifestEntry>;
 
 /// Throws: Error beyond `max_bytes`.
@@ -101,7 +101,7 @@ class WholeFiles {
   /// Throws: Error, also for a link.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
   void remove(const std::string& name);
-  /// In order.
+  /// The added files in order.
   const std::vector<std::string>& names() const { return added_; }
   void commit();
 

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// An open file, even if another takes its name.
+/// An open file. Its name may move to another file.
 class InputFile {
  public:
   enum class Kind { regular, regular_or_pipe };
@@ -45,7 +45,7 @@ inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// Without pipes, whose writer may never come.
+/// Refuses pipes, whose writer may never come.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

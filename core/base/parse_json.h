@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Protects the stack.
+/// Nesting uses the stack.
 inline constexpr size_t kDeepestNesting = 64;
 
 /// Limits of a document's memory: a constant, plus a part per byte of text.

@@ -13,7 +13,6 @@
 
 namespace glovebench {
 
-/// Tests repeat less under the address sanitizer, which is twenty times slower.
 #ifdef GLOVEBENCH_ADDRESS_SANITIZER
 inline constexpr bool kHasAddressSanitizer = true;
 #else

@@ -1,7 +1,5 @@
 #pragma once
 
-// Ray-cast pictures of a chessboard by known cameras with lens distortion.
-
 #include <algorithm>
 #include <cmath>
 

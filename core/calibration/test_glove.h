@@ -1,7 +1,5 @@
 #pragma once
 
-// Frames of a glove with ten stripes.
-
 #include <vector>
 
 #include "core/base/random.h"

@@ -39,7 +39,7 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
 /// Pixel counts of connected components, largest first. Neighbors (8) connect if depths differ by at most
 /// `depth_step`, m.
 RecycledVector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
-/// Not in the paper.
+/// Keeps the largest component. Not in the paper.
 LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step);
 
 }  // namespace glovebench

@@ -67,7 +67,7 @@ class Database {
   /// Unit vector in the view's camera to the center of the hand's bounding square.
   const Eigen::Vector3d& box_ray(int entry) const { return box_rays_[entry]; }
   Side side() const { return header_.side; }
-  /// Without the memory mode.
+  /// Hash of the inputs without the memory mode.
   const std::string& input_hash() const { return header_.input_hash; }
   /// See DatabaseLayout.
   const std::string& content_hash() const { return content_hash_; }

@@ -26,7 +26,7 @@ struct DatabaseHeader {
   std::set<int> sizes_px;
 };
 
-/// Its pieces are hashed in parallel.
+/// A part of the file. Its pieces are hashed in parallel.
 struct Section {
   enum class Kind { box_rays, labels, fields };
 
@@ -59,7 +59,7 @@ class DatabaseLayout {
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
   int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
-  /// In file order, with fields that are not stored.
+  /// Sections in file order, with fields that are not stored.
   std::vector<Section> sections() const;
   /// Hash of angles, box rays, labels and fields. Equal for both memory modes.
   std::string content_hash() const;

@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// Padded by 0.
+/// A query's labels, padded by 0.
 struct QueryLabels {
   static constexpr size_t kChunk = 64;
   static constexpr size_t kLargest = 64 * 64;

@@ -11,7 +11,7 @@ namespace glovebench {
 /// Edge lengths, px.
 /// Paper: section III.
 inline constexpr std::array<int, 4> kTinySizes = {8, 16, 32, 64};
-/// Of chamfer_field. Distances must fit a byte.
+/// Limits of chamfer_field, px. Distances must fit a byte.
 inline constexpr int kSmallestTinySize = 4, kLargestTinySize = 64;
 
 /// Half-open pixel ranges. May extend beyond the image.
@@ -31,7 +31,7 @@ Eigen::Vector3d square_ray(const Square& square, const PinholeCamera& camera);
 /// smaller label.
 LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square, int size);
 
-/// Faster.
+/// The same, faster.
 LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int size);
 
 /// Two labels per byte, the first in the low half.

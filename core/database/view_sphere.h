@@ -16,7 +16,7 @@ inline constexpr int kCameraPositions = 42;   ///< once subdivided icosahedron (
 inline constexpr int kInPlaneRotations = 18;  ///< 20 degrees apart
 inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;
 
-/// To an icosahedron's corners and edge midpoints.
+/// Unit vectors to an icosahedron's corners and edge midpoints.
 std::vector<Eigen::Vector3d> camera_directions();
 
 /// R_view_hand of cameras that look at the hand origin. View = position * 18 + rotation.
@@ -29,11 +29,11 @@ struct HandImages {
   DepthImage depth;      ///< z, m
 };
 
-/// For one thread.
+/// Use it in one thread.
 class ViewRenderer {
  public:
   virtual ~ViewRenderer() = default;
-  /// Of the nearest surfaces.
+  /// Labels of the nearest surfaces.
   virtual LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                    const Eigen::Isometry3d& T_camera_hand) = 0;
   virtual HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,

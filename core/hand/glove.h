@@ -41,7 +41,7 @@ struct Triangle {
   uint8_t patch;
 };
 
-/// Closed. Each triangle lies in one patch.
+/// A closed mesh. Each triangle lies in one patch.
 struct GlovedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Influence> influences;

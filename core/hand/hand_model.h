@@ -28,8 +28,8 @@ class HandModel {
   /// Throws: Error if the file is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
-  /// Multiplies sizes by `factors`. Patches keep their places on the skin; `load` with such a shape derives them
-  /// anew.
+  /// This hand with sizes multiplied by `factors`. Patches keep their places on the skin; `load` with such a shape
+  /// derives them anew.
   HandModel stretched(const HandSizes& factors) const;
 
   PosedHand pose(const Posture& posture) const;
@@ -37,10 +37,10 @@ class HandModel {
   size_t vertex_count() const { return bind_vertices_.size(); }
   const std::vector<Influence>& influences() const { return influences_; }
   Side side() const { return side_; }
-  /// Of the right hand. A left hand mirrors it.
+  /// The right hand's skeleton. A left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const HandShape& shape() const { return shape_; }
-  /// Of cut mesh, weights and skeleton.
+  /// Hash of cut mesh, weights and skeleton.
   const std::string& hash() const { return hash_; }
 
  private:

@@ -7,8 +7,8 @@
 
 namespace glovebench {
 
-/// Factors on the package's mesh. `kScale` is of the whole hand; others are relative to it. Segments: metacarpal,
-/// proximal, distal of the thumb; proximal, intermediate, distal of index, middle, ring, little.
+/// Sizes are factors on the package's mesh. `kScale` is of the whole hand; others are relative to it. Segments:
+/// metacarpal, proximal, distal of the thumb; proximal, intermediate, distal of index, middle, ring, little.
 inline constexpr int kSegmentCount = 15;
 enum HandSize : int {
   kScale,
@@ -26,7 +26,7 @@ enum HandSize : int {
 using HandSizes = std::array<double, kSizeCount>;
 inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
 
-/// In files, such as "index_proximal_length".
+/// Names in files, such as "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();
 
 /// How a gloved hand differs from the package's mesh.

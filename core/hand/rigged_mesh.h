@@ -17,7 +17,7 @@ struct Influence {
   float weight_of(int j) const;
 };
 
-/// Closed, in bind pose, m.
+/// A closed mesh in bind pose, m.
 struct RiggedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Influence> influences;               ///< by vertex
@@ -25,7 +25,7 @@ struct RiggedMesh {
   std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< by joint (skeleton.h)
 };
 
-/// Of the package's mesh file.
+/// Hash of the package's mesh file.
 inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
 /// Loads the file of HandModel::load in its own frame. Welds vertices by position.

@@ -38,7 +38,7 @@ class Skeleton {
   std::array<Eigen::Vector3d, kAngleCount> axes(const JointPoses& T_hand_joint) const;
   const Posture& bind_posture() const { return bind_posture_; }
 
-  /// In the parent's frame (without parent: hand frame), m.
+  /// A joint's position in its parent's frame (without parent: hand frame), m.
   const Eigen::Vector3d& offset(int joint) const { return joints_.at(joint).offset; }
   void set_offset(int joint, const Eigen::Vector3d& offset) { joints_.at(joint).offset = offset; }
 

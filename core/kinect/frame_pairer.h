@@ -10,7 +10,7 @@
 
 namespace glovebench {
 
-/// The clock of 60 MHz. Its 32 bits wrap every 71.6 s.
+/// The Kinect's clock has 60 MHz and 32 bits. It wraps every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
 /// Converts ticks to microseconds without wraps. Successive stamps must be less than 35.8 s apart.

@@ -41,7 +41,7 @@ struct RecordingEntry {
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
 
-/// By time, depth before color, then in order of the list.
+/// Images by time, depth before color, then in order of the list.
 /// Throws: Error if it is malformed or lists a file twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 

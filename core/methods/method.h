@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Tracks one hand. Its only memory are previous results.
+/// Tracks one hand. Its only memory is the previous results.
 class Method {
  public:
   virtual ~Method() = default;

@@ -26,7 +26,7 @@ struct GroupScratch {
   RecycledVector<float> doubt;          ///< rounding error of each distance, m
 };
 
-/// Over all calls.
+/// Counts over all calls.
 struct SearchWork {
   int64_t groups = 0;
   int64_t nearest = 0;  ///< distinct nearest faces per group

@@ -8,9 +8,9 @@
 
 namespace glovebench {
 
-/// A Mitsubishi PA-10-7C.
+/// The arm is a Mitsubishi PA-10-7C.
 inline constexpr int kArmJointCount = 7;
-/// From base to flange, rad.
+/// Joint angles from base to flange, rad.
 using ArmJoints = std::array<double, kArmJointCount>;
 
 /// Limits, speed and Denavit-Hartenberg row, T = R_z(angle) * T_z(d) * R_x(alpha), a = 0.

@@ -41,7 +41,7 @@ class CommandGuard {
 
   /// The state at a time without further commands.
   CommandState state_at(int64_t now_us) const;
-  /// Since construction. `RobotCommand::interventions` counts since the last sent command.
+  /// Interventions since construction. `RobotCommand::interventions` counts since the last sent command.
   const Interventions& interventions() const { return total_; }
   /// For an arm alone, the workspace is kShadowWristReach smaller on all sides.
   const CommandLimits& limits() const { return limits_; }

@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Of the right hand, thumb to little. Hand frame, m.
+/// Fingertips of the right hand, thumb to little. Hand frame, m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
 /// Maps postures so that a pinch stays a pinch (core/robot/README.md). Far from a pinch, this is the direct
@@ -23,7 +23,7 @@ class FingertipMapping {
  private:
   Skeleton skeleton_;
   ShadowCoupling coupling_;
-  /// Minus the direct mapping, rad.
+  /// The last result minus the direct mapping, rad.
   Eigen::Matrix<double, kShadowActuatorCount, 1> last_ = Eigen::Matrix<double, kShadowActuatorCount, 1>::Zero();
 };
 

@@ -6,7 +6,7 @@ namespace glovebench {
 
 // The guard's computations, without its state.
 
-/// Empty if the targets are usable.
+/// Why the targets are unusable. Empty if they are usable.
 std::optional<Intervention> refusal(const RobotTargets& targets);
 
 /// Moves finite targets into the limits: joints, then J1 and J2 by their coupling, then the hand. Flags moved
@@ -26,8 +26,9 @@ bool flag_changes(ShadowHandTargets& hand, const std::array<double, kShadowJoint
 RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
                            const CommandLimits& limits, GuardedPart part, Interventions& done);
 
-/// With the arm's joints, which `from` has. Limits apply to `carried_pose`, which stays in the workspace. If `to`
-/// has no joints, they are solved for the next step; without a solution the arm stays and the fingers go on.
+/// The same with the arm's joints, which `from` has. Limits apply to `carried_pose`, which stays in the workspace.
+/// If `to` has no joints, they are solved for the next step; without a solution the arm stays and the fingers go
+/// on.
 RobotTargets moved_by_arm(const MountedArm& arm, const RobotTargets& from, const RobotTargets& to, double seconds,
                           const CommandLimits& limits, GuardedPart part, Interventions& done);
 

@@ -32,7 +32,7 @@ double distal_share(double motor, ShadowCoupling coupling);
 /// J1 stays below J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
-/// Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
+/// Joints of the Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
 // clang-format off: one finger a row
 enum ShadowJoint : int {
   kFFJ1,

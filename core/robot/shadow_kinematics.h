@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Thumb to little. Hand frame, m.
+/// Fingertips, thumb to little. Hand frame, m.
 using Fingertips = Eigen::Matrix<double, 3, 5>;
 /// Derivatives of fingertip f (rows 3 f to 3 f + 2) by the joints, m/rad.
 using FingertipJacobian = Eigen::Matrix<double, 15, kShadowJointCount>;

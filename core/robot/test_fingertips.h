@@ -1,6 +1,6 @@
 #pragma once
 
-// Shadow's dimensions, independent of the library.
+// Fingertips from Shadow's dimensions, independent of the library.
 
 #include <Eigen/Core>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Independent of the guard.
+// This check is independent of the guard.
 
 #include <cmath>
 #include <string>

@@ -64,7 +64,7 @@ struct TrackResult {
   std::optional<double> misfit;
 };
 
-/// In the order of a frame.
+/// Stages in the order of a frame.
 enum class Stage {
   registration,
   segmentation,

@@ -107,7 +107,7 @@ struct FileFlag {
   std::string path;         ///< empty: none
   std::string ending = {};  ///< required; empty: any
 };
-/// For all files that a command writes or could overwrite.
+/// Checks all files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
 /// The same before the work.
@@ -125,7 +125,7 @@ struct RobotFlags {
   MountingFlag mounting;
   LimitsFlag limits;
 
-  /// The option of `output`.
+  /// Returns the option of `output`.
   Option add(Command command, const std::string& what);
   /// Throws: Error for an arm that this build lacks.
   RobotSetup setup(Workbench& workbench) const;

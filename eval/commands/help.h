@@ -8,7 +8,7 @@
 
 namespace glovebench::eval {
 
-/// Description, `usage`, arguments, options by group, commands. Rare options only if `all`.
+/// The text of --help: description, `usage`, arguments, options by group, commands. Rare options only if `all`.
 std::string help_text(const CommandText& command, const std::string& usage, bool all, size_t columns);
 
 /// The commands below `command`, with the first lines of their descriptions.

@@ -52,7 +52,7 @@ struct OptionText {
   bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// For help, man page and completion.
+/// A command for help, man page and completion.
 struct CommandText {
   std::string name;
   std::string description;

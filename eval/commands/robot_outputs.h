@@ -30,7 +30,7 @@ class RobotOutputs {
   RobotOutputs(const std::string& file, const std::optional<RobotBusOptions>& bus);
 
   bool any() const { return file_ || bus_; }
-  /// At the start. Empty without a controller.
+  /// The arm's joints at the start. Empty without a controller.
   std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
   /// Guards and sends a command. A robot's clock is the first frame's stamp plus wall time. With a controller,
   /// motion starts at the measured joints, also after a lost hand. `arrived_us`: of the frame, since 1970.

@@ -23,7 +23,7 @@ struct SourceFlags {
   std::string calibration;  ///< file; empty: the recording's, else a nominal Kinect's
   bool every_frame = false;
 
-  /// --source and --calibration.
+  /// Adds --source and --calibration.
   void add(Command command, const std::string& help);
 };
 

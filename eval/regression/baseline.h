@@ -45,7 +45,7 @@ Provenance parse_provenance(const std::string& text, const std::string& where);
 /// "ci/baselines/quick".
 std::string default_baseline_folder(const std::string& suite);
 
-/// From the given name or file, else the program's own.
+/// The suite of the given name or file, else the program's own.
 /// Throws: Error if the run has none or another.
 Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file);
 

@@ -18,13 +18,13 @@ struct Ablation {
   std::vector<AblationRow> rows;
 };
 
-/// Others change one thing of it.
+/// Other settings change one thing of it.
 inline constexpr const char* kDefaultSetting = "default";
 std::vector<Setting> ablation_settings(const TrackerConfig& tracker);
-/// Without the choice of postures. Labels of default rows assume the profile `paper`.
+/// All but the choice of postures. Labels of default rows assume the profile `paper`.
 std::vector<Ablation> ablations();
 
-/// On source truths: DB_open_power on power grasps, other databases on all five.
+/// Runs on source truths: DB_open_power on power grasps, other databases on all five.
 Runs run_rows(const StudyContext& context, const std::vector<Ablation>& wanted);
 
 /// Table "ablations".
@@ -45,7 +45,7 @@ reports::Table color_table(const Runs& runs);
 /// Unfiltered posture error of 3 neighbors minus 1, in frames where the 3 postures differ.
 reports::Measure interpolation_measure(const Runs& runs);
 
-/// Rows beyond `ablations`.
+/// Rows for these measures beyond `ablations`.
 std::vector<Ablation> measured_ablations();
 
 /// DB_20_random_NUMBER: as DB_20_postures, with movement postures drawn at random from the same pool. `number` >= 1
@@ -55,7 +55,7 @@ PostureSet random_choice(int number);
 double covering_radius_deg(const PostureSet& set);
 
 Ablation posture_choice_ablation(const std::vector<PostureSet>& choices);
-/// With the default setting. Frees each database after use (0.9 GB each).
+/// Runs the default setting. Frees each database after use (0.9 GB each).
 Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices);
 /// Table "postures", DB_20_postures first. `runs` must include it.
 reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices);

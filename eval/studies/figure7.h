@@ -21,7 +21,7 @@ Figure7Setup figure7_setup(bool quick);
 /// Bootstrap intervals are over queries. Ranks do not depend on threads.
 reports::StudyResult measure_figure7(const StudyContext& context, const Figure7Setup& setup);
 
-/// From 1. Ties share their mean rank.
+/// Ranks start at 1. Ties share their mean rank.
 double rank_of(std::span<const float> errors, int entry);
 
 }  // namespace glovebench::eval

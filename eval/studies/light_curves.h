@@ -14,7 +14,7 @@ struct LightPoint {
   render::Lighting lighting;
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  ///< gains on linear R, G, B
 };
-/// One thing that varies.
+/// One property of the light varies.
 struct LightAxis {
   std::string table;  ///< "light_strength"
   std::string title;
@@ -25,7 +25,7 @@ struct LightAxis {
 /// Strength 1/8 to 4 times the default's, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two each.
 std::vector<LightAxis> light_axes(bool quick);
 
-/// Unlabeled, for calibration: Tr2, Tr3 and Tr5, which no curve measures.
+/// An unlabeled recording for calibration: Tr2, Tr3 and Tr5, which no curve measures.
 calibration::ColorSamples record_under(Workbench& workbench, int subject, const LightPoint& point, int frames);
 
 /// `errors` is empty where calibration failed.

@@ -65,7 +65,7 @@ Runs time_settings(const StudyContext& context, const std::vector<Setting>& sett
                    const std::vector<std::string>& trajectories = {});
 std::string times_explanation();
 
-/// By trajectory, then seed.
+/// Runs by trajectory, then seed.
 using Selection = std::vector<const MeasuredRun*>;
 /// At least one run. `runs` must outlive the result.
 Selection select(const Runs& runs, std::string_view setting, std::string_view database);

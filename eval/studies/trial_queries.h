@@ -44,7 +44,7 @@ struct TrialQuery {
   std::vector<LabelImage> images;  ///< by size
   int redraws = 0;                 ///< rejected hands before it
 };
-/// Under the paper's noise. Do not depend on threads.
+/// Queries under the paper's noise. They do not depend on threads.
 /// Throws: Error if hardly any hand can be looked up.
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,

@@ -23,11 +23,11 @@ class CapsuleHand {
   /// Faster than `pose`.
   JointPoses joints(const Posture& posture) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// Of surface, folds and skeleton.
+  /// Hash of surface, folds and skeleton.
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
-  /// Of the right hand. A left hand mirrors it.
+  /// The right hand's skeleton. A left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
   /// Field value at each vertex, m: glove and folds. NaN at the cuff's flat end.

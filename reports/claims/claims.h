@@ -73,7 +73,7 @@ struct Claim {
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// Of how all claims are judged.
+/// A change of how all claims are judged.
 struct JudgingChange {
   std::string date;
   std::optional<std::string> commit;  ///< as in ClaimChange
@@ -94,7 +94,7 @@ struct ClaimSet {
 /// A field of claims.json as text: "below 10", "true".
 /// Throws: std::logic_error for another field.
 std::string field_text(const ClaimDefinition& definition, std::string_view field);
-/// After the first.
+/// Number of changes after the first.
 int change_count(const Claim& claim);
 
 /// reports/data/claims.json.

@@ -20,7 +20,7 @@ constexpr auto names_of(Verdict) {
   return std::to_array<std::string_view>({"better", "worse", "same", "not enough data"});
 }
 
-/// Rows over all experiments: means of their differences.
+/// Name of rows over all experiments: means of their differences.
 inline constexpr std::string_view kAllExperiments = "all";
 
 /// With fewer blocks of frames, an interval is too wide to be read.
@@ -60,7 +60,7 @@ struct ChangedFrame {
   std::optional<double> candidate_vertex_error_mm;
 };
 
-/// Per frame of one experiment: means over seeds with both values.
+/// Differences per frame of one experiment: means over seeds with both values.
 struct FrameDifferences {
   std::string experiment;
   int first_frame = 0;
@@ -97,9 +97,9 @@ struct Comparison {
 };
 inline constexpr int kWorstFrames = 6;
 
-/// Compares frame by frame and seed by seed (ci/README.md, "When a change counts"). Blocks of frames and seeds are
-/// resampled within each sequence (rescaled bootstrap of Rao and Wu, n - 1 of n); experiments on one trajectory
-/// share draws. Student's t has blocks - 1 degrees of freedom. `floor` gives minimum effects; may be null.
+/// Compares frame by frame and seed by seed (ci/README.md, "When a change counts"). Resamples blocks of frames and
+/// seeds within each sequence (rescaled bootstrap of Rao and Wu, n - 1 of n). Experiments on one trajectory share
+/// draws. Student's t has blocks - 1 degrees of freedom. `floor` gives minimum effects; may be null.
 /// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});

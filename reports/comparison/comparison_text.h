@@ -19,10 +19,10 @@ std::vector<OutcomeCount> outcome_counts(const Comparison& comparison);
 /// "2 worse, 1 worse in places, 1 better, 33 same, 0 not enough data", then slower stages.
 std::string outcome_line(const ComparisonReport& report);
 
-/// Changed, not judged, or stopping.
+/// Whether the row is changed, not judged, or stopping.
 bool is_worth_reading(const ComparisonRow& row);
 
-/// By experiment, in order.
+/// Rows by experiment, in order.
 std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison);
 
 /// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1". Other forms stay.
@@ -49,7 +49,7 @@ Tone tone_of(const ComparisonRow& row);
 
 /// Verdict last.
 Table rows_table(std::span<const ComparisonRow> rows);
-/// Enough data, speed, configuration, uncompared metrics, stage times (for information).
+/// Tables of enough data, speed, configuration, uncompared metrics, stage times (for information).
 std::vector<Table> comparison_tables(const ComparisonReport& report);
 /// Moves a last verdict beside the names, for narrow screens.
 Table verdict_first(Table table);

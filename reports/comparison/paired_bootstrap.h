@@ -49,7 +49,7 @@ class Draws {
   std::map<std::pair<std::string, int>, Eigen::MatrixXd> drawn_;
 };
 
-/// Per resample. NaN without a pair.
+/// Mean differences per resample. NaN without a pair.
 Eigen::VectorXd resampled_means(const BlockSums& sums, const std::string& trajectory, Draws& draws);
 /// Standard deviation without NaN. Empty if over half are NaN.
 std::optional<double> standard_error(const Eigen::VectorXd& means);

@@ -35,7 +35,7 @@ struct PairingOptions {
   bool is_across(Across what) const { return std::ranges::find(across, what) != across.end(); }
 };
 
-/// In the configuration, or in what runs are compared across.
+/// A difference in the configuration, or in what runs are compared across.
 struct ConfigurationChange {
   std::string field;     ///< "icp.max_iterations"
   std::string baseline;  ///< JSON; empty if absent

@@ -5,7 +5,7 @@
 
 namespace glovebench::reports {
 
-/// Relative to the plain implementation in one process. Comparable between machines.
+/// Speed relative to the plain implementation in one process. Comparable between machines.
 struct SpeedRatio {
   std::string name;  ///< without /plain and /fast
   double ratio = 0;  ///< plain / fast, medians of CPU time
@@ -20,7 +20,7 @@ struct SpeedRatio {
 /// Throws: Error, also without a pair or for a failed benchmark.
 std::vector<SpeedRatio> read_speed_ratios(const std::string& path);
 std::vector<SpeedRatio> parse_speed_ratios(const std::string& text, const std::string& where);
-/// Without machine name and paths.
+/// Ratios without machine name and paths.
 std::string speed_json(const std::vector<SpeedRatio>& ratios);
 
 struct SpeedRow {

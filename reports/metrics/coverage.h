@@ -10,7 +10,7 @@ struct FrameRecord;
 
 // The rules of coverage. Each result's protocol contains them: a new rule is a new protocol.
 
-/// Of the hand's camera-facing area, in both images and in the volume.
+/// A hand is visible from this share of its camera-facing area, in both images and in the volume.
 inline constexpr double kVisible_percent = 30;
 inline constexpr double kVolumeNear_mm = 400, kVolumeFar_mm = 950;  ///< z in the IR camera's frame
 /// A frame is found, or "covered", below these errors.
@@ -24,7 +24,7 @@ std::map<std::string, double> coverage_rules();
 
 // Errors are compared with the precision of files (1e-6).
 
-/// False for a frame of an older result.
+/// False for frames of older results.
 bool is_visible(const FrameRecord& frame);
 /// Whether the frame is tracked with errors below the usable ones. Ignores errors that the result lacks.
 bool is_usable(const FrameRecord& frame);

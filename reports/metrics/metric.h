@@ -46,7 +46,7 @@ struct Metric {
   std::string_view averaged_over() const;
 };
 
-/// By place.
+/// All metrics, by place.
 std::span<const Metric> metrics();
 /// Columns of frames, in the order of FrameRecord::values.
 std::span<const Metric> frame_metrics();

@@ -23,19 +23,19 @@ struct HandState {
 /// Rotation vector about the hand origin and translation, capture frame; then angles.
 inline constexpr int kStateSize = 6 + kAngleCount;
 using StateStep = Eigen::Matrix<double, kStateSize, 1>;
-/// Within joint limits.
+/// Takes a step within joint limits.
 HandState moved(const HandState& state, const StateStep& step);
 
-/// Capture frame.
+/// Marker positions in the capture frame.
 std::vector<Eigen::Vector3d> predict_points(const CaptureHand& hand, const HandState& state);
 /// Derivative of predict_points, three rows per marker.
 Eigen::MatrixXd state_jacobian(const CaptureHand& hand, const HandState& state);
 
-/// Of the frame that holds a marker, in the hand frame.
+/// Pose of the frame that holds a marker, in the hand frame.
 Eigen::Isometry3d marker_frame(const PlacedMarker& marker, const JointPoses& T_hand_joint);
 
-/// Relative to `hand`: the median ratio of distances that no posture changes, else 1. `points`: a point or gap per
-/// frame and marker.
+/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points`: a point or gap
+/// per frame and marker.
 /// Throws: Error if no hand has this size.
 double hand_scale(const CaptureHand& hand, const std::vector<std::vector<Eigen::Vector3d>>& points,
                   const std::string& where);

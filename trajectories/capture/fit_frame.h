@@ -50,7 +50,7 @@ struct FrameFit {
 FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
                    const FrameFitOptions& options = {});
 
-/// From their markers, m. NaN for gaps.
+/// Distances from their markers, m. NaN for gaps.
 std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                     const HandState& state);
 

@@ -23,7 +23,7 @@ struct CapturePlacement {
 };
 inline constexpr double kViewingDistance = 0.7;  ///< m
 
-/// Every nth frame.
+/// Takes every nth frame.
 Trajectory trajectory_of(const HandFit& fit, const CapturePlacement& placement, const std::string& name, int every);
 
 /// At most `count` postures by low-dispersion sampling, the first frame's first. `names`: of frames; empty:

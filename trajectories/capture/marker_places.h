@@ -20,7 +20,7 @@ bool is_webxr_joint(const std::string& name);
 /// Joint centers, without frames.
 MarkerSequence sequence_of_joints();
 
-/// Fixed to a joint or, for kPalm, the hand.
+/// A point fixed to a joint or, for kPalm, the hand.
 struct PlacedMarker {
   std::string name;
   int joint = kPalm;
@@ -33,13 +33,13 @@ struct PlacedMarker {
 
 inline constexpr uint64_t kLargestMarkerLayout = uint64_t{1} << 20;  // bytes
 
-/// From other names to places.
+/// Maps other names to places.
 using MarkerLayout = std::map<std::string, std::string>;
 /// Reads "glovebench-marker-layout" (README.md).
 /// Throws: Error.
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where);
 
-/// On a right hand. `name`: of README.md ("index_proximal_2") or WebXR.
+/// The place on a right hand. `name`: of README.md ("index_proximal_2") or WebXR.
 std::optional<PlacedMarker> place_marker(const std::string& name, const HandModel& model);
 
 /// Throws: Error for a point without a place, or a layout name without a point.

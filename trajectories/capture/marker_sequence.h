@@ -31,10 +31,10 @@ inline Eigen::Vector3d gap() {
 inline bool is_seen(const Eigen::Vector3d& point) {
   return point.allFinite();
 }
-/// "unlabeled...", "unnamed..." (any case) or "*...".
+/// Whether the name is "unlabeled...", "unnamed..." (any case) or "*...".
 bool is_unlabeled(const std::string& name);
 
-/// Seconds.
+/// Reads seconds.
 /// Throws: Error.
 int64_t timestamp_from(std::string_view cell, const std::string& where, const std::string& field);
 
@@ -54,7 +54,7 @@ void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSeq
 /// The format "csv", mm to 0.001.
 std::string csv_markers(const MarkerSequence& sequence);
 
-/// From a marker's prediction to its point, m.
+/// Largest distance of a point from its marker's prediction, m.
 inline constexpr double kLabelGate = 0.015;
 
 struct Relabeling {

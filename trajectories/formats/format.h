@@ -35,7 +35,7 @@ std::vector<const Format*> formats_with(Reader Format::*reader) {
   return found;
 }
 
-/// By the path's ending. Null for an unknown one.
+/// Chooses by the path's ending. Null for an unknown one.
 template <typename Reader>
 const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   for (const Format* format : formats_with(reader))
@@ -43,7 +43,7 @@ const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   return nullptr;
 }
 
-/// By the ending. Built-in names have none.
+/// Decides by the ending. Built-in names have none.
 inline bool is_trajectory_file(std::string_view name) {
   return format_of_file(name, &Format::trajectory) != nullptr;
 }
@@ -51,7 +51,7 @@ inline bool is_posture_file(std::string_view name) {
   return format_of_file(name, &Format::postures) != nullptr;
 }
 
-/// By the ending.
+/// Reads by the ending.
 /// Throws: Error.
 Trajectory load_trajectory(const std::string& path);
 /// A set without a name takes the file's.

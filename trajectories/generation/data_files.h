@@ -13,10 +13,10 @@ inline constexpr size_t kPostureCount20 = 20;
 /// Random blends of two or three gestures within limits, wrist at 0.
 std::vector<Posture> movement_posture_pool(const PostureSet& gestures);
 
-/// Of section IV.
+/// The sets of section IV.
 std::vector<PostureSet> make_database_posture_sets(const PostureSet& gestures);
 
-/// Every generated file, by path in the data folder, from its gestures and scripts.
+/// Makes every generated file, by path in the data folder, from its gestures and scripts.
 /// Throws: Error.
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder);
 

@@ -8,7 +8,7 @@ namespace glovebench {
 
 /// " (libfreenect: ...)" with the library's last complaint, or "".
 std::string last_complaint();
-/// Throws: Error with it unless `success`.
+/// Throws: Error with the last complaint unless `success`.
 void require_freenect(bool success, const char* field, const std::string& expected);
 
 class FreenectHandle {

@@ -22,8 +22,8 @@ inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance
 inline constexpr double kMostOverlap = 2e-3;          ///< of parts of a hand, m
 inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways
 
-/// Ranges to draw from. Poses and postures go from one random key to the next along minimum-jerk profiles and rest
-/// there for a moment, independently of each other.
+/// A movement's ranges to draw from. Poses and postures go from one random key to the next along minimum-jerk
+/// profiles and rest there for a moment, independently of each other.
 struct MovementFamily {
   std::string_view name;
   std::string_view description;
@@ -47,7 +47,6 @@ struct MovementFamily {
   bool captured = false;       ///< people's postures, not random ones
 };
 
-/// In the order of lists.
 std::span<const MovementFamily> movement_families();
 std::vector<std::string> movement_family_names();
 /// Throws: Error for an unknown name.

@@ -28,7 +28,7 @@ struct ServedRobot {
 
   GuardedPart part() const;
   std::string name() const;  ///< "hand", "arm" or "hand and arm"
-  /// The hand's (ShadowJoint), then the arm's.
+  /// All joints: the hand's (ShadowJoint), then the arm's.
   std::vector<std::string> names() const;
   std::vector<double> at_rest() const;  ///< rad: open hand, kArmAtRest
   std::vector<JointMotion> motions(const CommandLimits& limits) const;

@@ -36,7 +36,7 @@ struct LoggedState {
 /// Throws: Error if it has other joints, or the text is no log.
 std::optional<LoggedState> last_state(std::string_view log, const std::vector<std::string>& names,
                                       const std::string& path);
-/// Likewise.
+/// The last interval, likewise.
 /// Throws: Error if it has other joints, or a minimum above its maximum.
 std::optional<JointInterval> last_interval(std::string_view log, const std::vector<std::string>& names,
                                            const std::string& path);
