@@ -15,9 +15,9 @@ struct TrueNeighbor {
   double distance = 0;  ///< mean between equal vertices, m
 };
 
-/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. A look-up
-/// sees neither distance nor direction of the hand, so hands are compared at one origin and along one ray, through
-/// the middle of the bounding square (an entry's `box_ray`). `model`: the database's hand. Both must outlive the
+/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. Hands are
+/// compared at one origin and along one ray, through the middle of the bounding square (an entry's `box_ray`),
+/// because a look-up sees neither distance nor direction. `model`: the database's hand. Both must outlive the
 /// search. Thread-safe.
 class TrueNeighborSearch {
  public:

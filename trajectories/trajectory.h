@@ -47,13 +47,13 @@ inline constexpr double kQuaternionNormTolerance = 1e-3;
 /// Throws: Error.
 Trajectory parse_trajectory(std::string_view text, const std::string& where);
 
-/// Degrees and mm to 0.001, quaternions to 1e-7 with w >= 0. Parsing reproduces it byte for byte.
+/// The canonical file (README.md). Parsing reproduces it byte for byte.
 /// Throws: Error if it could not be read again.
 std::string canonical_text(const Trajectory& trajectory);
 /// Throws: Error.
 void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
-/// Of the canonical file. Identifies a truth in results.
+/// Hash of the canonical file. Identifies a truth in results.
 std::string hash(const Trajectory& trajectory);
 
 }  // namespace glovebench::trajectories

@@ -47,8 +47,8 @@ void sync_folder(const std::string& folder);
 /// "." for a plain name.
 std::string folder_above(const std::string& path);
 
-/// Writes a file whole (core/base/README.md): to a temporary name, which `commit` syncs and renames. Without
-/// `commit` the old file stays. Creates missing folders. Opens streams at the first `append`.
+/// Writes a file whole (core/base/README.md). Without `commit` the old file stays. Creates missing folders. Opens
+/// streams at the first `append`.
 /// Throws: Error, from every function.
 class WholeFile {
  public:

@@ -10,7 +10,7 @@
 
 namespace glovebench::calibration {
 
-/// For a recording, which shows its light: allows little change of it.
+/// Allows little change of light, because a recording shows its light.
 ColorModel recorded_color_model();
 
 struct GloveColorConfig {

@@ -51,7 +51,7 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
 struct AlignmentEntry {
   std::string_view name;
   std::string_view description;
-  /// `points`: at least 3, camera frame, m, labeled as the surface's faces.
+  /// `points`: at least 3, camera frame, m, labeled as the surface's faces. `config` limits the iterations.
   Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                      const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 };

@@ -32,7 +32,7 @@ struct SourceFlags {
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
 /// Gives `take` up to `count` frames spread over a recording, or the first ones of a live device. Skips damaged
-/// frames; names them on stderr unless `quiet`. `title`: of the progress bar.
+/// frames and names them on stderr unless `quiet`. `title`: of the progress bar.
 void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
                  const std::function<void(const DeviceFrame&)>& take);
 

@@ -55,7 +55,7 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
                                  const std::vector<std::string>& trajectories = {});
 
 using Runs = std::vector<MeasuredRun>;
-/// Runs for errors. Their times mean little, because runs share the machine.
+/// Runs `study_specs` for errors. Their times mean little, because runs share the machine.
 Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
                   const std::vector<std::string>& databases, reports::TruthKind truth,
                   const std::vector<std::string>& trajectories = {});

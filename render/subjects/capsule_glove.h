@@ -23,7 +23,7 @@ class CapsuleGlove {
   CapsuleGlove(const std::vector<HandCapsule>& capsules, std::vector<Capsule> placed,
                const JointPoses& T_hand_joint, uint64_t seed);
 
-  /// As `patch_scores`. Borders lie near the joints, each shifted randomly by up to 3 mm.
+  /// As `patch_scores`, with borders near the joints.
   PatchScores scores(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const;
 
   /// Folds across the fingers, m, mean 0.

@@ -8,9 +8,9 @@
 
 namespace glovebench::render {
 
-/// A gloved hand unlike the tracker's mesh: a smooth union of tapered capsules with anthropometric dimensions. The
-/// seed draws person, skeleton and glove. A posture moves the capsules and projects vertices onto their union
-/// (Vaillant et al. 2013, "Implicit Skinning", without contact).
+/// A gloved hand unlike the tracker's mesh (render/README.md): a smooth union of tapered capsules. The seed draws
+/// person, skeleton and glove. A posture moves the capsules and projects vertices onto their union (Vaillant et al.
+/// 2013, "Implicit Skinning", without contact).
 class CapsuleHand {
  public:
   /// `definition`: the package's skeleton, for the thumb's zero.

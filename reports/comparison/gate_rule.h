@@ -7,10 +7,9 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/speed.h"
 
-// The rule that stops a change (ci/README.md, "When a change counts"): a row is significantly worse by at least its
-// minimum effect, a row rises by its sure effect, or a stage becomes slower. Other noise seeds cause less than the
-// minimum effect in 99% of comparisons. The sure effect is twice as large; for a share of frames it is one minimum
-// effect. It finds a rise in few blocks of frames, whose interval is too wide to be significant.
+// The rule that stops a change (ci/README.md, "When a change counts"). A row stops it if it is significantly worse
+// by its minimum effect, or if it rises by its sure effect: two minimum effects, or one for a share of frames. A
+// slower stage stops it, too.
 
 namespace glovebench::reports {
 

@@ -12,7 +12,7 @@ class HandParameters {
   explicit HandParameters(const CaptureHand& nominal);
 
   int size() const { return static_cast<int>(deviations_.size()); }
-  /// Between persons, m. Segments are relative.
+  /// Standard deviations between persons, m. Segments are relative.
   const Eigen::VectorXd& deviations() const { return deviations_; }
   /// Fixes the hand frame: rows whose product with the parameters is 0, m.
   const Eigen::MatrixXd& frame_constraints() const { return frame_constraints_; }

@@ -15,7 +15,7 @@
 #include "core/adapters/dds/dds_access.h"
 #include "core/adapters/dds/dds_types.h"
 
-/// Throws: Error, from every function, if Cyclone DDS refuses.
+// Throws: Error, from every function, if Cyclone DDS refuses.
 namespace glovebench {
 
 /// Returns `result`.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// DDS Security. `openssl` makes certificates and signatures (EC P-256, SHA-256).
+// DDS Security. `openssl` makes certificates and signatures (EC P-256, SHA-256).
 namespace glovebench {
 
 /// Seconds since 1970.

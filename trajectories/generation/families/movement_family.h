@@ -22,8 +22,7 @@ inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance
 inline constexpr double kMostOverlap = 2e-3;          ///< of parts of a hand, m
 inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways
 
-/// A movement's ranges to draw from. Poses and postures go from one random key to the next along minimum-jerk
-/// profiles and rest there for a moment, independently of each other.
+/// A kind of movement: ranges to draw from (trajectories/README.md).
 struct MovementFamily {
   std::string_view name;
   std::string_view description;

@@ -11,7 +11,7 @@ namespace glovebench {
 /// Throws: Error.
 int64_t changed_us(const std::string& path);
 
-/// The file's end. Empty if it is missing or a device.
+/// The last `max_bytes` of a file. Empty if it is missing or a device.
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 

@@ -18,8 +18,7 @@ struct LoggedStart {
   std::string age;    ///< of the last state; empty at rest
 };
 
-/// A running server's log, which never delays it. Joints move only within intervals on the disk, or freely without
-/// a file.
+/// A running server's log, which never delays it (core/adapters/dds/README.md, "The log").
 class MotionLog {
  public:
   /// `path`: empty for no file.
