@@ -20,10 +20,10 @@ struct Movement {
   std::vector<HandFrame> frames;
 };
 
-/// Every 19th frame of the five source trajectories; the robust alignment's width was chosen on them.
+/// Every 19th frame of the five source trajectories. The robust alignment's width was chosen on them.
 std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
 
-/// 70 fixed frames of ten random movements, for no tuning.
+/// 70 fixed frames of ten random movements, never used for tuning.
 std::vector<Movement> held_out_movements(const std::string& trajectory_folder);
 
 /// GLOVEBENCH_CACHE, the user's cache folder or a new temporary one.
@@ -41,7 +41,6 @@ struct Settings {
   std::string colors = "same";
 };
 
-/// A frame and each stage's result.
 struct BenchFrame {
   HandFrame hand;
   render::RgbdImages images;  ///< without noise
@@ -71,21 +70,21 @@ struct BenchData {
 void prepare(const Settings& settings);
 const BenchData& data();
 
-/// Shown for a library that the build lacks.
+/// For a library that the build lacks.
 inline constexpr const char* kMissing = "missing";
 
 /// Adds a counter: time for one of `count` items.
 void set_time_each(benchmark::State& state, const std::string& name, size_t count);
 
-/// Least bytes for one item.
+/// Minimum bytes per item.
 struct BytesTouched {
-  double near = 0;  ///< in caches
-  double far = 0;   ///< behind caches
+  double near = 0;  ///< in caches; `far`: behind them
+  double far = 0;
 };
 inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";
 void set_bytes_touched(benchmark::State& state, const BytesTouched& touched);
 
-/// Peak resident memory, bytes.
+/// Bytes.
 double peak_memory();
 
 }  // namespace glovebench::bench

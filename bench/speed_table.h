@@ -8,9 +8,9 @@
 namespace glovebench::bench {
 
 struct Measured {
-  std::map<int64_t, double> seconds;  ///< CPU time for an item, by repetition
+  std::map<int64_t, double> seconds;  ///< CPU time per item, by repetition
   bool missing = false;
-  double near_bytes = 0, far_bytes = 0;  ///< for an item; 0: unknown
+  double near_bytes = 0, far_bytes = 0;  ///< per item; 0: unknown
 };
 using Measurements = std::map<std::string, Measured>;
 
@@ -22,10 +22,10 @@ struct EngineRatio {
   double ratio = 0;
   double low = 0, high = 0;  ///< over repetitions
 };
-/// Ratios by stage, plain first.
+/// By stage, plain first.
 std::vector<EngineRatio> engine_ratios(const Measurements& measurements);
 
-/// Compares a stage's time with the least for reading its bytes.
+/// A stage's time and the minimum for reading its bytes.
 struct StageFloor {
   std::string benchmark;
   double bytes = 0;

@@ -28,7 +28,7 @@ inline std::string shared_folder(const std::string& name) {
   return path;
 }
 
-/// A private folder: empty at first, removed at the end.
+/// Private, empty at first, removed at the end.
 class TestFolder {
  public:
   TestFolder() {
@@ -59,7 +59,7 @@ inline const std::string& test_folder() {
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// A folder for expensive files, which all processes of this build of the executable share. Removes those of other
+/// A folder for expensive files, shared by all processes of this build of the executable. Removes those of other
 /// builds.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;

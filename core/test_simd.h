@@ -1,6 +1,6 @@
 #pragma once
 
-// Runs a test on each instruction set of the processor and the build.
+// Runs a test on each instruction set.
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -18,7 +18,7 @@ struct ColorTableConfig {
   std::vector<render::Lighting> lightings = calibration_lightings();
   ColorModel model;
 };
-/// For comparison: one lighting (strength 1, 4500 K) without relighting.
+/// For comparison: one lighting (strength 1, 4500 K), no relighting.
 ColorTableConfig one_lighting(ColorSpace space);
 
 /// Calibrates from rendered, labeled views of the gloved hand.
@@ -26,10 +26,11 @@ ColorTableConfig one_lighting(ColorSpace space);
 ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config = {});
 
-/// Hash of the sources behind `calibrate_colors`.
+/// Hash of the sources of `calibrate_colors`.
 std::string color_table_source_hash();
 
-/// With all lightings; cached in `folder` by the hash of inputs and sources. Replaces a damaged or outdated file.
+/// Calibrates with all lightings. Caches the table in `folder` by the hash of inputs and sources. Replaces a
+/// damaged or outdated file.
 ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space = ColorSpace::yuv);

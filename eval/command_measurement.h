@@ -12,9 +12,9 @@
 
 namespace glovebench::eval {
 
-/// Robot commands as `track` sends them.
+/// Commands as `track` sends them.
 struct CommandStream {
-  std::vector<RobotCommand> commands;  ///< in time order, at most one a result
+  std::vector<RobotCommand> commands;  ///< in time order, at most one per result
   std::vector<double> command_ms;      ///< processor time by result
   Interventions interventions;
 };
@@ -23,7 +23,7 @@ CommandStream make_commands(std::span<const TrackResult> results, const RobotSet
 /// Results of a perfect tracker.
 std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
-/// Compares commands with the truth's at equal time stamps. Errors are of `following` commands; jerk needs four in
+/// Compares commands with the truth's at equal time stamps. Errors are of `following` commands. Jerk needs four in
 /// a row.
 class CommandMeasurement {
  public:
@@ -34,7 +34,7 @@ class CommandMeasurement {
  private:
   struct JerkSums {
     double joints = 0, position = 0;  ///< sums of squares
-    int count = 0;                    ///< third derivatives
+    int count = 0;
     void add(std::span<const RobotCommand* const, 4> commands);
     reports::Jerk rms() const;
   };
@@ -50,13 +50,13 @@ class CommandMeasurement {
 };
 
 struct RobotOutput {
-  std::string folder = {};  ///< of JSON Lines, a file for each run; empty: none
+  std::string folder = {};  ///< of JSON Lines, one file per run; empty: none
   RobotSetup setup = {};
   CommandLimits limits = {};
   nlohmann::json configuration = {};  ///< for the results; null: none
 };
 /// Makes the commands of `runs` and writes them as one set of files. Adds errors to `result` and latencies to
-/// `timings`, both of these runs.
+/// `timings`, which must be of these runs.
 void add_commands(reports::RunResult& result, reports::Timings& timings, std::span<const MeasuredRun> runs,
                   const RobotOutput& robot);
 

@@ -14,10 +14,10 @@
 
 namespace glovebench::eval {
 
-/// A folder with good.json (right hand) and left.json.
+/// Has good.json (right hand) and left.json.
 class CommandTest : public testing::Test {
  protected:
-  static constexpr int kFrames = 4;  ///< a trajectory
+  static constexpr int kFrames = 4;
 
   void SetUp() override {
     folder_ = test_folder();
@@ -38,7 +38,7 @@ class CommandTest : public testing::Test {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     return run.err;
   }
-  /// Tracks with DB_open_power; returns results.json.
+  /// Tracks with DB_open_power. Returns results.json.
   nlohmann::json run_trajectory(const std::string& trajectory, const std::string& output,
                                 const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"run",           "--trajectory", path(trajectory), "--database",

@@ -18,10 +18,10 @@ struct Experiment {
   reports::ExperimentKey key;
   std::vector<const MeasuredRun*> runs;
 };
-/// In order of first appearance. `runs` must outlive the result; each seed occurs once.
+/// In order of first appearance. `runs` must outlive the result. Each seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
 
-/// Errors, protocol, input hashes and configuration; no robot commands, no studies.
+/// Results without robot commands and studies.
 reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> runs, Workbench& workbench);
 
 struct Outcome {
@@ -31,17 +31,16 @@ struct Outcome {
 struct TimedWith {
   int threads = 1;
   std::chrono::steady_clock::time_point start;
-  bool commands = true;  ///< false: the times of robot commands are of another number of threads, and left out
+  bool commands = true;  ///< false: leave out command times, measured with other threads
 };
-/// Writes the report of runs that were executed and measured: adds robot commands, the table of families and what
-/// `add_studies` adds.
+/// Writes the report of measured runs, with robot commands, the table of families and what `add_studies` adds.
 /// Throws: Error for a folder that cannot be written.
 Outcome report_runs(
     Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const TimedWith& timed,
     const RobotOutput& robot, const std::string& folder,
     const std::function<void(reports::RunResult&)>& add_studies = [](reports::RunResult&) {});
 
-/// Adds studies to the result of the experiments; `store` keeps what is finished.
+/// Adds studies. `store` keeps finished parts.
 using AddStudies = std::function<void(reports::RunResult& result, RunStore& store)>;
 /// Executes and measures the plan's runs, adds robot commands and studies, and writes the report into `folder`.
 /// Resumes an interrupted run.

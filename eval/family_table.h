@@ -8,8 +8,8 @@
 
 namespace glovebench::eval {
 
-/// Errors of generated movements: a row for each family, database, hand and noise, with means and Student's 95%
-/// intervals over movements. Empty without such runs.
+/// Errors of generated movements by family, database, hand and noise: means and Student's 95% intervals over
+/// movements. Empty without such runs.
 std::optional<reports::StudyResult> family_table(std::span<const MeasuredRun> runs);
 
 }  // namespace glovebench::eval

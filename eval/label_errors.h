@@ -15,38 +15,35 @@ namespace glovebench::eval {
 /// For tests: strength 0.5 to 2, 3000 to 6500 K, new directions.
 std::vector<render::Lighting> held_out_lightings();
 
-/// Label errors of a color table, in IR pixels. Leaves out glove pixels without color; labels count inside the
-/// working volume only.
+/// Label errors in IR pixels. Ignores glove pixels without color. Labels count only inside the working volume.
 struct LabelErrors {
   int glove = 0;       ///< true glove pixels
-  int missed = 0;      ///< of these, without a label
+  int missed = 0;      ///< without a label
   int labeled = 0;     ///< pixels with a label
-  int wrong = 0;       ///< pixels with a false label
+  int wrong = 0;       ///< with a false label
   int mislabeled = 0;  ///< glove pixels without the true label
   int interior = 0;    ///< glove pixels whose 8 neighbors have the same true label
   int interior_missed = 0;
   int interior_mislabeled = 0;
   std::array<int, kColorCount + 1> glove_of{}, missed_of{};
 
-  /// Share of labeled pixels; 0 without any.
+  /// Share of labeled pixels. 0 without any.
   double wrong_share() const;
-  /// Share of glove pixels, of which there must be one.
+  /// Share of glove pixels. There must be one.
   double missed_share() const;
   double mislabeled_share() const;
-  /// Shares of interior and of all other glove pixels, of which there must be one.
+  /// Shares of interior and of all other glove pixels. There must be one.
   double interior_mislabeled_share() const;
   double border_mislabeled_share() const;
   /// 0 for an unseen color.
   double missed_share_of(int color) const;
-  /// The color with the largest missed share.
   int worst_color() const;
   LabelErrors& operator+=(const LabelErrors& other);
 };
 
-/// After labeling: none (the paper), majority_filter or surface_majority.
+/// After labeling. The paper uses none.
 enum class LabelFilter { none, majority, surface };
 
-/// Labels as the paper does, then filters.
 LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& frame,
                          const RgbdCalibration& calibration, const ColorTable& table,
                          LabelFilter filter = LabelFilter::none);

@@ -19,12 +19,12 @@ struct MeasuredRun {
 /// `subject`: the rendered hand.
 std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& tracker_hand,
                                           const render::Subject& subject);
-/// On the workbench's threads, in the order of `runs`.
+/// Measures on the workbench's threads, in the order of `runs`.
 std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs);
 
 /// Jitter: RMS change of the pose error between frames while the truth rests (under 1 mm, 0.5 deg, and 0.5 deg of
 /// posture per frame; at least 10 steps). Latency: the delay, 0..10 frames, at which the posture fits a moving
-/// truth best (parabola through three; at least 30 frames). Lost frames are skipped.
+/// truth best (parabola through three; at least 30 frames). Skips lost frames.
 reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates, std::span<const HandFrame> truth);
 
 }  // namespace glovebench::eval

@@ -8,20 +8,18 @@
 
 namespace glovebench::eval {
 
-/// Takes the pictures of a sequence.
 class PictureSink {
  public:
   virtual ~PictureSink() = default;
-  /// Numbers and times rise.
+  /// Numbers and times must rise.
   /// Throws: Error.
   virtual void add(int number, int64_t timestamp_us, const ColorImage& picture) = 0;
-  /// Makes the file whole.
   /// Throws: Error.
   virtual void finish() {}
 };
 
 /// A folder of PNG files, FOLDER/000042.png, or a video of 30 frames/s (*.mp4), which the program ffmpeg encodes. A
-/// video stays FILE.partial.mp4 until `finish`. All pictures have this size, px.
+/// video stays FILE.partial.mp4 until `finish`. Size in px.
 /// Throws: Error unless the folder is new or empty, for another ending, or without ffmpeg.
 std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height);
 

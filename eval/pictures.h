@@ -16,21 +16,19 @@ namespace glovebench::eval {
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// The command that shows the frame of the run in `folder`, with the flags that a user's own trajectory or database
-/// needs.
+/// Shows the frame of the run in `folder`, with flags for a user's own trajectory or database.
 std::string complete_command(const reports::WorstFrame& worst, const std::string& folder = ".");
 
-/// All tracker stages of one frame, tracked alone, so without the filter; its errors against the truth.
+/// All tracker stages of one frame, and its errors. The frame is tracked alone, without the filter.
 /// Throws: Error if the frame does not exist or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
 
-/// The IR camera, cropped and scaled to a tile that holds the glove of every frame. Needs a frame.
-/// Units: tile size in px.
+/// The IR camera, cropped and scaled to a tile (px) that holds the glove of every frame. Needs a frame.
 PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,
                             int tile_width, int tile_height);
 
 /// Two tiles per frame, without noise: true hand in color, and estimated minus true depth. `estimates` are of one
-/// seed, one per frame; a lost frame shows the true hand in gray.
+/// seed, one per frame. A lost frame shows the true hand in gray.
 /// Paper: pictures under Figures 5 and 6.
 reports::FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
                                      std::span<const HandFrame> frames,

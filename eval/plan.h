@@ -8,8 +8,8 @@
 namespace glovebench::eval {
 
 struct Plan {
-  TrackerConfig tracker;       ///< for all runs
-  std::vector<RunSpec> specs;  ///< with runs of the same frames in sequence
+  TrackerConfig tracker;
+  std::vector<RunSpec> specs;  ///< runs of the same frames in sequence
   std::string suite = {};      ///< empty: none
   bool quick = false;          ///< few frames; no conclusions
 };
@@ -27,7 +27,7 @@ Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options);
 
 std::string list_experiments(const Plan& plan);
 
-/// Experiments, seeds, frames, and which databases exist. Builds nothing.
+/// Experiments, seeds, frames, and existing databases. Builds nothing.
 std::string describe_plan(Workbench& workbench, const Plan& plan);
 
 }  // namespace glovebench::eval

@@ -17,7 +17,7 @@ struct ProgramInfo {
 };
 const ProgramInfo& program_info();
 
-/// No times yet.
+/// Without times.
 reports::Timings host_timings(int threads);
 
 /// GLOVEBENCH_SHARE, else ../share/glovebench beside the program.
@@ -32,8 +32,8 @@ std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.
 std::string default_cache_folder();
 
-/// Built-in ("Tr4"), generated ("side_3") or a file (*.json). `truth`: which of a named one; a file must be it, if
-/// it is given. Throws: Error for an unknown name, another kind or a bad file.
+/// Built-in ("Tr4"), generated ("side_3") or a file (*.json). `truth`: the kind to select, or that a file must be.
+/// Throws: Error for an unknown name, another kind or a bad file.
 trajectories::Trajectory load_truth(const std::string& name_or_file, std::optional<reports::TruthKind> truth);
 /// The built-in truth of an experiment. Null for a user's file.
 /// Throws: Error if the data folder is damaged.

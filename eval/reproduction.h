@@ -12,9 +12,9 @@ namespace glovebench::eval {
 
 struct ReproductionOptions {
   StudyOptions study;
-  std::vector<std::string> trajectories;             ///< of Figure 4; empty: all five
-  std::vector<reports::NoiseSetting> noises = {{}};  ///< of Figure 4
-  std::vector<std::string> only;  ///< parts to run (part_names); empty: all, or with `trajectories` Figure 4 alone
+  std::vector<std::string> trajectories;  ///< of Figure 4; empty: all five
+  std::vector<reports::NoiseSetting> noises = {{}};
+  std::vector<std::string> only;  ///< part_names to run; empty: all, or with `trajectories` Figure 4 alone
 };
 
 /// "fig4", "fig5", "fig6" and the studies.
@@ -28,11 +28,11 @@ int exit_code_of(const reports::RequiredClaims& required, const ReproductionOpti
 /// Throws: Error for an unknown part.
 Plan plan_reproduction(const ReproductionOptions& options);
 
-/// The parts with their work and estimated times, and which databases exist. Builds nothing.
+/// Parts, estimated times and existing databases. Builds nothing.
 std::string describe_reproduction(Workbench& workbench, const ReproductionOptions& options);
 
 using ShowResults = std::function<void(const reports::RunResult& so_far)>;
-/// Carries out the plan with its studies. Calls `show` after Figures 4 to 6 and after each study.
+/// Calls `show` after Figures 4 to 6 and after each study.
 /// Throws: Error as `plan_reproduction` and `carry_out`.
 Outcome reproduce(
     Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot, const std::string& folder,

@@ -26,26 +26,26 @@ struct FrameRange {
 
 /// One tracker, one trajectory, one noise seed.
 struct RunSpec {
-  std::shared_ptr<const trajectories::Trajectory> trajectory;  ///< the truth
+  std::shared_ptr<const trajectories::Trajectory> trajectory;
   FrameRange frames = {};
-  int subject = 1;  ///< in front of the camera
+  int subject = 1;
   reports::NoiseSetting noise = {};
   uint64_t seed = 1;
   std::string database = {};
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
-  std::string setting = {};  ///< a study's name for it, or a movement's family; without effect
+  std::string setting = {};  ///< label without effect: a study's setting or a movement's family
 };
 
 /// Measured on the true images and the true surface.
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
-  double visible_percent = 0;                     ///< reports/metrics/visibility.h; independent of the tracker
+  double visible_percent = 0;                     ///< see reports/metrics/visibility.h
 };
 
-/// A tracker's answers by frame; measured_run.h computes errors.
+/// Results by frame, without errors (measured_run.h).
 struct Run {
   RunSpec spec;
   std::vector<TrackResult> answers;
@@ -59,19 +59,19 @@ std::span<const HandFrame> frames_of(const RunSpec& spec);
 /// Equal for runs that differ only in the seed.
 reports::ExperimentKey key_of(const RunSpec& spec);
 render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec);
-/// Same hand, frames, light and scene.
+/// Whether hand, frames, light and scene are the same.
 bool share_images(const RunSpec& a, const RunSpec& b);
 
 struct RunOptions {
   int threads = 1;
-  RunStore* store = nullptr;  ///< loads stored runs, stores others
+  RunStore* store = nullptr;  ///< loads and stores runs
 };
 /// Renders, adds noise and tracks, in the order of `specs`. Trackers get only device frames and calibration.
 /// `threads` change only times. Neighbors that share images are rendered once.
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
-/// Hash of all inputs but the program.
+/// Hash of all inputs except the program.
 std::string run_key(Workbench& workbench, const RunSpec& spec);
 
 }  // namespace glovebench::eval

@@ -15,7 +15,6 @@ std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec)
 
 /// Lossless CBOR.
 std::string to_bytes(const reports::StudyResult& study);
-/// Empty for other bytes.
 std::optional<reports::StudyResult> study_from_bytes(const std::string& bytes);
 
 }  // namespace glovebench::eval

@@ -6,10 +6,9 @@
 
 namespace glovebench::eval {
 
-/// The folder of a run in progress: locked, marked as unfinished, with finished parts. The same command resumes
-/// after a crash and writes the same bytes.
-/// FOLDER/.unfinished/ is the mark. It holds `lock` (flock) and a file for each part: a line with program hash, key
-/// and checksum, then the content.
+/// The folder of a run in progress. After a crash the same command resumes and writes the same bytes.
+/// FOLDER/.unfinished/ marks the run and holds a lock and the finished parts, each with program hash, key and
+/// checksum.
 class RunStore {
  public:
   /// Throws: Error if another run holds the folder or it cannot be written.
@@ -22,7 +21,7 @@ class RunStore {
   /// Keeps the mark until `finish`.
   void begin();
 
-  /// A part that this program stored, else empty. Removes a useless file; stderr says so once. Thread-safe.
+  /// A part that this program stored, else empty. Removes a useless file and says so once on stderr. Thread-safe.
   std::optional<std::string> load(const std::string& key) const;
   /// Thread-safe.
   /// Throws: Error if it cannot be written.
@@ -40,7 +39,7 @@ class RunStore {
   std::string mark_;
   bool keep_mark_ = false;
   int lock_ = -1;
-  mutable std::once_flag told_;  ///< about a useless file
+  mutable std::once_flag told_;
 };
 
 /// Throws: reports::Incomparable for an unfinished run, Error if that is unknown.

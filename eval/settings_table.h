@@ -7,13 +7,13 @@
 
 namespace glovebench::eval {
 
-/// The table of finished runs, named after their folders, in the headline metrics unless `pairing` has others.
-/// Times are those of runs that were measured one job at a time. Throws: Error; Incomparable, also for an
-/// unfinished run.
+/// Names runs after their folders. Shows the headline metrics unless `pairing` has others, and times only of runs
+/// that were measured one job at a time.
+/// Throws: Error, or Incomparable, also for an unfinished run.
 reports::SettingsTable settings_table(const std::vector<std::string>& folders, reports::PairingOptions pairing = {},
                                       const reports::CompareConfig& config = {});
 
-/// Writes the table as table.md, .csv, .tex and index.html.
+/// Writes table.md, .csv, .tex and index.html.
 /// Throws: Error if the folder holds a run, or cannot be written.
 void write_settings_table(const std::string& folder, const reports::SettingsTable& table);
 

@@ -9,15 +9,16 @@
 namespace glovebench::eval {
 
 struct SuiteEntry {
-  std::string trajectory;                   ///< name, also of a generated movement, or *.json file
-  std::optional<reports::TruthKind> truth;  ///< of a named trajectory; a file must match; empty: either
-  std::vector<std::string> databases;       ///< names or files
+  std::string trajectory;  ///< name, also of a generated movement, or *.json file
+  std::optional<reports::TruthKind>
+      truth;                           ///< kind of a named trajectory, or required kind of a file; empty: either
+  std::vector<std::string> databases;  ///< names or files
   int subject = 1;
   reports::NoiseSetting noise;
   FrameRange frames;
 };
 
-/// Experiments that measure a commit or a night, all with the same seeds.
+/// Experiments for a commit or a night, all with the same seeds.
 struct Suite {
   std::string name;  ///< empty: command line
   std::string description;
@@ -26,19 +27,19 @@ struct Suite {
 };
 
 /// Reads the format of trajectories/README.md strictly. Relative files belong to the folder of `path`.
-/// Throws: Error naming `path` and the field.
+/// Throws: Error.
 Suite parse_suite(std::string_view text, const std::string& path);
 /// "quick", "full" or a *.json file.
 /// Throws: Error for an unknown name or a bad file.
 Suite load_suite(const std::string& name_or_file);
 std::vector<std::string> suite_names();
 
-/// Of the first trajectory; the workbench must have the same.
+/// Side of the first trajectory. The workbench must have the same.
 /// Throws: Error if it cannot be read.
 Side side_of(const Suite& suite);
 
-/// Experiments that match `filter` (shell wildcards; empty: all), same frames together. Registers database files
-/// in the workbench; builds nothing.
+/// Experiments that match `filter` (shell wildcards; empty: all), same frames together. Registers database files in
+/// the workbench. Builds nothing.
 /// Throws: Error for a repeated experiment, the other hand, or no match.
 Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter);
 

@@ -14,11 +14,9 @@
 
 #include "core/tracker/track_result.h"
 
-// The terminal of a person: its width, messages on stderr, and signals.
-
 namespace glovebench::eval {
 
-/// Drops text that nobody can read (full or closed pipe, lost terminal): work never stops.
+/// Drops text that nobody can read (full or closed pipe, lost terminal).
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
@@ -27,7 +25,7 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 
-/// Width of stdout, at least 60; 80 without a terminal.
+/// Width of stdout, at least 60. 80 without a terminal.
 size_t terminal_columns();
 
 /// Lets each `Progress` log a line every `interval` s if stderr is no terminal.
@@ -55,14 +53,14 @@ class Progress {
   int last_percent_ = -1;
 };
 
-/// Tracking status. Reads no clock.
+/// Reads no clock.
 class LiveStatus {
  public:
   static constexpr size_t kFrames = 60;  ///< two seconds
 
-  /// `time`: s, never decreasing.
+  /// `time`: s, must not decrease.
   void add(double time, const TrackResult& result);
-  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped"; dashes for unknown values.
+  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped". Dashes for unknown values.
   std::string line(int dropped) const;
 
  private:
@@ -74,7 +72,7 @@ class LiveStatus {
   std::deque<Moment> moments_;
 };
 
-/// At 2 Hz; silent unless stderr is a terminal.
+/// At 2 Hz. Silent unless stderr is a terminal.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
@@ -87,12 +85,12 @@ class StatusLine {
  private:
   bool enabled_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double last_ = 0;  ///< s
+  double last_ = 0;
   LiveStatus status_;
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program; SIGHUP
-/// never does. nohup keeps working.
+/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program. nohup
+/// keeps working.
 class Interruption {
  public:
   Interruption();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Counts a thread's heap memory by replacing C library functions. Include it in one source of a test program.
+// Counts a thread's heap memory by replacing C library functions. Include it in one source of a program.
 
 #include <malloc.h>
 
@@ -23,7 +23,6 @@ inline void given_back(void* memory) {
   if (counting && memory) now_bytes -= static_cast<int64_t>(malloc_usable_size(memory));
 }
 
-/// On this thread.
 inline void begin() {
   now_bytes = most_bytes = 0;
   counting = true;

@@ -25,7 +25,6 @@
 
 namespace glovebench::eval {
 
-/// Shared by all tests.
 inline std::string test_cache_folder() {
   return shared_folder(fmt::format("glovebench-test-cache-{}-{}", kDatabaseVersion, getuid()));
 }
@@ -51,9 +50,9 @@ struct ProgramRun {
   std::string err;
 };
 struct ProgramSetting {
-  std::map<std::string, std::string> environment = {};  ///< additional
-  rlim_t max_file_bytes = RLIM_INFINITY;                ///< acts like a full disk
-  bool unheard = false;                                 ///< output pipes have no reader
+  std::map<std::string, std::string> environment = {};
+  rlim_t max_file_bytes = RLIM_INFINITY;  ///< acts like a full disk
+  bool unheard = false;                   ///< output pipes have no reader
 };
 
 /// In the child: becomes the program, or ends with 127.
@@ -77,13 +76,11 @@ struct ProgramSetting {
   _exit(127);
 }
 
-/// A running program and the files of its output.
 struct StartedProgram {
   pid_t process = -1;
   std::string out;
   std::string err;
 };
-/// `command` begins with the program's path.
 inline StartedProgram start_program(const std::vector<std::string>& command, const ProgramSetting& setting = {}) {
   static const TestFolder folder;
   static int count = 0;
@@ -108,7 +105,7 @@ inline ProgramRun run_program(const std::vector<std::string>& command, const Pro
   return finish_program(start_program(command, setting));
 }
 
-/// Starts glovebench with the tests' cache.
+/// With the tests' cache.
 inline StartedProgram start_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
   arguments.insert(arguments.begin(), build_paths::program("glovebench"));
   setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());
@@ -118,7 +115,6 @@ inline ProgramRun run_glovebench(const std::vector<std::string>& arguments, cons
   return finish_program(start_glovebench(arguments, setting));
 }
 
-/// Contents by relative path.
 inline std::map<std::string, std::string> read_folder(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -128,7 +124,7 @@ inline std::map<std::string, std::string> read_folder(const std::string& folder)
   return files;
 }
 
-/// A report without what differs between runs: timings.json, manifest, the page's command times.
+/// Without what differs between runs: timings.json, manifest, the page's command times.
 inline std::map<std::string, std::string> read_timeless(const std::string& folder) {
   std::map<std::string, std::string> files = read_folder(folder);
   EXPECT_EQ(files.erase("timings.json") + files.erase("manifest.json"), 2U);
@@ -139,7 +135,6 @@ inline std::map<std::string, std::string> read_timeless(const std::string& folde
   return files;
 }
 
-/// A moving right hand that begins to close.
 inline nlohmann::json make_trajectory_json(const std::string& name, int frame_count) {
   nlohmann::json names = nlohmann::json::array(), frames = nlohmann::json::array();
   for (const AngleInfo& info : angle_infos()) names.push_back(info.name);

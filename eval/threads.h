@@ -10,7 +10,7 @@
 
 namespace glovebench::eval {
 
-/// Calls work(i) for i = 0..count-1 on `threads` threads; parallel code inside `work` shares them.
+/// Calls work(i) for i = 0..count-1 on `threads` threads, shared with parallel code inside `work`.
 template <typename Work>
 void in_parallel(int threads, size_t count, const Work& work) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -22,7 +22,6 @@ void in_parallel(int threads, size_t count, const Work& work) {
   });
 }
 
-/// Processor time of this thread.
 inline double thread_time_ms() {
   timespec time{};
   check(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0, "a thread has a clock");

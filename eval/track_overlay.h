@@ -11,14 +11,14 @@
 
 namespace glovebench::eval {
 
-/// Draws the tracked hand over the color images of a recording: its outline and joints.
+/// Draws outline and joints of the tracked hand over color images.
 class TrackOverlay {
  public:
   /// `path`: as open_picture_sink.
   /// Throws: Error.
   TrackOverlay(const std::string& path, std::shared_ptr<const HandModel> hand, const RgbdCalibration& calibration);
 
-  /// A lost frame shows why it was lost.
+  /// A lost frame shows the reason.
   /// Throws: Error.
   void add(int number, const DeviceFrame& frame, const TrackResult& result);
   void finish() { sink_->finish(); }

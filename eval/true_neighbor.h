@@ -15,10 +15,10 @@ struct TrueNeighbor {
   double distance = 0;  ///< mean between equal vertices, m
 };
 
-/// Finds the entry with the smallest mean vertex distance to a true hand; ties go to the smaller entry.
-/// Hands are compared at one origin and along one ray, which a look-up cannot see: the smallest rotation turns the
-/// ray through the middle of the bounding square (an entry's `box_ray`) to the optical axis.
-/// `model`: the database's hand; both must outlive the search. Immutable, shared between threads.
+/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. Hands are
+/// compared at one origin and along one ray, through the middle of the bounding square (an entry's `box_ray`),
+/// because a look-up sees neither distance nor direction. `model`: the database's hand. Both must outlive the
+/// search. Thread-safe.
 class TrueNeighborSearch {
  public:
   TrueNeighborSearch(const HandModel& model, const Database& database);
@@ -26,25 +26,24 @@ class TrueNeighborSearch {
   /// The hand must be in front of the camera.
   TrueNeighbor nearest(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                        const PinholeCamera& camera) const;
-  /// Plain: every vertex of every entry.
+  /// Compares every vertex of every entry.
   TrueNeighbor nearest_plain(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                              const PinholeCamera& camera) const;
 
  private:
-  /// Vertices with the hand's ray turned to the optical axis; hand origin.
+  /// Vertices about the hand origin, with its ray turned to the optical axis.
   Eigen::Matrix3Xd seen_along_ray(const Posture& posture, const Eigen::Isometry3d& T_camera_hand,
                                   const PinholeCamera& camera) const;
-  /// Centroids of the patches' vertices.
   Eigen::Matrix3Xd patch_centers(const Eigen::Matrix3Xd& vertices) const;
   static int posture_of(int entry) { return entry / kViewCount; }
 
   const HandModel& model_;
-  std::vector<Eigen::Matrix3d> R_ray_hand_;      ///< by entry
-  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< by posture, m
-  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< by posture, m
+  std::vector<Eigen::Matrix3d> R_ray_hand_;
+  std::vector<Eigen::Matrix3Xd> vertices_hand_;  ///< m
+  std::vector<Eigen::Matrix3Xd> centers_hand_;   ///< m
   std::vector<int> patch_of_vertex_;
-  Eigen::VectorXd vertex_weights_;  ///< equal, sum 1
-  Eigen::VectorXd patch_weights_;   ///< vertex shares, sum 1
+  Eigen::VectorXd vertex_weights_;
+  Eigen::VectorXd patch_weights_;
 };
 
 }  // namespace glovebench::eval

@@ -26,7 +26,7 @@ struct WorkbenchConfig {
   RgbdCalibration calibration = synthetic_calibration();
 };
 
-/// What experiments share; made or loaded on first use. Thread-safe.
+/// What experiments share. Made or loaded on first use. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);
@@ -38,16 +38,15 @@ class Workbench {
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
-  /// For the synthetic Kinect's cameras, whatever `calibration` is: colors do not depend on geometry.
+  /// The table for the synthetic Kinect's cameras, whatever `calibration` is.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
-  /// The database of a posture set's name.
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
-  /// Registers a database (*.glovedb) or postures (*.csv, *.json) and returns its name; returns other text
+  /// Registers a database (*.glovedb) or postures (*.csv, *.json) and returns its name. Returns other text
   /// unchanged. Opens a file once.
   /// Throws: Error for another hand, other views or a taken name.
   std::string add_database(const std::string& name_or_file);
-  /// True if `database(name)` builds nothing.
+  /// Whether `database(name)` builds nothing.
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
@@ -58,13 +57,12 @@ class Workbench {
  private:
   WorkbenchConfig config_;
   DatabaseCache database_cache() const;
-  /// From the program's data or an added file.
   PostureSet postures_of(const std::string& name) const;
 
   std::recursive_mutex mutex_;
   std::shared_ptr<const HandModel> model_, package_hand_;
   std::map<int, render::Subject> subjects_;
-  std::map<std::string, std::string> added_;    ///< names of databases, by file
+  std::map<std::string, std::string> added_;    ///< database names by file
   std::map<std::string, PostureSet> postures_;  ///< of files, by name
   std::map<std::string, std::shared_ptr<const Database>> databases_;
   std::map<ColorSpace, std::shared_ptr<const ColorTable>> color_tables_;

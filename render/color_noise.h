@@ -19,7 +19,7 @@ class RowRandom {
  public:
   explicit RowRandom(uint64_t state) : state_(state) {}
 
-  /// Standard normal; tails end at 4.3 sigma.
+  /// Standard normal. Tails end at 4.3 sigma.
   float normal();
   /// [0, 1)
   float uniform() { return static_cast<float>(next16()) * 0x1p-16f; }
@@ -47,7 +47,7 @@ class RowRandom {
 
 std::vector<uint64_t> row_seeds(const FrameKey& key, std::string_view purpose, int rows);
 
-/// Standard deviation of each 8-bit channel.
+/// Standard deviation per 8-bit channel.
 inline constexpr double kColorSigma_gray = 2.0;
 
 ColorImage add_color_noise(const ColorImage& color, double sigma_gray, const FrameKey& key);

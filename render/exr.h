@@ -6,8 +6,7 @@
 
 namespace glovebench::render {
 
-/// One frame: truth, and the tracker's estimate in the layer "tracker". Images share one size; empty ones are left
-/// out.
+/// Truth, and the tracker's estimate in the layer "tracker". Images share one size. Empty ones are left out.
 struct FrameLayers {
   ColorImage color;          ///< linear R, G, B, 32-bit float
   DepthImage depth;          ///< Z, m, 32-bit float
@@ -16,14 +15,14 @@ struct FrameLayers {
   LabelImage tracker_label;  ///< tracker.label
 };
 
-/// Throws: Error naming `where` if sizes differ or all images are empty.
+/// Throws: Error if sizes differ or all images are empty.
 std::string encode_exr(const FrameLayers& layers, const std::string& where);
 /// Throws: Error.
 void write_exr(const std::string& path, const FrameLayers& layers);
 /// Colors are exact.
 /// Throws: Error for other files than `write_exr`'s.
 FrameLayers read_exr(const std::string& path);
-/// Throws: Error naming `where`.
+/// Throws: Error.
 FrameLayers parse_exr(const std::string& content, const std::string& where);
 
 }  // namespace glovebench::render

@@ -1,6 +1,6 @@
 #pragma once
 
-// OpenGL, for this folder's sources only.
+// OpenGL for this folder's sources only.
 #include <GL/gl.h>
 #include <GL/glcorearb.h>
 
@@ -14,7 +14,7 @@
 
 namespace glovebench::render::gl {
 
-/// Drawn depths, m.
+/// Limits of drawn depth, m.
 inline constexpr double kNear = 0.05;
 inline constexpr double kFar = 10.0;
 
@@ -22,7 +22,7 @@ inline constexpr double kFar = 10.0;
 /// (glFrontFace(GL_CW)).
 Eigen::Matrix4f projection(const PinholeCamera& camera);
 
-/// A compiler error is a broken invariant.
+/// Throws: std::logic_error for a compiler error.
 class Program {
  public:
   Program(const std::string& vertex_source, const std::string& fragment_source);

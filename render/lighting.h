@@ -15,7 +15,7 @@ struct Lighting {
   double temperature_k = 5000;  ///< 2000..10000; the camera is balanced for 5000 K
   double ambient_share = 0.35;  ///< of the strength, [0, 1]
 
-  /// One a line.
+  /// One per line.
   std::vector<std::string> problems() const;
   friend bool operator==(const Lighting&, const Lighting&) = default;
 };
@@ -26,7 +26,7 @@ Eigen::Vector3d rgb_of_temperature(double temperature_k);
 /// Linear 0..1 to sRGB-coded 0..1.
 double srgb_encode(double linear);
 
-/// Applies gains > 0 to linear RGB; clips at white.
+/// Applies gains > 0 to linear RGB. Clips at white.
 ColorImage with_white_balance(const ColorImage& color, const Eigen::Vector3d& gains);
 
 }  // namespace glovebench::render

@@ -10,17 +10,17 @@
 namespace glovebench::render {
 
 ColorImage picture_of_labels(const LabelImage& labels);
-/// Warm: near; black: no value. z_near < z_far, m.
+/// Warm: near. Black: no value. z_near < z_far, m.
 ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far);
-/// `other` minus `depth`: blue at -`range` (m), white at 0, orange at +`range`; gray where one has no value, dark
+/// `other` minus `depth`: blue at -`range` (m), white at 0, orange at +`range`. Gray where one has no value, dark
 /// where both have none. Images have one size.
 ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage& other, double range);
-/// Draws the borders of labels, with a black edge, so that they show on every color. Images have one size.
+/// Draws the borders of labels with a black edge, visible on every color. Images have one size.
 ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line = {255, 255, 255});
 struct Stroke {
   Eigen::Vector2d from_px, to_px;
 };
-/// Draws lines with a dot at each end and a dark edge, so that they are seen on any background.
+/// Draws lines with a dot at each end and a dark edge.
 ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line);
 /// Writes a line of ASCII text at the upper left.
 ColorImage overlay_text(const ColorImage& color, const std::string& text);
@@ -42,7 +42,7 @@ struct TextLine {
   std::string text;
   Rgb color = {230, 230, 230};
 };
-/// One line below another, as large as the titles of a montage.
+/// Lines as large as the titles of a montage.
 ColorImage picture_of_text(const std::vector<TextLine>& lines, int width, int height);
 
 /// The whole image if nothing is labeled.

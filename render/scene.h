@@ -12,7 +12,7 @@ namespace glovebench::render {
 /// Diffuse, with a Blinn-Phong highlight and a fixed pattern.
 struct Material {
   Eigen::Vector3f albedo = Eigen::Vector3f::Zero();  ///< linear RGB, 0..1
-  float gloss = 0;                                   ///< of the highlight, 0..1
+  float gloss = 0;
   float shininess = 20;
   float pattern = 0;           ///< relative amplitude, 0..1
   float pattern_size = 0.01f;  ///< m
@@ -35,13 +35,13 @@ enum SceneMaterial : uint8_t {
 struct SurfaceMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;  ///< unit length
-  std::vector<uint8_t> materials;        ///< of each vertex
-  std::vector<uint32_t> indices;         ///< three a triangle
+  std::vector<uint8_t> materials;        ///< of vertices
+  std::vector<uint32_t> indices;         ///< three per triangle
 };
 
 struct SceneConfig {
   Shader shader = Shader::first_subject;
-  bool clutter = true;             ///< objects in similar colors on the table
+  bool clutter = true;             ///< objects of similar colors on the table
   bool clutter_in_volume = false;  ///< one more box, in the working volume (z 0.90 m)
 };
 
@@ -52,7 +52,7 @@ struct Scene {
 };
 Scene make_scene(const SceneConfig& config);
 
-/// The bare forearm, 200 mm, at the hand's cuff in any posture; forearm joint's frame.
+/// The bare forearm, 200 mm, at the hand's cuff in any posture. Forearm joint's frame.
 SurfaceMesh make_forearm(const PosedHand& hand);
 
 }  // namespace glovebench::render

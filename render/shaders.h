@@ -1,7 +1,5 @@
 #pragma once
 
-// OpenGL programs of the RGB-D renderer.
-
 namespace glovebench::render {
 
 /// Attributes: position, normal, material, patch, pattern position, object frame.
@@ -10,7 +8,7 @@ extern const char* const kSceneVertexShader;
 extern const char* const kTruthShader;
 /// Writes linear RGB.
 extern const char* const kLitShader;
-/// A triangle over the whole image.
+/// Covers the image.
 extern const char* const kResolveVertexShader;
 /// Averages 2x2 samples and codes sRGB.
 extern const char* const kResolveShader;

@@ -15,8 +15,8 @@ struct SyntheticKinectConfig {
   Lighting lighting;
   NoiseConfig noise;
   uint64_t seed = 1;
-  std::string sequence;  ///< names the noise streams
-  int first_frame = 0;   ///< in the sequence, selects its noise
+  std::string sequence;
+  int first_frame = 0;  ///< selects the noise
 };
 
 /// Adds color noise, depth noise and 11-bit disparity.
@@ -36,7 +36,7 @@ class SyntheticKinect : public Device {
 
   /// Ideal images of the last frame, for the evaluator only.
   const RgbdImages& truth() const;
-  /// The hand in these images; for the evaluator only, too.
+  /// The hand in these images, for the evaluator only.
   const PosedHand& true_hand() const;
 
  private:

@@ -9,19 +9,19 @@ namespace glovebench::reports {
 
 bool has_commands(const RunResult& result);
 
-/// Explains the tables below, which have a row for each experiment.
+/// Explains the tables below, which have one row per experiment.
 std::string command_explanation();
 Table command_stream_table(const RunResult& result);
-/// Changed or refused commands by reason; no rows without any.
+/// Interventions by reason. No rows without any.
 Table command_intervention_table(const RunResult& result);
 /// Errors against the truth's commands, and smoothness.
 Table command_error_table(const RunResult& result);
-/// Time from frame to command; no rows without times.
+/// Time from frame to command. No rows without times.
 Table command_latency_table(const RunResult& result, const Timings& timings);
 
 /// tables/commands.csv, without times.
 std::string commands_csv(const RunResult& result);
-/// The section of summary.md; empty without commands.
+/// For summary.md. Empty without commands.
 std::string commands_markdown(const RunResult& result);
 
 }  // namespace glovebench::reports

@@ -14,10 +14,10 @@
 
 namespace glovebench::reports {
 
-/// RMS jerk: smaller is smoother (Flash and Hogan 1985). Mostly noise in a tracked hand; compare it with the
+/// RMS jerk. Smaller is smoother (Flash and Hogan 1985). Noise dominates it in a tracked hand: compare it with the
 /// truth's.
 struct Jerk {
-  std::optional<double> joints_deg_s3;  ///< 24 joints of the robot hand
+  std::optional<double> joints_deg_s3;
   std::optional<double> position_m_s3;  ///< of the hand's origin
 
   friend bool operator==(const Jerk&, const Jerk&) = default;
@@ -25,9 +25,9 @@ struct Jerk {
 
 /// Differences from the truth's commands.
 struct CommandErrors {
-  Aggregate joints_deg;    ///< RMS over the robot hand's 24 joints
-  Aggregate position_mm;   ///< hand's origin
-  Aggregate rotation_deg;  ///< of the hand, geodesic
+  Aggregate joints_deg;  ///< RMS over 24 joints
+  Aggregate position_mm;
+  Aggregate rotation_deg;  ///< geodesic
   Aggregate arm_deg;       ///< RMS over arm joints, where both exist
 
   friend bool operator==(const CommandErrors&, const CommandErrors&) = default;
@@ -54,7 +54,7 @@ struct CommandResult {
 
 /// "commands" in results.json.
 nlohmann::ordered_json commands_json(const CommandResult& commands);
-/// Throws: Error for anything that commands_json does not write.
+/// Throws: Error for other content.
 CommandResult read_commands(const JsonCursor& json);
 
 }  // namespace glovebench::reports

@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// A smoothed answer of the tracker.
+/// A smoothed estimate.
 struct Estimate {
   uint64_t seed = 0;
   int frame = 0;
@@ -20,7 +20,7 @@ struct Estimate {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m
 };
 
-/// Frames of an experiment, seed after seed.
+/// Seed after seed.
 struct ExperimentEstimates {
   ExperimentKey key;
   std::vector<Estimate> estimates;
@@ -29,12 +29,12 @@ struct ExperimentEstimates {
 /// "estimates/EXPERIMENT.csv".
 std::string estimates_file(const ExperimentKey& key);
 /// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, the 22 angles (deg).
-/// Rounded to 1e-6; a lost frame has empty cells.
+/// Rounded to 1e-6. A lost frame has empty cells.
 std::string estimates_csv(const ExperimentEstimates& estimates);
-/// The heading and one line of it, without line ends.
+/// Without line ends.
 std::string estimates_heading();
 std::string estimate_csv_line(const Estimate& estimate);
-/// Throws: Error naming file, line and column for anything that estimates_csv does not write.
+/// Throws: Error for other content.
 std::vector<Estimate> read_estimates(const std::string& path);
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);
 

@@ -8,9 +8,6 @@
 #include "reports/example_studies.h"
 #include "reports/results.h"
 
-// For tests and a look at the page.
-// For tests: results with other metrics.
-
 namespace glovebench::reports {
 
 /// Other errors are multiples of these.
@@ -27,7 +24,7 @@ inline FrameRecord example_frame(int index, double position_mm, double posture_d
   frame["position_error_mm"] = position_mm;
   frame["rotation_error_deg"] = rotation_deg;
   frame["posture_rms_deg"] = posture_deg;
-  frame["posture_rms_hidden_deg"].reset();  // nothing is hidden
+  frame["posture_rms_hidden_deg"].reset();
   frame["vertex_error_mm"] = frame["joint_error_mm"] = position_mm * 1.25;
   frame["fingertip_error_mm"] = position_mm * 1.5;
   frame["visible_percent"] = 100;
@@ -44,7 +41,7 @@ inline FrameRecord example_lost_frame(int index) {
   return frame;
 }
 
-/// At 30 Hz; the last two frames were lost.
+/// At 30 Hz. The last two frames were lost.
 inline CommandResult example_commands(int frames, double error) {
   CommandResult commands;
   commands.frames = frames;
@@ -106,7 +103,6 @@ inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t
   return frames;
 }
 
-/// All of Figure 4 with two seeds, and two studies.
 inline RunResult full_result() {
   RunResult result = small_result();
   result.experiments.clear();

@@ -1,7 +1,5 @@
 #pragma once
 
-// For tests and a look at the page.
-
 #include <string>
 #include <vector>
 

@@ -39,13 +39,13 @@ struct PaperNumbers {
   std::string rate_hardware;
   double mean_position_error_below_mm = 0;
 
-  /// Printed means of an experiment; null where the paper has only a bar.
+  /// Printed means of an experiment. Null where the paper has only a bar.
   const PaperErrors* mean_of(const std::string& trajectory, const std::string& database) const;
 };
 
 /// reports/data/paper_numbers.json.
 const PaperNumbers& paper_numbers();
-/// Throws: Error naming `where` and the field.
+/// Throws: Error.
 PaperNumbers parse_paper_numbers(const std::string& text, const std::string& where);
 
 }  // namespace glovebench::reports

@@ -10,20 +10,19 @@
 
 namespace glovebench::reports {
 
-/// Writes a run's folder (reports/README.md lists the files) and returns the files' names. Only timings.json, the
-/// page's latencies, studies' tables and claims depend on more than the results. The files are one set
-/// (core/base/file_set.h) that replaces an older report's as a whole.
+/// Writes a run's folder (reports/README.md lists the files) and returns the files' names. The files are one set
+/// (core/base/file_set.h), which replaces an older report as a whole.
 /// Throws: Error if the folder cannot be written; an older report then stays.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const PageMaterial& material = {},
                                       const std::vector<ExperimentEstimates>& estimates = {});
 
-// A run for services that keep benchmark histories.
+// For services that keep benchmark histories.
 
 /// Bencher Metric Format: benchmark = experiment, measure = gated metric, lower_value and upper_value = bootstrap
 /// interval.
 std::string bencher_json(const RunResult& result);
-/// github-action-benchmark's customSmallerIsBetter: one entry per experiment and gated metric.
+/// customSmallerIsBetter: one entry per experiment and gated metric.
 std::string github_action_benchmark_json(const RunResult& result);
 
 }  // namespace glovebench::reports

@@ -22,13 +22,13 @@ struct FrameRecord {
   int64_t timestamp_us = 0;
   TrackStatus status = TrackStatus::no_hand;
   bool covered = false;        ///< tracked, errors under 50 mm and 30 degrees
-  bool false_tracked = false;  ///< reported as tracked, but not covered
-  bool false_lost = false;     ///< reported as lost, though trackable
+  bool false_tracked = false;  ///< tracked, but not covered
+  bool false_lost = false;     ///< lost, though trackable
   bool ambiguous = false;      ///< rotations of the matches differ by more than 60 degrees
-  bool converged = false;      ///< of the alignment
+  bool converged = false;
   int icp_iterations = 0;
 
-  /// In the order of frame_metrics(); empty where unknown.
+  /// In the order of frame_metrics(). Empty where unknown.
   std::vector<std::optional<double>> values = std::vector<std::optional<double>>(frame_metrics().size());
   std::optional<double>& operator[](std::string_view metric) { return values[metric_index(metric)]; }
   const std::optional<double>& operator[](std::string_view metric) const { return values[metric_index(metric)]; }
@@ -49,7 +49,6 @@ struct NoiseSetting {
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
 };
 
-/// One trajectory tracked with one database.
 struct ExperimentKey {
   std::string trajectory;  ///< "Tr4"
   std::string database;    ///< "DB_open_power"
@@ -59,7 +58,7 @@ struct ExperimentKey {
 
   friend bool operator==(const ExperimentKey&, const ExperimentKey&) = default;
 };
-/// Names files: "Tr4_DB_open_power_recorded_subject1_gradient_1".
+/// For file names: "Tr4_DB_open_power_recorded_subject1_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
 /// Consecutive frames under one noise seed.
@@ -70,7 +69,7 @@ struct SeedRun {
   friend bool operator==(const SeedRun&, const SeedRun&) = default;
 };
 
-/// Lost frames stay in the denominator. The levels (visible, found, usable) follow coverage.h.
+/// Lost frames stay in the denominator. coverage.h defines visible, found and usable.
 struct Coverage {
   int frames = 0;
   int covered = 0;
@@ -101,7 +100,6 @@ Coverage count_coverage(const std::vector<SeedRun>& runs);
 struct ExperimentResult {
   ExperimentKey key;
   std::vector<SeedRun> runs;
-  // Computed by `summarize`, or passed through.
   Coverage coverage;
   /// In the order of frame_metrics(), over all frames and seeds with a value.
   std::vector<Aggregate> aggregates = std::vector<Aggregate>(frame_metrics().size());
@@ -109,7 +107,7 @@ struct ExperimentResult {
       std::vector<std::optional<ConfidenceInterval>>(frame_metrics().size());  ///< of the means
   PckCurve pck;                                                                ///< of joint position errors
   SequenceMetrics sequence;
-  std::optional<PckCurve> fingertip_pck = {};  ///< of the five fingertips; empty in older results
+  std::optional<PckCurve> fingertip_pck = {};  ///< empty in older results
   std::optional<CommandResult> commands = {};  ///< empty in older results
 
   const Aggregate& aggregate_of(std::string_view metric) const { return aggregates[metric_index(metric)]; }
@@ -118,14 +116,14 @@ struct ExperimentResult {
   }
   friend bool operator==(const ExperimentResult&, const ExperimentResult&) = default;
 };
-/// Computes coverage, aggregates and intervals; passes `pck` and `sequence` through.
+/// Computes coverage, aggregates and intervals. Copies `pck` and `sequence`.
 ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
                            const BootstrapConfig& bootstrap = {});
 
 /// The meaning of a result's numbers. Comparable results share all but metric_keys.
 struct Protocol {
-  int metric_definitions = 1;                         ///< raised when a metric changes its meaning
-  std::vector<std::string> joint_order;               ///< the 22 angles
+  int metric_definitions = 1;  ///< increases when a metric changes its meaning
+  std::vector<std::string> joint_order;
   std::vector<std::string> metric_keys;               ///< of frames; versions differ
   std::string association;                            ///< of estimates and truths: "by time stamp, exact"
   std::map<std::string, double> coverage_rules = {};  ///< metrics/coverage.h; empty in older results
@@ -135,16 +133,16 @@ struct Protocol {
 };
 Protocol make_protocol(std::string association);
 
-/// Two results of different protocol, truth, database or frames (exit code 3).
+/// Results of different protocol, truth, database or frames (exit code 3).
 class Incomparable : public Error {
  public:
   using Error::Error;
 };
 
-/// Content hashes, outside the protocol, so that part of a run compares with the whole.
+/// Outside the protocol, so part of a run compares with the whole.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
-  std::map<std::string, std::string> databases;  ///< Database::content_hash by name
+  std::map<std::string, std::string> databases;  ///< content_hash by name
   std::string hand_model;                        ///< the tracker's
   std::string color_table;
 
@@ -153,25 +151,24 @@ struct InputHashes {
 /// "source/Tr4".
 std::string truth_name(const ExperimentKey& key);
 
-/// All that a run found; the same commit gives equal results.
+/// The same commit gives equal results.
 struct RunResult {
   Protocol protocol;
   InputHashes inputs;
   std::string suite;  ///< empty: none
   std::string program_version;
   std::string commit;
-  nlohmann::json configuration = nlohmann::json::object();  ///< effective
+  nlohmann::json configuration = nlohmann::json::object();
   std::vector<ExperimentResult> experiments;
-  std::vector<StudyResult> studies;  ///< of a reproduction
+  std::vector<StudyResult> studies;
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };
-/// Names a run in its tables: "COMMIT-HASH", with the hash of version, configuration, inputs, seeds and all else
-/// behind the results.
+/// "COMMIT-HASH", with the hash of version, configuration, inputs, seeds and all else behind the results.
 std::string run_name(const RunResult& result);
 /// The paper's noise (gradient x 1) if any experiment has it, else the first one's.
 NoiseSetting headline_noise(const RunResult& result);
-/// Null without it.
+/// Null if absent.
 const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key);
 
 }  // namespace glovebench::reports

@@ -20,7 +20,7 @@ std::optional<double> rms(std::span<const double> values);
 /// `share`: 0..1. Interpolates linearly at rank share * (n - 1).
 std::optional<double> percentile(std::span<const double> values, double share);
 
-/// Empty if count is 0.
+/// Statistics are empty if count is 0.
 struct Aggregate {
   int count = 0;
   std::optional<double> mean;
@@ -41,17 +41,17 @@ struct PckCurve {
 
   friend bool operator==(const PckCurve&, const PckCurve&) = default;
 };
-/// Thresholds 0, 1, ... 50 mm. `keypoint_count` includes lost frames, which have no errors.
+/// Thresholds 0, 1, ... 50 mm. `keypoint_count` includes lost frames.
 PckCurve pck_curve(std::span<const double> errors_mm, size_t keypoint_count);
 
 /// From a percentile bootstrap, or Student's.
 struct ConfidenceInterval {
   double low = 0;
   double high = 0;
-  double level = 0;      ///< share of resampled means inside
-  int seeds = 0;         ///< resampled
-  int blocks = 0;        ///< of consecutive frames, resampled
-  int block_frames = 0;  ///< per block
+  double level = 0;  ///< share of resampled means inside
+  int seeds = 0;     ///< resampled
+  int blocks = 0;    ///< of consecutive frames, resampled
+  int block_frames = 0;
   /// What was resampled.
   std::string over;
 
@@ -65,7 +65,7 @@ struct BootstrapConfig {
   uint64_t seed = 1;
 };
 /// Interval of the mean over seeds (rows) and frames (columns; empty if lost). Resamples seeds and blocks of frames
-/// together, since seeds share the movement. Empty for fewer than two blocks or no values.
+/// together. Empty for fewer than two blocks or no values.
 std::optional<ConfidenceInterval> confidence_interval(
     const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config = {});
 
@@ -79,8 +79,8 @@ struct Draw {
   std::vector<int> seeds;
   std::vector<int> frames;
 };
-/// Interval of a statistic over strata; resamples seeds and blocks of frames in each. `statistic` gets a draw for
-/// each stratum and may be empty. Empty if it always is, or for fewer than five blocks in all.
+/// Interval of a statistic over strata. Resamples seeds and blocks of frames in each. `statistic` gets one draw per
+/// stratum and may be empty. Empty if `statistic` always is, or for fewer than five blocks in all.
 std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
@@ -88,12 +88,11 @@ std::optional<ConfidenceInterval> stratified_interval(
 
 /// |T| is below it with probability `level`, 0..1.
 double student_quantile(double level, int degrees_of_freedom);
-/// Student's interval of the mean of independent values. Empty for fewer than five, and for equal ones, which do
-/// not tell how others would vary.
+/// Interval of the mean of independent values. Empty for fewer than five values, and for equal ones.
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
                                                    double level = 0.95);
 
-/// A kilometer in mm: sums of squares from a file stay finite.
+/// A kilometer in mm. Sums of squares stay finite.
 inline constexpr double kLargestError = 1e6;
 
 nlohmann::ordered_json aggregate_json(const Aggregate& aggregate);

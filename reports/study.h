@@ -12,7 +12,6 @@
 
 namespace glovebench::reports {
 
-/// A number for claims.
 struct Measure {
   std::string name;  ///< "figure9.position_rise_share"
   std::string unit;  ///< "mm", "deg"; "": ratio or count
@@ -23,7 +22,6 @@ struct Measure {
   friend bool operator==(const Measure&, const Measure&) = default;
 };
 
-/// A figure of the paper, or a question about it.
 struct StudyResult {
   std::string name;   ///< "fig8"
   std::string title;  ///< "Figure 8: matching cascades"
@@ -33,7 +31,7 @@ struct StudyResult {
   friend bool operator==(const StudyResult&, const StudyResult&) = default;
 };
 
-/// Null without it.
+/// Null if absent.
 const Table* find_table(const std::vector<StudyResult>& studies, std::string_view name);
 const Measure* find_measure(const std::vector<StudyResult>& studies, std::string_view name);
 
@@ -42,11 +40,12 @@ nlohmann::ordered_json studies_json(const std::vector<StudyResult>& studies);
 /// "studies" in timings.json: tables with a time, reduced to times and naming columns.
 nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies);
 
-/// Throws: Error for anything that studies_json does not write.
+/// Throws: Error for other content.
 std::vector<StudyResult> read_studies(const JsonCursor& json);
 
-/// Checks writers' invariants: unique names that no other report's file has, one cell per column, at least one
-/// naming column and none of them a time, at most six digits.
+/// Unique names that no other report's file has, one cell per column, at least one naming column and none of them a
+/// time, at most six digits.
+/// Throws: std::logic_error.
 void check_studies(const std::vector<StudyResult>& studies);
 
 }  // namespace glovebench::reports

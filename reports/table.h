@@ -18,7 +18,7 @@ struct Column {
   std::string key;       ///< with unit, for CSV and JSON: "posture_error_deg"; empty in tables for people
   std::string heading;   ///< with unit, for people
   int digits = 2;        ///< for people
-  bool is_time = false;  ///< goes to timings.json instead of results.json
+  bool is_time = false;  ///< for timings.json, not results.json
 
   friend bool operator==(const Column&, const Column&) = default;
 };
@@ -41,18 +41,16 @@ using Cell = std::variant<std::monostate, std::string, int64_t, double, Judgment
 using Row = std::vector<Cell>;
 Cell cell(const std::optional<double>& value);
 
-/// A row has one cell per column.
 struct Table {
   std::string name;  ///< of the file: tables/NAME.csv
   std::string title;
   std::string explanation;  ///< of the columns, plain text
   std::vector<Column> columns;
-  int name_columns = 1;  ///< the first columns name a row
+  int name_columns = 1;  ///< first columns, which name a row
   std::vector<Row> rows;
 
   friend bool operator==(const Table&, const Table&) = default;
 };
-/// An empty table for people.
 Table table_of(const std::vector<std::string>& headings, int name_columns = 1);
 
 /// Throws: std::logic_error for an unknown key.
@@ -67,17 +65,16 @@ nlohmann::ordered_json cell_json(const Cell& cell);
 
 /// "Better" and "worse" are bold.
 std::string to_markdown(const Table& table);
-/// `plots`: an SVG for each row, after the names.
+/// `plots`: an SVG per row, after the names.
 std::string to_html(const Table& table, const std::vector<std::string>& plots = {});
-/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings, such as to span columns.
+/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings.
 std::string to_latex(const Table& table, const std::string& heading = "");
-/// Text for a terminal; the widest columns shrink to fit. `grouped`: the first column becomes a line above its
-/// rows.
+/// The widest columns shrink to fit. `grouped`: the first column becomes a line above its rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
 /// Keys, then values to 1e-6. `names`: columns in front, with the value of every row.
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});
 
-/// A CSV line of plain values (RFC 4180, but line feeds); null is empty. Text that a spreadsheet takes for a
+/// A CSV line of plain values (RFC 4180, but line feeds). Null is empty. Text that a spreadsheet takes for a
 /// formula gets an apostrophe in front.
 std::string csv_line(const nlohmann::ordered_json& cells);
 

@@ -21,13 +21,13 @@ struct Variant {
 };
 const std::array<Variant, 3>& figure4_variants();
 
-/// Figure 4's databases for Tr1 to Tr5: the one with just its grasp first, the largest last. Empty names for
-/// another trajectory.
+/// Databases for Tr1 to Tr5: the one with only its grasp first, the largest last. Empty names for other
+/// trajectories.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
-/// Whether all experiments, of which there is one or more, are Figure 4's, with any noise.
+/// Whether there are experiments and all are Figure 4's, with any noise.
 bool is_figure4(const RunResult& result);
 
-/// One trajectory with one database; null where not run.
+/// Pointers are null where not run.
 struct Figure4Row {
   std::string trajectory;
   std::string database;
@@ -47,24 +47,24 @@ Table figure4_summary(const RunResult& result, const PaperNumbers& paper, const 
 std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 /// One line per experiment, with intervals and the paper's numbers.
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
-/// As `figure4_csv`, of all experiments and without the paper's numbers.
+/// As `figure4_csv`, for all experiments, without the paper's numbers.
 std::string errors_csv(const RunResult& result);
 
 /// Percent of all frames.
 std::optional<double> covered_percent(const ExperimentResult& experiment);
 
-// Every CSV names run (run_name) and experiment in its first columns.
+// The first columns of every CSV name run (run_name) and experiment.
 
-/// Columns "run" to "noise_factor", and their cells.
+/// Columns "run" to "noise_factor".
 nlohmann::ordered_json experiment_columns();
 nlohmann::ordered_json experiment_cells(const std::string& run, const ExperimentKey& key);
 
-/// Every frame: run, experiment, seed, then frame_columns. Empty cells have no value.
+/// Columns: run, experiment, seed, then frame_columns. Empty cells have no value.
 std::string frames_csv(const std::string& run, const ExperimentResult& experiment);
-/// Errors of Figure 5 or 6 per frame, beside the paper's, which are of another movement.
+/// Errors per frame, beside the paper's, which are of another movement.
 std::string curve_csv(const std::string& run, const ExperimentResult& experiment, const PaperCurve& paper);
-/// Data of the page's charts as CSV: Figure 4 or the errors of other experiments, Figures 5 and 6 if run, studies'
-/// tables. "figure4" is tables/figure4.csv.
+/// CSV for the page's charts: Figure 4 or the errors of other experiments, Figures 5 and 6 if run, studies' tables.
+/// "figure4" is tables/figure4.csv.
 nlohmann::ordered_json csv_tables(const RunResult& result, const PaperNumbers& paper);
 
 }  // namespace glovebench::reports

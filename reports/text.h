@@ -7,10 +7,8 @@
 
 namespace glovebench::reports {
 
-// Escaped text from outside is only text.
-
 std::string escape_html(const std::string& text);  ///< also SVG
-/// XML 1.0; characters that it cannot hold become U+FFFD.
+/// XML 1.0. Characters that it cannot hold become U+FFFD.
 std::string escape_xml(const std::string& text);
 /// One cell or line. Escapes brackets only in links.
 std::string escape_markdown(const std::string& text);
@@ -23,14 +21,13 @@ std::string fixed(const std::optional<double>& value, int digits);
 inline constexpr size_t kTerminalColumns = 120;
 /// UTF-8 characters, one column each.
 size_t text_width(std::string_view text);
-/// Cuts the middle, since names differ at their ends.
+/// Cuts the middle.
 std::string shortened(const std::string& text, size_t columns);
-/// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces; the first has
+/// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces. The first has
 /// room for as many in front.
 std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
 
-/// Spreads objects and arrays over lines; an array of plain values takes one. Equal values give equal bytes.
-/// Numbers must be finite.
+/// One line per member, but one per array of plain values. Equal values give equal bytes. Numbers must be finite.
 std::string format_json(const nlohmann::ordered_json& json);
 
 /// Rounds to 1e-6, without minus zero.

@@ -10,7 +10,7 @@ namespace glovebench::reports {
 
 struct StageTiming {
   std::string stage;
-  std::vector<double> frame_ms;  ///< by frame
+  std::vector<double> frame_ms;
 };
 
 struct ExperimentTiming {
@@ -30,7 +30,7 @@ struct Timings {
   std::string commit;
   std::string date;  ///< ISO 8601, UTC
   double wall_s = 0;
-  /// The whole process's, since experiments run side by side.
+  /// Of the whole process.
   std::optional<double> peak_memory_mb;
   std::vector<ExperimentTiming> experiments;
 };

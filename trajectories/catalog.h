@@ -9,21 +9,21 @@
 
 namespace glovebench::trajectories {
 
-// The data folder; README.md lists its files.
+// The data folder. README.md lists its files.
 
 /// The ground truths of section IV.
 const std::vector<std::string>& ground_truth_names();
 /// "pinch" or "power".
 /// Throws: Error for another name.
 std::string grasp_of(std::string_view trajectory);
-/// Those with its grasp, the grasp-specific one first.
+/// Databases with its grasp, the grasp-specific one first.
 /// Throws: Error for another name.
 std::vector<std::string> databases_of(std::string_view trajectory);
 const std::vector<std::string>& posture_set_names();
 
 std::string trajectory_path(const std::string& data_folder, TrajectoryKind kind, const std::string& name);
 
-/// Throws: Error listing known names or naming the file's fault; name and kind must match the place.
+/// Throws: Error for an unknown name or a bad file. Name and kind must match the path.
 Trajectory source_trajectory(const std::string& data_folder, const std::string& name);
 Trajectory recorded_trajectory(const std::string& data_folder, const std::string& name);
 
@@ -31,7 +31,7 @@ Trajectory recorded_trajectory(const std::string& data_folder, const std::string
 PostureSet posture_set(const std::string& data_folder, const std::string& name);
 /// Throws: Error.
 PostureSet load_gestures(const std::string& data_folder);
-/// Postures of people's hands, for the family `captured`.
+/// People's postures, for the family `captured`.
 /// Throws: Error.
 PostureSet load_captured_postures(const std::string& data_folder);
 
@@ -43,7 +43,7 @@ struct TrajectoryListing {
 /// Sorted.
 std::vector<std::string> script_names(const std::string& data_folder);
 
-/// Sources first, each kind by name; opens no file.
+/// Sources first, each kind by name. Opens no file.
 /// Throws: Error without sources.
 std::vector<TrajectoryListing> list_trajectories(const std::string& data_folder);
 

@@ -11,7 +11,6 @@
 namespace glovebench::trajectories {
 
 std::string in_quotes(std::string_view text);
-/// The names of angle_infos().
 std::string joint_order_json();
 /// Throws: Error unless it lists the names of angle_infos().
 void expect_joint_order(const JsonCursor& field);
@@ -25,16 +24,16 @@ Posture angles_from(const JsonCursor& field);
 void expect_new_name(const std::string& name, std::set<std::string>& names, const std::string& where,
                      const std::string& field);
 /// Parse JSON "glovebench-postures" or a CSV (README.md).
-/// Throws: Error naming `where` and the field.
+/// Throws: Error.
 PostureSet parse_postures_json(std::string_view text, const std::string& where);
 PostureSet parse_postures_csv(std::string_view text, const std::string& set_name, const std::string& where);
 
-/// The canonical file; parsing reproduces it byte for byte.
-/// Throws: Error if it could not be read back.
+/// The canonical file. Parsing reproduces it byte for byte.
+/// Throws: Error if it could not be read again.
 std::string canonical_text(const PostureSet& set);
 void write_posture_set(const PostureSet& set, const std::string& path);
 
-/// Throws: Error naming the set and its postures.
+/// Throws: Error for an unknown name.
 const Posture& find_posture(const PostureSet& set, std::string_view name);
 
 }  // namespace glovebench::trajectories

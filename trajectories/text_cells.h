@@ -9,9 +9,9 @@ namespace glovebench::trajectories {
 
 /// Without spaces, tabs and carriage returns at the ends.
 std::string_view trimmed(std::string_view text);
-/// Largest number of cells in a line.
+/// Per line.
 inline constexpr size_t kMostCells = 1000;
-/// Trimmed parts; after kMostCells the rest is one part.
+/// Trimmed parts. After kMostCells the rest is one part.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// Trimmed lines without byte order mark. An empty text is one empty line.
@@ -20,7 +20,7 @@ class Lines {
   explicit Lines(std::string_view text);
   /// Empty after the last line.
   std::optional<std::string_view> next();
-  /// Number of the last line, from 1.
+  /// Of the last line, from 1.
   size_t number() const { return number_; }
 
  private:
@@ -30,11 +30,11 @@ class Lines {
 
 /// The number that fills the cell, also NaN or infinite.
 std::optional<double> number_in(std::string_view cell);
-/// Throws: Error naming `where` and `field` unless the cell is a number from `min` to `max`.
+/// Throws: Error unless the cell is a number from `min` to `max`.
 double number_from(std::string_view cell, double min, double max, const std::string& where,
                    const std::string& field);
 
-/// The same on every machine; never "-0.000".
+/// The same on every machine. Never "-0.000".
 std::string fixed(double value, int decimals);
 
 }  // namespace glovebench::trajectories

@@ -28,7 +28,7 @@ struct Provenance {
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
-/// A ground truth: how the hand moves before the camera.
+/// A ground truth: the hand before the camera.
 struct Trajectory {
   std::string name;
   std::string description;
@@ -40,21 +40,20 @@ struct Trajectory {
 
 inline constexpr int64_t kMaxTimestampUs = 1'000'000'000'000'000;  ///< 31 years
 inline constexpr double kMaxPositionMm = 10'000;                   ///< of each coordinate, either sign
-/// Largest deviation from unit length in a file; reading normalizes.
+/// Largest deviation from unit length in a file. Reading normalizes.
 inline constexpr double kQuaternionNormTolerance = 1e-3;
 
 /// Parses the JSON of README.md.
-/// Throws: Error naming `where` and the field.
+/// Throws: Error.
 Trajectory parse_trajectory(std::string_view text, const std::string& where);
 
-/// The canonical file: degrees and mm to 0.001, quaternions to 1e-7 with w >= 0. Parsing reproduces it byte for
-/// byte.
-/// Throws: Error if it could not be read back.
+/// The canonical file (README.md). Parsing reproduces it byte for byte.
+/// Throws: Error if it could not be read again.
 std::string canonical_text(const Trajectory& trajectory);
 /// Throws: Error.
 void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
-/// Hash of the canonical file; identifies a truth in results.
+/// Hash of the canonical file. Identifies a truth in results.
 std::string hash(const Trajectory& trajectory);
 
 }  // namespace glovebench::trajectories

@@ -43,16 +43,16 @@ inline constexpr double kTransitionEnd = 0.15;
 
 TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, const Posture& grasp);
 
-/// Markdown, a row for each trajectory.
+/// Markdown, one row per trajectory.
 std::string properties_table(const std::vector<Trajectory>& trajectories,
                              const std::vector<TrajectoryProperties>& properties);
 
-// Valid values that are most likely a mistake of units: one sentence each, that names the likely cause.
+// One sentence per valid value that is probably a mistake of units, with the likely cause.
 
 /// Empty unless the angles, which files hold in degrees, look like radians.
 std::string angle_doubt(std::span<const Posture> postures);
 
-/// `angle_doubt`, and whether more than half of the frames lie nearer or farther than the working volume.
+/// Also whether most frames lie nearer or farther than the working volume.
 std::vector<std::string> unit_doubts(const Trajectory& trajectory, const WorkingVolume& volume);
 
 }  // namespace glovebench::trajectories

@@ -19,14 +19,14 @@ namespace glovebench::bench {
 class LookUpPeer {
  public:
   virtual ~LookUpPeer() = default;
-  /// The `keep` nearest entries of each query, best first; ties in any order. Each query has glove pixels.
+  /// The `keep` nearest entries of each query, best first, ties in any order. Each query has glove pixels.
   virtual std::vector<RecycledVector<Match>> operator()(std::span<const LabelImage> queries, int keep) = 0;
 };
 /// `database` must outlive the peer.
 using MakeLookUpPeer = std::unique_ptr<LookUpPeer> (*)(const Database& database, int size);
 extern const MakeLookUpPeer kFaiss, kOpenCv;
 
-/// A tree for each color, queried point by point.
+/// One tree per color, queried point by point.
 class ClosestPointPeer {
  public:
   virtual ~ClosestPointPeer() = default;
@@ -38,7 +38,7 @@ class ClosestPointPeer {
 using MakeClosestPointPeer = std::unique_ptr<ClosestPointPeer> (*)(const Surface& surface);
 extern const MakeClosestPointPeer kEmbree, kCgal;
 
-/// Aligns points with the centers of faces seen at the start, without colors.
+/// Uses centers of the faces seen at the start, without colors.
 using AlignPeer = Alignment (*)(const Surface& surface, std::span<const LabeledPoint> points,
                                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 extern const AlignPeer kPcl;
@@ -46,7 +46,7 @@ extern const AlignPeer kPcl;
 /// Starts a search at the point's last face, or at that of the previous point of its color.
 class WarmStart {
  public:
-  /// The point on that face; face -1 if there is none. `last`: the point's last answer, or face -1.
+  /// The point on that face, or face -1. `last`: the point's last result, or face -1.
   ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
     const int face = last.face >= 0 ? last.face : faces_[point.label];
     if (face < 0) return {};

@@ -5,16 +5,16 @@
 
 namespace glovebench::bench {
 
-/// Resident memory, bytes.
+/// Bytes.
 struct ResidentMemory {
   int64_t anonymous = 0;
-  int64_t file = 0;  ///< which the system can take back
+  int64_t file = 0;  ///< the system can take it back
   int64_t peak = 0;  ///< of the sum, since `reset_peak`
 };
 ResidentMemory resident_memory();
 void reset_peak();
 
-/// Page faults read from disk (major) and memory (minor).
+/// Major page faults read from disk.
 struct PageFaults {
   int64_t major = 0, minor = 0;
 };

@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Bad input from outside the program, in one line.
+/// Bad input from outside the program, in one line. Readers take `where` from the caller.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
@@ -14,7 +14,7 @@ class Error : public std::runtime_error {
       : std::runtime_error(where + ": " + field + ": found " + found + ", expected " + expected) {}
 };
 
-/// Throws: std::logic_error if an invariant of the program is broken; in release builds, too.
+/// Throws: std::logic_error, in release builds too, if an invariant is broken.
 inline void check(bool condition, const char* what) {
   if (!condition) throw std::logic_error(std::string("broken invariant: ") + what);
 }

@@ -14,14 +14,13 @@
 
 namespace glovebench {
 
-// Sets: files of one folder that change together (core/base/README.md). manifest.json is replaced before the new
-// files move from FOLDER/.staged/; after a crash the next writer moves them.
+// A set: files of one folder that change together (core/base/README.md).
 
 inline constexpr const char* kManifest = "manifest.json";
-/// Bytes: about 1.7 million files.
+/// Bytes, for 1.7 million files.
 inline constexpr uint64_t kLargestManifest = uint64_t{256} << 20;
 
-/// A missing, changed or damaged file.
+/// A file is missing, changed or damaged.
 class BrokenSet : public Error {
  public:
   using Error::Error;
@@ -31,12 +30,12 @@ struct ManifestEntry {
   uint64_t bytes = 0;
   std::string hash;
 };
-/// Entries by path in the folder.
+/// Entries by path.
 using Manifest = std::map<std::string, ManifestEntry>;
 
 /// Throws: Error beyond `max_bytes`.
 std::string manifest_json(const Manifest& manifest, uint64_t max_bytes = kLargestManifest);
-/// Throws: Error; also for a name that leads out of the folder.
+/// Throws: Error, also for a name that leads out of the folder.
 Manifest parse_manifest(const std::string& text, const std::string& where);
 /// Empty if the folder has none.
 /// Throws: Error if it is unreadable.
@@ -50,14 +49,14 @@ class FileSet {
 
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// True if the manifest names the file or, without a manifest, it exists.
+  /// Whether the manifest names the file or, without a manifest, it exists.
   bool has(const std::string& name) const;
   /// Throws: BrokenSet if it differs from the manifest, Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
 
   struct Found {
     std::string content;
-    bool is_changed = false;  ///< differs from the manifest
+    bool is_changed = false;
   };
   /// Reads a file that may differ from the manifest or be missing there.
   /// Throws: Error.
@@ -87,7 +86,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Writes a set under a FolderLock. Unnamed files stay; without `commit` all stay.
+/// Writes a set under a FolderLock. Other files stay. Without `commit` nothing changes.
 /// Throws: Error, from every function.
 class WholeFiles {
  public:
@@ -97,8 +96,9 @@ class WholeFiles {
   WholeFiles& operator=(const WholeFiles&) = delete;
 
   const Manifest& manifest() const { return manifest_; }
-  /// `name` may contain folders. A replaced file keeps its mode; a link is an error. A new manifest gets the
-  /// permissions that all files share.
+  /// `name` may contain folders. A replaced file keeps its mode. A new manifest gets the permissions that all files
+  /// share.
+  /// Throws: Error, also for a link.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
   void remove(const std::string& name);
   /// The added files in order.
@@ -110,7 +110,7 @@ class WholeFiles {
   FolderLock lock_;
   Manifest manifest_;
   std::vector<std::string> added_, removed_;
-  mode_t mode_ = 0644;  ///< a new manifest's
+  mode_t mode_ = 0644;
   bool is_committed_ = false;
 };
 

@@ -28,7 +28,7 @@ class Image {
   const T& operator()(int u, int v) const { return pixels_[static_cast<size_t>(v) * width_ + u]; }
   T& operator[](size_t i) { return pixels_[i]; }
   const T& operator[](size_t i) const { return pixels_[i]; }
-  /// For loops; hardened builds check only the row.
+  /// Hardened builds check only the row.
   T* row(int v) { return &pixels_[static_cast<size_t>(v) * width_]; }
   const T* row(int v) const { return &pixels_[static_cast<size_t>(v) * width_]; }
   T* data() { return pixels_.data(); }
@@ -46,11 +46,10 @@ class Image {
   RecycledVector<T> pixels_;
 };
 
-/// 0..255 each.
+/// 0..255 per channel.
 using Rgb = std::array<uint8_t, 3>;
 using ColorImage = Image<Rgb>;
-/// Depth z along the optical axis, not the ray's length; 0: no value.
-/// Units: m.
+/// Depth z along the optical axis, m; not the ray's length. 0: no value.
 using DepthImage = Image<float>;
 /// 1..kColorCount; 0 off the glove.
 using LabelImage = Image<uint8_t>;
@@ -58,7 +57,6 @@ using LabelImage = Image<uint8_t>;
 /// Paper: section III-A.
 inline constexpr int kColorCount = 10;
 
-/// Visits the nonzero pixels of row v from left to right.
 template <typename Visit>
 void for_each_nonzero(const Image<uint8_t>& image, int v, const Visit& visit) {
   const uint8_t* const row = image.data() + static_cast<size_t>(v) * image.width();

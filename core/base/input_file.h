@@ -9,19 +9,19 @@
 
 namespace glovebench {
 
-/// An open file, even if its name moves to another.
+/// An open file. Its name may move to another file.
 class InputFile {
  public:
   enum class Kind { regular, regular_or_pipe };
 
   /// Waits for the writer of a pipe.
-  /// Throws: Error; also for devices, sockets and folders.
+  /// Throws: Error, also for devices, sockets and folders.
   explicit InputFile(const std::string& path, Kind kind = Kind::regular_or_pipe);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
 
-  /// Bytes (0 in /proc); empty for a pipe.
+  /// Bytes (0 in /proc). Empty for a pipe.
   std::optional<uint64_t> size() const { return size_; }
   int descriptor() const { return descriptor_; }
   /// Throws: Error if size or time of change differ from those at opening.
@@ -37,19 +37,15 @@ class InputFile {
   struct timespec modified_ = {};
 };
 
-// Largest files that are read (core/README.md), bytes.
-/// Trajectories and posture sets.
+// Largest accepted files (core/README.md), bytes.
 inline constexpr uint64_t kLargestMovement = uint64_t{64} << 20;
-/// Some million frames.
 inline constexpr uint64_t kLargestResults = 256'000'000;
-/// Times, ratios, noise floors.
 inline constexpr uint64_t kLargestSmallFile = 16'000'000;
-/// All others.
 inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// The same without pipes, whose writer may never come.
+/// Refuses pipes, whose writer may never come.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

@@ -19,8 +19,8 @@ class JsonItems;
 class JsonMembers;
 
 /// Reads a JSON value strictly. Document and `where` must outlive the cursor.
-/// Throws: Error(where, "frames[17].angles_deg[3]", found, expected) for missing or unknown keys and for wrong
-/// kinds or ranges.
+/// Throws: Error(where, "frames[17].angles_deg[3]", found, expected) for missing or unknown keys, wrong kinds or
+/// ranges.
 class JsonCursor {
  public:
   JsonCursor(const nlohmann::json& value, const std::string& where, std::string path = "")
@@ -28,7 +28,7 @@ class JsonCursor {
   JsonCursor(const nlohmann::json& value, std::string&& where, std::string path = "") = delete;
   JsonCursor(nlohmann::json&& value, const std::string& where, std::string path = "") = delete;
 
-  /// Requires all `required` keys; allows `optional` ones alone.
+  /// Requires all `required` keys. Allows only `optional` ones besides.
   void expect_keys(std::initializer_list<std::string_view> required,
                    std::initializer_list<std::string_view> optional = {}) const {
     expect_keys({required.begin(), required.end()}, {optional.begin(), optional.end()});
@@ -64,7 +64,7 @@ class JsonCursor {
   int64_t integer(int64_t min, int64_t max) const;
   int count() const { return static_cast<int>(integer(0, std::numeric_limits<int>::max())); }
   uint64_t unsigned_integer() const;
-  /// Each in -most..most, if given.
+  /// `most`: limit of each absolute value.
   Eigen::Vector3d vector3(std::optional<double> most = {}) const;
 
   const nlohmann::json& value() const { return *value_; }
@@ -84,7 +84,7 @@ class JsonCursor {
   friend class JsonMembers;
 };
 
-/// An array that makes cursors on access, to save memory.
+/// An array. Makes cursors on access, to save memory.
 class JsonItems {
  public:
   explicit JsonItems(const JsonCursor& array) : array_(array) {}

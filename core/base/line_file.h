@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Writes lines that cannot be made again (core/base/README.md) to NAME.partial, or NAME.partial-2 and so on;
+/// Writes lines that cannot be made again (core/base/README.md) to NAME.partial, or NAME.partial-2 and so on.
 /// `finish` renames it to NAME. The constructor opens streams.
 class LineFile {
  public:
@@ -18,12 +18,12 @@ class LineFile {
   LineFile(const LineFile&) = delete;
   LineFile& operator=(const LineFile&) = delete;
 
-  /// Adds the line end. After an error nothing more is written.
-  /// Throws: Error naming the partial file.
+  /// Adds the line end. After an error nothing is written.
+  /// Throws: Error with the partial file.
   void append(std::string_view line);
-  /// Throws: Error naming the partial file; also if it lacks a line.
+  /// Throws: Error with the partial file, also if it lacks a line.
   void finish();
-  /// "3 lines in NAME.partial"; empty without lines.
+  /// "3 lines in NAME.partial". Empty without lines.
   std::string kept() const;
 
  private:

@@ -9,19 +9,19 @@ namespace glovebench {
 
 class InputFile;
 
-/// Pages of memory, private or of a file.
+/// Private pages, or those of a file.
 class MappedMemory {
  public:
   MappedMemory() = default;
   /// Zeros, in large pages if possible.
   /// Throws: std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// Maps a file for reading. It may be replaced (WholeFile), but access to bytes that were cut off ends the
+  /// Maps a file for reading. A WholeFile may replace the file. If it is shortened, access to lost bytes ends the
   /// process (SIGBUS).
   /// Throws: Error.
   static MappedMemory of_file(const std::string& path);
   /// Maps an open file for writing.
-  /// Throws: Error naming `path`.
+  /// Throws: Error.
   static MappedMemory of_descriptor(int descriptor, size_t bytes, const std::string& path);
   ~MappedMemory();
   MappedMemory(MappedMemory&& other) noexcept;
@@ -32,7 +32,7 @@ class MappedMemory {
   /// Turns off read-ahead.
   void expect_random_reads(size_t offset, size_t bytes) const;
 
-  /// Throws: Error if the file was changed since `of_file`.
+  /// Throws: Error if the file changed since `of_file`.
   void require_unchanged() const;
 
   std::span<const uint8_t> bytes() const { return {data_, size_}; }
@@ -47,7 +47,7 @@ class MappedMemory {
   uint8_t* data_ = nullptr;
   size_t size_ = 0;
   bool is_file_ = false;
-  std::shared_ptr<const InputFile> input_;  ///< set by `of_file`
+  std::shared_ptr<const InputFile> input_;
 };
 
 }  // namespace glovebench

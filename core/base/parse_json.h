@@ -7,10 +7,10 @@
 
 namespace glovebench {
 
-/// Limit of nesting, which takes the stack.
+/// Nesting uses the stack.
 inline constexpr size_t kDeepestNesting = 64;
 
-/// Memory that a document may take, plus a number for each byte of text. Our files need 3 to 10.
+/// Limits of a document's memory: a constant, plus a part per byte of text.
 inline constexpr uint64_t kJsonBytes = uint64_t{8} << 20;
 inline constexpr uint64_t kJsonBytesPerByte = 12;
 inline constexpr uint64_t kCborBytesPerByte = 64;

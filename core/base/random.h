@@ -6,7 +6,7 @@
 
 namespace glovebench {
 
-/// A random stream, seeded by a hash of the arguments: results do not depend on threads or order.
+/// Seeded by a hash of the arguments. Results do not depend on threads or order.
 class RandomStream {
  public:
   RandomStream(uint64_t seed, std::string_view sequence, int64_t frame, std::string_view purpose);

@@ -9,7 +9,7 @@ namespace glovebench {
 /// At least `bytes`, aligned to 64, from this thread's store or the heap.
 /// Throws: std::bad_alloc.
 void* take_memory(size_t bytes);
-/// Gives memory back to this thread's store of up to 64 MiB (none under the address sanitizer).
+/// Returns memory to this thread's store of up to 64 MiB (none under the address sanitizer).
 void give_memory(void* memory, size_t bytes) noexcept;
 
 template <typename T>
@@ -30,7 +30,7 @@ struct RecyclingAllocator {
   friend bool operator==(const RecyclingAllocator&, const RecyclingAllocator&) { return true; }
 };
 
-/// A vector for data of one frame; reuses the memory of earlier frames.
+/// For data of one frame. Reuses the memory of earlier frames.
 template <typename T>
 using RecycledVector = std::vector<T, RecyclingAllocator<T>>;
 

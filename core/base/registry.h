@@ -11,14 +11,14 @@
 
 namespace glovebench {
 
-/// The entry that X_KIND.cpp defines; X is its name, if it has one.
+/// Checks that X_KIND.cpp defines an entry of the name X, if entries have names.
 template <typename Entry>
 Entry named(std::string_view name, Entry entry) {
   if constexpr (requires { entry.name; }) check(entry.name == name, "an entry has the name of its file");
   return entry;
 }
 
-/// Sorted names of a registry's entries (glovebench_registry in CMakeLists.txt).
+/// Sorted names of a registry (glovebench_registry in CMakeLists.txt).
 template <typename Entry>
 std::vector<std::string> names_in(std::span<const Entry> entries) {
   std::vector<std::string> names;
@@ -26,7 +26,7 @@ std::vector<std::string> names_in(std::span<const Entry> entries) {
   return names;
 }
 
-/// Throws: Error with place, field and known names.
+/// Throws: Error for an unknown name.
 template <typename Entry>
 const Entry& find_in(std::span<const Entry> entries, std::string_view name, const char* where, const char* field) {
   const auto found = std::ranges::find(entries, name, &Entry::name);

@@ -1,6 +1,5 @@
 #pragma once
 
-// GCC has macros, Clang has __has_feature.
 #ifndef __has_feature
 #define __has_feature(feature) 0
 #endif
@@ -14,7 +13,6 @@
 
 namespace glovebench {
 
-/// Tests repeat less under the address sanitizer, which is twenty times slower and needs one wrong access only.
 #ifdef GLOVEBENCH_ADDRESS_SANITIZER
 inline constexpr bool kHasAddressSanitizer = true;
 #else

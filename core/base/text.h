@@ -1,6 +1,6 @@
 #pragma once
 
-// Excerpts and suggestions for error messages, and names for paths.
+// Texts for error messages, and safe names for paths.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-// Excerpts are beginnings in ASCII.
+// Excerpts are ASCII and short.
 
 /// "?" replaces unprintable bytes.
 std::string printable(std::string_view text);
@@ -17,18 +17,19 @@ std::string printable(std::string_view text);
 /// An excerpt in quotes, escaped as in JSON.
 std::string quoted_excerpt(std::string_view text);
 
-/// A value; only the kind of an array or object.
+/// A value, or only the kind of an array or object.
 std::string excerpt(const nlohmann::json& value);
 
-/// "; did you mean NAME?" for the name that is the fewest edits away (a character inserted, removed, replaced, or
-/// swapped with its neighbor; case is free). Empty if the edits exceed a third of the characters, or two names are
-/// equally near.
+/// "; did you mean NAME?" for the nearest name by edits (a character inserted, removed, replaced, or swapped with
+/// its neighbor; case is ignored). Empty if the edits exceed a third of the characters, or two names are equally
+/// near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// "one of horn, robust", with `did_you_mean`.
 std::string one_of(const std::vector<std::string>& names, std::string_view found);
 
-/// True for a safe part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces, first a letter or digit.
+/// Whether the text is a safe part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces, first a letter or
+/// digit.
 bool is_name(std::string_view text);
 inline constexpr const char* kNameExpected =
     "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
@@ -37,7 +38,7 @@ inline constexpr const char* kNameExpected =
 /// Throws: Error unless `is_name`.
 std::string checked_name(std::string name, const std::string& where, const std::string& field);
 
-/// "FOLDER/NAME"; the name may contain folders.
+/// "FOLDER/NAME". The name may contain folders.
 /// Throws: Error for an absolute name, or a part that is empty, begins with a dot or has control characters.
 std::string path_within(const std::string& folder, std::string_view name);
 /// The same for writing or removing.

@@ -11,19 +11,19 @@
 
 namespace glovebench {
 
-/// The target of an output (core/base/README.md): a file, or a stream (device, pipe, "-", /dev/fd/3).
+/// Where an output goes (core/base/README.md): a file, or a stream (device, pipe, "-", /dev/fd/3).
 struct OutputTarget {
   bool is_stream = false;
-  int descriptor = -1;  ///< of a stream that is already open
+  int descriptor = -1;  ///< of an open stream
   std::string path;
-  std::optional<struct stat> older = {};  ///< if the file exists
+  std::optional<struct stat> older = {};
 };
 
 /// Throws: Error for a folder or a circle of links.
 OutputTarget find_output(const std::string& path);
 
 /// Waits for a pipe's reader.
-/// Throws: Error naming `path`.
+/// Throws: Error.
 int open_stream(const OutputTarget& target, const std::string& path);
 
 /// Creates a file with the older one's mode and, if permitted, owner. Returns -1 and sets errno on failure.
@@ -35,10 +35,10 @@ struct Written {
 };
 Written write_all(int descriptor, std::string_view content);
 
-/// Makes content survive a power failure (not in streams). Returns 0 or errno.
+/// Makes content (not of streams) survive a power failure. Returns 0 or errno.
 int sync_file(int descriptor);
 
-/// Creates and syncs a folder and its parents; "" is the current one.
+/// Creates and syncs a folder and its parents. "": the current one.
 /// Throws: Error.
 void make_folders(const std::string& folder);
 /// Makes new names survive a power failure, where the file system can.
@@ -47,12 +47,11 @@ void sync_folder(const std::string& folder);
 /// "." for a plain name.
 std::string folder_above(const std::string& path);
 
-/// Writes a file whole (core/base/README.md): to a temporary name, which `commit` syncs and renames. Without
-/// `commit` the old file stays. Creates missing folders. Streams open at the first `append`.
+/// Writes a file whole (core/base/README.md). Without `commit` the old file stays. Creates missing folders. Opens
+/// streams at the first `append`.
 /// Throws: Error, from every function.
 class WholeFile {
  public:
-  /// `mode`: a new file's.
   explicit WholeFile(const std::string& path, mode_t mode = 0644);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
@@ -73,7 +72,7 @@ class WholeFile {
 
 void write_file(const std::string& path, std::string_view content);
 
-/// Removes temporary files of killed writers, if `is_such` accepts the target's name. Files in use are locked and
+/// Removes temporary files of killed writers if `is_such` accepts the target's name. Locked files are in use and
 /// stay.
 void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 

@@ -12,30 +12,30 @@
 namespace glovebench::calibration {
 
 struct Chessboard {
-  int columns = 9;        ///< inner corners in a row, >= 3
+  int columns = 9;        ///< inner corners per row, >= 3
   int rows = 6;           ///< >= 3, not equal to `columns`
   double square = 0.025;  ///< side, m, > 0
 
   friend bool operator==(const Chessboard&, const Chessboard&) = default;
 };
 
-/// Throws: Error naming `where` and the field.
+/// Throws: Error.
 void check_chessboard(const Chessboard& board, const std::string& where);
 
-/// Inner corners row by row, uv_px. One picture cannot tell which end of the board comes first.
+/// Inner corners row by row, uv_px. One image does not show which end of the board is first.
 using Corners = std::vector<Eigen::Vector2d>;
 
-/// Corners in the board's frame, z = 0.
+/// In the board's frame, m, z = 0.
 std::vector<Eigen::Vector3d> corners_on(const Chessboard& board);
 
-/// All inner corners with subpixel accuracy, if the whole board is visible.
+/// With subpixel accuracy. Empty unless the whole board is visible.
 std::optional<Corners> find_corners(const Image<uint8_t>& gray, const Chessboard& board);
 
-/// Reverses corners whose rows run opposite to those of `reference`, the same board from a nearby camera.
+/// Reverses corners if their rows run opposite to `reference`, the same board from a nearby camera.
 Corners in_the_order_of(const Corners& reference, Corners corners, const Chessboard& board);
 
 struct BoardView {
-  std::string name;  ///< without ending, or number in the recording
+  std::string name;  ///< file without ending, or number in the recording
   Corners corners;
 };
 struct LeftOut {
@@ -50,11 +50,11 @@ struct BoardViews {
   std::vector<std::string> changed = {};  ///< recorded files that differ from the manifest
 };
 
-/// Called before each picture, with `done` before it.
+/// Called before each picture. `done`: earlier pictures.
 using Looked = std::function<void(size_t done, size_t count)>;
 
 /// Decodes an image file to gray.
-/// Throws: Error naming `path` if it is no image or exceeds kMostPixels.
+/// Throws: Error if it is no image or exceeds kMostPixels.
 Image<uint8_t> decode_gray(std::string_view content, const std::string& path);
 
 /// Finds the board in a folder of images, or in at most `most` evenly spaced color images of `fakenect:FOLDER`.

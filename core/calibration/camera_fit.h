@@ -8,13 +8,13 @@
 
 namespace glovebench::calibration {
 
-/// Largest error of a kept view or pair: three times the median, at least 0.5 px. `errors_px` is not empty.
+/// Largest error of a kept view or pair: three times the median, at least 0.5 px. `errors_px` must not be empty.
 double misfit_limit(const std::vector<double>& errors_px);
-/// Throws: Error naming `where` above an RMS error of 2 px.
+/// Throws: Error if the RMS error exceeds 2 px.
 void require_fit(double error_px, const std::string& where);
 LeftOut misfit(const std::string& name, double error_px, double limit_px);
 
-/// Which coefficients of LensDistortion are fitted.
+/// Fitted coefficients of LensDistortion.
 enum class LensModel { none, radial, full };  ///< none; k1, k2, k3; all five
 constexpr auto names_of(LensModel) {
   return std::to_array<std::string_view>({"none", "radial", "full"});
@@ -33,7 +33,7 @@ struct CameraFit {
 };
 
 /// Fits a camera by Zhang's method (OpenCV) until no view exceeds misfit_limit.
-/// Throws: Error naming `where` if too few or too similar views are left, or the fit is bad.
+/// Throws: Error if too few or too similar views remain, or the fit is bad.
 CameraFit fit_camera(const BoardViews& views, const Chessboard& board, LensModel lens, const std::string& where);
 
 }  // namespace glovebench::calibration

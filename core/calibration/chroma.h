@@ -28,7 +28,7 @@ inline Eigen::Array3d array_of(const Rgb& rgb) {
   return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
 }
 
-/// True if a channel may be clipped, which hides the color.
+/// Whether a channel may be clipped.
 inline bool is_overexposed(const Rgb& rgb) {
   constexpr uint8_t kWhite = 251;
   return rgb[0] >= kWhite || rgb[1] >= kWhite || rgb[2] >= kWhite;
@@ -36,16 +36,16 @@ inline bool is_overexposed(const Rgb& rgb) {
 
 struct KnownChroma {
   Chroma place = Chroma::Zero();
-  double reach = 0;  ///< distance without new peaks
+  double reach = 0;  ///< within it no new peak counts
 };
 
-/// Density of samples in the chroma plane, smoothed by a Gaussian of peak 1 and deviation `width`. Leaves out
-/// samples with Y < `min_luma`.
+/// Density of samples in the chroma plane, smoothed by a Gaussian of peak 1 and deviation `width`. Skips samples
+/// with Y < `min_luma`.
 class ChromaDensity {
  public:
   ChromaDensity(std::span<const ColorSample> samples, double min_luma, double width);
 
-  /// Weighted share of samples around `chroma`; 0 outside -1.2 to 2.
+  /// Weighted share of samples around `chroma`. 0 outside -1.2 to 2.
   double at(const Chroma& chroma) const;
   /// At most `most` local maxima above `share`, highest first, outside the reach and slope of known ones. Peaks
   /// become known with `reach`.

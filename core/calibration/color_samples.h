@@ -12,31 +12,31 @@ namespace glovebench::calibration {
 struct SampleConfig {
   WorkingVolume volume;
   RegistrationConfig registration;
-  double surface_step = 0.02;  ///< depth step that separates surfaces, m, > 0
-  int beyond_stride = 16;      ///< keeps every nth pixel, >= 1
+  double surface_step = 0.02;  ///< depth step, m, > 0
+  int beyond_stride = 16;      ///< keep every nth pixel, >= 1
 };
 
 struct ColorSample {
   Rgb rgb{};
-  uint16_t frame = 0;  ///< in the order added
+  uint16_t frame = 0;
 };
 
 /// A pixel that mixes two colors, between even pixels of both.
 struct MixedSample {
   Rgb rgb{};
   Rgb near{};   ///< nearest even pixel, in the volume
-  Rgb other{};  ///< even pixel within 3 px that differs most from `near`
+  Rgb other{};  ///< even pixel within 3 px, most different from `near`
   bool other_is_inside = false;
 };
 
-/// A frame in IR pixels; `inside` is 1 for a colored pixel with depth in the volume.
+/// A frame in IR pixels. `inside` is 1 for a colored pixel with depth in the volume.
 struct VolumeView {
   ColorImage color;
   Image<uint8_t> inside;
 };
 VolumeView view_volume(const DeviceFrame& frame, const RgbdCalibration& calibration, const SampleConfig& config);
 
-/// Collects pixels of an unlabeled recording. Even pixels share surface and color with their four neighbors.
+/// Pixels of an unlabeled recording. An even pixel shares surface and color with its four neighbors.
 class ColorSamples {
  public:
   explicit ColorSamples(SampleConfig config = {}) : config_(config) {}
@@ -51,7 +51,7 @@ class ColorSamples {
   const std::vector<MixedSample>& mixed() const { return mixed_; }
   /// Colored pixels in the volume.
   int64_t inside_pixels() const { return inside_pixels_; }
-  /// Standard deviation of the green channel by noise; 0 without pixels in the volume.
+  /// Standard deviation of noise in the green channel, 0..255. 0 without pixels in the volume.
   double noise_gray() const;
 
  private:

@@ -10,17 +10,17 @@
 
 namespace glovebench::calibration {
 
-/// Relights little, because a recording shows its light.
+/// Allows little change of light, because a recording shows its light.
 ColorModel recorded_color_model();
 
 struct GloveColorConfig {
   double min_luma = 16;                       ///< darker pixels are unsure, 0..255
   double glove_distance = 3.5;                ///< deviations within which a pixel has the color, > 0
-  double other_distance = 6.0;                ///< deviations beyond which it does not; unsure in between
+  double other_distance = 6.0;                ///< beyond, it does not; unsure in between
   int64_t min_pixels = 200;                   ///< even pixels that a color must have
-  int64_t few_pixels = 2000;                  ///< even pixels, else a warning
-  int few_frames = 3;                         ///< likewise
-  bool mixed_pixels = true;                   ///< labels mixed pixels by their larger part
+  int64_t few_pixels = 2000;                  ///< fewer even pixels cause a warning
+  int few_frames = 3;                         ///< fewer frames cause a warning
+  bool mixed_pixels = true;                   ///< label mixed pixels by their larger part
   ColorModel model = recorded_color_model();  ///< `not_glove_prior` is measured
 };
 
@@ -31,16 +31,15 @@ struct GloveColor {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< without camera noise
   double reach = 0;                                      ///< largest distance of `center` from `seed`
   std::array<double, 5> lumas{};                         ///< 10, 30, 50, 70, 90% quantiles of Y
-  double weight = 0;                                     ///< share of the even pixels in the volume
+  double weight = 0;                                     ///< share of even pixels in the volume
   int64_t pixels = 0;                                    ///< even pixels
   int frames = 0;
 };
 
-/// Results of `classify` besides colors.
 inline constexpr uint8_t kNotGlove = 0, kUnsure = 255;
 
 struct GloveColorFit {
-  RecordedLight light;  ///< changes the seeds to the recording
+  RecordedLight light;
   double noise_gray = 0;
   GloveColorConfig config;
   std::array<GloveColor, kColorCount + 1> colors;
@@ -49,17 +48,17 @@ struct GloveColorFit {
   int64_t beyond = 0, beyond_like_glove = 0;  ///< pixels behind the volume
   std::array<int64_t, kColorCount + 1> beyond_like{};
 
-  /// The most probable color within `glove_distance`, else kNotGlove or kUnsure; kUnsure for dark pixels.
+  /// The most probable color within `glove_distance`, else kNotGlove or kUnsure. Dark pixels are kUnsure.
   uint8_t classify(const Rgb& rgb) const;
 };
 
 /// Fits light, glove colors and other frequent colors by expectation maximization. A center stays nearest to its
 /// own seed.
-/// Throws: Error naming `where` if frames, the hand or colors are missing.
+/// Throws: Error if frames, the hand or colors are missing.
 GloveColorFit fit_glove_colors(const ColorSamples& samples, const ColorSeeds& seeds, const std::string& where,
                                const GloveColorConfig& config = {});
 
-/// Builds the table from classified pixels, except clutter in the glove's colors behind the volume.
+/// Uses classified pixels, except clutter in the glove's colors behind the volume.
 ColorTable build_color_table(const ColorSamples& samples, const GloveColorFit& fit,
                              ColorSpace space = ColorSpace::yuv);
 

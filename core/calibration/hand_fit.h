@@ -21,17 +21,17 @@ struct PatchFit {
 
 struct HandFit {
   HandShape shape;
-  HandSizes deviation{};                     ///< standard deviation of each size
-  std::array<bool, kSizeCount> seen{};       ///< true if the recording tells more than statistics of people
-  std::vector<ArticulatedPose> poses;        ///< one a view
-  double residual_before = 0, residual = 0;  ///< mean distance of points from the mesh and from the fitted hand, m
+  HandSizes deviation{};                ///< standard deviations
+  std::array<bool, kSizeCount> seen{};  ///< the recording tells more than population statistics
+  std::vector<ArticulatedPose> poses;   ///< one per view
+  double residual_before = 0,
+         residual = 0;  ///< mean distance of points from mesh and fitted hand, m
   std::array<PatchFit, kPatchCount> patches{};
 };
 
-/// Fits the sizes of a hand, with pose and posture in each view. Each round refines the poses, then takes one
-/// Gauss-Newton step of all sizes with poses and postures eliminated (Schur), then shifts the patch borders. Sizes
-/// that the views do not show stay near the mesh's. Uses the caller's TBB arena; results do not depend on its
-/// threads.
+/// Fits a hand's sizes, with pose and posture in each view. Each round refines the poses, takes a Gauss-Newton step
+/// of all sizes, then shifts the patch borders. Sizes that the views do not show stay near the mesh's. Uses the
+/// caller's TBB arena. Results do not depend on threads.
 HandFit fit_hand_shape(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh);
 
 }  // namespace glovebench::calibration

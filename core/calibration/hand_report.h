@@ -9,13 +9,12 @@
 
 namespace glovebench::calibration {
 
-/// The fit as stored in the file.
 MeasuredHand measured_hand(const HandFit& fit, Side side);
 
-/// A sentence for each size that the recording does not show and each sign of a bad fit.
+/// One sentence per size that the recording does not show and per sign of a bad fit.
 std::vector<std::string> hand_warnings(const HandFit& fit, const ShownMotion& motion);
 
-/// The report as JSON and Markdown; README.md lists the keys.
+/// README.md lists the keys.
 nlohmann::ordered_json hand_report_json(const HandFit& fit, const ShownMotion& motion,
                                         const std::string& recording);
 std::string hand_report_markdown(const HandFit& fit, const ShownMotion& motion);

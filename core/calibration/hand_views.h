@@ -13,20 +13,19 @@ namespace glovebench::calibration {
 struct TrackedView {
   int64_t timestamp_us = 0;
   HandView seen;
-  ArticulatedPose pose;  ///< tracked with other sizes; the fit starts here
+  ArticulatedPose pose;  ///< tracked with other sizes; start of the fit
 };
-/// The view of a frame; empty if the hand was lost. `inputs`: of the method.
+/// The view of a frame. Empty if the hand was lost. `inputs`: of the method.
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
-/// How the hand moved over the views.
 struct ShownMotion {
   int views = 0;
-  double seconds = 0;                ///< from the first view to the last
-  double turn_deg = 0;               ///< largest angle between two directions of view
+  double seconds = 0;                ///< from first to last view
+  double turn_deg = 0;               ///< largest angle between two viewing directions
   std::array<double, 5> bend_deg{};  ///< thumb to little: range of the two middle joints' bending
 };
 ShownMotion motion_of(std::span<const TrackedView> views);
-/// Throws: Error naming `where` unless there are enough views, the fingers open and close, and the hand turns.
+/// Throws: Error unless there are enough views, the fingers open and close, and the hand turns.
 void require_motion(const ShownMotion& motion, const std::string& where);
 
 }  // namespace glovebench::calibration

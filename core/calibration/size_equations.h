@@ -9,19 +9,19 @@ namespace glovebench::calibration {
 using SizeVector = Eigen::Matrix<double, kSizeCount, 1>;
 using SizeMatrix = Eigen::Matrix<double, kSizeCount, kSizeCount>;
 
-/// How the posed surface moves with angles and sizes, by differences of posed hands.
+/// Derivatives of the posed surface by angles and sizes, from differences.
 class SurfaceMotion {
  public:
   explicit SurfaceMotion(const HandModel& model);
 
   static constexpr int kMoves = kAngleCount + kSizeCount;
-  /// kMoves vectors for each vertex, hand frame: mm per degree and mm per percent.
+  /// kMoves vectors per vertex, hand frame: mm per degree and mm per percent.
   std::vector<Eigen::Vector3f> at(const Posture& posture, const PosedHand& hand) const;
   const HandModel& model() const { return model_; }
 
  private:
   const HandModel& model_;
-  std::vector<HandModel> stretched_;  ///< by size, each 1% larger
+  std::vector<HandModel> stretched_;
 };
 
 /// Normal equations of one view: H sizes = g with pose and posture eliminated, and their step for a step of the
@@ -34,7 +34,7 @@ struct SizeEquations {
 
   StepVector step(const SizeVector& sizes) const { return pose_step - pose_by_sizes * sizes; }
 };
-/// `tukey_mm`: distance from which points have no weight. All points together count as 1,000.
+/// `tukey_mm`: points farther away have no weight. All points together count as 1,000.
 SizeEquations size_equations(const SurfaceMotion& motion, const TrackedView& view, const ArticulatedPose& pose,
                              double tukey_mm);
 

@@ -8,13 +8,13 @@
 namespace glovebench::calibration {
 
 struct StereoFit {
-  CameraFit ir, rgb;            ///< each camera alone
-  RgbdCalibration calibration;  ///< fitted to the pairs
-  double error_px = 0;          ///< RMS over all corners
+  CameraFit ir, rgb;  ///< each camera alone
+  RgbdCalibration calibration;
+  double error_px = 0;  ///< RMS over all corners
   std::vector<std::string> pairs;
   std::vector<double> pair_errors_px;
-  std::vector<LeftOut> left_out;  ///< pairs above misfit_limit
-  /// Standard errors of T_rgb_ir, from the pairs.
+  std::vector<LeftOut> left_out;
+  /// Standard errors of T_rgb_ir.
   double translation_error = 0;  ///< m
   double rotation_error = 0;     ///< rad
 };

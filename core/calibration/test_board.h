@@ -1,7 +1,5 @@
 #pragma once
 
-// Ray-cast pictures of a chessboard by known cameras with lens distortion.
-
 #include <algorithm>
 #include <cmath>
 
@@ -93,7 +91,7 @@ class BoardCamera {
   std::vector<Eigen::Vector2d> rays_;
 };
 
-/// Poses tilted by 15 to 45 degrees at which both cameras see the whole board.
+/// Tilted by 15 to 45 degrees. Both cameras see the whole board.
 inline std::vector<Eigen::Isometry3d> poses_before(const RgbdCalibration& truth, const Chessboard& board, int count,
                                                    uint64_t seed) {
   RandomStream random(seed, "board", 0, "poses");

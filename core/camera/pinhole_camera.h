@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// Limits on images: a small file cannot claim much memory.
+/// Limits of images from files.
 inline constexpr int kMostSide_px = 4096;
 inline constexpr int kMostPixels = 1 << 21;  // a little over 1920x1080
 
@@ -30,14 +30,14 @@ struct PinholeCamera {
   friend bool operator==(const PinholeCamera&, const PinholeCamera&) = default;
 };
 
-/// Brown's lens model in OpenCV's order.
+/// Brown's model in OpenCV's order.
 struct LensDistortion {
   double k1 = 0, k2 = 0;  ///< radial
   double p1 = 0, p2 = 0;  ///< tangential
   double k3 = 0;          ///< radial
 
   bool is_none() const { return *this == LensDistortion{}; }
-  /// Maps from pinhole to lens, in the plane z = 1.
+  /// From pinhole to lens, in the plane z = 1.
   Eigen::Vector2d distort(const Eigen::Vector2d& xy) const {
     const double x = xy.x(), y = xy.y(), r2 = xy.squaredNorm();
     const double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));

@@ -10,8 +10,8 @@
 
 namespace glovebench {
 
-/// A Kinect's calibrated depth: z = 1 / (a * raw + b), raw: 11-bit disparity. With baseline B, focal length f (px)
-/// and disparity d at infinity, a = -1 / (8 f B), b = d / (8 f B).
+/// z = 1 / (a * raw + b), raw: 11-bit disparity. With baseline B, focal length f (px) and disparity d at infinity,
+/// a = -1 / (8 f B), b = d / (8 f B).
 struct DisparityLine {
   double a_per_m = 0;  ///< below 0
   double b_per_m = 0;  ///< above 0
@@ -19,7 +19,7 @@ struct DisparityLine {
   friend bool operator==(const DisparityLine&, const DisparityLine&) = default;
 };
 
-/// A Kinect's stereo calibration. "camera" is the IR (depth) camera.
+/// "camera" is the IR (depth) camera.
 /// Paper: section III-A.
 struct RgbdCalibration {
   PinholeCamera ir;
@@ -29,7 +29,7 @@ struct RgbdCalibration {
   LensDistortion ir_lens = {}, rgb_lens = {};                  ///< the device's
 
   bool has_lens() const { return !(ir_lens.is_none() && rgb_lens.is_none()); }
-  /// The same without lenses, for rectified images.
+  /// For rectified images.
   RgbdCalibration rectified() const {
     RgbdCalibration calibration = *this;
     calibration.ir_lens = calibration.rgb_lens = {};
@@ -54,7 +54,7 @@ nlohmann::json to_json(const RgbdCalibration& calibration);
 
 inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes
 
-/// The text of a file with the same calibration, bit for bit.
+/// A file's text. Keeps the calibration bit for bit.
 std::string calibration_text(const RgbdCalibration& calibration);
 /// Throws: Error.
 RgbdCalibration load_calibration(const std::string& path);

@@ -11,7 +11,7 @@ namespace glovebench {
 /// Paper: equation 1.
 struct WorkingVolume {
   double z_min = 0.40;  ///< m, > 0
-  double z_max = 0.95;  ///< m, > z_min; the synthetic table is at 1.06
+  double z_max = 0.95;  ///< m, > z_min; synthetic table: 1.06
 };
 
 /// Glove pixels this near the volume count as cut off, m.
@@ -26,7 +26,7 @@ struct LabeledPoint {
 /// Paper: equation 1.
 struct LabeledCloud {
   RecycledVector<LabeledPoint> points;
-  LabelImage labels;        ///< those of `points`, 0 elsewhere
+  LabelImage labels;        ///< of `points`, 0 elsewhere
   int labeled_outside = 0;  ///< glove pixels with depth outside the volume
   int labeled_cut_off = 0;  ///< of these, within kCutOffMargin
 };
@@ -39,7 +39,7 @@ LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, cons
 /// Pixel counts of connected components, largest first. Neighbors (8) connect if depths differ by at most
 /// `depth_step`, m.
 RecycledVector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
-/// Keeps the largest component (not in the paper).
+/// Keeps the largest component. Not in the paper.
 LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step);
 
 }  // namespace glovebench

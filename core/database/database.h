@@ -28,19 +28,19 @@ struct ViewConfig {
 /// Largest stored distance, 1/kFieldScale px.
 uint8_t field_cap(double cap_share, int size);
 
-/// The image database: 756 views of each posture as tiny images, with a distance field for each color. Entry =
-/// posture * 756 + view. Immutable; copies share memory.
+/// 756 views of each posture as tiny images, with a distance field for each color. Entry = posture * 756 + view.
+/// Immutable; copies share memory.
 /// Paper: section III.
 class Database {
  public:
-  /// Renders all views; `threads` do not change the result. Each thread calls `renderers` once; `progress` gets the
+  /// Renders all views. `threads` do not change the result. Each thread calls `renderers` once. `progress` gets the
   /// share done.
   /// Throws: Error without postures, or for a size that repeats or is outside 4..64 px.
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes,
                         DatabaseMemory memory = DatabaseMemory::normal);
-  /// Builds a file that may exceed memory; returns its `content_hash()`.
+  /// Builds a file that may exceed memory. Returns its `content_hash()`.
   /// Throws: Error as `build`, or if the disk is full.
   static std::string build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
                                 const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
@@ -49,11 +49,11 @@ class Database {
                                 DatabaseMemory memory = DatabaseMemory::normal);
 
   void save(const std::string& path) const;
-  /// Loads the file's sizes among `sizes` and checks hashes and values. Labels and fields stay mapped (see
-  /// MappedMemory::of_file). Uses the caller's TBB arena.
-  /// Throws: Error naming file and fault.
+  /// Loads the file's sizes among `sizes` and checks hashes and values. Labels and fields stay mapped
+  /// (MappedMemory::of_file). Uses the caller's TBB arena.
+  /// Throws: Error.
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
-  /// Recomputes the fields of all loaded sizes. Uses the caller's TBB arena.
+  /// Recomputes the fields of loaded sizes. Uses the caller's TBB arena.
   /// Throws: Error if a stored field differs.
   void check() const;
   /// Throws: Error if the file changed since.
@@ -69,17 +69,16 @@ class Database {
   Side side() const { return header_.side; }
   /// Hash of the inputs without the memory mode.
   const std::string& input_hash() const { return header_.input_hash; }
-  /// See DatabaseLayout::content_hash.
+  /// See DatabaseLayout.
   const std::string& content_hash() const { return content_hash_; }
   DatabaseMemory memory() const { return header_.memory; }
 
   /// Throws: Error if the size is not loaded.
   LabelImage labels(int size, int entry) const;
-  /// Chamfer fields of an entry: kColorCount * size * size values in 1/kFieldScale px.
+  /// Chamfer fields, kColorCount * size * size values in 1/kFieldScale px.
   /// Throws: Error as `labels`, and in low memory.
   const uint8_t* fields(int size, int entry) const;
   uint8_t field_cap(int size) const { return glovebench::field_cap(header_.field_cap_share, size); }
-  /// The fields for a search over all entries.
   /// Throws: Error as `labels`.
   const FieldRows& field_rows(int size) const { return *data(size).rows; }
   bool has_size(int size) const { return sizes_.contains(size); }

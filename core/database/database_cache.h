@@ -9,12 +9,12 @@ namespace glovebench {
 
 inline constexpr std::string_view kDatabaseEnding = ".glovedb";
 
-/// Loads a database from `folder`, or builds and stores it. Processes that need the same file wait for each other.
-/// A damaged file is reported and rebuilt; a build removes files of older code.
+/// Loads a database from `folder`, or builds and stores it. Processes wait for each other's build. Reports and
+/// rebuilds a damaged file. A build removes files of older code.
 struct DatabaseCache {
   std::string folder;
   ViewRendererFactory renderers;
-  std::string source_hash;  ///< building code's
+  std::string source_hash;
   int threads = 1;
   DatabaseMemory memory = DatabaseMemory::normal;
   std::function<void(const std::string&)> message = [](const std::string&) {};

@@ -14,7 +14,7 @@
 
 namespace glovebench {
 
-/// The only version that is read.
+/// Other versions are refused.
 inline constexpr int kDatabaseVersion = 5;
 
 struct DatabaseHeader {
@@ -26,7 +26,7 @@ struct DatabaseHeader {
   std::set<int> sizes_px;
 };
 
-/// A part of the file, hashed in pieces in parallel.
+/// A part of the file. Its pieces are hashed in parallel.
 struct Section {
   enum class Kind { box_rays, labels, fields };
 
@@ -51,7 +51,7 @@ class DatabaseLayout {
   static constexpr int kPieceEntries = 54;
 
   explicit DatabaseLayout(DatabaseHeader header);
-  /// Throws: Error naming `path` if the bytes are no complete database.
+  /// Throws: Error if the bytes are no complete database.
   DatabaseLayout(std::span<const uint8_t> file, const std::string& path);
 
   const DatabaseHeader& header() const { return header_; }
@@ -59,15 +59,15 @@ class DatabaseLayout {
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
   int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
-  /// The sections in file order, with fields that are not stored.
+  /// Sections in file order, with fields that are not stored.
   std::vector<Section> sections() const;
-  /// Hash of angles, box rays, labels and fields, equal for both memory modes.
+  /// Hash of angles, box rays, labels and fields. Equal for both memory modes.
   std::string content_hash() const;
 
-  /// Writes the header with the sections' hashes.
+  /// Writes the header with hashes.
   void seal(MappedMemory& file);
   /// Checks the sections of these sizes and makes rows of their fields.
-  /// Throws: Error naming `path` for a wrong hash or value.
+  /// Throws: Error for a wrong hash or value.
   std::map<int, FieldRows> read_sections(const MappedMemory& file, const std::string& path,
                                          std::span<const int> sizes_px) const;
 

@@ -7,11 +7,10 @@
 
 namespace glovebench {
 
-/// Stored distances are in 1/kFieldScale px; a straight step is 3, a diagonal one 4.
+/// Distances are in 1/kFieldScale px: 3 for a straight step, 4 for a diagonal one.
 inline constexpr int kFieldScale = 3;
 
-/// Distance of each pixel to the nearest one of `color` by two-pass chamfering; `cap` at most, also without the
-/// color.
+/// Distance to the nearest pixel of `color` by two-pass chamfering, at most `cap`.
 /// Paper: section III-B.
 void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 
@@ -20,9 +19,9 @@ struct RowRange {
   int first = 0, last = 0;
 };
 
-/// The same, faster: relaxes whole rows.
+/// The same, faster.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
-/// The same for rows `wanted`; others are undefined.
+/// The same for rows `wanted` only.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
 /// The fields of all colors in turn.
 void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields);

@@ -11,8 +11,8 @@
 
 namespace glovebench {
 
-/// `low` stores no fields, holds minima over up to 8 x 8 pixels (not 4 x 4), and makes fields from labels during a
-/// look-up. Matches are the same.
+/// `low` stores no fields, pools up to 8 x 8 pixels (not 4 x 4), and makes fields during a look-up. Matches are the
+/// same.
 enum class DatabaseMemory { normal, low };
 constexpr auto names_of(DatabaseMemory) {
   return std::to_array<std::string_view>({"normal", "low"});
@@ -23,25 +23,24 @@ struct WeightedRow {
   uint16_t weight;
 };
 
-/// The distance fields of one size for a search over all entries: blocks of 64 entries, a row for each color and
-/// cell, a value for each entry. In large images a cell is 4 x 4 or 8 x 8 pixels and holds their minimum, so that
-/// sums over cells are lower bounds.
+/// One size's distance fields for a search over all entries: blocks of 64 entries, a row per color and cell, a
+/// value per entry. In large images a cell holds the minimum of 4 x 4 or 8 x 8 pixels. Sums over cells are then
+/// lower bounds.
 class FieldRows {
  public:
   static constexpr int kBlock = 64;            ///< entries: a cache line
   static constexpr int kLargestExact = 24;     ///< px; larger sizes hold cell minima
-  static constexpr int kLargestFinePool = 32;  ///< px; larger sizes have 8 x 8 cells in low memory
+  static constexpr int kLargestFinePool = 32;  ///< px; larger sizes pool 8 x 8 in low memory
 
   /// Rows are 0 until `put`.
   FieldRows(int size, DatabaseMemory memory, int entry_count, uint8_t largest_value);
-  /// Writes entries from `first` on, kColorCount * size * size values each. Threads may put different ones. The
+  /// Writes entries from `first` on, kColorCount * size * size values each. Threads may put different entries. The
   /// last entry also fills its block.
   void put(int first, std::span<const uint8_t> fields);
 
-  /// Sums over rows are distances instead of bounds.
+  /// Whether sums are distances, not bounds.
   bool exact() const { return pool_ == 1; }
   size_t block_count() const { return block_count_; }
-  /// kColorCount times the cells.
   size_t row_count() const { return static_cast<size_t>(kColorCount) * cells_ * cells_; }
   size_t block_bytes() const { return row_count() * kBlock; }
   const uint8_t* data() const { return values_.bytes().data(); }

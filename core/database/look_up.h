@@ -18,14 +18,14 @@ struct CascadeStage {
 };
 using Cascade = std::vector<CascadeStage>;
 
-/// Reads "16:500,64:3"; "exact:3" means "64:3".
-/// Throws: Error on a malformed or impossible stage.
+/// Reads "16:500,64:3". "exact:3" means "64:3".
+/// Throws: Error for a malformed or impossible stage.
 Cascade parse_cascade(std::string_view text);
 std::string to_string(const Cascade& cascade);
 
 struct Match {
   int entry = 0;
-  float error = 0;  ///< equation (2) of the last stage, px
+  float error = 0;  ///< of the last stage, px; equation (2)
 };
 
 struct TinyImages {
@@ -33,12 +33,11 @@ struct TinyImages {
 };
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade);
 
-/// The mean distance from the query's glove pixels to the entry's nearest pixel of the same color, px; 0 without
-/// glove pixels.
+/// Mean distance from the query's glove pixels to the entry's nearest pixel of the same color, px. 0 without glove
+/// pixels.
 /// Paper: equation (2).
 float distance(const Database& database, int entry, const LabelImage& query);
 
-/// `distance` of every entry.
 std::vector<float> distances(const Database& database, const LabelImage& query);
 
 struct LookUpTrace {
@@ -46,12 +45,11 @@ struct LookUpTrace {
   std::vector<std::vector<int>> kept;
 };
 
-/// A way to search; all give the same matches and trace. X_look_up.cpp in core/database/look_ups defines
-/// `LookUpEntry X_look_up()`.
+/// All searches give the same matches and trace. X_look_up.cpp in core/database/look_ups defines `LookUpEntry
+/// X_look_up()`.
 struct LookUpEntry {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
-  /// As `look_up`.
+  std::string_view name;
+  std::string_view description;
   RecycledVector<Match> (*look_up)(const Database& database, const TinyImages& query, const Cascade& cascade,
                                    LookUpTrace* trace);
 };

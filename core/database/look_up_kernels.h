@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// Chunks of 64 pixels, padded by 0.
+/// A query's labels, padded by 0.
 struct QueryLabels {
   static constexpr size_t kChunk = 64;
   static constexpr size_t kLargest = 64 * 64;
@@ -22,14 +22,14 @@ struct FieldChunk {
   uint8_t color;
 };
 
-// Inner loops of the look-up (Highway); all instruction sets give equal results.
+// Inner loops (Highway). All instruction sets give equal results.
 
 /// Weighted sums of rows for each entry, at most 65535, and each block's minimum. `sums` has room for whole blocks.
 void add_rows(const FieldRows& field_rows, std::span<const WeightedRow> rows, std::span<uint16_t> sums,
               std::span<uint16_t> block_minima);
 
-/// The sum over the chunks, or any number above `limit` if it is larger. Prefetches `next`, unless null. Reads up
-/// to 63 bytes behind the fields.
+/// The sum over the chunks, or any number above `limit` if it is larger. Prefetches `next` unless null. Reads up to
+/// 63 bytes behind the fields.
 uint32_t add_chunks(const uint8_t* fields, const QueryLabels& query, std::span<const FieldChunk> chunks,
                     uint32_t limit, const uint8_t* next);
 

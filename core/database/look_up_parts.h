@@ -14,14 +14,14 @@ struct Candidate {
   friend auto operator<=>(const Candidate&, const Candidate&) = default;
 };
 
-/// The mean, px.
+/// Mean, px.
 inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
   return static_cast<float>(sum) / static_cast<float>(kFieldScale * glove_pixels);
 }
 
-/// The places in an entry's fields that a query reads: an offset for each glove pixel.
+/// Where a query reads an entry's fields, one offset per glove pixel.
 RecycledVector<int> glove_offsets(const LabelImage& query);
-/// Sum of distances, 1/kFieldScale px; at most 4096 * 255.
+/// In 1/kFieldScale px, at most 4096 * 255.
 uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets);
 
 /// `trace` may be null.
@@ -38,12 +38,12 @@ inline RecycledVector<Match> matches_of(const RecycledVector<Candidate>& candida
   return matches;
 }
 
-/// Fields of single entries, stored or made from labels.
+/// Stored fields, or fields made from labels.
 class EntryFields {
  public:
   /// Throws: Error if the query's size is not loaded.
   EntryFields(const Database& database, const LabelImage& query);
-  /// As Database::fields, but undefined for colors not in the query. Valid until the next call.
+  /// As Database::fields, but undefined for colors that the query lacks. Valid until the next call.
   const uint8_t* of(int entry);
 
  private:

@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Distances of low-memory entries to one query. Makes fields color by color, until the entry is too far.
+/// Distances of low-memory entries to one query. Makes fields color by color until the entry is too far.
 class MadeDistances {
  public:
   /// Throws: Error if the query's size is not loaded.
@@ -17,12 +17,12 @@ class MadeDistances {
   uint32_t sum(int entry, uint32_t limit) const;
 
  private:
-  /// One color's pixels of the query.
+  /// One color of the query.
   struct Part {
     uint8_t color = 0;
     size_t pixels = 0;
     RowRange rows_px;
-    RecycledVector<FieldChunk> chunks;   ///< in this color's field
+    RecycledVector<FieldChunk> chunks;
     RecycledVector<WeightedRow> bounds;  ///< sum to a lower bound
   };
 

@@ -23,7 +23,7 @@ struct DatabaseContent {
   std::map<int, FieldRows> rows;
 };
 
-/// Hashes sections and checks their values; makes and hashes fields that are not stored. `load` also makes rows and
+/// Hashes sections and checks their values. Makes and hashes fields that are not stored. `load` also makes rows and
 /// keeps a normal database resident. Uses the caller's TBB arena.
 DatabaseContent look_at_sections(const DatabaseLayout& layout, const MappedMemory& file,
                                  std::span<const Section> sections, bool load);

@@ -1,7 +1,5 @@
 #pragma once
 
-// Databases of painted blocks, quick to make.
-
 #include <gmock/gmock.h>
 
 #include <cstring>

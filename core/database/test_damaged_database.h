@@ -1,7 +1,5 @@
 #pragma once
 
-// A small database file, and damaged ones with correct checksums.
-
 #include <cstring>
 #include <string>
 

@@ -1,7 +1,5 @@
 #pragma once
 
-// The hand and database of this folder's tests.
-
 #include "core/database/database_cache.h"
 #include "core/test_folder.h"
 #include "render/label_renderer.h"

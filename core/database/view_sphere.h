@@ -14,7 +14,7 @@ namespace glovebench {
 
 inline constexpr int kCameraPositions = 42;   ///< once subdivided icosahedron (section III)
 inline constexpr int kInPlaneRotations = 18;  ///< 20 degrees apart
-inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;  ///< 756
+inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;
 
 /// Unit vectors to an icosahedron's corners and edge midpoints.
 std::vector<Eigen::Vector3d> camera_directions();
@@ -22,21 +22,20 @@ std::vector<Eigen::Vector3d> camera_directions();
 /// R_view_hand of cameras that look at the hand origin. View = position * 18 + rotation.
 const std::vector<Eigen::Matrix3d>& view_rotations();
 
-/// The hand alone; 0 elsewhere.
+/// 0 off the hand.
 struct HandImages {
   LabelImage label;      ///< 1..kColorCount
   Image<uint8_t> patch;  ///< patch + 1
   DepthImage depth;      ///< z, m
 };
 
-/// Draws views of the hand, for one thread.
+/// Use it in one thread.
 class ViewRenderer {
  public:
   virtual ~ViewRenderer() = default;
-  /// Labels of the nearest surfaces, 0 elsewhere.
+  /// Labels of the nearest surfaces.
   virtual LabelImage render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                    const Eigen::Isometry3d& T_camera_hand) = 0;
-  /// Labels, patches and depth of the nearest surfaces.
   virtual HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                 const Eigen::Isometry3d& T_camera_hand) = 0;
 };

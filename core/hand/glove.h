@@ -38,23 +38,23 @@ enum Patch : uint8_t {
 struct Triangle {
   std::array<uint32_t, 3> vertices;  ///< counter-clockwise from outside
   uint8_t label;                     ///< 1..kColorCount
-  uint8_t patch;                     ///< Patch
+  uint8_t patch;
 };
 
-/// A closed mesh; each triangle lies in one patch.
+/// A closed mesh. Each triangle lies in one patch.
 struct GlovedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Influence> influences;
   std::vector<Triangle> triangles;
 };
 
-/// Patches of one color lie far apart, also in a fist; front and back of the palm differ.
+/// Patches of one color lie far apart, even in a fist. Front and back of the palm differ.
 const std::array<uint8_t, kPatchCount>& patch_labels();
 /// Bit p: the angle moves patch p.
 const std::array<uint32_t, kAngleCount>& patches_moved();
 
 using PatchScores = std::array<double, kPatchCount>;
-/// How strongly each vertex belongs to each patch. `mesh`: hand frame, with forearm; `border_shift`: towards the
+/// How strongly each vertex belongs to each patch. `mesh`: hand frame, with forearm. `border_shift`: towards the
 /// fingertips, m.
 std::vector<PatchScores> patch_scores(const RiggedMesh& mesh, double border_shift);
 

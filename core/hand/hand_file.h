@@ -9,24 +9,23 @@
 
 namespace glovebench {
 
-/// A person's hand, measured by `glovebench calibrate hand`.
+/// A hand that `glovebench calibrate hand` measured.
 struct MeasuredHand {
   Side side = Side::right;
   HandShape shape;
-  HandSizes deviation{};                ///< standard deviation of each size
-  std::array<bool, kSizeCount> seen{};  ///< false: the recording shows little of it; near the mesh's
+  HandSizes deviation{};                ///< standard deviations
+  std::array<bool, kSizeCount> seen{};  ///< false: hardly seen, near the mesh's
   int views = 0;                        ///< fitted frames
-  double residual_before = 0;           ///< mean distance of their points from the mesh, m
-  double residual = 0;                  ///< and from the fitted hand, m
+  double residual_before = 0;           ///< mean distance of points from the mesh, m
+  double residual = 0;                  ///< from the fitted hand, m
 };
 
 inline constexpr uint64_t kLargestHandFile = uint64_t{64} << 10;  // bytes
 
-/// Reads a versioned JSON object for the package's mesh.
-/// Throws: Error naming the field if it is incomplete, of another version or mesh, or no hand has the size.
+/// Reads a versioned JSON object.
+/// Throws: Error if it is incomplete, of another version or mesh, or no hand has the size.
 MeasuredHand hand_from_json(const nlohmann::json& json, const std::string& where);
 nlohmann::ordered_json to_json(const MeasuredHand& hand);
-/// The same from text.
 /// Throws: Error.
 MeasuredHand parse_hand(std::string_view text, const std::string& where);
 MeasuredHand load_hand(const std::string& path);

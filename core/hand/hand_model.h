@@ -15,8 +15,7 @@
 
 namespace glovebench {
 
-/// The hand in the hand frame, m: origin midway between wrist joint and middle MCP, -z to the fingertips, +y
-/// dorsal.
+/// Hand frame of core/README.md, m.
 struct PosedHand {
   RecycledVector<Eigen::Vector3f> vertices;
   JointPoses T_hand_joint;
@@ -29,8 +28,8 @@ class HandModel {
   /// Throws: Error if the file is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
-  /// This hand with sizes multiplied by `factors`. Patches keep their places on the skin, whereas `load` with such
-  /// a shape derives them anew.
+  /// This hand with sizes multiplied by `factors`. Patches keep their places on the skin; `load` with such a shape
+  /// derives them anew.
   HandModel stretched(const HandSizes& factors) const;
 
   PosedHand pose(const Posture& posture) const;
@@ -38,14 +37,13 @@ class HandModel {
   size_t vertex_count() const { return bind_vertices_.size(); }
   const std::vector<Influence>& influences() const { return influences_; }
   Side side() const { return side_; }
-  /// The right hand's; a left hand mirrors it.
+  /// The right hand's skeleton. A left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const HandShape& shape() const { return shape_; }
   /// Hash of cut mesh, weights and skeleton.
   const std::string& hash() const { return hash_; }
 
  private:
-  /// Sets the right hand's bind pose and what follows from it.
   void bind(std::vector<Eigen::Vector3d> vertices, std::span<const Eigen::Isometry3d> T_hand_joint);
   std::string make_hash(const JointPoses& T_hand_joint) const;
 

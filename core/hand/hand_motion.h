@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// A point q moves by axis x q + moment per radian; hand frame, m.
+/// A point q moves by axis x q + moment per radian. Hand frame, m.
 struct Screw {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit length, right-handed
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
@@ -16,13 +16,13 @@ std::array<Screw, kAngleCount> angle_screws(const HandModel& model, const PosedH
 
 /// Palm, three segments of each finger, forearm.
 inline constexpr int kBodyCount = 17;
-/// Bits of the angles that move a body; none for body 0, the palm.
+/// Bits of the angles that move a body. None for body 0, the palm.
 uint32_t angles_of_body(int body);
-/// Shares of the bodies in a surface point; they sum to 1.
+/// Shares of the bodies in a surface point, sum 1.
 using BodyShares = std::array<float, kBodyCount>;
 std::vector<BodyShares> body_shares(const HandModel& model);
 
-/// How much a surface point follows each angle, 0..1: summed shares of the bodies that it moves.
+/// How much a surface point follows each angle, 0..1: the summed shares of the bodies that it moves.
 using AngleShares = Eigen::Matrix<float, kAngleCount, 1>;
 AngleShares angle_shares(const BodyShares& shares);
 

@@ -38,8 +38,7 @@ enum Angle : int {
   kLittleDipFlexion,
 };
 
-/// Name in files, and limits of a human hand. Positive flexion bends to the palm, positive abduction turns to the
-/// thumb; zero is straight and in line with the palm.
+/// Name in files, and limits of a human hand. core/README.md defines zero and signs.
 struct AngleInfo {
   std::string_view name;
   double min_deg;

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Up to four joints that move a vertex; weights are >= 0 and sum to 1.
+/// Up to four joints of a vertex. Weights are >= 0 and sum to 1.
 struct Influence {
   std::array<uint8_t, 4> joint = {0, 0, 0, 0};
   std::array<float, 4> weight = {0, 0, 0, 0};
@@ -17,7 +17,7 @@ struct Influence {
   float weight_of(int j) const;
 };
 
-/// A closed triangle mesh in bind pose, m.
+/// A closed mesh in bind pose, m.
 struct RiggedMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Influence> influences;               ///< by vertex
@@ -28,7 +28,7 @@ struct RiggedMesh {
 /// Hash of the package's mesh file.
 inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
-/// Loads the file of HandModel::load in its own frame, welded by position.
+/// Loads the file of HandModel::load in its own frame. Welds vertices by position.
 /// Throws: Error as HandModel::load.
 RiggedMesh load_rigged_mesh(const std::string& path);
 

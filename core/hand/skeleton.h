@@ -27,8 +27,7 @@ const std::array<int, 5>& fingertip_joints();
 using JointPoses = std::array<Eigen::Isometry3d, kJointCount>;
 
 /// The right hand's kinematic tree. A joint's rotation in its parent is R_zero_before * R_y(abduction) *
-/// R_x(-flexion) * R_zero_after. At zero, fingers point to -z of the hand frame; the thumb's base keeps its bind
-/// orientation.
+/// R_x(-flexion) * R_zero_after. core/README.md defines zero.
 class Skeleton {
  public:
   Skeleton() = default;

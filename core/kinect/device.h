@@ -9,7 +9,6 @@
 
 namespace glovebench {
 
-/// A Kinect's frame, all that the tracker sees.
 struct DeviceFrame {
   Image<uint16_t> raw_disparity;  ///< 640x480, 11 bits, 2047: no value
   ColorImage color;               ///< 640x480, not registered
@@ -22,7 +21,7 @@ class FrameError : public Error {
   using Error::Error;
 };
 
-/// A source of frames; depth and color are paired by time.
+/// A source of frames. Depth and color are paired by time.
 class Device {
  public:
   virtual ~Device() = default;

@@ -15,10 +15,10 @@ inline constexpr uint16_t kMaxDisparity = 1083;  ///< beyond it the formula is u
 
 /// m; 0 above kMaxDisparity.
 float depth_from_disparity(uint16_t raw);
-/// The nearest step; kNoDisparity if z (m) is not finite, not positive or out of range.
+/// The nearest step. kNoDisparity if z (m) is not finite, not positive or out of range.
 uint16_t disparity_from_depth(double z);
 
-/// The same by a calibration, else by the formula. No depth outside the formula's 0..54 m.
+/// Without a line, uses the formula. No depth outside the formula's 0..54 m.
 using OptionalLine = std::optional<DisparityLine>;
 float depth_from_disparity(uint16_t raw, const OptionalLine& line);
 uint16_t disparity_from_depth(double z, const OptionalLine& line);

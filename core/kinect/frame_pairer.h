@@ -10,14 +10,14 @@
 
 namespace glovebench {
 
-/// The Kinect's 60 MHz clock; its 32 bits wrap every 71.6 s.
+/// The Kinect's clock has 60 MHz and 32 bits. It wraps every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
-/// Turns ticks into microseconds without wraps. Successive stamps must be less than 35.8 s apart.
+/// Converts ticks to microseconds without wraps. Successive stamps must be less than 35.8 s apart.
 class TickClock {
  public:
   TickClock() = default;
-  /// `first_us`: the first stamp's time, within half a round; magnitude below 1.5e17.
+  /// `first_us`: the first stamp's time, within half a wrap. Magnitude below 1.5e17.
   explicit TickClock(int64_t first_us) : first_us_(first_us) {}
 
   int64_t microseconds(uint32_t ticks) {
@@ -26,7 +26,7 @@ class TickClock {
     started_ = true;
     first_us_.reset();
     ticks_ += static_cast<int32_t>(ticks - static_cast<uint32_t>(ticks_));
-    const bool rounds_up = ticks_ % kTicksPerMicrosecond < 0;  // below zero, too
+    const bool rounds_up = ticks_ % kTicksPerMicrosecond < 0;
     return ticks_ / kTicksPerMicrosecond - rounds_up;
   }
 
@@ -38,15 +38,14 @@ class TickClock {
 
 struct PairingRules {
   int64_t max_gap_us = 50'000;                              ///< in a pair
-  int64_t restart_us = 1'000'000;                           ///< a larger step back is a restart of the clock
+  int64_t restart_us = 1'000'000;                           ///< a larger step back restarts the clock
   size_t max_waiting = std::numeric_limits<size_t>::max();  ///< of each kind
 };
 
 /// Pairs each depth image with the color image nearest in time, the earlier of two. A depth image waits for a color
-/// image that is not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`. Color
-/// images are copied.
-/// Pairs come in order of time. An image not later than its kind's last one is dropped. A restart of the clock
-/// drops waiting images instead, and times go back.
+/// image that is not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`.
+/// Copies color images. Pairs come in order of time. Drops an image that is not later than its kind's last. A
+/// restart of the clock drops waiting images instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:
@@ -72,7 +71,7 @@ class FramePairer {
     pair_up();
     if (colors_.size() > rules_.max_waiting) colors_.pop_front();
   }
-  /// Pairs the waiting images; no more follow.
+  /// Pairs the waiting images. No push may follow.
   void finish() {
     finished_ = true;
     pair_up();
@@ -85,7 +84,7 @@ class FramePairer {
   }
 
   int unpaired() const { return unpaired_; }
-  /// Dropped images: not later than their kind's last.
+  /// Images not later than their kind's last.
   int went_back() const { return went_back_; }
 
  private:
@@ -112,7 +111,7 @@ class FramePairer {
   void pair_up() {
     while (!depths_.empty()) {
       const int64_t time_us = depths_.front().first;
-      // Earlier color images are farther from this depth image and from all later ones.
+      // Earlier color images are farther from this and all later depth images.
       while (colors_.size() > 1 && colors_[1].first <= time_us) colors_.pop_front();
       const bool decided = !colors_.empty() && colors_.back().first >= time_us;
       if (!decided && may_wait()) return;

@@ -23,7 +23,7 @@ namespace glovebench {
 /// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
  public:
-  /// `calibration` replaces the folder's, which fakenect's recordings lack.
+  /// `calibration` replaces the folder's. Recordings of fakenect have none.
   /// Throws: Error if index or calibration is missing or malformed, a file is listed twice, or there is no pair.
   explicit RecordingDevice(const std::string& folder,
                            const std::optional<RgbdCalibration>& calibration = std::nullopt);
@@ -34,13 +34,13 @@ class RecordingDevice : public Device {
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
-  /// Dropped images whose time stamp repeats.
+  /// Images with a repeated time stamp.
   int repeated_count() const { return repeated_count_; }
   /// Calibration and index, if they differ from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }
 
  private:
-  using Pair = FramePairer<std::string, std::string>::Pair;  ///< of file names
+  using Pair = FramePairer<std::string, std::string>::Pair;
 
   std::string read_text(const std::string& name, uint64_t max_bytes);
 
@@ -62,7 +62,7 @@ class RecordingWriter {
   /// Depth time stamps must rise. An equal color time stamp means the same image.
   /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
-  /// Makes the folder a recording; without it all frames are lost.
+  /// Completes the recording. Without it all frames are lost.
   /// Throws: Error without frames.
   void finish();
 
@@ -70,7 +70,7 @@ class RecordingWriter {
   WholeFiles files_;
   std::string folder_;
   RgbdCalibration calibration_;
-  std::vector<std::pair<int64_t, std::string>> index_;  ///< time stamp, name
+  std::vector<std::pair<int64_t, std::string>> index_;
   int64_t last_depth_us_ = -1;
   int64_t last_color_us_ = -1;
 };

@@ -17,7 +17,7 @@ struct RecordedName {
   uint32_t ticks = 0;  ///< as read; `recorded_name` computes its own
 };
 
-/// "d-12.000345-720020700.pgm"; time stamps >= 0.
+/// "d-12.000345-720020700.pgm". Time stamps >= 0.
 std::string recorded_name(const RecordedName& name);
 /// Throws: Error unless the name has this form, with any ticks.
 RecordedName parse_recorded_name(std::string_view name, const std::string& where);
@@ -25,18 +25,18 @@ RecordedName parse_recorded_name(std::string_view name, const std::string& where
 std::string encode_pgm(const Image<uint16_t>& raw_disparity);
 std::string encode_ppm(const ColorImage& color);
 
-/// Throws: Error unless the content is exactly one image of that size (11-bit disparity); also `decode_ppm`.
+/// Throws: Error unless the content is exactly one image of that size (11-bit disparity). So does `decode_ppm`.
 Image<uint16_t> decode_pgm(std::string_view content, int width, int height, const std::string& path);
 ColorImage decode_ppm(std::string_view content, int width, int height, const std::string& path);
 
 inline constexpr const char* kRecordingIndex = "INDEX.txt";
-/// Enough for hours at 30 Hz.
-inline constexpr uint64_t kLargestIndex = uint64_t{64} << 20;  // bytes
+/// Bytes, for hours at 30 Hz.
+inline constexpr uint64_t kLargestIndex = uint64_t{64} << 20;
 
 struct RecordingEntry {
   RecordedKind kind = RecordedKind::depth;
   int64_t timestamp_us = 0;  ///< by the device's clock
-  std::string name;          ///< of the file
+  std::string name;
 };
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
@@ -45,8 +45,8 @@ std::string path_in_recording(const std::string& folder, const std::string& name
 /// Throws: Error if it is malformed or lists a file twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 
-/// Checks sizes and headers of the files: fakenect ends the program at a bad one.
-/// Throws: Error naming the first bad file.
+/// Checks sizes and headers of the files. fakenect ends the program at a bad one.
+/// Throws: Error.
 void check_fakenect_dump(const std::string& folder);
 
 }  // namespace glovebench

@@ -10,18 +10,18 @@
 
 namespace glovebench {
 
-/// Throws: Error if the distortion folds the image and cannot be undone.
+/// Throws: Error if the distortion folds the image.
 void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens);
 
-/// Undistorts images of the camera's size. Pixels from outside are empty.
+/// Undistorts images of the camera's size.
 class Rectification {
  public:
   /// Throws: Error as `require_unfolded`.
   Rectification(const PinholeCamera& camera, const LensDistortion& lens);
 
-  /// Nearest pixel, to mix no surfaces. Empty pixels are 2047.
+  /// Takes the nearest pixel. Pixels from outside are 2047.
   Image<uint16_t> operator()(const Image<uint16_t>& raw_disparity) const;
-  /// Interpolated. Empty pixels are black.
+  /// Interpolates. Pixels from outside are black.
   ColorImage operator()(const ColorImage& color) const;
 
  private:
@@ -43,7 +43,7 @@ class RectifiedDevice : public Device {
  private:
   std::unique_ptr<Device> device_;
   RgbdCalibration calibration_;
-  std::optional<Rectification> ir_, rgb_;  ///< made at the first frame
+  std::optional<Rectification> ir_, rgb_;
 };
 
 /// Rectifies a device whose calibration has a lens.

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Tracks one hand. All memory of the frames before is in their results.
+/// Tracks one hand. Its only memory is the previous results.
 class Method {
  public:
   virtual ~Method() = default;
@@ -27,19 +27,18 @@ struct MethodInputs {
   std::shared_ptr<const HandModel> model;
   std::shared_ptr<const Database> database;
   std::shared_ptr<const ColorTable> table;
-  ViewRendererFactory renderers = {};  ///< for methods that compare rendered images; may be empty
+  ViewRendererFactory renderers = {};  ///< to compare rendered images; may be empty
 };
 
 /// X_method.cpp in this folder defines `MethodEntry X_method()`.
 struct MethodEntry {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
-  /// Throws: Error as Tracker does.
+  std::string_view name;
+  std::string_view description;
+  /// Throws: Error as Tracker.
   std::unique_ptr<Method> (*make)(const MethodInputs& inputs);
 };
-/// Sorted by name.
 std::span<const MethodEntry> methods();
-/// Throws: Error listing the known names.
+/// Throws: Error for an unknown name.
 const MethodEntry& find_method(std::string_view name);
 
 }  // namespace glovebench

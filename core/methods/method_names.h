@@ -5,9 +5,8 @@
 
 namespace glovebench {
 
-/// The default.
 inline constexpr std::string_view kPaperMethod = "schroeder2012";
-/// Sorted names: the X of this folder's X_method.cpp.
+/// Sorted: the X of this folder's X_method.cpp.
 std::span<const std::string_view> method_names();
 
 }  // namespace glovebench

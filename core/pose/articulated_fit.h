@@ -17,19 +17,18 @@ struct HandObservation {
   const PinholeCamera& camera;
 };
 
-/// Gauss-Newton steps. Pairs are first and last value; widths and weights change in equal ratios, the share in
-/// equal steps.
+/// Gauss-Newton steps. Pairs are first and last value. Widths and weights change in equal ratios, shares in equal
+/// steps.
 struct FitStage {
   int steps;                ///< >= 1
-  int rigid_steps;          ///< first steps, which move the pose only
-  int max_points;           ///< uniform stride down to at most this many
+  int rigid_steps;          ///< the first, which move only the pose
+  int max_points;           ///< uniform stride
   double tukey_mm[2];       ///< farther points have no weight
   double start_weight[2];   ///< of the start's posture, per square degree
   double tangential[2];     ///< relative weight of a distance along the surface
-  bool outline_moves_pose;  ///< false: it moves the angles only
+  bool outline_moves_pose;  ///< false: only the angles
 };
-/// Each start runs `trial`, the best of them `rough`, the best of those `fine`. Weights are normalized to 1,000
-/// points.
+/// Each start runs `trial`, the best of them `rough`, the best of those `fine`. Weights are for 1,000 points.
 struct FitSchedule {
   FitStage trial{4, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
   FitStage rough{6, 0, 1000, {25, 12}, {0.04, 0.01}, {0.17, 0}, true};
@@ -38,7 +37,7 @@ struct FitSchedule {
   double previous_weight = 0.003;  ///< of the previous posture, per square degree
   double outline_weight = 1;       ///< of a vertex outside the mask
   int outline_stride = 3;          ///< every nth vertex
-  double score_cut_mm = 15;        ///< distances count at most this when starts are compared
+  double score_cut_mm = 15;        ///< limit of distances when starts are compared
 };
 
 /// An angle that moves fewer points is hidden.
@@ -53,7 +52,7 @@ struct ArticulatedEstimate {
   double residual = 0;                  ///< mean point-to-triangle distance before the last step, m
   std::optional<double> misfit;         ///< as TrackResult::misfit
   Posture deviation = Posture::Zero();  ///< standard deviations, rad
-  uint32_t hidden = 0;                  ///< bit a: angle a is hidden
+  uint32_t hidden = 0;                  ///< bit a: angle a
 };
 
 /// The bodies that move a face, and their shares in each corner.
@@ -64,15 +63,14 @@ struct FaceBodies {
   std::array<std::array<float, kMost>, 3> share{};
 };
 
-/// Refines pose and posture by iterative closest points of equal color and by the outline of the mask, with a
-/// posture prior and joint limits.
+/// Refines pose and posture (core/README.md, "The method `articulated`").
 class ArticulatedFit {
  public:
   /// `implementation`: of the closest-point search.
   ArticulatedFit(std::shared_ptr<const HandModel> model, const FitSchedule& schedule,
                  Implementation implementation);
 
-  /// `starts` is not empty; `previous`, the last posture, may be null.
+  /// `starts` is not empty. `previous`: the last posture or null.
   ArticulatedEstimate operator()(const HandObservation& seen, std::span<const ArticulatedPose> starts,
                                  const Posture* previous) const;
 

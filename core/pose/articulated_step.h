@@ -12,33 +12,32 @@ struct ArticulatedPose {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
 };
 
-/// Unknowns of a step: rotation about the hand origin (degrees), translation (mm), both in the hand frame, and 22
-/// angles (degrees).
+/// Hand frame: rotation about the origin (degrees), translation (mm), 22 angles (degrees).
 inline constexpr int kUnknowns = 6 + kAngleCount;
 using StepVector = Eigen::Matrix<double, kUnknowns, 1>;
 using StepMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// The distance that a surface point should move along a direction.
+/// How far a surface point should move along a direction.
 struct Pull {
   Eigen::Vector3d q;          ///< hand frame, m
   Eigen::Vector3d direction;  ///< hand frame
   double distance_mm = 0;
   double weight = 1;
 };
-/// The motion along the pull's direction per degree of rotation and mm of translation.
+/// Motion along the pull's direction per degree of rotation and mm of translation.
 Vector6d row_of(const Pull& pull);
 
-/// Normal equations H step = g.
+/// H step = g.
 struct NormalEquations {
   StepMatrix H = StepMatrix::Zero();
   StepVector g = StepVector::Zero();
 
-  /// Draws an angle by `away_deg`; `weight` is per square degree.
+  /// Pulls an angle by `away_deg`. `weight`: per square degree.
   void hold(int angle, double away_deg, double weight);
 };
 
-/// The equations as written: one Jacobian row for each pull.
+/// One Jacobian row per pull.
 class PlainPullSums {
  public:
   explicit PlainPullSums(const std::array<Screw, kAngleCount>& screws) : screws_(screws) {}
@@ -66,7 +65,7 @@ struct RowSums {
   void add_along_axes(const Eigen::Vector3d& q, const Eigen::Vector3d& apart_mm, double weight);
 };
 
-/// The same equations, faster: sums for each pair of bodies that share points.
+/// The same, faster.
 class PullSums {
  public:
   explicit PullSums(const std::array<Screw, kAngleCount>& screws);
@@ -76,7 +75,7 @@ class PullSums {
  private:
   static constexpr int kPairs = kBodyCount * (kBodyCount + 1) / 2;
   struct Pair {
-    Eigen::Matrix<double, 21, 1> products;  ///< if used
+    Eigen::Matrix<double, 21, 1> products;
     bool is_used = false;
   };
 
@@ -85,7 +84,7 @@ class PullSums {
   std::array<Vector6d, kBodyCount> sums_;
 };
 
-/// Solves H step = g within joint limits (active set); `only_pose` fixes all angles. Empty if a motion is
+/// Solves H step = g within joint limits (active set). `only_pose` fixes all angles. Empty if a motion is
 /// undetermined.
 std::optional<StepVector> solve_within_limits(const NormalEquations& equations, const Posture& posture,
                                               bool only_pose = false);

@@ -1,4 +1,4 @@
-// Included for each instruction set (Highway); the guard toggles.
+// Included for each instruction set (Highway), so the include guard toggles.
 #if defined(GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H
 #undef GLOVEBENCH_CORE_POSE_CLOSEST_ON_FACES_INL_H
@@ -91,7 +91,6 @@ HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& fa
   return choose(at_a, a, result);
 }
 
-/// Nearest faces so far.
 struct Nearest {
   Floats squared;
   Ints face;
@@ -101,7 +100,7 @@ struct Nearest {
       : squared(hn::Set(kFloats, kInfinity)),
         face(hn::Set(kInts, -1)),
         p{hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)} {}
-  /// Takes a nearer face; of equally near ones the smaller index. Ignores NaN.
+  /// Takes a nearer face; of equally near ones, the smaller index. Ignores NaN.
   HWY_INLINE void consider(const Vectors& points, const FacePackets::Face& candidate) {
     const Vectors closest = closest_on_face(points, candidate), apart = closest - points;
     const Floats distance2 = dot(apart, apart);

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// The triangles of a posed hand that face a viewpoint, by color; hand frame, m.
+/// Triangles of a posed hand that face a viewpoint, by color. Hand frame, m.
 class Surface {
  public:
   struct Face {
@@ -19,11 +19,11 @@ class Surface {
     uint32_t triangle;  ///< in the model
   };
   enum class Coloring { by_color, any_color };
-  /// Label of all faces and points with `any_color`.
+  /// Label of all with `any_color`.
   static constexpr uint8_t kAnyColor = 0;
 
   Surface() = default;
-  /// Culls faces turned away from `viewpoint_hand`.
+  /// Culls faces that look away from `viewpoint_hand`.
   /// Paper: section III-C.
   Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
           Coloring coloring = Coloring::by_color) {
@@ -39,7 +39,7 @@ class Surface {
   std::array<RecycledVector<Face>, kColorCount + 1> faces_;
 };
 
-/// Mean of the seen faces, weighted by visible area, hand frame, m; the origin without any.
+/// Mean of the seen faces, weighted by visible area. Hand frame, m. The origin if none are seen.
 Eigen::Vector3f seen_center(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand);
 
 struct ClosestPoint {
@@ -51,7 +51,7 @@ struct ClosestPoint {
 /// Ericson, Real-Time Collision Detection, section 5.1.5.
 Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Face& face);
 
-/// Searches all faces of each point's label; the first of equally near ones wins. Points without a finite squared
+/// Searches all faces of each point's label. The first of equally near ones wins. Points without a finite squared
 /// distance get face -1.
 RecycledVector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand,
                                                   const Surface& surface);

@@ -12,11 +12,11 @@ namespace glovebench {
 template <int kCount>
 struct alignas(64) Boxes {
   float low[3][kCount], high[3][kCount];  ///< [axis][box], m
-  float length[kCount];                   ///< longest edge of a face, m
+  float length[kCount];                   ///< longest edge, m
   float blur[kCount];                     ///< `rounding_blur`, 1/m
 };
 
-/// One color's faces in packets.
+/// Faces of one color.
 struct FacePackets {
   static constexpr int kFaces = 8;     ///< per packet
   static constexpr int kPackets = 16;  ///< per group, for the widest vectors
@@ -27,17 +27,17 @@ struct FacePackets {
     int32_t face;        ///< in Surface::faces
   };
 
-  RecycledVector<Face> faces;                    ///< padded with the last
-  RecycledVector<Boxes<kFaces>> face_boxes;      ///< one per packet; padding is very far
-  RecycledVector<Boxes<kPackets>> packet_boxes;  ///< padding is very far
-  float slack = 0;                               ///< rounding error of a corner, m
+  RecycledVector<Face> faces;                ///< padded with the last
+  RecycledVector<Boxes<kFaces>> face_boxes;  ///< one per packet; padding is very far
+  RecycledVector<Boxes<kPackets>> packet_boxes;
+  float slack = 0;  ///< rounding error of a corner, m
 
   int packet_count() const { return static_cast<int>(face_boxes.size()); }
   void assign(std::span<const Surface::Face> surface_faces);
 };
 
 /// Rounding may place the closest point of a thin face outside it by blur * D^2, D being the point's distance.
-/// Infinite for a face without area.
+/// Infinite without area.
 float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench

@@ -13,7 +13,7 @@ namespace glovebench {
 struct PixelBox {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
-/// Around the labeled pixels, within the image; empty without any.
+/// Around the labeled pixels, within the image. Empty without any.
 PixelBox label_box(const LabelImage& labels, int margin);
 
 /// Pixels that may show the hand: near ones and those without depth. Others store the offset to the nearest of them

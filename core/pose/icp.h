@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Two closest-point searches with equal results: `plain` follows the paper line by line, `fast` is for use.
+/// Both searches give equal results. `plain` follows the paper line by line.
 enum class Implementation { plain, fast };
 constexpr auto names_of(Implementation) {
   return std::to_array<std::string_view>({"plain", "fast"});
@@ -22,10 +22,10 @@ struct IcpConfig {
   int max_points = 1000;             ///< at most, by uniform stride, >= 3
   int subsampling_factor = 0;        ///< every nth point (Figure 9), >= 0; 0: by `max_points`
   int max_iterations = 100;          ///< >= 1
-  double convergence_share = 1e-3;   ///< stops when the mean distance changes by a smaller share, > 0
+  double convergence_share = 1e-3;   ///< stop if the mean distance changes by a smaller share, > 0
   bool cull_each_iteration = false;  ///< false: only before the first iteration (the paper)
-  Implementation implementation = Implementation::fast;  ///< of the closest-point search
-  bool color_sensitive = true;                           ///< false: any color
+  Implementation implementation = Implementation::fast;
+  bool color_sensitive = true;  ///< false: any color
 };
 
 enum class AlignmentStatus { converged, not_converged, too_few_points, degenerate_cloud, no_shared_color };
@@ -33,7 +33,7 @@ enum class AlignmentStatus { converged, not_converged, too_few_points, degenerat
 struct Alignment {
   AlignmentStatus status = AlignmentStatus::too_few_points;
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
-  int points = 0;  ///< used
+  int points = 0;
   int iterations = 0;
   double residual = 0;  ///< final mean point-to-triangle distance, m
 };
@@ -42,24 +42,22 @@ RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, siz
 /// Takes the smallest stride that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
-/// The given rotation; centers the camera-facing faces on the cloud.
+/// The given rotation, with the camera-facing faces centered on the cloud.
 /// Paper: section III-C.
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points);
 
 /// X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`.
 struct AlignmentEntry {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
-  /// `points`: at least 3, camera frame, m, with the labels of the surface's faces. `config` limits the iterations.
+  std::string_view name;
+  std::string_view description;
+  /// `points`: at least 3, camera frame, m, labeled as the surface's faces. `config` limits the iterations.
   Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                      const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 };
-/// Sorted by name.
 std::span<const AlignmentEntry> alignments();
 
-/// Aligns with a part of the cloud by the configured alignment, each point to the closest visible triangle of its
-/// color.
+/// Aligns part of the cloud, each point to the closest visible triangle of its color.
 /// Throws: Error for an unknown alignment.
 /// Paper: section III-C, equation (3).
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,

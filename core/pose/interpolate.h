@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// The look-up's answer: theta, R-hat-prime.
+/// The look-up's theta, R-hat-prime.
 /// Paper: sections III-B and III-C.
 struct CoarseEstimate {
   Posture posture = Posture::Zero();  ///< rad
@@ -16,12 +16,12 @@ struct CoarseEstimate {
   bool ambiguous = false;  ///< two rotations differ by more than 60 degrees
 };
 
-/// Mean of the matches with weights 1 / (E + epsilon); rotations by Markley's quaternion mean. View rotations refer
-/// to the ray through the hand and are turned to `query_ray` (unit, camera frame). `matches` is not empty.
+/// Mean of the matches with weights 1 / (E + epsilon). View rotations refer to the ray through the hand and are
+/// turned to `query_ray` (unit, camera frame). `matches` is not empty.
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
                            const Eigen::Vector3d& query_ray, double epsilon);
 
-/// Markley et al. 2007: largest eigenvector of the weighted sum of q q^T.
+/// Largest eigenvector of the weighted sum of q q^T (Markley et al. 2007).
 Eigen::Quaterniond mean_rotation(std::span<const Eigen::Quaterniond> rotations, std::span<const double> weights);
 
 }  // namespace glovebench

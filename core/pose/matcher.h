@@ -9,10 +9,10 @@
 
 namespace glovebench {
 
-/// Finds closest points on camera-facing faces, for an alignment.
+/// Closest points on camera-facing faces, for an alignment.
 class Matcher {
  public:
-  /// `model` and `hand` must outlive it. `cloud`: camera frame, m, with the surface's labels.
+  /// `model` and `hand` must outlive it. `cloud`: camera frame, m, labeled as the surface.
   Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
           const IcpConfig& config);
 
@@ -39,7 +39,7 @@ class Matcher {
   std::span<const ClosestPoint> closest_;
 };
 
-/// The camera's position in the hand frame.
+/// The camera in the hand frame.
 Eigen::Vector3f viewpoint_hand(const Eigen::Isometry3d& T_camera_hand);
 
 }  // namespace glovebench

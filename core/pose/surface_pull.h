@@ -8,11 +8,10 @@ namespace glovebench {
 /// Tukey's weight of a distance: 1 at 0, 0 from `width` on.
 double tukey_weight(double distance, double width);
 
-/// How a point pulls the surface at its closest point.
 struct SurfacePull {
-  Pull pull;                    ///< along the face's normal inside a face, else along the line between both
-  Eigen::Vector3d apart_mm;     ///< from the surface to the point, hand frame
-  Eigen::Vector3d barycentric;  ///< of the closest point
+  Pull pull;                 ///< along the normal inside a face, else along the line between both
+  Eigen::Vector3d apart_mm;  ///< from surface to point, hand frame
+  Eigen::Vector3d barycentric;
 };
 SurfacePull surface_pull(const Surface::Face& face, const ClosestPoint& closest, const Eigen::Vector3f& p_hand,
                          double weight);

@@ -1,7 +1,5 @@
 #pragma once
 
-// Clouds and starts for the tests of the alignments.
-
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/cloud/labeled_cloud.h"
@@ -46,7 +44,7 @@ inline Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T_camera_hand, int n
   return start;
 }
 
-/// Rotated about the hand origin and moved, in random directions.
+/// In random directions.
 inline Eigen::Isometry3d perturbed_by(const Eigen::Isometry3d& T_camera_hand, double angle_deg, double distance,
                                       int number) {
   RandomStream random(1, "icp", number, "far start");

@@ -8,10 +8,9 @@
 
 namespace glovebench {
 
-/// The arm that carries the hand, a Mitsubishi PA-10-7C.
+/// The arm is a Mitsubishi PA-10-7C.
 inline constexpr int kArmJointCount = 7;
-/// Joint angles from base to flange.
-/// Units: rad.
+/// Joint angles from base to flange, rad.
 using ArmJoints = std::array<double, kArmJointCount>;
 
 /// Limits, speed and Denavit-Hartenberg row, T = R_z(angle) * T_z(d) * R_x(alpha), a = 0.
@@ -25,14 +24,14 @@ struct ArmJointInfo {
 };
 const std::array<ArmJointInfo, kArmJointCount>& arm_joint_infos();
 
-/// T_base_flange. Base axes: x ahead, y left, z up; the flange's z leaves the arm.
+/// T_base_flange. The flange's z points away from the arm.
 Eigen::Isometry3d arm_flange_pose(const ArmJoints& joints);
 
-/// Inverse kinematics; core/adapters/kdl implements it.
+/// Inverse kinematics (core/adapters/kdl).
 class ArmSolver {
  public:
   virtual ~ArmSolver() = default;
-  /// Joint angles within the limits, near `start`; empty if none were found.
+  /// Joint angles within the limits, near `start`. Empty if none were found.
   virtual std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const = 0;
 };
 
@@ -40,14 +39,13 @@ struct MountedArm {
   const ArmSolver* solver = nullptr;  ///< must outlive this
   Eigen::Isometry3d T_flange_wrist;   ///< mount of the forearm
 
-  /// The frame of WRJ2.
   Eigen::Isometry3d T_base_wrist(const ArmJoints& joints) const { return arm_flange_pose(joints) * T_flange_wrist; }
 };
 
 /// Elbow up, flange 0.6 m ahead of the base, looking down.
 inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, 1.04, 1.5708};
 
-/// Solves in small steps between poses, so that joint angles never jump.
+/// Solves in small steps, so joint angles never jump.
 class ArmFollower {
  public:
   explicit ArmFollower(std::shared_ptr<const ArmSolver> solver, const ArmJoints& start = kArmAtRest)

@@ -4,11 +4,11 @@
 
 namespace glovebench {
 
-/// The part of the robot that a guard knows.
+/// What a guard controls. core/robot/README.md has the limits of each.
 enum class GuardedPart {
-  robot,  ///< all joints and `T_base_hand`: limits fingertips in the base frame
-  hand,   ///< the hand's joints: limits speeds of fingertips in the forearm's frame
-  arm,    ///< the wrist (WRJ2) as `T_base_hand`: limits all points within kShadowWristReach
+  robot,  ///< all joints and `T_base_hand`
+  hand,   ///< the hand's joints
+  arm,    ///< the wrist (WRJ2) as `T_base_hand`
 };
 
 /// Makes commands safe for every sink (core/robot/README.md). Reads no clock. For any input, the output has these
@@ -19,7 +19,7 @@ enum class GuardedPart {
 /// - Joints, hand, fingertips and arm keep their speed limits between time stamps, of which `longest_step_s` counts
 ///   at most. One factor slows all.
 /// - Nothing moves unless the state is `following`.
-/// Safe commands pass bit for bit. The first targets pass anywhere, unless `start_from` was called. With an arm,
+/// Safe commands pass bit for bit. The first targets pass anywhere unless `start_from` was called. With an arm,
 /// `T_base_hand` is where its joints take the hand.
 class CommandGuard {
  public:
@@ -29,21 +29,19 @@ class CommandGuard {
                         std::optional<MountedArm> arm = std::nullopt);
 
   /// Sets where the robot stands. J1 and J2 may differ from ShadowCoupling.
-  /// Throws: Error unless values are finite and within limits, J1 is not above J2, and the joints of an arm are
-  /// given.
+  /// Throws: Error unless values are finite and within limits, J1 is not above J2, and an arm's joints are given.
   void start_from(const RobotTargets& measured);
 
-  /// The safe command, at the command's own time; empty if time did not advance.
+  /// The safe command, at its own time. Empty if time did not advance.
   std::optional<RobotCommand> guard(const RobotCommand& command) { return guard(command, command.timestamp_us); }
-  /// The same at `now_us`, of a monotonic clock. A stale command counts only if the stream had stopped.
+  /// The same at `now_us` of a monotonic clock. A stale command counts only if the stream had stopped.
   std::optional<RobotCommand> guard(const RobotCommand& command, int64_t now_us);
-  /// The command at `now_us` if none came; empty if time did not advance.
+  /// The command at `now_us` if none came. Empty if time did not advance.
   std::optional<RobotCommand> tick(int64_t now_us);
 
   /// The state at a time without further commands.
   CommandState state_at(int64_t now_us) const;
-  /// Interventions since the guard was made. `RobotCommand::interventions` counts those since the last sent
-  /// command.
+  /// Interventions since construction. `RobotCommand::interventions` counts since the last sent command.
   const Interventions& interventions() const { return total_; }
   /// For an arm alone, the workspace is kShadowWristReach smaller on all sides.
   const CommandLimits& limits() const { return limits_; }
@@ -60,12 +58,12 @@ class CommandGuard {
   std::optional<MountedArm> arm_;
   Interventions total_, pending_;
   CommandState state_ = CommandState::stopped;
-  std::optional<RobotTargets> goal_;  ///< last good command, within limits
+  std::optional<RobotTargets> goal_;
   std::optional<RobotTargets> sent_;
-  std::optional<int64_t> now_us_;    ///< last output
-  std::optional<int64_t> good_us_;   ///< last good command
-  std::optional<int64_t> stamp_us_;  ///< last command
-  int64_t frame_us_ = 0;             ///< of its frame
+  std::optional<int64_t> now_us_;    ///< of the last output
+  std::optional<int64_t> good_us_;   ///< of the last good command
+  std::optional<int64_t> stamp_us_;  ///< of the last command
+  int64_t frame_us_ = 0;
   TrackStatus status_ = TrackStatus::no_hand;
   bool lost_ = false;
 };

@@ -9,11 +9,11 @@
 namespace glovebench {
 
 struct CommandLimits {
-  double hand_joint_speed = 2;   ///< each joint of the hand, rad/s
-  double hand_speed = 0.25;      ///< origin of the hand, m/s: ISO 10218-1's reduced speed
+  double hand_joint_speed = 2;   ///< rad/s
+  double hand_speed = 0.25;      ///< m/s: ISO 10218-1's reduced speed
   double hand_turn_speed = 1.5;  ///< rad/s
   double fingertip_speed = 0.5;  ///< m/s
-  double arm_speed_share = 1;    ///< share of `arm_joint_infos`, 0..1
+  double arm_speed_share = 1;    ///< of `arm_joint_infos`, 0..1
   /// For the hand's origin and fingertips, arm's base frame, m. Sides are at least 0.3 m.
   Eigen::Vector3d workspace_min{-1.5, -1.5, 0};
   Eigen::Vector3d workspace_max{1.5, 1.5, 2};
@@ -23,11 +23,11 @@ struct CommandLimits {
   double stop_after_s = 0.5;                         ///< lost or silent for longer: stopped; at least silence_s
   ShadowCoupling coupling = ShadowCoupling::series;  ///< not in the file of limits
 
-  /// One entry for each problem.
+  /// One per problem.
   std::vector<std::string> problems() const;
 };
 
-/// Reads limits; missing fields keep their defaults.
+/// Missing fields keep their defaults.
 /// Throws: Error for unknown keys, wrong kinds, and limits with problems.
 CommandLimits command_limits_from_json(const nlohmann::json& json, const std::string& where);
 /// All fields but the coupling.

@@ -9,7 +9,6 @@
 
 namespace glovebench {
 
-/// The robot's task.
 enum class CommandState {
   following,  ///< goes to the targets
   holding,    ///< hand not seen: stays at the last targets
@@ -20,20 +19,20 @@ constexpr auto names_of(CommandState) {
 }
 static_assert(kCountOf<CommandState> == static_cast<int>(CommandState::stopped) + 1, "each value has a name");
 
-/// How a command was changed; `_speed`: slowed down.
+/// How a command was changed. `_speed`: slowed down.
 enum class Intervention {
-  stale,              ///< dropped: its time stamp is not later, or its frame's goes back
-  not_finite,         ///< refused
-  not_rigid,          ///< refused: invalid rotation
-  joint_limit,        ///< a joint was moved into its limits, or J1 under J2
-  coupling,           ///< J1 and J2 did not follow ShadowCoupling
+  stale,        ///< dropped: time stamp not later, or the frame's goes back
+  not_finite,   ///< refused
+  not_rigid,    ///< refused: invalid rotation
+  joint_limit,  ///< moved into its limits, or J1 under J2
+  coupling,
   actuator_mismatch,  ///< motors did not fit their joints
   joint_speed,
   workspace,  ///< hand or fingertips were moved into it
   hand_speed,
   hand_turn_speed,
   fingertip_speed,
-  arm_limit,  ///< a joint was moved into its limits
+  arm_limit,
   arm_speed,
   arm_unreachable,  ///< no joint angles near the last ones, which are kept
   hold,
@@ -47,11 +46,11 @@ constexpr auto names_of(Intervention) {
 }
 static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1, "each value has a name");
 
-/// Number of commands with each kind.
+/// Commands of each kind.
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }
-  /// Saturates at INT64_MAX; ignores counts below 1.
+  /// Saturates at INT64_MAX. Ignores counts below 1.
   void add(Intervention kind, int64_t count = 1) {
     int64_t& sum = counts_[static_cast<size_t>(kind)];
     if (count > 0) sum += std::min(count, std::numeric_limits<int64_t>::max() - sum);

@@ -5,13 +5,11 @@
 
 namespace glovebench {
 
-/// Fingertips of the right human hand, thumb to little, in the hand frame.
-/// Units: m.
+/// Fingertips of the right hand, thumb to little. Hand frame, m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
-/// Maps postures so that a pinch stays a pinch (core/robot/README.md). Fits the vector from thumb to finger where
-/// it is short, and fades into the direct mapping where it is long. Levenberg-Marquardt starts at the last result
-/// and moves the motors, except the wrist's, as little as possible.
+/// Maps postures so that a pinch stays a pinch (core/robot/README.md). Far from a pinch, this is the direct
+/// mapping. Starts at the last result and moves the motors, except the wrist's, as little as possible.
 class FingertipMapping {
  public:
   explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)

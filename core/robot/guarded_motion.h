@@ -6,11 +6,11 @@ namespace glovebench {
 
 // The guard's computations, without its state.
 
-/// Why targets are unusable; empty if they are usable.
+/// Why the targets are unusable. Empty if they are usable.
 std::optional<Intervention> refusal(const RobotTargets& targets);
 
 /// Moves finite targets into the limits: joints, then J1 and J2 by their coupling, then the hand. Flags moved
-/// joints; adds interventions to `done`.
+/// joints. Adds interventions to `done`.
 RobotTargets within_limits(const RobotTargets& targets, const CommandLimits& limits, GuardedPart part,
                            Interventions& done);
 
@@ -21,8 +21,8 @@ Eigen::Vector3d place_in_workspace(const RobotTargets& targets, const CommandLim
 bool flag_changes(ShadowHandTargets& hand, const std::array<double, kShadowJointCount>& wanted);
 
 /// Moves from `from` towards `to`, both within limits, for `seconds`. All parts go the same share of their ways:
-/// the largest (to 0.1%) within all speeds. The hand turns about one axis and is shifted where fingertips would
-/// leave the workspace. An arm without a target stays. Adds slowed kinds to `done`.
+/// the largest (to 0.1%) within all speeds. The hand turns about one axis, and shifts where fingertips would leave
+/// the workspace. An arm without a target stays. Adds slowed kinds to `done`.
 RobotTargets moved_towards(const RobotTargets& from, const RobotTargets& to, double seconds,
                            const CommandLimits& limits, GuardedPart part, Interventions& done);
 

@@ -19,11 +19,10 @@ struct RobotTargets {
   std::optional<ArmJoints> arm;                                   ///< rad; empty without ArmSolver
 };
 
-/// The command for one frame.
 /// Paper: section V.
 struct RobotCommand {
-  int64_t frame_timestamp_us = 0;  ///< of the tracked frame
-  int64_t timestamp_us = 0;        ///< of its frame, or the guard's time
+  int64_t frame_timestamp_us = 0;
+  int64_t timestamp_us = 0;  ///< of its frame, or the guard's time
   TrackStatus status = TrackStatus::no_hand;
   bool hold = true;  ///< lost: the last targets repeat
   CommandState state = CommandState::stopped;
@@ -31,22 +30,22 @@ struct RobotCommand {
   Interventions interventions;          ///< since the last command
 };
 
-/// The synthetic camera (core/robot/README.md); the top of its image points away from the arm.
+/// The synthetic camera (core/robot/README.md). The top of its image points away from the arm.
 Eigen::Isometry3d default_T_base_camera();
 
-/// WRJ2 on the flange; the forearm lies across it (core/robot/README.md).
+/// WRJ2 on the flange. The forearm lies across it (core/robot/README.md).
 Eigen::Isometry3d default_T_flange_wrist();
 
 struct RobotSetup {
   Eigen::Isometry3d T_base_camera = default_T_base_camera();
-  std::optional<Skeleton> skeleton = {};  ///< if set, fingertips are mapped, else angles
+  std::optional<Skeleton> skeleton = {};  ///< empty: maps angles, not fingertips
   ShadowCoupling coupling = ShadowCoupling::series;
   std::shared_ptr<const ArmSolver> arm = {};  ///< empty: no arm joints
   ArmJoints arm_start = kArmAtRest;           ///< before the first frame, rad
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
 };
 
-/// Turns track results into commands, in time order. Lost frames repeat the last targets; unreachable poses keep
+/// Turns track results into commands, in time order. Lost frames repeat the last targets. Unreachable poses keep
 /// the arm's joints.
 class RobotCommander {
  public:
@@ -68,28 +67,25 @@ class RobotCommander {
   std::optional<RobotTargets> last_;
 };
 
-/// Receives commands, as a file or a middleware.
 class RobotCommandSink {
  public:
   virtual ~RobotCommandSink() = default;
   virtual void send(const RobotCommand& command) = 0;
-  /// Ends the stream.
   /// Throws: Error if commands could not be delivered.
   virtual void finish() = 0;
 };
 
-/// One command as a line of JSON (core/robot/command.schema.json) without the line end. Numbers are rounded to 1e-6
-/// of their unit. Throws: Error if a number is not finite.
+/// A line of JSON (core/robot/command.schema.json) without line end. Numbers are rounded to 1e-6 of their unit.
+/// Throws: Error if a number is not finite.
 std::string to_json_line(const RobotCommand& command);
 
-/// Writes commands to a LineFile.
+/// Writes to a LineFile.
 /// Throws: Error, from every function, if the disk is full.
 class JsonLinesSink : public RobotCommandSink {
  public:
   explicit JsonLinesSink(const std::string& path) : file_(path) {}
   void send(const RobotCommand& command) override;
   void finish() override { file_.finish(); }
-  /// As LineFile::kept.
   std::string kept() const { return file_.kept(); }
 
  private:

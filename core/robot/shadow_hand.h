@@ -12,14 +12,13 @@ namespace glovebench {
 /// How one motor moves J1 and J2 of a free finger (core/robot/README.md): J0 = J1 + J2, 0 to 180 degrees.
 enum class ShadowCoupling {
   series,  ///< J2 alone to 90 degrees, then J1
-  even,    ///< J1 = J2
+  even,
 };
 constexpr auto names_of(ShadowCoupling) {
   return std::to_array<std::string_view>({"series", "even"});
 }
 
-/// The last two joints of a finger.
-/// Units: rad.
+/// The last two joints of a finger, rad.
 struct CoupledJoints {
   double distal;    ///< J1, never above J2
   double proximal;  ///< J2
@@ -29,11 +28,11 @@ CoupledJoints split_motor(double motor, ShadowCoupling coupling);
 /// J1's share of a small motion of the motor, 0 to 1.
 double distal_share(double motor, ShadowCoupling coupling);
 
-/// The joints at a share (0 to 1) of the way; the motor goes straight. A deviation of `from` from the model fades.
+/// The joints at a share (0 to 1) of the way. The motor goes straight. A deviation of `from` from the model fades.
 /// J1 stays below J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
-/// Joints of a Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
+/// Joints of the Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
 // clang-format off: one finger a row
 enum ShadowJoint : int {
   kFFJ1,
@@ -65,8 +64,8 @@ enum ShadowJoint : int {
 inline constexpr int kShadowJointCount = 24;
 inline constexpr int kShadowActuatorCount = 20;
 
-/// A joint's limits and source: robot angle = sign * human angle. THJ5 turns the thumb across the palm, THJ4 lifts
-/// it off; WRJ1 bends to the palm, WRJ2 turns to the thumb.
+/// Robot angle = sign * human angle. THJ5 turns the thumb across the palm, THJ4 lifts it off. WRJ1 bends to the
+/// palm, WRJ2 turns to the thumb.
 struct ShadowJointInfo {
   std::string_view name;
   double min_deg;
@@ -76,7 +75,7 @@ struct ShadowJointInfo {
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// A motor. J0 drives two joints; its target is their sum.
+/// J0 drives two joints. Its target is their sum.
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;
@@ -84,8 +83,7 @@ struct ShadowActuatorInfo {
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, flagged where they differ from the request.
-/// Units: rad.
+/// Targets within the limits, rad. Flags mark those that the limits changed.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};
   std::array<bool, kShadowJointCount> joint_clamped{};
@@ -93,11 +91,10 @@ struct ShadowHandTargets {
   std::array<bool, kShadowActuatorCount> actuator_clamped{};
 };
 
-/// Computes the motors' targets from the joints'.
+/// Fills the motors from the joints.
 void make_actuators(ShadowHandTargets& hand);
 
-/// Maps a posture directly: each joint takes its source's angle, clamped. The coupling splits the clamped sum of J1
-/// and J2.
+/// Each joint takes its source's angle, clamped. The coupling splits the clamped sum of J1 and J2.
 /// Throws: Error if an angle is not finite.
 /// Paper: section V.
 ShadowHandTargets map_to_shadow_hand(const Posture& posture, ShadowCoupling coupling = ShadowCoupling::series);

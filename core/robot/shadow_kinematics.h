@@ -7,11 +7,9 @@
 
 namespace glovebench {
 
-/// Fingertips, thumb to little, in the hand frame.
-/// Units: m.
+/// Fingertips, thumb to little. Hand frame, m.
 using Fingertips = Eigen::Matrix<double, 3, 5>;
-/// Derivatives of fingertip f (rows 3 f to 3 f + 2) by the joints.
-/// Units: m/rad.
+/// Derivatives of fingertip f (rows 3 f to 3 f + 2) by the joints, m/rad.
 using FingertipJacobian = Eigen::Matrix<double, 15, kShadowJointCount>;
 
 /// Largest distance of fingertips from the hand frame's origin and from WRJ2, m.
@@ -20,7 +18,7 @@ inline constexpr double kShadowHandReach = 0.15, kShadowWristReach = 0.23;
 /// Shadow's palm (x to the thumb, y dorsal, z to the fingers, origin WRJ1) in the hand frame of core/README.md.
 const Eigen::Isometry3d& shadow_T_hand_palm();
 
-/// Forward kinematics of the right hand with Shadow's dimensions (sr_common, sr_description); the left hand mirrors
+/// Forward kinematics of the right hand with Shadow's dimensions (sr_common, sr_description). The left hand mirrors
 /// x. The wrist does not move fingertips.
 Fingertips shadow_fingertips(const std::array<double, kShadowJointCount>& joints);
 FingertipJacobian shadow_fingertip_jacobian(const std::array<double, kShadowJointCount>& joints);

@@ -1,7 +1,5 @@
 #pragma once
 
-// Inverse kinematics without KDL, for tests.
-
 #include <Eigen/Dense>
 
 #include "core/base/math.h"

@@ -22,7 +22,6 @@ inline RobotCommand lost_command(int64_t timestamp_us) {
   return command;
 }
 
-/// Sets a joint and its motor's target.
 inline void set_joint(RobotTargets& targets, ShadowJoint joint, double angle) {
   targets.hand.joints[joint] = angle;
   for (int a = 0; a < kShadowActuatorCount; ++a) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Fingertips from Shadow's dimensions, for tests; independent of the library.
+// Fingertips from Shadow's dimensions, independent of the library.
 
 #include <Eigen/Core>
 #include <array>
@@ -42,7 +42,7 @@ class TestFingertips {
   static Eigen::Vector3d about_z(double a, const Eigen::Vector3d& p) {
     return {p.x() * std::cos(a) - p.y() * std::sin(a), p.x() * std::sin(a) + p.y() * std::cos(a), p.z()};
   }
-  /// From the knuckle of the finger whose J1 is `first`.
+  /// From the knuckle of the finger with J1 = `first`.
   Eigen::Vector3d finger(int first, double spread) const {
     const double a = q_[first + 2], b = a + q_[first + 1], c = b + q_[first];
     const Eigen::Vector3d bent(0, -0.045 * std::sin(a) - 0.025 * std::sin(b) - 0.026 * std::sin(c),

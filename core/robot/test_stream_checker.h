@@ -1,6 +1,6 @@
 #pragma once
 
-// Checks streams of guarded commands, for tests; independent of the guard.
+// This check is independent of the guard.
 
 #include <cmath>
 #include <string>
@@ -14,7 +14,7 @@ class StreamChecker {
  public:
   explicit StreamChecker(const CommandLimits& limits) : limits_(limits) {}
 
-  /// The stream starts there; J1 and J2 may be off their model.
+  /// J1 and J2 may be off their model.
   void start(const RobotTargets& targets) { targets_ = targets; }
 
   /// The problem of the next command; empty if none.
@@ -91,7 +91,6 @@ class StreamChecker {
     return "";
   }
 
-  /// How far J1 is from its model.
   double off_model(const std::array<double, kShadowJointCount>& q, int finger) const {
     const double motor = q[finger] + q[finger + 1];
     const double alone = limits_.coupling == ShadowCoupling::even ? motor / 2 : std::max(0.0, motor - 90 * kDegree);

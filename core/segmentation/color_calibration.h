@@ -14,14 +14,14 @@ struct ColorModel {
   int min_luma = 28;                      ///< darker cells get no label, 0..255
 };
 
-/// Builds a color table from views with true labels under several lightings.
+/// Builds a color table from labeled views under several lightings.
 class ColorCalibration {
  public:
   explicit ColorCalibration(ColorSpace space = ColorSpace::yuv) : space_(space) {}
 
-  /// Skips pixels beside a label border; 0: not glove. Images have one size.
+  /// Skips pixels beside a label border. 0: not glove. Images have one size.
   void add_view(const ColorImage& color, const LabelImage& labels);
-  /// The pixel shows one color. `label`: 0..kColorCount.
+  /// `label`: 0..kColorCount.
   void add_pixel(const Rgb& color, uint8_t label);
   /// Relights seen colors as far as `model` says, then gives each cell its most probable label.
   /// Throws: Error if a glove color was never bright enough.

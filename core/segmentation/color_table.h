@@ -16,7 +16,7 @@ namespace glovebench {
 /// 0..255 (BT.601, full range, U and V centered at 128).
 using Yuv = std::array<uint8_t, 3>;
 constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
-  // 16-bit fixed point; halves round down: no clamp is needed.
+  // 16-bit fixed point. Halves round down, so no clamp is needed.
   constexpr int half = (1 << 15) - 1, center = 128 << 16;
   const int r = rgb[0], g = rgb[1], b = rgb[2];
   return {static_cast<uint8_t>((19595 * r + 38470 * g + 7471 * b + half) >> 16),
@@ -24,7 +24,7 @@ constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
           static_cast<uint8_t>((32768 * r - 27439 * g - 5329 * b + half + center) >> 16)};
 }
 
-/// The paper's; RGB for comparison.
+/// The paper uses YUV.
 enum class ColorSpace { yuv, rgb };
 constexpr auto names_of(ColorSpace) {
   return std::to_array<std::string_view>({"yuv", "rgb"});
@@ -55,7 +55,7 @@ class ColorTable {
   ColorSpace space() const { return space_; }
 
   /// A versioned, checksummed file.
-  /// Throws: Error naming file and fault.
+  /// Throws: Error.
   void save(const std::string& path) const;
   static ColorTable load(const std::string& path);
 
@@ -71,7 +71,7 @@ LabelImage segment(const ColorImage& color, const ColorTable& table);
 /// The most frequent label of 3x3 pixels (not in the paper).
 LabelImage majority_filter(const LabelImage& labels);
 
-/// Throws: Error naming `where` and the field.
+/// Throws: Error.
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
 
 /// Corrects labels at borders, where pixels mix colors (not in the paper): takes the most frequent label of the 3x3

@@ -8,7 +8,7 @@
 namespace glovebench {
 
 std::span<const ConfigMeaning> config_meanings();
-/// An unknown field is a broken invariant.
+/// Throws: std::logic_error for an unknown field.
 const ConfigMeaning& config_meaning(std::string_view field);
 
 }  // namespace glovebench

@@ -5,12 +5,12 @@
 
 namespace glovebench {
 
-/// What a frame shows to the fit of pose and posture.
+/// Input of the fit of pose and posture.
 struct HandView {
   RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at the edge of a surface
   HandMask mask;
 
-  /// The hand of a sighting, which is `tracked`. Keeps its memory.
+  /// `seen` must be `tracked`. Reuses memory.
   void assign(const Sighting& seen, const Image<uint16_t>& raw_disparity);
 };
 

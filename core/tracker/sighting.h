@@ -29,8 +29,8 @@ struct Sighting {
 /// Processes the whole images.
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
              const TrackerConfig& config);
-/// The same cloud and status, faster: leaves out depths more than `kCutOffMargin` behind the working volume, also
-/// from `labeled_outside`.
+/// The same cloud and status, faster. Ignores depths more than `kCutOffMargin` behind the working volume, also in
+/// `labeled_outside`.
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);
 

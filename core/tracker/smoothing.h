@@ -7,12 +7,13 @@
 
 namespace glovebench {
 
-/// The last tracked one of the newest `count` results; null if all were lost.
+/// The last tracked one of the newest `count` results. Null if all were lost.
 const TrackResult* last_tracked(std::span<const TrackResult> previous, int count);
 
-/// Fills the smoothed values of `result` by the recursive filter x = keep * previous + (1 - keep) * new. A lost
-/// frame repeats the last values; after `forget_after` lost frames the filter starts anew. `previous`: the results
-/// before, in time order; the newest `forget_after` suffice. Paper: section III-C, as its printed numbers show.
+/// Filters by x = keep * previous + (1 - keep) * new. A lost frame repeats the last values. After `forget_after`
+/// lost frames the filter starts anew. `previous`: earlier results in time order; the newest `forget_after`
+/// suffice.
+/// Paper: section III-C, as its printed numbers show.
 TrackResult smoothed(TrackResult result, std::span<const TrackResult> previous, const SmoothingConfig& config);
 
 }  // namespace glovebench

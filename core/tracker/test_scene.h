@@ -1,7 +1,5 @@
 #pragma once
 
-// A synthetic Kinect before the gloved hand, with a tracker.
-
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/database/test_database.h"
@@ -12,7 +10,7 @@
 
 namespace glovebench {
 
-/// `object` outlives the pointer.
+/// `object` must outlive the pointer.
 template <typename T>
 std::shared_ptr<const T> borrowed(const T& object) {
   return {&object, [](const T*) {}};
@@ -47,7 +45,7 @@ inline Tracker make_tracker(const TrackerConfig& config = {}) {
                  borrowed(test_color_table()));
 }
 
-/// A frame, with the glove in both images.
+/// With the glove in both images.
 struct Shot {
   DeviceFrame frame;
   LabelImage ir_labels;
@@ -63,7 +61,7 @@ inline Shot shoot(const Eigen::Isometry3d& T_camera_hand, const Posture& posture
           images.label, renderer.render_color_labels(hand, T_camera_hand)};
 }
 
-/// Correct as long as the gloves do not overlap.
+/// Correct if the gloves do not overlap.
 inline DeviceFrame with_second_glove(const Shot& first, const Shot& second) {
   DeviceFrame frame = first.frame;
   for (size_t i = 0; i < frame.raw_disparity.size(); ++i) {

@@ -19,10 +19,10 @@ enum class TrackStatus {
   tracked,
   no_hand,         ///< too few glove pixels
   outside_volume,  ///< at least a third of the glove is too near or too far
-  cut_by_border,   ///< the glove touches the image border too long
+  cut_by_border,   ///< glove touches the image border too long
   several_hands,   ///< more than one large glove-colored object
   too_few_points,
-  degenerate_cloud,  ///< the points lie on one line
+  degenerate_cloud,  ///< points on one line
   no_shared_color,   ///< cloud and visible model share none
   poor_match,        ///< nearest entry beyond `max_matching_error`
   poor_alignment,    ///< final mean distance above `max_residual`
@@ -39,10 +39,10 @@ struct AngleCertainty {
   uint32_t hidden = 0;                  ///< bit a: angle a is hardly seen
 };
 
-/// The answer for one frame, (theta, R, P).
+/// The result for one frame, (theta, R, P).
 /// Paper: section III-C.
 struct TrackResult {
-  int64_t timestamp_us = 0;  ///< of the depth
+  int64_t timestamp_us = 0;  ///< of the depth image
   TrackStatus status = TrackStatus::no_hand;
 
   Posture posture = Posture::Zero();                                ///< smoothed, rad
@@ -54,17 +54,17 @@ struct TrackResult {
   RecycledVector<Match> matches;
 
   bool ambiguous = false;  ///< rotations differ by more than 60 degrees
-  bool converged = false;  ///< of the alignment
-  int cloud_points = 0;    ///< |C|
+  bool converged = false;
+  int cloud_points = 0;  ///< |C|
   int icp_points = 0;
   int icp_iterations = 0;
   double icp_residual = 0;  ///< final mean point-to-triangle distance, m
   std::optional<AngleCertainty> certainty;
-  /// How far whole patches of points lie off the refined hand, RMS, m: small unless the model has wrong sizes.
+  /// RMS distance of whole patches of points from the refined hand, m. Large if the model has wrong sizes.
   std::optional<double> misfit;
 };
 
-/// The stages of the methods, in the order of a frame.
+/// Stages in the order of a frame.
 enum class Stage {
   registration,
   segmentation,
@@ -85,15 +85,13 @@ constexpr auto names_of(Stage) {
 }
 static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
 
-/// Called when a stage begins, so that a caller with a clock can time it. A frame may enter a stage twice. Not
-/// empty.
+/// Called when a stage begins, for timing. A frame may enter a stage twice. Not empty.
 using StageObserver = std::function<void(Stage stage)>;
-/// Observes nothing.
 inline void unobserved(Stage) {}
 
-/// A JSON object without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
-/// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known angle_deviations_deg and
-/// hidden (names). A lost frame has no posture and pose.
+/// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
+/// icp_iterations, icp_residual_mm, ambiguous, converged; if known, angle_deviations_deg and hidden (names). A lost
+/// frame has no posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

@@ -20,10 +20,10 @@ struct FrameTrace : Sighting {
 /// Throws: Error if the configuration is impossible, or side, tiny images or color spaces differ.
 void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
                   const ColorTable& table);
-/// `tracked` unless the alignment had no answer.
+/// `tracked` for `converged` and `not_converged`.
 TrackStatus status_of(AlignmentStatus status);
 
-/// Color-glove tracking of one hand from device frames in time order.
+/// Tracks one hand, frames in time order.
 /// Paper: Schröder et al. 2012.
 class Tracker {
  public:
@@ -31,7 +31,7 @@ class Tracker {
   Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
           std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table);
 
-  /// `previous`: the results of the frames before, in time order; the newest `smoothing.forget_after` suffice.
+  /// `previous`: earlier results in time order. The newest `smoothing.forget_after` suffice.
   TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous = {},
                     const StageObserver& observe = unobserved) const;
   /// Processes the whole images.
@@ -49,7 +49,7 @@ class Tracker {
   std::shared_ptr<const ColorTable> table_;
 };
 
-/// The database's answer for a label image.
+/// The look-up's result for a label image.
 /// Paper: sections III-B and III-C.
 struct HandLookUp {
   TrackStatus status = TrackStatus::no_hand;  ///< tracked, no_hand or poor_match

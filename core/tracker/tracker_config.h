@@ -18,14 +18,14 @@ struct SegmentationConfig {
   ColorSpace color_space = ColorSpace::yuv;
   bool majority_filter = false;    ///< 3x3 (not in the paper)
   bool surface_majority = false;   ///< of neighbors within 2 cm depth (not in the paper)
-  bool largest_component = false;  ///< keep that one only (not in the paper)
+  bool largest_component = false;  ///< not in the paper
 };
 
 struct LookupConfig {
   Cascade cascade = {{16, 500}, {64, 3}};  ///< section IV-B
   double interpolation_epsilon = 0.01;     ///< eps in 1 / (E + eps), px, > 0
   std::string implementation = "fast";     ///< a name of `look_ups`
-  double max_matching_error = 0.08;        ///< larger: `poor_match`; share of the last stage's side, > 0
+  double max_matching_error = 0.08;        ///< as a share of the last stage's side, > 0; larger: `poor_match`
 };
 
 struct SmoothingConfig {
@@ -35,41 +35,40 @@ struct SmoothingConfig {
 };
 
 struct DetectionConfig {
-  int min_pixels = 150;  ///< glove pixels; fewer: `no_hand`, >= 3
+  int min_pixels = 150;  ///< of the glove, >= 3; fewer: `no_hand`
   /// A second component above this share of the largest means `several_hands`, (0, 1].
   double second_hand_share = 0.3;
-  double component_depth_step = 0.05;  ///< depth step between components, m, > 0
-  int max_border_pixels = 40;          ///< glove pixels; more: `cut_by_border`, >= 0
+  double component_depth_step = 0.05;  ///< between components, m, > 0
+  int max_border_pixels = 40;          ///< of the glove, >= 0; more: `cut_by_border`
   /// The same for single fingers, as a share of the square root of all glove pixels, > 0.
   double max_border_share = 0.35;
 };
 
-/// A named, complete configuration.
 struct TrackerConfig {
   std::string profile = "paper";
   std::string method{kPaperMethod};  ///< one of `method_names`
   RegistrationConfig registration;
   SegmentationConfig segmentation;
   WorkingVolume volume;
-  ViewConfig views;  ///< of the databases
+  ViewConfig views;
   DetectionConfig detection;
   LookupConfig lookup;
   IcpConfig icp;
-  double max_residual = 0.02;  ///< larger: `poor_alignment`, m, > 0
+  double max_residual = 0.02;  ///< m, > 0; larger: `poor_alignment`
   SmoothingConfig smoothing;
 
   /// One problem per line.
   std::vector<std::string> problems() const;
 };
 
-/// "paper", or "paper-literal", which filters the pose, too. Throws: Error listing these names.
+/// "paper", or "paper-literal", which filters the pose, too.
+/// Throws: Error for other names.
 TrackerConfig profile(const std::string& name);
 /// Overrides fields of `base` by those of a JSON object.
-/// Throws: Error naming `where` and an unknown, mistyped or out-of-range key.
+/// Throws: Error for an unknown, mistyped or out-of-range key.
 TrackerConfig config_from_json(const nlohmann::json& json, const TrackerConfig& base, const std::string& where);
 nlohmann::json to_json(const TrackerConfig& config);
 
-/// The description of a field of the configuration.
 struct ConfigMeaning {
   std::string_view field;  ///< "icp.max_points"
   std::string_view meaning;
@@ -81,7 +80,7 @@ struct ConfigField {
   std::string range;  ///< in words
   std::string value;  ///< JSON
 };
-/// All fields of `config`, in the order of the tracker's stages.
+/// In the order of the tracker's stages.
 std::vector<ConfigField> config_fields(const TrackerConfig& config);
 
 }  // namespace glovebench

@@ -17,14 +17,14 @@ namespace glovebench::eval {
 struct CommonFlags {
   std::string output;
   std::string config_file;
-  nlohmann::json config_json;  ///< an earlier run's
+  nlohmann::json config_json;  ///< of an earlier run
   std::string profile = "paper";
   std::string method;  ///< empty: the configuration's
   std::string cascade;
-  std::string calibration;          ///< file; empty: the synthetic Kinect's
-  nlohmann::json calibration_json;  ///< likewise
-  std::string hand;                 ///< file; empty: the package's mesh
-  nlohmann::json hand_json;         ///< an earlier run's
+  std::string calibration;  ///< file; empty: the synthetic Kinect's
+  nlohmann::json calibration_json;
+  std::string hand;          ///< file; empty: the package's mesh
+  nlohmann::json hand_json;  ///< of an earlier run
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -44,7 +44,7 @@ struct CommonFlags {
   TrackerConfig tracker_config() const;
   Workbench workbench() const;
   /// Empty without `hand` and `hand_json`.
-  /// Throws: Error; also for a hand of the other side.
+  /// Throws: Error, also for a hand of the other side.
   std::optional<MeasuredHand> measured_hand() const;
   /// Warns on stderr of likely mistakes of units.
   void warn_of_units(const trajectories::Trajectory& trajectory) const;
@@ -56,13 +56,12 @@ struct CommonFlags {
   void check_output_folder() const;
 };
 
-/// A configuration of the tracker with the name of its row and folder.
 struct NamedTracker {
   std::string name;
   TrackerConfig tracker;
 };
 
-/// The tracker's flags of a command that compares: one of them may be repeated.
+/// The tracker's flags of a command that compares. One of them may be repeated.
 struct TrackerChoices {
   std::vector<std::string> profiles, configs, methods, cascades;
 
@@ -71,15 +70,14 @@ struct TrackerChoices {
   /// Throws: Error if two flags have several values.
   void choose(CommonFlags& common) const;
   bool are_several() const;
-  /// A configuration for each value of the repeated flag, after the paper's if it is none of them. The other flags
-  /// are those of `common`.
+  /// One configuration per value of the repeated flag, after the paper's if it is none of them. Other flags are
+  /// those of `common`.
   /// Throws: Error for a bad value, equal names, or other views of the databases.
   std::vector<NamedTracker> trackers(const CommonFlags& common) const;
 };
 
-/// How runs are compared.
 struct ComparisonFlags {
-  std::vector<std::string> metrics;  ///< empty: those that the command takes by itself
+  std::vector<std::string> metrics;  ///< empty: the command's default
   double confidence = 0.99;
 
   void add(Command command, const std::string& default_metrics);
@@ -107,16 +105,16 @@ struct LimitsFlag {
 struct FileFlag {
   std::string flag;
   std::string path;         ///< empty: none
-  std::string ending = {};  ///< that it must have; empty: any
+  std::string ending = {};  ///< required; empty: any
 };
 /// Checks all files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
-/// Likewise, before the work.
+/// The same before the work.
 /// Throws: Error also for another ending, or a file that cannot be written.
 void require_writable_files(const std::vector<FileFlag>& files);
 
-/// Throws: Error naming the field in a build without a solver.
+/// Throws: Error in a build without a solver.
 std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const std::string& field);
 
 struct RobotFlags {

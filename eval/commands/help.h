@@ -14,7 +14,7 @@ std::string help_text(const CommandText& command, const std::string& usage, bool
 /// The commands below `command`, with the first lines of their descriptions.
 std::string commands_text(const CommandText& command, size_t columns);
 
-/// "unknown flag --ouptut; did you mean --output?", for an unknown word after `command`.
+/// "unknown flag --ouptut; did you mean --output?"
 std::string describe_unknown(const CommandText& command, const std::string& word);
 
 /// For man(1).
@@ -23,7 +23,7 @@ std::string man_page(const CommandText& program, const std::string& version);
 /// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty where the shell completes file names.
 std::string completions(const CommandText& program, const std::vector<std::string>& line);
 
-/// For bash, zsh or fish; calls `completions`.
+/// For bash, zsh or fish. Calls `completions`.
 std::string completion_script(std::string_view shell);
 
 }  // namespace glovebench::eval

@@ -12,7 +12,7 @@ class Option;
 
 namespace glovebench::eval {
 
-/// Restricts an option; each call returns the same one.
+/// Restricts an option. Each call returns the same one.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
@@ -25,13 +25,13 @@ class Option {
   Option named_file() const;
   Option existing_file() const;
   Option existing_folder() const;
-  /// A list of exactly this many values.
+  /// Exactly this many values.
   Option count(int values) const;
-  /// A list whose option is repeated for each value, so it takes no word that follows.
+  /// A list whose option is repeated for each value.
   Option repeated() const;
-  /// A list that commas may separate, too.
+  /// A list that commas may separate.
   Option comma_separated() const;
-  /// `other` is declared before.
+  /// `other` must be declared before.
   Option needs(const std::string& other) const;
   /// Only --help-all shows it.
   Option rare() const;
@@ -52,7 +52,7 @@ struct OptionText {
   bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// A command as help, man page and completion show it.
+/// A command for help, man page and completion.
 struct CommandText {
   std::string name;
   std::string description;
@@ -60,7 +60,7 @@ struct CommandText {
   std::vector<CommandText> subcommands;
 };
 
-/// A copyable handle. Its values and actions must live as long as the program.
+/// Copyable. Its values and actions must live as long as the program.
 class Command {
  public:
   using Action = std::function<int()>;
@@ -69,20 +69,20 @@ class Command {
   Command(CLI::App& app, Action& chosen) : app_(&app), chosen_(&chosen) {}
 
   /// With subcommands, the user must name one unless the command `runs` by itself. Each line of the description is
-  /// a paragraph; lists of commands show the first.
+  /// a paragraph. Lists of commands show the first.
   Command subcommand(const std::string& name, const std::string& description) const;
-  /// The same command; the help shows its options under `heading`.
+  /// The help shows its options under `heading`.
   Command group(const std::string& heading) const;
   /// Adds an option for `value`. `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help
-  /// shows the default unless it is empty or the option required. A bool is a flag; a transform is X Y Z (m) QW QX
-  /// QY QZ. The source lists all types.
+  /// shows the default unless it is empty or the option required. A bool is a flag. A transform is X Y Z (m) QW QX
+  /// QY QZ.
   /// Throws: Error for a transform that is not finite or has no unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
   bool given(const std::string& name) const;
-  /// So far, with subcommands.
+  /// The options so far, with subcommands.
   CommandText text() const;
-  /// Sets the action. Its result is the exit code; void: 0.
+  /// Sets the action, whose result is the exit code; void: 0.
   template <typename Does>
   void runs(Does does) const {
     if constexpr (std::is_void_v<std::invoke_result_t<Does>>) {

@@ -14,17 +14,15 @@ namespace glovebench::eval {
 
 struct BusFlags {
   std::string middleware;  ///< "dds" (domain 0), "dds:DOMAIN" or "" (none)
-  std::string interface;   ///< empty: loopback, or that of CYCLONEDDS_URI
+  std::string interface;   ///< empty: that of CYCLONEDDS_URI, else loopback
   std::string security;    ///< folder of keys; empty: none
 
-  /// `--robot`, `--robot-interface` and `--security`.
   void add(Command command, const std::string& what);
   /// Throws: Error if `--robot` names no domain.
   int domain() const;
   DdsAccess access(const std::string& role) const { return {interface, security, role}; }
 };
 
-/// Sends robot commands to a file, a bus, both or neither.
 class RobotOutputs {
  public:
   /// `file`: JSON Lines; empty: none.
@@ -32,17 +30,16 @@ class RobotOutputs {
   RobotOutputs(const std::string& file, const std::optional<RobotBusOptions>& bus);
 
   bool any() const { return file_ || bus_; }
-  /// The arm's joints at the start; empty without a controller.
+  /// The arm's joints at the start. Empty without a controller.
   std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
   /// Guards and sends a command. A robot's clock is the first frame's stamp plus wall time. With a controller,
-  /// motion starts at the measured joints, also after a lost hand. `arrived_us`: arrival of the frame, us since
-  /// 1970.
-  /// Throws: Error; also if the robot is not measured.
+  /// motion starts at the measured joints, also after a lost hand. `arrived_us`: of the frame, since 1970.
+  /// Throws: Error, also if the robot is not measured.
   void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
-  /// `whole`: names the file. Else its lines stay at `kept()`, and an older file remains.
+  /// `whole`: gives the file its name. Otherwise its lines stay at `kept()`, and an older file remains.
   /// Throws: Error.
   void finish(bool whole = true);
-  /// Place of unfinished lines; empty without any.
+  /// Path of unfinished lines, if any.
   std::string kept() const { return file_ ? file_->kept() : ""; }
 
  private:

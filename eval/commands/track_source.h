@@ -14,7 +14,7 @@ struct TrackSource {
   std::unique_ptr<Device> device;
   int frame_count = 0;                    ///< 0: live
   std::function<int()> dropped;           ///< lost images and frames
-  std::function<int64_t()> arrived_us;    ///< completion of the last frame, us since 1970
+  std::function<int64_t()> arrived_us;    ///< of the last complete frame, since 1970
   std::function<std::string()> ended_by;  ///< why a live device ended
 };
 
@@ -23,7 +23,7 @@ struct SourceFlags {
   std::string calibration;  ///< file; empty: the recording's, else a nominal Kinect's
   bool every_frame = false;
 
-  /// --source, with its help, and --calibration.
+  /// Adds --source and --calibration.
   void add(Command command, const std::string& help);
 };
 
@@ -31,12 +31,12 @@ struct SourceFlags {
 /// Throws: Error for an unknown kind, a missing device or recording, or a build without libfreenect.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
-/// Gives `take` up to `count` frames spread over a recording, or the first ones of a live device. Damaged frames
-/// are skipped and, unless `quiet`, named on stderr. `title`: of the progress bar.
+/// Gives `take` up to `count` frames spread over a recording, or the first ones of a live device. Skips damaged
+/// frames and names them on stderr unless `quiet`. `title`: of the progress bar.
 void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
                  const std::function<void(const DeviceFrame&)>& take);
 
-/// Names on stderr the changed files of a recording, unless `quiet`.
+/// Names a recording's changed files on stderr unless `quiet`.
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);
 
 }  // namespace glovebench::eval

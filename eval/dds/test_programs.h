@@ -15,7 +15,6 @@
 
 namespace glovebench::eval {
 
-/// A bus for one test, with other processes on it.
 class DdsBus : public testing::Test {
  protected:
   void SetUp() override {
@@ -44,7 +43,7 @@ class DdsBus : public testing::Test {
     return finish(program);
   }
 
-  /// Prints messages until `seconds` pass without one; waits longer for the first.
+  /// Prints messages until `seconds` pass without one. Waits longer for the first.
   StartedProgram listen(const std::string& seconds = "1.5", const ProgramSetting& setting = {}) {
     const StartedProgram listener = start({build_paths::program("dds_probe"), "listen", domain_, seconds}, setting);
     EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
@@ -60,7 +59,6 @@ class DdsBus : public testing::Test {
     return std::filesystem::exists(program.out) ? read_file(program.out) : "";
   }
 
-  /// The lines of a topic, in order.
   static std::vector<std::string> lines_of(const std::string& topic, const std::string& text) {
     std::vector<std::string> lines;
     std::istringstream all(text);

@@ -21,13 +21,13 @@ struct Ablation {
 /// Other settings change one thing of it.
 inline constexpr const char* kDefaultSetting = "default";
 std::vector<Setting> ablation_settings(const TrackerConfig& tracker);
-/// Without the choice of postures. Labels of default rows assume the profile `paper`.
+/// All but the choice of postures. Labels of default rows assume the profile `paper`.
 std::vector<Ablation> ablations();
 
-/// Runs each named setting on source truths: DB_open_power on power grasps, other databases on all five.
+/// Runs on source truths: DB_open_power on power grasps, other databases on all five.
 Runs run_rows(const StudyContext& context, const std::vector<Ablation>& wanted);
 
-/// Table "ablations": a row each.
+/// Table "ablations".
 reports::Table ablation_table(const Runs& runs, const std::vector<Ablation>& ablations);
 
 /// A look-up with a larger error is wrong: a quarter of the way from open hand to power grasp.
@@ -39,7 +39,7 @@ std::vector<reports::Measure> lag_measures(const Runs& runs);
 /// color.*: excess error of color-blind alignment in frames with a wrong look-up, over DB_20_postures and
 /// DB_open_pinch_power.
 std::vector<reports::Measure> color_measures(const Runs& runs);
-/// Table "color_blind": the same per database.
+/// Table "color_blind": per database.
 reports::Table color_table(const Runs& runs);
 
 /// Unfiltered posture error of 3 neighbors minus 1, in frames where the 3 postures differ.
@@ -48,17 +48,16 @@ reports::Measure interpolation_measure(const Runs& runs);
 /// Rows for these measures beyond `ablations`.
 std::vector<Ablation> measured_ablations();
 
-/// DB_20_random_NUMBER: like DB_20_postures, but its movement postures are drawn at random from the same pool.
-/// `number` >= 1 is the seed.
+/// DB_20_random_NUMBER: as DB_20_postures, with movement postures drawn at random from the same pool. `number` >= 1
+/// is the seed.
 PostureSet random_choice(int number);
 /// Largest distance from a pool posture to the nearest of the set, RMS.
 double covering_radius_deg(const PostureSet& set);
 
-/// Compares DB_20_postures with `choices`.
 Ablation posture_choice_ablation(const std::vector<PostureSet>& choices);
-/// Runs the default setting with each choice. Frees each database after use (0.9 GB each).
+/// Runs the default setting. Frees each database after use (0.9 GB each).
 Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices);
-/// Table "postures": a row each, DB_20_postures first; `runs` must include it.
+/// Table "postures", DB_20_postures first. `runs` must include it.
 reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices);
 
 }  // namespace glovebench::eval

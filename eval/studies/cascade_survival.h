@@ -5,14 +5,14 @@
 
 namespace glovebench::eval {
 
-/// A cascade stage in a database, over all frames.
+/// One stage in a database, over all frames.
 struct StageSurvival {
   std::string database;
   Cascade cascade;
   size_t stage = 0;  ///< from 0
   int candidates_in = 0;
   int candidates_out = 0;
-  Sample survived_percent;  ///< 100 if it keeps the true neighbor, else 0
+  Sample survived_percent;  ///< 100 if the stage keeps the true neighbor, else 0
 };
 
 /// How often the true neighbor (TrueNeighborSearch) survives each stage of the look-ups. Frames without a hand

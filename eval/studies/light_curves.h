@@ -14,12 +14,12 @@ struct LightPoint {
   render::Lighting lighting;
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  ///< gains on linear R, G, B
 };
-/// What varies; all else stays at the default.
+/// One property of the light varies.
 struct LightAxis {
   std::string table;  ///< "light_strength"
   std::string title;
-  std::string column;   ///< "strength", "temperature_k"
-  std::string heading;  ///< of the column
+  std::string column;  ///< "strength", "temperature_k"
+  std::string heading;
   std::vector<LightPoint> points;
 };
 /// Strength 1/8 to 4 times the default's, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two each.
@@ -28,7 +28,7 @@ std::vector<LightAxis> light_axes(bool quick);
 /// An unlabeled recording for calibration: Tr2, Tr3 and Tr5, which no curve measures.
 calibration::ColorSamples record_under(Workbench& workbench, int subject, const LightPoint& point, int frames);
 
-/// A way to label; empty where calibration failed.
+/// `errors` is empty where calibration failed.
 struct LightWay {
   std::string name;
   std::optional<LabelErrors> errors;
@@ -37,8 +37,7 @@ struct LightWay {
 /// table for these pixels.
 std::vector<LightWay> measure_light_point(Workbench& workbench, int subject, const LightPoint& point);
 
-/// A table for each axis; light_curves.*: mean share of correct glove pixels at strengths 0.5 to 2 and 3000 to 6500
-/// K.
+/// One table per axis. light_curves.*: mean share of correct glove pixels at strengths 0.5 to 2 and 3000 to 6500 K.
 reports::StudyResult run_light_curves(const StudyContext& context);
 
 }  // namespace glovebench::eval

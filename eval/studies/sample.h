@@ -10,11 +10,11 @@
 
 namespace glovebench::eval {
 
-/// [stratum][noise seed][frame]; empty for a lost frame, for example. A stratum is a trajectory, which is not
+/// [stratum][noise seed][frame]. Empty for a lost frame, for example. A stratum is a trajectory, which is not
 /// resampled.
 using Sample = std::vector<std::vector<std::vector<std::optional<double>>>>;
 
-/// Empty without values; the interval also with too little to resample.
+/// `value` is empty without values, `interval` also with too few to resample.
 struct Estimated {
   std::optional<double> value;
   std::optional<reports::ConfidenceInterval> interval;
@@ -23,15 +23,15 @@ struct Estimated {
 std::optional<double> mean(const Sample& sample);
 Estimated estimate_mean(const Sample& sample);
 
-/// `combine` of the samples' means. The samples' frames are the same and resampled together.
+/// `combine` of the samples' means. The samples have the same frames, resampled together.
 Estimated estimate(std::span<const Sample> samples,
                    const std::function<std::optional<double>(std::span<const double> means)>& combine);
 
 /// Mean of a - b over frames with both values.
 Estimated estimate_difference(const Sample& a, const Sample& b);
 
-/// Bootstrap interval of a statistic of `count` things, named `over`. `drawn`: their indices, with repetitions.
-/// Empty if count < 2.
+/// Bootstrap interval of a statistic of `count` things, named `over`. `drawn`: indices with repetitions. Empty if
+/// count < 2.
 std::optional<reports::ConfidenceInterval> interval_over(
     int count, const std::string& over,
     const std::function<std::optional<double>(std::span<const int> drawn)>& statistic);

@@ -14,28 +14,27 @@ namespace glovebench::eval {
 struct StudyOptions {
   TrackerConfig tracker;
   std::vector<uint64_t> seeds = {1};
-  bool quick = false;             ///< few frames and queries: a test, not a measurement
+  bool quick = false;             ///< a test, not a measurement
   std::vector<Cascade> cascades;  ///< of Figure 8; empty: the paper's
 };
 
-/// `store` keeps finished runs; may be null.
+/// `store` keeps finished runs. May be null.
 struct StudyContext {
   Workbench& workbench;
   const StudyOptions& options;
   RunStore* store = nullptr;
 };
 
-/// A figure of the paper, or a question about it.
 struct Study {
   std::string_view name;   ///< "fig8"
   std::string_view title;  ///< "Figure 8: matching cascades"
   reports::StudyResult (*run)(const StudyContext& context);
   double cpu_s;             ///< of one seed, roughly
-  bool on_request = false;  ///< no part of a reproduction that names no parts
+  bool on_request = false;  ///< only if named
 };
-/// All studies in running order.
+/// In running order.
 const std::vector<Study>& studies();
-/// Throws: Error listing known names.
+/// Throws: Error for an unknown name.
 const Study& study(std::string_view name);
 
 struct Setting {
@@ -46,7 +45,7 @@ struct Setting {
   bool clutter_in_volume = false;
 };
 
-/// All frames; a stretch in a quick reproduction.
+/// All frames, or a stretch in a quick reproduction.
 FrameRange frames_of(const StudyOptions& options);
 
 /// Each setting with each database on these trajectories (empty: all five; quick: one), with the study's seeds and
@@ -56,7 +55,7 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
                                  const std::vector<std::string>& trajectories = {});
 
 using Runs = std::vector<MeasuredRun>;
-/// Runs `study_specs` for errors. Runs share the machine, so times mean little.
+/// Runs `study_specs` for errors. Their times mean little, because runs share the machine.
 Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
                   const std::vector<std::string>& databases, reports::TruthKind truth,
                   const std::vector<std::string>& trajectories = {});
@@ -66,9 +65,9 @@ Runs time_settings(const StudyContext& context, const std::vector<Setting>& sett
                    const std::vector<std::string>& trajectories = {});
 std::string times_explanation();
 
-/// Runs of one setting and database, by trajectory, then seed.
+/// Runs by trajectory, then seed.
 using Selection = std::vector<const MeasuredRun*>;
-/// At least one. `runs` must outlive the result.
+/// At least one run. `runs` must outlive the result.
 Selection select(const Runs& runs, std::string_view setting, std::string_view database);
 
 Sample sample_of(const Selection& runs,
@@ -93,7 +92,7 @@ reports::StudyResult run_figure8(const StudyContext& context);
 reports::StudyResult run_figure9(const StudyContext& context);
 reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
-/// Figure 4 with profiles paper and paper-literal side by side. Has no measures, so it decides no claim.
+/// Figure 4 with profiles paper and paper-literal. Decides no claim.
 reports::StudyResult run_paper_literal(const StudyContext& context);
 /// monocular.depth_error_cm is of the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);

@@ -28,7 +28,7 @@ class TrialCamera {
  public:
   TrialCamera(Workbench& workbench, const TrackerConfig& config, const render::NoiseConfig& noise);
 
-  /// The labels that would be looked up, else empty. `key` selects the noise.
+  /// The labels for the look-up, if any. `key` selects the noise.
   std::optional<LabelImage> see(const HandFrame& hand, const render::FrameKey& key);
 
  private:
@@ -44,7 +44,7 @@ struct TrialQuery {
   std::vector<LabelImage> images;  ///< by size
   int redraws = 0;                 ///< rejected hands before it
 };
-/// Queries under the paper's noise; independent of threads.
+/// Queries under the paper's noise. They do not depend on threads.
 /// Throws: Error if hardly any hand can be looked up.
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,

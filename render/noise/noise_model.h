@@ -21,31 +21,30 @@ struct KinectNoiseConfig {
   double disparity_sigma_steps = 0.40;
   double grazing_from_deg = 70.0;     ///< incidence at which dropouts begin, [0, 90)
   double grazing_to_deg = 85.0;       ///< incidence from which all drop out, (grazing_from_deg, 90]
-  double min_depth = 0.45;            ///< nearest depth, m, >= 0
+  double min_depth = 0.45;            ///< m, >= 0
   double projector_baseline = 0.075;  ///< along the IR camera's +x, m; 0: no shadow
 };
 
 struct NoiseConfig {
   std::string depth = "gradient";              ///< name of a DepthNoise
   double gain_factor = 1.0;                    ///< on the variance of `gradient`, >= 0
-  double color_sigma_gray = kColorSigma_gray;  ///< of each 8-bit channel, >= 0
+  double color_sigma_gray = kColorSigma_gray;  ///< per 8-bit channel, >= 0
   KinectNoiseConfig kinect;
 
-  /// One a line.
+  /// One per line.
   std::vector<std::string> problems() const;
 };
 
 /// Depth errors before 11-bit quantization. render/noise/X_noise.cpp defines `DepthNoise X_noise()`.
 struct DepthNoise {
-  std::string_view name;         ///< X
-  std::string_view description;  ///< one line
-  /// Depth at unlimited resolution, m; missing values (0) stay missing. `key` seeds all random numbers.
+  std::string_view name;
+  std::string_view description;
+  /// Depth at unlimited resolution, m. Missing values (0) stay missing. `key` seeds all random numbers.
   DepthImage (*add)(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,
                     const FrameKey& key);
 };
-/// Sorted by name.
 std::span<const DepthNoise> depth_noises();
-/// Throws: Error listing known names.
+/// Throws: Error for an unknown name.
 const DepthNoise& find_depth_noise(std::string_view name);
 
 /// Throws: Error for an unknown model.

@@ -15,8 +15,8 @@ struct Capsule {
 };
 
 enum class Joining : uint8_t {
-  palm,    ///< of palm and forearm, with each other
-  segment  ///< of fingers, with each other and the palm
+  palm,    ///< palm and forearm, with each other
+  segment  ///< fingers, with each other and the palm
 };
 
 struct UnionPart {
@@ -31,7 +31,6 @@ struct FieldSample {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 };
 
-/// Signed distance from a capsule.
 FieldSample distance_to(const Capsule& capsule, const Eigen::Vector3d& p);
 
 /// Smooth union of distances d_i with shares s_i: -k log sum s_i exp(-d_i / k), at most the smallest distance of a
@@ -44,7 +43,7 @@ inline constexpr double kSegmentJoining = 0.0015;
 /// k inside the palm, m.
 inline constexpr double kPalmJoining = 0.005;
 
-/// Moves `p` along the gradient to this level by Newton steps; may stop short in creases.
+/// Moves `p` along the gradient to this level by Newton steps. May stop short in creases.
 Eigen::Vector3d project_to_level(std::span<const Capsule> capsules, std::span<const UnionPart> parts, double level,
                                  Eigen::Vector3d p);
 

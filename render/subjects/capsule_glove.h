@@ -14,16 +14,16 @@ inline constexpr double kGloveThickness = 0.001;
 inline constexpr double kLeastFold = 0.001, kMostFold = 0.002;
 inline constexpr double kMostBorderShift = 0.003;
 
-/// Interpolated lattice noise in [-1, 1]; `scale` is the lattice's step, m.
+/// Interpolated lattice noise in [-1, 1]. `scale`: step of the lattice, m.
 double smooth_noise(uint64_t seed, const Eigen::Vector3d& p, const Eigen::Vector3d& scale);
 
-/// A posed hand's glove, as functions on its surface.
+/// Functions on a posed hand's surface.
 class CapsuleGlove {
  public:
   CapsuleGlove(const std::vector<HandCapsule>& capsules, std::vector<Capsule> placed,
                const JointPoses& T_hand_joint, uint64_t seed);
 
-  /// As `patch_scores`. Borders lie near the joints, each shifted randomly by up to 3 mm.
+  /// As `patch_scores`, with borders near the joints.
   PatchScores scores(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const;
 
   /// Folds across the fingers, m, mean 0.

@@ -8,9 +8,9 @@
 
 namespace glovebench::render {
 
-/// A gloved hand unlike the tracker's mesh: a smooth union of tapered capsules with anthropometric dimensions. The
-/// seed draws person, skeleton and glove. A posture moves the capsules and projects vertices onto their union
-/// (Vaillant et al. 2013, "Implicit Skinning", without contact).
+/// A gloved hand unlike the tracker's mesh (render/README.md): a smooth union of tapered capsules. The seed draws
+/// person, skeleton and glove. A posture moves the capsules and projects vertices onto their union (Vaillant et al.
+/// 2013, "Implicit Skinning", without contact).
 class CapsuleHand {
  public:
   /// `definition`: the package's skeleton, for the thumb's zero.
@@ -27,12 +27,12 @@ class CapsuleHand {
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
-  /// The right hand's; a left hand mirrors it.
+  /// The right hand's skeleton. A left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
-  /// Field value at each vertex, m: glove and folds; NaN at the cuff's flat end.
+  /// Field value at each vertex, m: glove and folds. NaN at the cuff's flat end.
   const std::vector<double>& levels() const { return levels_; }
-  /// The field that vertex `v` follows, of placed capsules.
+  /// The field that vertex `v` follows.
   FieldSample field_at(size_t v, const std::vector<Capsule>& placed, const Eigen::Vector3d& p) const;
 
  private:

@@ -7,8 +7,8 @@
 
 namespace glovebench::render {
 
-/// The right hand's skeleton, hand frame of core/README.md; index and little MCP at equal height fix +y.
-/// `definition` gives the thumb's zero. Tilts each joint by a few random degrees.
+/// The right hand's skeleton in its hand frame (render/README.md). `definition` gives the thumb's zero. The seed
+/// tilts each joint by a few degrees.
 Skeleton make_skeleton(const HandDimensions& hand, const Skeleton& definition, uint64_t seed);
 
 }  // namespace glovebench::render

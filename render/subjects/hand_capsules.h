@@ -25,7 +25,7 @@ struct HandCapsule {
   int ray = 0;  ///< 0 thumb .. 4 little, -1 none
 };
 
-/// As wide as `hand`, without the glove.
+/// Without the glove.
 std::vector<HandCapsule> make_capsules(const HandDimensions& hand, const Skeleton& skeleton);
 
 std::vector<Capsule> place_capsules(const std::vector<HandCapsule>& capsules, const JointPoses& T_hand_joint,

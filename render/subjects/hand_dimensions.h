@@ -5,8 +5,8 @@
 
 namespace glovebench::render {
 
-/// An adult's bare hand, m; arrays from thumb to little. Sources: Gordon et al. (2014), NATICK/TR-15/007 (length,
-/// breadth); Buryanov and Kotiuk (2010), Int. J. Morphol. 28(3):755-758, Table I (segments, pulp); Greiner (1991),
+/// An adult's bare hand, m, thumb to little. Sources: Gordon et al. (2014), NATICK/TR-15/007 (length, breadth);
+/// Buryanov and Kotiuk (2010), Int. J. Morphol. 28(3):755-758, Table I (segments, pulp); Greiner (1991),
 /// NATICK/TR-92/011, men (girths, wrist, webs).
 struct HandDimensions {
   bool woman = false;
@@ -28,7 +28,7 @@ struct Published {
 };
 Published published_length(bool woman);
 Published published_breadth(bool woman);
-/// Published length for both sexes. `segment`: 0..2 as in HandDimensions::segments, 3: pulp.
+/// For both sexes. `segment`: 0..2 as in HandDimensions, 3: pulp.
 Published published_segment(int finger, int segment);
 
 /// Draws segments around the length's and girths around the breadth's.

@@ -31,7 +31,7 @@ class Subject {
   std::variant<std::shared_ptr<const HandModel>, std::shared_ptr<const CapsuleHand>> hand_;
 };
 
-/// `tracker_hand` is subject 1; capsule hands take its side and thumb zero.
+/// `tracker_hand` is subject 1. Capsule hands take its side and thumb zero.
 /// Throws: Error for an unknown number.
 Subject make_subject(int number, const std::string& mesh_path, std::shared_ptr<const HandModel> tracker_hand);
 

@@ -15,7 +15,7 @@ struct SurfaceNet {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-/// True if each edge has two triangles.
+/// Whether each edge has two triangles.
 bool is_closed(std::span<const std::array<uint32_t, 3>> triangles);
 
 /// The field's zero surface (negative inside) as closed naive surface nets. `cell`: grid step, m, made 5% finer

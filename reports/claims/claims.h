@@ -24,7 +24,7 @@ constexpr auto names_of(Rule::Kind) {
   return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});
 }
 bool holds(const Rule& rule, double value);
-/// True if any value from low to high satisfies the rule.
+/// Whether any value from low to high satisfies the rule.
 bool meets(const Rule& rule, double low, double high);
 /// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);
@@ -41,7 +41,7 @@ struct ClaimDefinition {
   std::string source;       ///< section or figure of the paper
   std::string paper_value;  ///< as printed; "": no number
   std::string measured;     ///< what, on which truth, meaning of the rule
-  std::string measure;      ///< name of a Measure
+  std::string measure;      ///< of a Measure
   Rule rule;
   ClaimKind kind = ClaimKind::reproduction;
   bool required = false;   ///< else the run fails
@@ -54,7 +54,7 @@ struct ClaimDefinition {
 /// The first change writes the claim.
 struct ClaimChange {
   std::string date;                   ///< "2026-11-21"
-  std::optional<std::string> commit;  ///< empty only for the newest change, which cannot name itself
+  std::optional<std::string> commit;  ///< empty only for the newest change
   ClaimDefinition definition;
   std::vector<std::string> set;         ///< changed fields; none: only the measuring program changed
   std::optional<std::string> came_out;  ///< published measurements, commits in brackets; empty: none
@@ -94,18 +94,18 @@ struct ClaimSet {
 /// A field of claims.json as text: "below 10", "true".
 /// Throws: std::logic_error for another field.
 std::string field_text(const ClaimDefinition& definition, std::string_view field);
-/// Changes of the claim after the first.
+/// Number of changes after the first.
 int change_count(const Claim& claim);
 
 /// reports/data/claims.json.
 const ClaimSet& claim_set();
 const std::vector<Claim>& claims();
 
-/// Throws: Error naming `where` and the field.
+/// Throws: Error.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
-/// A sentence for each change of `earlier`; empty if `later` only adds. A missing commit or `came_out` may be
-/// filled once.
+/// One sentence per change of `earlier`. Empty if `later` only adds. A missing commit or `came_out` may be filled
+/// once.
 std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

@@ -34,10 +34,10 @@ struct ClaimVerdict {
 /// False for a quick run or another configuration than the paper's.
 bool are_claims_judged(const RunResult& result);
 
-/// Of Figures 4 to 6 and the studies, as far as run; none if claims are not judged.
+/// Measures of Figures 4 to 6 and the studies, as far as run. Empty if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
 
-/// Judges in the order of the claims, by the rules of reports/README.md ("Claims").
+/// Judges by the rules of reports/README.md ("Claims"), in the order of the claims.
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
 /// Outcomes of required claims that are not withdrawn.

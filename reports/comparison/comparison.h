@@ -9,7 +9,7 @@
 
 namespace glovebench::reports {
 
-/// Given by `verdict_of` (gate_rule.h).
+/// See `verdict_of` (gate_rule.h).
 enum class Verdict {
   better,           ///< significant, and at least the minimum effect
   worse,            ///< likewise
@@ -23,14 +23,14 @@ constexpr auto names_of(Verdict) {
 /// Name of rows over all experiments: means of their differences.
 inline constexpr std::string_view kAllExperiments = "all";
 
-/// Fewer blocks of frames have an interval that is too wide to be read.
+/// With fewer blocks of frames, an interval is too wide to be read.
 inline constexpr int kFewestBlocks = 5;
 
 struct CompareConfig {
   double family_error = 0.01;  ///< of all intervals together (Bonferroni), in (0, 1)
-  int block_frames = 16;       ///< fewest frames of a block, >= 16; successive frames are not independent
+  int block_frames = 16;       ///< minimum, >= 16; successive frames are not independent
   int resamples = 4000;        ///< >= 100
-  uint64_t seed = 1;           ///< of the bootstrap
+  uint64_t seed = 1;
 };
 
 struct ComparisonRow {
@@ -42,10 +42,10 @@ struct ComparisonRow {
   std::optional<double> candidate;
   std::optional<double> difference;  ///< candidate - baseline; positive is worse
   std::optional<double> low, high;   ///< simultaneous interval
-  int blocks = 0;                    ///< resampled blocks of frames
-  int trajectories = 1;              ///< that the blocks are of
-  /// Where there is not enough data: frames of all seeds that would decide if further movements vary as these do.
-  int enough_frames = 0;  ///< 0: unknown, as with fewer than kFewestBlocks blocks
+  int blocks = 0;                    ///< resampled, of frames
+  int trajectories = 1;
+  /// Frames of all seeds that would decide if further movements vary as these do.
+  int enough_frames = 0;  ///< 0: decided, or unknown, as with fewer than kFewestBlocks blocks
   double minimum_effect = 0;
   bool is_measured = false;  ///< by a noise floor; else a default
   Verdict verdict = Verdict::not_enough_data;
@@ -60,7 +60,7 @@ struct ChangedFrame {
   std::optional<double> candidate_vertex_error_mm;
 };
 
-/// Differences of one experiment per frame: means over seeds with both values.
+/// Differences per frame of one experiment: means over seeds with both values.
 struct FrameDifferences {
   std::string experiment;
   int first_frame = 0;
@@ -83,11 +83,11 @@ struct Comparison {
   ComparedResult baseline;
   ComparedResult candidate;
   CompareConfig config;
-  int seeds = 0;             ///< per experiment; the most, where they differ
-  bool other_seeds = false;  ///< noise seeds differ, so noise is not paired
+  int seeds = 0;             ///< maximum per experiment
+  bool other_seeds = false;  ///< noise seeds differ; noise is not paired
   bool has_noise_floor = false;
-  std::vector<std::string> preselected;  ///< metrics chosen before the comparison; empty: all were compared
-  std::vector<ComparisonRow> rows;       ///< all experiments first, then each
+  std::vector<std::string> preselected;  ///< metrics chosen before the comparison; empty: all
+  std::vector<ComparisonRow> rows;       ///< all experiments first
   std::vector<FrameDifferences> frames;
   std::vector<ChangedFrame> worst;  ///< most changed first; at most kWorstFrames
   std::vector<ConfigurationChange> configuration;
@@ -97,15 +97,13 @@ struct Comparison {
 };
 inline constexpr int kWorstFrames = 6;
 
-/// Compares frame by frame and seed by seed. Blocks of frames and seeds are resampled within each sequence
-/// (rescaled bootstrap of Rao and Wu, n - 1 of n); experiments on one trajectory share draws. Intervals are +-
-/// Student's t (blocks - 1 degrees of freedom) times the bootstrap's standard error, at the level that keeps the
-/// family error over all rows. `floor` gives minimum effects; may be null.
+/// Compares frame by frame and seed by seed (ci/README.md, "When a change counts"). Resamples blocks of frames and
+/// seeds within each sequence (rescaled bootstrap of Rao and Wu, n - 1 of n). Experiments on one trajectory share
+/// draws. Student's t has blocks - 1 degrees of freedom. `floor` gives minimum effects; may be null.
 /// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});
 
-/// What intervals and verdicts mean.
 std::string comparison_explanation(const Comparison& comparison);
 
 }  // namespace glovebench::reports

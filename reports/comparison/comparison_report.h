@@ -15,37 +15,36 @@ struct ComparisonReport {
   std::vector<SpeedRow> speed;    ///< empty if not measured
   StageTimeChanges times;         ///< for information; empty if a run has none
   std::vector<Picture> pictures;  ///< of the worst frames
-  /// Vega, Vega-Lite and Vega-Embed, in this order; without them no charts.
+  /// Vega, Vega-Lite and Vega-Embed, in this order. Empty: no charts.
   std::vector<std::string> scripts;
 };
 
-/// For a terminal, at most 120 columns. Shows changed rows or all, then counts verdicts.
+/// At most 120 columns: changed rows or all, then counts of verdicts.
 std::string comparison_table(const ComparisonReport& report, bool all_rows);
-/// For a job summary or pull request; verdict first.
+/// For a job summary or pull request. Verdict first.
 std::string comparison_markdown(const ComparisonReport& report);
 std::string comparison_json(const ComparisonReport& report);  ///< reports/schema/comparison.schema.json
 std::string comparison_csv(const ComparisonReport& report);
 std::string comparison_latex(const ComparisonReport& report);  ///< booktabs tabular to \input
-/// JUnit XML: a suite per experiment, a case per metric and speed ratio. A case fails if it stops the change
-/// (gate_rule.h); it is skipped without enough data.
+/// A suite per experiment, a case per metric and speed ratio. A case fails if it stops the change (gate_rule.h). It
+/// is skipped without enough data.
 std::string comparison_junit(const ComparisonReport& report);
-/// For results that could not be compared: one case with an error.
+/// One case with an error.
 std::string incomparable_junit(const std::string& message);
 std::string incomparable_markdown(const std::string& message);
 std::string comparison_page(const ComparisonReport& report);
 
-/// Throws: Error if the folder holds a run or baseline, which also have an index.html. The three functions below
-/// check this.
+/// Throws: Error if the folder holds a run or baseline. The functions below check this, too.
 void require_own_folder(const std::string& folder);
 
-/// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html as one set (core/base/file_set.h); returns
+/// Writes comparison.json, .md, .csv, .tex, junit.xml and index.html as one set (core/base/file_set.h). Returns
 /// their names.
 /// Throws: Error if the folder cannot be written.
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report);
 /// Removes an earlier comparison's files.
 /// Throws: Error.
 void remove_comparison(const std::string& folder);
-/// Writes the message to comparison.md and junit.xml; removes an earlier comparison's other files.
+/// Writes comparison.md and junit.xml. Removes an earlier comparison's other files.
 void write_refusal(const std::string& folder, const std::string& message);
 
 }  // namespace glovebench::reports

@@ -11,31 +11,30 @@ namespace glovebench::reports {
 
 struct OutcomeCount {
   long count = 0;
-  std::string verdict;  ///< as in verdict_text
+  std::string verdict;
   Tone tone;
 };
-/// Each row counts once; "worse in places" only if there is such a row.
+/// Each row counts once. "worse in places" only if there is such a row.
 std::vector<OutcomeCount> outcome_counts(const Comparison& comparison);
-/// "2 worse, 1 worse in places, 1 better, 33 same, 0 not enough data", then slower stages if speed was measured.
+/// "2 worse, 1 worse in places, 1 better, 33 same, 0 not enough data", then slower stages.
 std::string outcome_line(const ComparisonReport& report);
 
-/// Changed, not judged, or stopping.
+/// Whether the row is changed, not judged, or stopping.
 bool is_worth_reading(const ComparisonRow& row);
 
-/// One group per experiment, in order.
+/// Rows by experiment, in order.
 std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison);
 
-/// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1"; other forms stay.
+/// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1". Other forms stay.
 std::string readable_experiment(const std::string& experiment);
 
 /// At most nine characters; "-" for none. Signed numbers >= 0 have a plus.
 std::string number_text(const std::optional<double>& value);
 std::string signed_number_text(const std::optional<double>& value);
-/// "[-0.120, +0.400]", "-" for none, or "too few blocks" where it could not be read.
+/// "[-0.120, +0.400]", "-" for none, or "too few blocks" if it could not be read.
 std::string interval_text(const ComparisonRow& row);
-/// "1900 frames, or 8 movements like this"; empty unless there is not enough data and enough is known.
+/// "1900 frames, or 8 movements like this". Empty if there is enough data or the need is unknown.
 std::string enough_text(const ComparisonRow& row);
-/// The verdict, or "worse in places".
 std::string verdict_text(const ComparisonRow& row);
 
 /// "2.980 -> 3.400 mm, difference +0.420 [+0.300, +0.540], minimum effect 0.100, 234 of 234 frames"
@@ -48,12 +47,11 @@ std::string result_sentence(const ComparedResult& result);
 /// `worse` for rows that stop the change.
 Tone tone_of(const ComparisonRow& row);
 
-/// Readable experiments, quantities, numbers; verdict last.
+/// Verdict last.
 Table rows_table(std::span<const ComparisonRow> rows);
-/// Other tables: how much data is enough, speed, configuration, uncompared metrics, stage times (for
-/// information).
+/// Tables of enough data, speed, configuration, uncompared metrics, stage times (for information).
 std::vector<Table> comparison_tables(const ComparisonReport& report);
-/// Moves a last verdict beside the names, so narrow screens do not cut it off.
+/// Moves a last verdict beside the names, for narrow screens.
 Table verdict_first(Table table);
 
 }  // namespace glovebench::reports

@@ -1,7 +1,5 @@
 #pragma once
 
-// For tests and a look at the page.
-
 #include <cmath>
 
 #include "core/base/random.h"
@@ -99,7 +97,6 @@ inline void append_example_experiment(Comparison& comparison, const ExperimentKe
   comparison.frames.push_back(std::move(frames));
 }
 
-/// Experiments that are worse, better, unchanged and losing frames.
 inline ComparisonReport full_comparison() {
   ComparisonReport report = small_comparison();
   Comparison& comparison = report.comparison;

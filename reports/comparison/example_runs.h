@@ -1,7 +1,5 @@
 #pragma once
 
-// For tests.
-
 #include <functional>
 
 #include "reports/comparison/pairing.h"

@@ -8,7 +8,7 @@
 
 namespace glovebench::reports {
 
-/// Effect of other noise seeds on one row of a comparison.
+/// The effect of other noise seeds on one row of a comparison.
 struct NoiseFloorEntry {
   std::string experiment;     ///< name or kAllExperiments
   std::string quantity;       ///< metric key
@@ -19,7 +19,7 @@ struct NoiseFloorEntry {
   friend bool operator==(const NoiseFloorEntry&, const NoiseFloorEntry&) = default;
 };
 
-/// A noise floor needs this many seeds per seed of a result.
+/// Seeds to measure, per seed of a result.
 inline constexpr int kSeedsForEach = 4;
 inline constexpr double kLargestFamilyError = 0.1;
 
@@ -33,20 +33,19 @@ struct NoiseFloor {
   std::string date;  ///< ISO 8601, UTC
   std::vector<NoiseFloorEntry> entries;
 
-  /// Null if there is none.
+  /// Null if absent.
   const NoiseFloorEntry* find(std::string_view experiment, std::string_view quantity) const;
   friend bool operator==(const NoiseFloor&, const NoiseFloor&) = default;
 };
 
-/// From a result with many seeds. The minimum effect is Student's t at the family error over all entries, times
-/// the spread of a difference of means of `seeds_per_result` seeds; at least the metric's tolerance and, for a
-/// share, two frames. `detectable` comes from comparisons of disjoint seeds with a constant added to one. Rows
-/// without values or intervals have no entry. The caller sets the date.
+/// From a result with many seeds (ci/README.md, "Baselines"). The minimum effect is at least the metric's tolerance
+/// and, for a share, two frames. `detectable` comes from comparisons of disjoint seeds with a constant added to
+/// one. Rows without values or intervals have no entry. The caller sets the date.
 /// Throws: Error for fewer than kSeedsForEach * seeds_per_result seeds, or seeds that differ between experiments.
 NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error = 0.01);
 
 std::string noise_floor_json(const NoiseFloor& floor);
-/// Throws: Error for anything that noise_floor_json does not write.
+/// Throws: Error for other content.
 NoiseFloor read_noise_floor(const std::string& path);
 NoiseFloor parse_noise_floor(const std::string& text, const std::string& where);
 

@@ -29,13 +29,12 @@ struct BlockSums {
   Eigen::MatrixXd sums;
   Eigen::MatrixXd counts;
 };
-/// Blocks have at least `block_frames` frames, if there are that many, and similar lengths. Blocks without a pair
-/// are left out.
+/// Blocks have similar lengths of at least `block_frames` frames, if there are that many. Skips blocks without a
+/// pair.
 BlockSums block_sums(const PairedDifferences& differences, int block_frames);
 
-/// How often each resample (row) has each block or seed: n - 1 of n are drawn, so the variance is unbiased even
-/// for small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws, since they share its difficult
-/// moments.
+/// How often each resample (row) has each block or seed. n - 1 of n are drawn, so the variance is unbiased even for
+/// small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws.
 class Draws {
  public:
   Draws(uint64_t seed, int resamples) : seed_(seed), resamples_(resamples) {}
@@ -50,11 +49,11 @@ class Draws {
   std::map<std::pair<std::string, int>, Eigen::MatrixXd> drawn_;
 };
 
-/// Mean difference per resample; NaN without a pair.
+/// Mean differences per resample. NaN without a pair.
 Eigen::VectorXd resampled_means(const BlockSums& sums, const std::string& trajectory, Draws& draws);
-/// Standard deviation without NaN; empty if over half are NaN.
+/// Standard deviation without NaN. Empty if over half are NaN.
 std::optional<double> standard_error(const Eigen::VectorXd& means);
-/// Quantile that Student's t exceeds with this probability.
+/// The value that Student's t exceeds with this probability.
 double student_t_above(double probability, int degrees_of_freedom);
 
 }  // namespace glovebench::reports

@@ -11,13 +11,13 @@
 
 namespace glovebench::reports {
 
-/// `name`, used in messages: file or folder.
+/// `name`: file or folder.
 struct NamedResult {
   std::string name;
   RunResult result;
 };
 
-/// What experiments may differ in although they are compared.
+/// In what compared experiments may differ.
 enum class Across { noise, subject, frames };
 constexpr auto names_of(Across) {
   return std::to_array<std::string_view>({"noise", "subject", "frames"});
@@ -28,14 +28,14 @@ struct PairingOptions {
   bool other_seeds = false;
   /// Compares shared experiments. Otherwise the candidate needs all of the baseline's.
   bool partial = false;
-  /// Otherwise noise and subject must be equal, and all frames. Across frames, those of both results are compared.
+  /// Otherwise noise, subject and frames must be equal. Across frames, compares those of both results.
   std::vector<Across> across = {};
-  std::vector<std::string> metrics = {};  ///< keys of gated metrics, chosen before the comparison; empty: all
+  std::vector<std::string> metrics = {};  ///< gated, chosen before the comparison; empty: all
 
   bool is_across(Across what) const { return std::ranges::find(across, what) != across.end(); }
 };
 
-/// A field of a configuration, or what runs are compared across.
+/// A difference in the configuration, or in what runs are compared across.
 struct ConfigurationChange {
   std::string field;     ///< "icp.max_iterations"
   std::string baseline;  ///< JSON; empty if absent
@@ -46,10 +46,10 @@ struct ConfigurationChange {
 struct Pairing {
   std::vector<const Metric*> metrics;                                                    ///< gated
   std::vector<std::pair<const ExperimentResult*, const ExperimentResult*>> experiments;  ///< baseline, candidate
-  std::vector<std::string> only_in_baseline;                                             ///< names of experiments
+  std::vector<std::string> only_in_baseline;                                             ///< experiments
   std::vector<std::string> only_in_candidate;
-  std::vector<ConfigurationChange> across = {};                   ///< what of PairingOptions::across differs
-  std::vector<std::shared_ptr<const ExperimentResult>> cut = {};  ///< experiments with the shared frames alone
+  std::vector<ConfigurationChange> across = {};                   ///< difference in PairingOptions::across
+  std::vector<std::shared_ptr<const ExperimentResult>> cut = {};  ///< with only the shared frames
 };
 
 /// Gated metrics of both results, and why others are not compared.
@@ -58,7 +58,7 @@ std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, 
 
 /// Throws: Incomparable naming the first difference: protocol (except metrics), hash of a shared truth or database
 /// (also if missing), repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
-/// Across noise or subject also for two experiments of one result that differ in nothing else.
+/// Across noise or subject, also for two experiments of one result that differ in nothing else.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 
 }  // namespace glovebench::reports

@@ -9,24 +9,23 @@
 
 namespace glovebench::reports {
 
-/// A finished run in a table of several.
 struct SettingRun {
-  NamedResult run;                ///< the name is the row's
+  NamedResult run;                ///< its name is the row's
   std::optional<double> time_ms;  ///< of a frame, measured while no other job ran; empty: unknown
 };
 
-/// Several runs of the same frames, each compared with one of them, the reference.
+/// Runs of the same frames, each compared with the reference.
 struct SettingsTable {
   std::string reference;
-  bool is_paper = false;            ///< the reference has the paper's configuration
+  bool is_paper = false;            ///< reference has the paper's configuration
   Table table;                      ///< quantity, setting, mean, difference with its interval, verdict
-  Table changes;                    ///< fields in which a setting differs from the reference
-  std::vector<std::string> enough;  ///< how much data would decide, a line for each undecided row
+  Table changes;                    ///< fields that differ from the reference
+  std::vector<std::string> enough;  ///< one line per undecided row: how much data would decide
   std::string recommendation;
   std::string explanation;
 };
 
-/// The metrics of a table unless others are chosen: what the tracker is used for.
+/// The default metrics of a table.
 std::vector<std::string> headline_metrics();
 
 /// Compares each run with the one that has the paper's configuration, else with the first. All intervals of the
@@ -37,7 +36,7 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
 
 std::string settings_text(const SettingsTable& settings, size_t columns);
 std::string settings_markdown(const SettingsTable& settings);
-std::string settings_html(const SettingsTable& settings);  ///< a page
+std::string settings_html(const SettingsTable& settings);
 std::string settings_latex(const SettingsTable& settings);
 
 }  // namespace glovebench::reports

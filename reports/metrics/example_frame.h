@@ -1,7 +1,5 @@
 #pragma once
 
-// For tests of metrics.
-
 #include "core/tracker/track_result.h"
 
 namespace glovebench::reports {

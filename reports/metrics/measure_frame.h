@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// An angle is observed if at least this many pixels that it moves are visible.
+/// An angle is observed if it moves at least this many visible pixels.
 inline constexpr int kObservedPixels = 30;
 
 struct FrameTruth {
@@ -18,16 +18,16 @@ struct FrameTruth {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
   JointPoses T_hand_joint;                        ///< of the rendered hand
   std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
-  bool trackable = false;                      ///< enough glove in the working volume, none cut by the image border
-  std::optional<double> visible_percent = {};  ///< see visibility.h; empty if nobody asked
+  bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
+  std::optional<double> visible_percent = {};     ///< see visibility.h; empty if not requested
 };
 
-/// What metrics are computed from; all finite.
+/// Input of metrics. All values are finite.
 struct MeasuredFrame {
   const TrackResult& estimate;
   const FrameTruth& truth;
   PosedHand estimated_hand, true_hand;  ///< tracker's mesh in both postures
-  /// In the camera's frame, per joint without the forearm; true joints are the rendered hand's.
+  /// In the camera's frame, per joint without the forearm. True joints are the rendered hand's.
   std::vector<double> joint_errors_mm;
 };
 
@@ -35,7 +35,7 @@ struct FrameErrors {
   FrameRecord record;
   std::vector<double> joint_errors_mm;  ///< empty if lost
 };
-/// All metrics of one frame: `position_error_mm` and others stand in X_metrics.cpp. A tracked frame must be finite.
+/// All metrics of one frame (X_metrics.cpp). A tracked frame must be finite.
 FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth,
                           const HandModel& tracker_model);
 

@@ -14,22 +14,22 @@ struct FrameRecord;
 struct FrameTruth;
 struct MeasuredFrame;
 
-/// A number per frame; of those with a gate, less is better. Exactly one of `of_tracked`, `of_any` and `of_record`
-/// is set. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
+/// A number per frame. In gated metrics, less is better. Exactly one of `of_tracked`, `of_any` and `of_record` is
+/// set. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
 struct Metric {
   /// For changes of the mean, in the metric's unit.
   struct Gate {
     /// Default without a noise floor: about 1/15 of Figure 4's means.
     double minimum_effect;
-    double tolerance;  ///< what another machine may change
+    double tolerance;  ///< possible change by another machine
   };
 
   std::string_view key;   ///< in files, with unit: "_mm", "_deg", "_px", "_percent"
   std::string_view unit;  ///< for people: "mm", "deg", "px", "%"
   std::string_view description;
-  std::string_view formula = {};  ///< in plain text; primes mark the estimate
+  std::string_view formula = {};  ///< plain text; primes mark the estimate
   std::string_view heading = {};  ///< in the table "More metrics"; empty: not there
-  /// Order in files, then by key. Protocol ids depend on it: keep old places.
+  /// Order in files, then by key. Protocol ids depend on it, so keep old places.
   int place = 1000;
   std::optional<Gate> gate = {};  ///< empty: not compared
 
@@ -37,31 +37,32 @@ struct Metric {
   bool is_partial = false;                                              ///< also empty in some tracked frames
   /// Column, also in lost frames.
   std::optional<double> (*of_any)(const TrackResult&, const FrameTruth&) = nullptr;
-  /// Share of the frames that have an answer; no column.
+  /// Share of the frames that have a value; no column.
   std::optional<bool> (*of_record)(const FrameRecord&) = nullptr;
-  std::string_view of_column = {};  ///< of a share: the column without which no frame has an answer
+  std::string_view of_column = {};  ///< of a share: only frames with this column have a value
 
   bool is_share() const { return of_record != nullptr; }
-  /// The frames whose mean is reported, and what becomes of lost ones.
+  /// The frames whose mean is reported, and the treatment of lost ones.
   std::string_view averaged_over() const;
 };
 
-/// By place.
+/// All metrics, by place.
 std::span<const Metric> metrics();
 /// Columns of frames, in the order of FrameRecord::values.
 std::span<const Metric> frame_metrics();
 std::vector<std::string> frame_metric_keys();
-/// For comparisons and the gate.
+/// Those of comparisons and the gate.
 std::span<const Metric> gated_metrics();
 
-/// An unknown key is a broken invariant.
+/// Throws: std::logic_error for an unknown key.
 const Metric& metric_of(std::string_view key);
-/// Index in frame_metrics(); an unknown key is a broken invariant.
+/// Index in frame_metrics().
+/// Throws: std::logic_error for an unknown key.
 size_t metric_index(std::string_view key);
-/// Empty for an unknown key, e.g. of another version.
+/// Empty for an unknown key.
 std::optional<size_t> find_frame_metric(std::string_view key);
 
-/// 100 or 0 for a share; empty if the frame has no value.
+/// 100 or 0 for a share. Empty if the frame has no value.
 std::optional<double> value_of(const Metric& metric, const FrameRecord& frame);
 
 }  // namespace glovebench::reports

@@ -7,9 +7,8 @@
 
 namespace glovebench::reports {
 
-/// Percent of the hand's camera-facing area that lies inside both (rectified) images and the volume of coverage.h.
-/// A triangle faces the IR camera if its outside does, whatever hides it, and counts where its centroid lies. 0 if
-/// no triangle faces the camera.
+/// Percent of the hand's camera-facing area inside both (rectified) images and the volume of coverage.h. A triangle
+/// faces the IR camera if its outside does, even if hidden, and counts where its centroid lies. 0 if none does.
 double visible_percent(const PosedHand& hand, std::span<const Triangle> triangles,
                        const Eigen::Isometry3d& T_camera_hand, const RgbdCalibration& calibration);
 

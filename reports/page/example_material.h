@@ -1,7 +1,5 @@
 #pragma once
 
-// For tests and a look at the page.
-
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 

@@ -26,10 +26,10 @@ struct FrameSheet {
 inline constexpr double kSheetDifferenceMm = 20;
 
 struct PageMaterial {
-  /// Vega, Vega-Lite, Vega-Embed, in this order; without them no charts.
+  /// Vega, Vega-Lite, Vega-Embed, in this order. Empty: no charts.
   std::vector<std::string> scripts;
-  std::vector<FrameSheet> sheets;     ///< of Figures 5 and 6
-  std::vector<Picture> worst_frames;  ///< of the function `worst_frames`
+  std::vector<FrameSheet> sheets;  ///< of Figures 5 and 6
+  std::vector<Picture> worst_frames;
 };
 
 /// index.html in one file: Figures 4 to 9 as far as run, beside the paper's numbers. Tables and keyframes need no
@@ -45,7 +45,7 @@ struct WorstFrame {
 };
 
 /// Half of `count` by position error, half by posture error (RMS), from subject 1 on source truth under the
-/// headline noise, or else all experiments. At most two per experiment, 0.5 s apart in one run, none twice, none
+/// headline noise, else from all experiments. At most two per experiment, 0.5 s apart in one run, none twice, none
 /// lost.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 

@@ -6,13 +6,13 @@
 
 namespace glovebench::trajectories {
 
-/// Parameters of a person's hand: palm joints, segment lengths, marker positions. 0 is the nominal hand.
+/// Palm joints, segment lengths and marker positions of a person. 0 is the nominal hand.
 class HandParameters {
  public:
   explicit HandParameters(const CaptureHand& nominal);
 
   int size() const { return static_cast<int>(deviations_.size()); }
-  /// Between persons, m; segments relative.
+  /// Standard deviations between persons, m. Segments are relative.
   const Eigen::VectorXd& deviations() const { return deviations_; }
   /// Fixes the hand frame: rows whose product with the parameters is 0, m.
   const Eigen::MatrixXd& frame_constraints() const { return frame_constraints_; }
@@ -34,8 +34,8 @@ struct Calibration {
   std::vector<HandState> states;
 };
 
-/// Fits the hand and all states together by damped Gauss-Newton (bundle adjustment). `points`: a point or gap for
-/// each frame and marker. Ends when a step gains less than `smallest_gain` of the cost.
+/// Fits the hand and all states together by damped Gauss-Newton (bundle adjustment). `points`: a point or gap per
+/// frame and marker. Ends when a step gains less than `smallest_gain` of the cost.
 Calibration calibrate_hand(const CaptureHand& start, const std::vector<std::vector<Eigen::Vector3d>>& points,
                            const std::vector<HandState>& states, double robust_scale, double smallest_gain);
 

@@ -9,7 +9,7 @@
 
 namespace glovebench::trajectories {
 
-/// A captured right hand.
+/// A right hand.
 struct CaptureHand {
   Skeleton skeleton;
   std::vector<PlacedMarker> markers;
@@ -28,19 +28,19 @@ HandState moved(const HandState& state, const StateStep& step);
 
 /// Marker positions in the capture frame.
 std::vector<Eigen::Vector3d> predict_points(const CaptureHand& hand, const HandState& state);
-/// Derivative of predict_points, three rows a marker.
+/// Derivative of predict_points, three rows per marker.
 Eigen::MatrixXd state_jacobian(const CaptureHand& hand, const HandState& state);
 
-/// Pose, in the hand frame, of the frame that holds a marker.
+/// Pose of the frame that holds a marker, in the hand frame.
 Eigen::Isometry3d marker_frame(const PlacedMarker& marker, const JointPoses& T_hand_joint);
 
-/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points` has a point or
-/// gap for each frame and marker.
+/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points`: a point or gap
+/// per frame and marker.
 /// Throws: Error if no hand has this size.
 double hand_scale(const CaptureHand& hand, const std::vector<std::vector<Eigen::Vector3d>>& points,
                   const std::string& where);
 
-/// Guesses each frame from its neighbor, starting at the frame with the most points.
+/// Guesses each frame from its neighbor, from the frame with the most points.
 /// Throws: Error if no frame has three palm points.
 std::vector<HandState> start_states(const CaptureHand& hand,
                                     const std::vector<std::vector<Eigen::Vector3d>>& points, double robust_scale,

@@ -15,7 +15,6 @@ struct PosturePrior {
   double end_joint_deviation = radians_from_degrees(15);
 };
 
-/// Sum of squared deviations.
 double prior_cost(const Posture& posture, const PosturePrior& prior);
 /// Adds the prior to a state's normal equations.
 void add_prior(const Posture& posture, const PosturePrior& prior, Eigen::Ref<Eigen::MatrixXd> H,
@@ -31,11 +30,11 @@ struct FrameFitOptions {
 };
 
 struct WeightedResiduals {
-  Eigen::VectorXd residuals;  ///< three a marker, weighted, in kPointDeviation; 0 unseen
+  Eigen::VectorXd residuals;  ///< three per marker, weighted, in kPointDeviation; 0 unseen
   Eigen::VectorXd row_scale;  ///< from rows of a Jacobian (m) to `residuals`; 0 unseen
   double cost = 0;
 };
-/// `points`: a point or gap for each marker.
+/// `points`: a point or gap per marker.
 WeightedResiduals weighted_residuals(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                      const HandState& state, double robust_scale);
 
@@ -47,11 +46,11 @@ struct FrameFit {
   double cost = 0;
 };
 
-/// Fits a state to points by damped Gauss-Newton with Cauchy's weights, joint limits and a prior about `start`.
+/// Fits a state by damped Gauss-Newton with Cauchy's weights, joint limits and a prior about `start`.
 FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
                    const FrameFitOptions& options = {});
 
-/// Distances of points from their markers, m; NaN for gaps.
+/// Distances from their markers, m. NaN for gaps.
 std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                     const HandState& state);
 
@@ -66,14 +65,14 @@ Observability observability(const CaptureHand& hand, const std::vector<Eigen::Ve
 
 struct Bridged {
   std::vector<HandState> states;
-  std::vector<std::array<bool, kAngleCount>> angles;  ///< filled ones of each frame
-  std::vector<bool> poses;                            ///< filled ones
+  std::vector<std::array<bool, kAngleCount>> angles;  ///< of each frame
+  std::vector<bool> poses;
   std::array<bool, kAngleCount> never_shown = {};
-  int angle_gaps = 0;  ///< gaps of angles that other frames show
+  int angle_gaps = 0;  ///< of angles that other frames show
 };
 
 /// Interpolates what frames do not show, constant at the ends. An angle that no frame shows is 0, or kEndJointShare
-/// of the middle joint. `shown` and `times_s` have an item for each frame.
+/// of the middle joint. `shown` and `times_s` have one item per frame.
 Bridged bridge_gaps(const std::vector<HandState>& states, const std::vector<Observability>& shown,
                     const std::vector<double>& times_s);
 

@@ -14,7 +14,7 @@ struct FittedFrame {
   HandState state;
   int points = 0;  ///< after relabeling
   int labels_corrected = 0;
-  std::vector<double> residuals;  ///< of each point, m
+  std::vector<double> residuals;  ///< by point, m
   std::array<bool, kAngleCount> bridged_angles = {};
   bool bridged_pose = false;
   bool left_out = false;  ///< gap over kLongestPoseGapUs, or at an end
@@ -31,8 +31,8 @@ struct HandFit {
   int missing_points = 0;  ///< of labeled markers, in all frames
 };
 
-/// Fits a right hand, its postures and its poses to captured points. `markers`: from place_markers.
-/// Throws: Error naming `where` if the capture is no hand.
+/// Fits a right hand and its movement to captured points. `markers`: from place_markers.
+/// Throws: Error if the capture is no hand.
 HandFit fit_hand(const MarkerSequence& sequence, const std::vector<PlacedMarker>& markers, const Skeleton& skeleton,
                  const std::string& where);
 

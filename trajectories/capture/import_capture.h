@@ -11,7 +11,7 @@
 
 namespace glovebench::trajectories {
 
-/// Fits files with equal points as one capture, a second apart; mirrors a left hand.
+/// Fits files with equal points as one capture, a second apart. Mirrors a left hand.
 /// Throws: Error.
 HandFit import_capture(const std::vector<std::string>& paths, const Format& format, Side side,
                        const MarkerLayout& layout, const HandModel& right_hand);
@@ -23,7 +23,7 @@ struct CapturePlacement {
 };
 inline constexpr double kViewingDistance = 0.7;  ///< m
 
-/// Every nth frame.
+/// Takes every nth frame.
 Trajectory trajectory_of(const HandFit& fit, const CapturePlacement& placement, const std::string& name, int every);
 
 /// At most `count` postures by low-dispersion sampling, the first frame's first. `names`: of frames; empty:
@@ -31,7 +31,7 @@ Trajectory trajectory_of(const HandFit& fit, const CapturePlacement& placement, 
 PostureSet postures_of(const HandFit& fit, const std::string& name, size_t count,
                        const std::vector<std::string>& names);
 
-/// A CSV with a line for each frame.
+/// CSV, a line per frame.
 std::string residual_table(const HandFit& fit);
 
 std::string summary(const HandFit& fit);

@@ -12,9 +12,9 @@
 
 namespace glovebench::trajectories {
 
-inline constexpr int kPalm = -1;  ///< in place of a joint: the hand frame
+inline constexpr int kPalm = -1;  ///< the hand frame
 
-/// Points with WebXR's names are joint centers; others lie on the skin.
+/// Points with WebXR's names are joint centers. Others lie on the skin.
 inline constexpr int kWebxrJointCount = kForearmJoint;  ///< without the forearm
 bool is_webxr_joint(const std::string& name);
 /// Joint centers, without frames.
@@ -39,10 +39,10 @@ using MarkerLayout = std::map<std::string, std::string>;
 /// Throws: Error.
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where);
 
-/// The place on a right hand that a name of README.md ("index_proximal_2") or of WebXR means.
+/// The place on a right hand. `name`: of README.md ("index_proximal_2") or WebXR.
 std::optional<PlacedMarker> place_marker(const std::string& name, const HandModel& model);
 
-/// Throws: Error naming `where` and a point without a place, or a layout name without a point.
+/// Throws: Error for a point without a place, or a layout name without a point.
 std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, const MarkerLayout& layout,
                                         const HandModel& model, const std::string& where);
 

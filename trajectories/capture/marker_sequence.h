@@ -31,39 +31,39 @@ inline Eigen::Vector3d gap() {
 inline bool is_seen(const Eigen::Vector3d& point) {
   return point.allFinite();
 }
-/// Names "unlabeled...", "unnamed..." (any case) and "*...".
+/// Whether the name is "unlabeled...", "unnamed..." (any case) or "*...".
 bool is_unlabeled(const std::string& name);
 
-/// Reads a cell of seconds.
+/// Reads seconds.
 /// Throws: Error.
 int64_t timestamp_from(std::string_view cell, const std::string& where, const std::string& field);
 
 /// A point, or a gap if all cells are empty or NaN. `scale`: m per unit.
-/// Throws: Error if a cell alone is empty, no number or too large.
+/// Throws: Error if only some cells are empty, or one is no number or too large.
 Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale, const std::string& where,
                            const std::string& field);
 
 /// Throws: Error for an invalid, repeated or surplus name.
 void add_name(std::string_view name, MarkerSequence& sequence, const std::string& where, const std::string& field);
 
-/// Adds a frame; times count from `first_us`.
+/// Adds a frame. Times count from `first_us`.
 /// Throws: Error if time does not increase, or frames or gaps are too many for `text_bytes`.
 void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence,
                const std::string& where, const std::string& field);
 
-/// Writes the format "csv", mm to 0.001.
+/// The format "csv", mm to 0.001.
 std::string csv_markers(const MarkerSequence& sequence);
 
-/// Largest distance of a marker's point from its prediction, m.
+/// Largest distance of a point from its marker's prediction, m.
 inline constexpr double kLabelGate = 0.015;
 
 struct Relabeling {
-  std::vector<Eigen::Vector3d> points;  ///< for each marker; or a gap
-  int corrected = 0;                    ///< markers with another point, or none now
+  std::vector<Eigen::Vector3d> points;  ///< by marker; or a gap
+  int corrected = 0;                    ///< markers whose point changed or vanished
 };
 
 /// Assigns points within kLabelGate to markers by the least sum of squared distances. A marker's own point counts
-/// as half as far, so that noise swaps nothing. `predicted` and `labeled` have an item for each marker.
+/// as half as far. `predicted` and `labeled` have one item per marker.
 Relabeling relabel(const std::vector<Eigen::Vector3d>& predicted, const std::vector<Eigen::Vector3d>& labeled,
                    const std::vector<Eigen::Vector3d>& unlabeled);
 

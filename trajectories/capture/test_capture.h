@@ -1,7 +1,5 @@
 #pragma once
 
-// Captures of known movements.
-
 #include <string>
 #include <vector>
 

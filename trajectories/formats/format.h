@@ -11,12 +11,12 @@
 
 namespace glovebench::trajectories {
 
-/// trajectories/formats/X_format.cpp defines `Format X_format()`; ci/corpora/format_X seeds its fuzzing. Readers
-/// throw Error naming `where` and the field.
+/// trajectories/formats/X_format.cpp defines `Format X_format()`. ci/corpora/format_X seeds its fuzzing. Readers
+/// throw Error.
 struct Format {
-  std::string_view name;         ///< X
-  std::string_view ending;       ///< such as ".json"
-  std::string_view description;  ///< one line
+  std::string_view name;
+  std::string_view ending;
+  std::string_view description;
   // One reader is given, others are null.
   Trajectory (*trajectory)(std::string_view bytes, const std::string& where) = nullptr;
   /// `name`: for a file without one.
@@ -26,7 +26,7 @@ struct Format {
 /// Sorted by name.
 std::span<const Format> formats();
 
-/// Formats with a reader: `formats_with(&Format::markers)`.
+/// Those with a reader: `formats_with(&Format::markers)`.
 template <typename Reader>
 std::vector<const Format*> formats_with(Reader Format::*reader) {
   std::vector<const Format*> found;
@@ -35,7 +35,7 @@ std::vector<const Format*> formats_with(Reader Format::*reader) {
   return found;
 }
 
-/// Chooses by the path's ending; null without any.
+/// Chooses by the path's ending. Null for an unknown one.
 template <typename Reader>
 const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   for (const Format* format : formats_with(reader))
@@ -43,7 +43,7 @@ const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   return nullptr;
 }
 
-/// True if a name has a file's ending; built-in names have none.
+/// Decides by the ending. Built-in names have none.
 inline bool is_trajectory_file(std::string_view name) {
   return format_of_file(name, &Format::trajectory) != nullptr;
 }
@@ -51,13 +51,13 @@ inline bool is_posture_file(std::string_view name) {
   return format_of_file(name, &Format::postures) != nullptr;
 }
 
-/// Reads a file by its ending.
+/// Reads by the ending.
 /// Throws: Error.
 Trajectory load_trajectory(const std::string& path);
 /// A set without a name takes the file's.
 PostureSet load_posture_set(const std::string& path);
 
-/// Throws: Error listing known names.
+/// Throws: Error for an unknown name.
 const Format& find_marker_format(std::string_view name);
 std::vector<std::string> marker_format_names();
 

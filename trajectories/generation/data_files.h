@@ -10,10 +10,10 @@ namespace glovebench::trajectories {
 
 inline constexpr size_t kPostureCount20 = 20;
 
-/// Random blends of two or three gestures within limits, with the wrist at 0.
+/// Random blends of two or three gestures within limits, wrist at 0.
 std::vector<Posture> movement_posture_pool(const PostureSet& gestures);
 
-/// The four sets of section IV.
+/// The sets of section IV.
 std::vector<PostureSet> make_database_posture_sets(const PostureSet& gestures);
 
 /// Makes every generated file, by path in the data folder, from its gestures and scripts.

@@ -6,7 +6,7 @@
 
 namespace glovebench::trajectories {
 
-/// Indices of `count` postures, each farthest (posture_distance) from `given` and earlier ones; ties go to the
+/// Indices of `count` postures, each farthest (posture_distance) from `given` and earlier ones. Ties go to the
 /// lower index.
 /// Throws: Error if the pool is too small or `given` is empty.
 /// Paper: section III, reference 1.

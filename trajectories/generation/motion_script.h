@@ -13,7 +13,7 @@ namespace glovebench::trajectories {
 
 inline constexpr double kFrameRateHz = 15;
 
-/// A value at a frame; `value_at` interpolates along minimum-jerk profiles.
+/// `value_at` interpolates along minimum-jerk profiles.
 template <typename Value>
 struct Keyframe {
   int frame = 0;
@@ -45,18 +45,18 @@ struct MotionScript {
 
 inline constexpr uint64_t kLargestMotionScript = uint64_t{1} << 18;  // bytes
 
-/// Reads "glovebench-motion-script" (README.md); postures blend `gestures`.
+/// Reads "glovebench-motion-script" (README.md). Postures blend `gestures`.
 /// Throws: Error.
 MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where);
 
 /// Share of the way after a share of the time, 0..1 (Flash and Hogan 1985).
 double minimum_jerk(double time);
 
-/// Goes straight from a to b; rotations take the shortest turn.
+/// Linear from a to b. Rotations take the shortest turn.
 WristAngles mix(const WristAngles& a, const WristAngles& b, double share);
 Posture mix(const Posture& a, const Posture& b, double share);
 HandPose mix(const HandPose& a, const HandPose& b, double share);
-/// `keys`: in the order of frames; the last holds on.
+/// `keys`: in the order of frames. The last holds on.
 template <typename Value>
 Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
   size_t next = 1;
@@ -67,11 +67,11 @@ Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
   return mix(a.value, b.value, minimum_jerk(static_cast<double>(frame - a.frame) / (b.frame - a.frame)));
 }
 
-/// R_camera_hand under a camera that looks down, rad. At 0 fingers point up in the image and the back faces the
-/// camera; roll is about camera y, pitch about x, yaw about z.
+/// R_camera_hand under a camera that looks down; arguments in rad. At 0 fingers point up in the image and the back
+/// faces the camera. Roll is about camera y, pitch about x, yaw about z.
 Eigen::Quaterniond hand_rotation(double yaw, double pitch, double roll);
 
-/// Plays the script at 15 Hz.
+/// At 15 Hz.
 Trajectory perform(const MotionScript& script);
 
 }  // namespace glovebench::trajectories

@@ -11,7 +11,7 @@ namespace glovebench::trajectories {
 /// One tendon bends an end joint by this share of its middle joint.
 inline constexpr double kEndJointShare = 2.0 / 3.0;
 
-/// Departures from a gesture, each with RMS 1 degree over all angles. End joints follow by kEndJointShare; the
+/// Departures from a gesture, each with RMS 1 degree over all angles. End joints follow by kEndJointShare. The
 /// wrist is still.
 const std::vector<Posture>& variation_modes();
 

@@ -5,16 +5,16 @@
 namespace glovebench {
 
 struct DdsAccess {
-  /// Empty: that of CYCLONEDDS_URI, else loopback.
+  /// Empty: the interface of CYCLONEDDS_URI, else loopback.
   std::string interface;
-  /// Folder of keys; empty: no DDS Security.
+  /// Folder of keys. Empty: no DDS Security.
   std::string security;
-  std::string role;  ///< whose keys (`security_roles`)
+  std::string role;  ///< one of `security_roles`
 
   bool operator==(const DdsAccess&) const = default;
 };
 
-/// DDS names of topics: ROS 2 prepends `rt/`.
+/// ROS 2 adds `rt/` to its names.
 struct Topics {
   const char* hand;          ///< JointTrajectory
   const char* wrist;         ///< JointTrajectory
@@ -31,7 +31,7 @@ inline constexpr Topics kOwn = {"rt/glovebench/hand/command", "rt/glovebench/wri
 inline constexpr Topics kController = {"rt/rh_trajectory_controller/command",
                                        "rt/rh_wr_trajectory_controller/command", "rt/pa10/command/pose",
                                        "rt/joint_states"};
-/// JointState as a driver measures it.
+/// JointState by the robot's driver.
 inline constexpr const char* kMeasuredJointStates = "rt/glovebench/measured_joint_states";
 
 }  // namespace topics

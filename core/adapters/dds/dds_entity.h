@@ -15,31 +15,30 @@
 #include "core/adapters/dds/dds_access.h"
 #include "core/adapters/dds/dds_types.h"
 
-/// Owners of Cyclone DDS's entities.
-/// Throws: Error if the library refuses.
+// Throws: Error, from every function, if Cyclone DDS refuses.
 namespace glovebench {
 
 /// Returns `result`.
-/// Throws: Error if it is an error of Cyclone DDS.
+/// Throws: Error for an error code.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// The largest message, and how many may wait in a reader. They bound the memory that others can claim.
+/// Limits of messages, which bound the memory that others can use.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
-inline constexpr int kMaxWaiting = 10'000;        // a flood of 0.1 s
+inline constexpr int kMaxWaiting = 10'000;        // in a reader: a flood of 0.1 s
 
-/// Messages that a writer keeps, as in ROS 2.
+/// Depth of a writer, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
-/// Dropped larger messages since the process began.
+/// Messages dropped for their size since the process began.
 int64_t dds_messages_too_large();
 
 struct DdsDomain;
 
-/// A participant in a domain, and the entities that it makes.
+/// Makes the other entities in a domain.
 class DdsParticipant {
  public:
-  /// Throws: Error for a domain outside 0..230, an unknown interface, one beside CYCLONEDDS_URI, or a second access
-  /// to the domain.
+  /// Throws: Error for a domain outside 0..230, an unknown interface, an interface besides CYCLONEDDS_URI, or a
+  /// second access to the domain.
   explicit DdsParticipant(int domain, const DdsAccess& access = {});
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
@@ -47,9 +46,9 @@ class DdsParticipant {
   dds_entity_t entity() const { return entity_; }
 
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
-  /// Writes as ROS 2 does: reliable, volatile, the last 10.
+  /// As in ROS 2: reliable, volatile, the last 10 messages.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile. After `max_waiting` messages senders wait, so a flood pushes out no other's message.
+  /// Reliable, volatile. Senders wait while `max_waiting` messages wait.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
   /// Keeps the last `depth` messages of other participants.
   dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
@@ -66,11 +65,11 @@ class DdsWriter {
       : topic_(topic),
         writer_(participant.make_writer(participant.make_topic(DdsType<Message>::descriptor(), topic))) {}
 
-  /// `source_ns`: since 1970.
+  /// `source_ns`: nanoseconds since 1970.
   void write(const Message& message, int64_t source_ns) const {
     checked_dds(DdsType<Message>::write(writer_, message, source_ns), topic_, "a message to be sent");
   }
-  /// Returns false if listeners lack messages after `timeout_s`.
+  /// Returns false if listeners still lack messages.
   bool wait_for_listeners(double timeout_s) const {
     return dds_wait_for_acks(writer_, static_cast<dds_duration_t>(timeout_s * 1e9)) == DDS_RETCODE_OK;
   }
@@ -85,10 +84,10 @@ class DdsWriter {
   dds_entity_t writer_;
 };
 
-/// Watches topics on which only one participant may write.
+/// Watches topics on which only this participant may write.
 class DdsOtherWriters {
  public:
-  /// Looks for 1 s.
+  /// Searches for 1 s.
   /// Throws: Error as `refuse`.
   DdsOtherWriters(const DdsParticipant& participant, std::vector<std::string> topics);
   /// Throws: Error if another participant writes now.
@@ -99,29 +98,28 @@ class DdsOtherWriters {
   std::vector<std::string> topics_;
   dds_instance_handle_t own_ = 0;
   dds_entity_t publications_;
-  std::map<dds_instance_handle_t, std::string> writers_;  ///< others, with topics
+  std::map<dds_instance_handle_t, std::string> writers_;
 };
 
 /// A reader ignores messages of further writers.
 inline constexpr size_t kMostWriters = 64;
 
-/// Such ignored messages since the process began.
+/// Messages ignored for that reason since the process began.
 int64_t dds_messages_of_too_many();
 
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The writer's participant, even if gone. Empty for a writer beyond kMostWriters, which is counted.
+  /// The writer's participant, even if it is gone. Empty beyond kMostWriters; counts such messages.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
-  /// Participants of present writers, perhaps of some that never sent.
+  /// Participants of present writers, even without messages.
   std::set<uint64_t> present();
 
  private:
-  /// Empty if the writer is gone.
   std::optional<uint64_t> look_up(dds_instance_handle_t writer) const;
 
   dds_entity_t reader_;
-  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;  ///< of writers that have sent
+  std::unordered_map<dds_instance_handle_t, uint64_t> participants_;
 };
 
 template <typename Message>
@@ -142,7 +140,7 @@ class DdsReader {
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
 
-  /// The next message, read only if `is_wanted(sender)`, so floods of others cost little.
+  /// The next message. Decodes it only if `is_wanted(sender)`.
   template <typename IsWanted>
   std::optional<Received> take(const IsWanted& is_wanted) {
     for (;;) {
@@ -171,7 +169,6 @@ class DdsReader {
   DdsSenders senders_;
 };
 
-/// Waits until a reader has a message.
 class DdsWaitset {
  public:
   explicit DdsWaitset(const DdsParticipant& participant);

@@ -13,13 +13,12 @@ struct DdsServerOptions {
   int domain = 0;
   DdsAccess access;
   ServedRobot robot;
-  /// The log; empty: none.
+  /// Empty: no log.
   std::string log;
-  /// Largest age of the log's last state.
+  /// Limit for the log's last state, s.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
-  std::function<bool()> stopping;  ///< asked at 100 Hz; true ends the server
-  /// Shows a line to the user.
+  std::function<bool()> stopping;  ///< polled at 100 Hz; true ends the server
   std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -28,8 +27,8 @@ struct DdsServerSummary {
   int64_t lost_log_lines = 0;
 };
 
-/// Serves a robot over DDS until `stopping`: takes commands, sends JointState at 100 Hz.
-/// Throws: Error if domain or log is unusable, or another server has the log or is in the domain.
+/// Serves a robot over DDS until `stopping`. Sends JointState at 100 Hz.
+/// Throws: Error if the domain or log is unusable, or another server uses one of them.
 DdsServerSummary serve(const DdsServerOptions& options);
 
 }  // namespace glovebench

@@ -11,31 +11,31 @@ namespace glovebench {
 struct DdsSinkOptions {
   DdsAccess access;
   Topics topics = topics::kOwn;
-  bool arm = true;                                         ///< sends the arm's pose
-  double longest_step_s = CommandLimits().longest_step_s;  ///< as of the commands' guard
-  bool alone = false;                                      ///< allows no other writer on the topics
+  bool arm = true;
+  double longest_step_s = CommandLimits().longest_step_s;  ///< of the commands' guard
+  bool alone = false;                                      ///< allow no other writer on the topics
 };
 
-/// Sends commands over DDS as a ROS 2 node would (core/adapters/dds/README.md). Listeners cannot block it.
+/// Sends commands as a ROS 2 node would (core/adapters/dds/README.md). Slow listeners do not block it.
 class DdsSink : public RobotCommandSink {
  public:
   /// `domain`: 0..230.
-  /// Throws: Error if domain or network is unusable or, if `alone`, another writer is found within 1 s.
+  /// Throws: Error if domain or network is unusable or, if `alone`, another writer appears within 1 s.
   explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
 
-  /// Sets the next command's source time, microseconds since 1970 (default: the time of sending).
+  /// Sets the source time of the next command, microseconds since 1970. Default: time of sending.
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
   /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
   void send(const RobotCommand& command) override;
-  /// Waits up to 1 s until listeners have everything.
+  /// Waits up to 1 s until listeners have all messages.
   void finish() override;
 
   int64_t sent() const { return sent_; }
-  int listeners() const;  ///< least of all topics
+  int listeners() const;  ///< minimum over the topics
 
  private:
   DdsParticipant participant_;
-  std::optional<DdsOtherWriters> others_;  ///< first: looks before this writes
+  std::optional<DdsOtherWriters> others_;  ///< first: searches before this writes
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
   std::optional<DdsWriter<ros::PoseStamped>> arm_;
   std::optional<int64_t> arrived_ns_;

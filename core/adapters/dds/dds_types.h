@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// How Cyclone DDS carries a ROS message; `write` returns its code.
+/// The Cyclone DDS type of a ROS message. `write` returns Cyclone's code.
 template <typename Message>
 struct DdsType;
 

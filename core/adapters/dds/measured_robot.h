@@ -11,17 +11,17 @@
 
 namespace glovebench {
 
-/// Joints as a robot's driver measures them: JointState on a topic. core/adapters/dds/README.md ("A controller's
-/// topics") says which messages are believed.
+/// Joints that a robot's driver measures. core/adapters/dds/README.md ("A controller's topics") says which messages
+/// are trusted.
 class MeasuredJoints {
  public:
-  /// `names`: the joints, in the order of the answers.
+  /// `names`: order of the joints in results.
   MeasuredJoints(const DdsParticipant& participant, const std::string& topic, std::vector<std::string> names);
 
-  /// Positions (rad) from the newest message, if it is believed and at most 0.1 s old. `system_us`: since 1970;
+  /// Positions (rad) from the newest message if it is trusted and at most 0.1 s old. `system_us`: since 1970.
   /// `steady_us`: monotonic.
   std::optional<std::vector<double>> latest(int64_t system_us, int64_t steady_us);
-  /// Why `latest` was empty; "" if it was not.
+  /// Why `latest` returned nothing, else "".
   const std::string& doubt() const { return doubt_; }
   const std::string& topic() const { return topic_; }
 
@@ -40,17 +40,17 @@ class MeasuredJoints {
   std::string topic_;
   std::vector<std::string> names_;
   DdsReader<ros::JointState> reader_;
-  std::optional<State> state_;           ///< newest message with one of the joints
-  std::map<uint64_t, int64_t> tellers_;  ///< publishing processes; last message, steady clock
+  std::optional<State> state_;           ///< with any of the joints
+  std::map<uint64_t, int64_t> tellers_;  ///< by publisher: last message, steady clock
   std::string doubt_ = "nothing asked";
 };
 
 struct MeasuredState {
-  std::vector<double> hand;      ///< rad, as ShadowJoint; empty if not asked for
-  std::optional<ArmJoints> arm;  ///< rad; likewise
+  std::vector<double> hand;      ///< rad, as ShadowJoint; empty if not requested
+  std::optional<ArmJoints> arm;  ///< likewise
 };
 
-/// Measured joints of hand and arm, each from the first topic that is believed.
+/// Each joint comes from the first trusted topic.
 class MeasuredRobot {
  public:
   MeasuredRobot(const DdsParticipant& participant, const std::vector<std::string>& topics, bool hand, bool arm);
@@ -58,20 +58,20 @@ class MeasuredRobot {
   /// Empty if any joint is unknown.
   std::optional<MeasuredState> look();
   /// Waits up to `timeout_s` for all joints.
-  /// Throws: Error that names topics and missing joints.
+  /// Throws: Error.
   MeasuredState state(double timeout_s);
 
  private:
   [[noreturn]] void refuse() const;
 
   dds_domainid_t domain_ = 0;
-  std::vector<MeasuredJoints> hand_, arm_;  ///< by preference; empty if not asked for
+  std::vector<MeasuredJoints> hand_, arm_;  ///< by preference
 };
 
-/// A joint up to this far beyond a limit, or J1 beyond J2, counts as at the limit.
+/// A joint beyond a limit by at most this, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// The targets at which the robot stands, for `CommandGuard::start_from`. `T_base_hand` counts only without an arm.
+/// The robot's present targets, for `CommandGuard::start_from`. `T_base_hand` matters only without an arm.
 /// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);

@@ -12,8 +12,8 @@ struct OpensslResult {
   std::string reason;  ///< last line of standard error
 };
 
-/// Runs `openssl` in a folder. Private keys go through `input` (standard input), never to a disk.
-/// Throws: Error if the program cannot be run.
+/// Runs `openssl` in a folder. Private keys pass only through `input` (standard input).
+/// Throws: Error if the program cannot run.
 OpensslResult run_openssl(const std::string& folder, std::vector<std::string> arguments,
                           std::string_view input = "");
 

@@ -13,11 +13,11 @@ namespace glovebench {
 struct RobotBusOptions {
   int domain = 0;  ///< 0..230
   DdsAccess access;
-  /// Send to the robot's controllers instead of `robot-server`.
+  /// Not to `robot-server` but to the robot's controllers.
   bool to_controller = false;
-  bool arm = true;  ///< commands a controller's arm
+  bool arm = true;  ///< command the controller's arm
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
-  double longest_step_s = CommandLimits().longest_step_s;  ///< as of the commands' guard
+  double longest_step_s = CommandLimits().longest_step_s;  ///< of the commands' guard
 };
 
 /// Sends commands over a middleware.
@@ -26,21 +26,21 @@ class RobotBus {
  public:
   virtual ~RobotBus() = default;
 
-  /// The arm at the start, rad; empty unless a controller's arm is commanded.
+  /// The arm at the start, rad. Empty unless a controller's arm is commanded.
   virtual std::optional<ArmJoints> arm_start() const = 0;
-  /// Returns the command's time, microseconds: the first frame's time stamp plus the time since. Before a
-  /// controller moves, tells the guard where the robot stands.
+  /// Returns the command's time, microseconds: the first frame's time stamp plus the time since. With a controller,
+  /// first calls `start_from` of the guard.
   virtual int64_t start(CommandGuard& guard, const RobotCommand& command) = 0;
-  /// `arrived_us`: when the frame was complete, microseconds since 1970.
+  /// `arrived_us`: time of the complete frame, since 1970.
   virtual void send(const RobotCommand& safe, int64_t arrived_us) = 0;
-  /// Waits up to 1 s until listeners have everything.
+  /// Waits up to 1 s until listeners have all messages.
   virtual void finish() = 0;
 };
 
 extern const bool kHasDds;
 
 /// With a controller, waits some seconds for a measured state.
-/// Throws: Error without such a state or Cyclone DDS, or if domain or network is unusable.
+/// Throws: Error without that state or Cyclone DDS, or if domain or network is unusable.
 std::unique_ptr<RobotBus> join_robot_bus(const RobotBusOptions& options);
 
 }  // namespace glovebench

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// DDS Security: who may do what. `openssl` makes certificates and signatures (EC P-256, SHA-256).
+// DDS Security. `openssl` makes certificates and signatures (EC P-256, SHA-256).
 namespace glovebench {
 
 /// Seconds since 1970.
@@ -14,7 +14,7 @@ struct Validity {
   int64_t end_s = 0;
 };
 
-/// A role's topics, as patterns of fnmatch.
+/// Topics as fnmatch patterns.
 struct SecurityRole {
   std::string name;
   std::vector<std::string> writes, reads;
@@ -22,18 +22,17 @@ struct SecurityRole {
 /// `sender` (track), `server`, `robot` (its driver), `observer`.
 const std::vector<SecurityRole>& security_roles();
 
-/// Requires identities and encryption with proof of origin.
+/// Requires identities and authenticated encryption.
 std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
-/// Makes a folder of keys for all roles (core/adapters/dds/README.md, "DDS Security"). `others`: roles with another
-/// validity.
+/// Makes keys for all roles (core/adapters/dds/README.md, "DDS Security"). `others`: roles with another validity.
 /// Throws: Error if the folder is not empty or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});
 
 /// Cyclone DDS's configuration for a role.
-/// Throws: Error for a file that is missing, unreadable, expired at `now_s` or of another set.
+/// Throws: Error for a file that is missing, unreadable, expired at `now_s` or of another key set.
 std::string security_configuration(const std::string& folder, const std::string& role, int64_t now_s);
 
 }  // namespace glovebench

@@ -11,7 +11,6 @@ std::string last_complaint();
 /// Throws: Error with the last complaint unless `success`.
 void require_freenect(bool success, const char* field, const std::string& expected);
 
-/// libfreenect with one open device.
 class FreenectHandle {
  public:
   /// Throws: Error if the device is missing or cannot be opened.

@@ -18,25 +18,25 @@ inline constexpr uint64_t kMostMovements = 1'000'000;  ///< largest seed
 struct MovementMaterial {
   PostureSet gestures;                              ///< random postures keep away from them
   PostureSet captured;                              ///< for captured families
-  Skeleton skeleton;                                ///< whose parts must not overlap
+  Skeleton skeleton;                                ///< its parts must not overlap
   double least_distance_deg = kGestureDistanceDeg;  ///< finger_distance from each gesture
 };
 /// Throws: Error.
 MovementMaterial load_movement_material(const std::string& data_folder, const Skeleton& skeleton);
 
-/// A movement at 15 Hz. It depends on family, seed and material alone; a shorter one is the beginning of a longer
-/// one.
+/// A movement at 15 Hz. It depends only on family, seed and material. A shorter movement is the beginning of a
+/// longer one.
 /// Throws: Error if the ranges allow no posture or pose.
 Trajectory generate_movement(const MovementFamily& family, uint64_t seed, const MovementMaterial& material,
                              int frame_count = kMovementFrames);
 
-/// "side_3": the movement of a family and a seed.
+/// "side_3".
 std::string movement_name(const MovementFamily& family, uint64_t seed);
 struct NamedMovement {
   const MovementFamily* family = nullptr;
   uint64_t seed = 0;
 };
-/// Empty for another name.
+/// Empty for other names.
 std::optional<NamedMovement> find_movement(std::string_view name);
 
 /// The angle between the back of the hand and the camera, deg: 0 if the back faces it, 180 if the palm does.

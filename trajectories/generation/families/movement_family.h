@@ -15,15 +15,14 @@ struct Range {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-// For the postures of every family except captured ones.
+// For all families except captured ones.
 inline constexpr Range kDipShare = {0.5, 0.9};        ///< of a finger's PIP angle
 inline constexpr double kNeighborCorrelation = 0.6;   ///< of drawn flexions of neighboring fingers, index to little
 inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance from each gesture
-inline constexpr double kMostOverlap = 2e-3;          ///< by which parts of a hand may overlap, m
+inline constexpr double kMostOverlap = 2e-3;          ///< of parts of a hand, m
 inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways
 
-/// A kind of movement, as ranges to draw from. Poses and postures go from one random key to the next along
-/// minimum-jerk profiles and rest there for a moment, independently of each other.
+/// A kind of movement: ranges to draw from (trajectories/README.md).
 struct MovementFamily {
   std::string_view name;
   std::string_view description;
@@ -36,23 +35,22 @@ struct MovementFamily {
   Range tilt_axis_deg;  ///< in the image, from the hand's breadth (0) to its length (90); reversed in half of the
                         ///< movements
   double yaw_deg;       ///< about the optical axis, either way
-  // Ways between keys. The slower of both sets the time, so peaks are at most these.
+  // Ways between keys. The slower of both sets the time.
   Range speed;      ///< peak, m/s
   Range turn_rate;  ///< peak, rad/s
 
   // Key postures: 0 is a straight finger, 1 a fist.
-  std::array<Range, 2> bends;  ///< of keys by turns
+  std::array<Range, 2> bends;  ///< of alternate keys
   double wrist;                ///< largest share of the wrist's limits
   Range posture_s;             ///< from one posture to the next, s
-  bool captured = false;       ///< postures of people instead of random ones
+  bool captured = false;       ///< people's postures, not random ones
 };
 
-/// All families in the order of lists.
 std::span<const MovementFamily> movement_families();
 std::vector<std::string> movement_family_names();
-/// Throws: Error listing known names.
+/// Throws: Error for an unknown name.
 const MovementFamily& find_movement_family(std::string_view name);
-/// For `glovebench list families`: each family's ranges, and what holds for all.
+/// For `glovebench list families`.
 std::string movement_families_text();
 
 }  // namespace glovebench::trajectories

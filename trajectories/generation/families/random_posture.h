@@ -7,7 +7,7 @@
 namespace glovebench::trajectories {
 
 /// A random posture within limits and `bend`. MCP and PIP flexions of index to little are uniform and correlate
-/// with neighbors by kNeighborCorrelation; DIP is a uniform share of PIP (kDipShare); thumb and wrist are uniform.
+/// with neighbors by kNeighborCorrelation. DIP is a uniform share of PIP (kDipShare). Thumb and wrist are uniform.
 /// Parts may overlap, and a gesture may be near.
 Posture random_posture(const MovementFamily& family, const Range& bend, RandomStream& random);
 

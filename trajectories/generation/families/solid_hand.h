@@ -4,8 +4,8 @@
 
 namespace glovebench::trajectories {
 
-/// Depth of the deepest overlap, m, of capsules around the bones of different fingers, or of a finger and the palm.
-/// 0 or less: none touch. A person's flesh yields by about kMostOverlap.
+/// Overlap of capsules around the bones of different fingers, or of a finger and the palm, m. 0 or less: none
+/// touch. Flesh yields by about kMostOverlap.
 double deepest_overlap(const Skeleton& skeleton, const Posture& posture);
 
 }  // namespace glovebench::trajectories

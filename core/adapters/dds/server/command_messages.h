@@ -10,7 +10,7 @@
 #include "core/base/enum_names.h"
 #include "core/robot/robot_command.h"
 
-/// ROS messages for hand and arm. Their content is unchecked.
+/// ROS messages, whose content is unchecked.
 namespace glovebench::ros {
 
 /// builtin_interfaces/Time and Duration
@@ -56,13 +56,13 @@ namespace glovebench {
 /// The outcome of a message, in the order of the checks.
 enum class Receipt {
   foreign,       ///< another sender owns the stream
-  bad_time,      ///< before 1970, or at least 1 s of nanoseconds
-  wrong_joints,  ///< not exactly the topic's joints (order is free)
-  wrong_points,  ///< not one point with one position a joint
-  wrong_frame,   ///< not in kBaseFrame
+  bad_time,      ///< before 1970, or nanoseconds of 1 s or more
+  wrong_joints,  ///< not exactly the topic's joints
+  wrong_points,  ///< not one point with one position per joint
+  wrong_frame,
   not_finite,
   not_rotation,  ///< no unit quaternion
-  stale,         ///< older than `silence_s`, or waited through a gap
+  stale,         ///< older than `silence_s`, or delayed by a gap
   starting,      ///< its stream is younger than 0.2 s
   went_back,     ///< stamp not after the sender's last
   accepted,
@@ -81,31 +81,30 @@ struct RobotState {
   std::vector<double> velocity;  ///< rad/s, since the last state
 };
 
-/// The frame of the arm's poses.
 inline constexpr const char* kBaseFrame = "base_link";
 
-/// ROS names (`rh_FFJ1` ...) of the hand's controller, of the wrist's, and all 24 in the order of ShadowJoint.
+/// ROS names (`rh_FFJ1` ...) of the hand's controller, of the wrist's, and of all in the order of ShadowJoint.
 const std::vector<std::string>& hand_trajectory_names();
 const std::vector<std::string>& wrist_trajectory_names();
 const std::vector<std::string>& hand_joint_names();
-/// Names from base to flange.
+/// From base to flange.
 const std::vector<std::string>& arm_joint_names();
 
-/// Throws: Error for times outside ROS's 0 to 2^31 s.
+/// Throws: Error for times outside 0 to 2^31 s.
 ros::Time ros_time(int64_t time_us);
 int64_t nanoseconds(const ros::Time& time);
 
-/// Largest distance of a believed measured state from now.
+/// Largest age or lead of a trusted measured state.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
-/// Time in which a controller shall reach a command's targets. A straight way then keeps the guard's speeds.
+/// Time for a controller to reach targets. A straight path then keeps the guard's speeds.
 int64_t time_to_targets_us(double longest_step_s);
 
-/// A command's targets (required) as one point, to reach in `time_us`, stamped with the frame's time.
+/// A command's targets (required) as one point, to reach in `time_us`, with the frame's time stamp.
 /// Throws: Error if a target is not finite.
 ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us);
 ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us);
-/// The pose of WRJ2 in kBaseFrame that takes the hand to T_base_hand.
+/// The pose of WRJ2 in kBaseFrame for T_base_hand.
 ros::PoseStamped pose_message(const RobotCommand& command);
 
 struct JointsRead {

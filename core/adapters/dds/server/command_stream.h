@@ -14,48 +14,47 @@
 
 namespace glovebench {
 
-/// A moment by the server's clocks, us.
 struct ServerTime {
   int64_t clock_us = 0;   ///< monotonic
   int64_t system_us = 0;  ///< since 1970; may jump
 };
 
 struct Arrival {
-  uint64_t sender = 0;  ///< identifies a process
+  uint64_t sender = 0;  ///< one per process
   int64_t source_ns = 0;
   int64_t now_us = 0;  ///< reception, monotonic
 };
 
-/// Decides which messages a server follows: good, fresh ones of one owner, in time order.
-/// core/adapters/dds/README.md ("The server") has the rules. Reads no clock.
-/// A gap of ticks, or a jump of the owner's clock, releases the owner and ends its goals.
+/// Selects the messages that a server follows: valid, fresh, in time order, from one owner
+/// (core/adapters/dds/README.md, "The server"). Reads no clock. A gap between ticks, or a jump of the owner's
+/// clock, releases the owner.
 class CommandStream {
  public:
-  /// `topics`: how many.
+  /// `topics`: their number.
   CommandStream(const CommandLimits& limits, int topics);
 
-  /// Returns true for, and counts, a message of a sender that is not the owner.
+  /// Whether the sender is not the owner. Counts such messages.
   bool ignores(uint64_t sender, int64_t now_us);
-  /// Judges and counts a message. `found`: the outcome for its content.
+  /// Judges and counts a message. `found`: outcome of the content checks.
   Receipt receive(const Arrival& arrival, int topic, const ros::Time& stamp, Receipt found);
   void tick(const ServerTime& now);
-  /// Returns true if the last accepted message, of a topic or of any, still counts: at most `silence_s` old, with
-  /// no gap or new owner since.
+  /// Whether the last accepted message of a topic (or of any) still counts: at most `silence_s` old, with no gap or
+  /// new owner since.
   bool is_current(int topic, int64_t now_us) const;
   bool is_current(int64_t now_us) const;
-  /// Releases an owner that is gone.
+  /// Releases an absent owner.
   void keep_only(const std::set<uint64_t>& present);
 
-  /// Number of changes of the owner.
+  /// How often a sender became owner.
   int64_t owners() const { return owners_; }
   int64_t gaps() const { return gaps_; }
   int64_t count(Receipt receipt) const { return receipts_[static_cast<size_t>(receipt)]; }
 
  private:
-  /// On one topic of one sender.
+  /// For one topic of one sender.
   struct Delays {
-    std::deque<std::pair<int64_t, int64_t>> smallest;  ///< of each second: start, smallest delay, us
-    std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time, us
+    std::deque<std::pair<int64_t, int64_t>> smallest;  ///< per second: start, smallest delay, us
+    std::optional<std::pair<int64_t, int64_t>> start;  ///< first message: server time, source time
     bool started = false;
     int64_t heard_us = 0, source_us = 0, delay_us = 0;  ///< last message
 
@@ -77,12 +76,12 @@ class CommandStream {
   int64_t silence_us_, release_us_;
   std::array<int64_t, kCountOf<Receipt>> receipts_{};
   std::map<std::pair<uint64_t, int>, Delays> delays_;
-  std::optional<int64_t> seen_us_, apart_us_;  ///< last tick: time, difference of the clocks
-  std::optional<int64_t> settled_us_;          ///< messages before it are stale
+  std::optional<int64_t> seen_us_, apart_us_;  ///< last tick: time, difference of clocks
+  std::optional<int64_t> settled_us_;          ///< earlier messages are stale
   int64_t gaps_ = 0;
   std::optional<uint64_t> owner_;
   int64_t owners_ = 0;
-  int64_t good_us_ = 0;                                       ///< owner's last good message
+  int64_t good_us_ = 0;
   std::vector<std::optional<int64_t>> stamps_ns_, until_us_;  ///< by topic: last stamp; end of its effect
 };
 

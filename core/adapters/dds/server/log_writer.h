@@ -7,46 +7,45 @@
 
 namespace glovebench {
 
-/// A file's last change, microseconds since 1970.
+/// Time of a file's last change, microseconds since 1970.
 /// Throws: Error.
 int64_t changed_us(const std::string& path);
 
-/// The last `max_bytes` of a file; empty if it is missing or a device.
+/// The last `max_bytes` of a file. Empty if it is missing or a device.
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines to a log in its own thread, so callers never wait for the disk. A lost line still updates the
-/// file's time.
+/// Appends lines in a thread of its own. A lost line still updates the file's time.
 class LogWriter {
  public:
-  /// Throws: Error if the file cannot be opened, or is regular and another LogWriter has it.
+  /// Throws: Error if the file cannot be opened, or another LogWriter has this regular file.
   explicit LogWriter(const std::string& path);
   ~LogWriter();
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// Takes a line without its end. Returns its number, from 1, or 0 if too many wait. It is synced within 1 s, or
-  /// at once if `urgent`.
+  /// Takes a line without its end. Returns its number, from 1; 0 if too many wait. Syncs it within 1 s, or at once
+  /// if `urgent`.
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
     uint64_t done = 0;     ///< written or lost up to this line
-    uint64_t durable = 0;  ///< lines after `failed`, up to this one, are on the disk; 0: device or pipe
+    uint64_t durable = 0;  ///< on the disk, from `failed` + 1 to this line; 0: device or pipe
     uint64_t failed = 0;   ///< this or an earlier line may be lost
     int64_t lost = 0;
-    std::string failure;     ///< the first
-    bool misplaced = false;  ///< the file was removed, renamed or cut
+    std::string failure;
+    bool misplaced = false;  ///< file was removed, renamed or cut
   };
   Progress progress() const;
 
-  /// Takes no more lines. Waits up to 2 s for the disk, then drops the rest.
+  /// Waits up to 2 s for the disk, then drops the rest.
   void finish();
 
  private:
   struct Shared;
   static void write_lines(const std::shared_ptr<Shared>& shared);
 
-  std::shared_ptr<Shared> shared_;  ///< the thread may outlive this
+  std::shared_ptr<Shared> shared_;
   std::thread thread_;
 };
 

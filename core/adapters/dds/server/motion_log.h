@@ -12,22 +12,21 @@ namespace glovebench {
 
 struct LoggedStart {
   std::vector<double> joints;  ///< rad
-  std::string source;          ///< what states them
-  std::string from;            ///< `rest` or `log`, for start_line
-  std::string doubt;           ///< why the joints must be measured; empty if the log suffices
-  std::string age;             ///< of the last state; empty at rest
+  std::string source;
+  std::string from;   ///< `rest` or `log`
+  std::string doubt;  ///< why the joints must be measured; empty: log suffices
+  std::string age;    ///< of the last state; empty at rest
 };
 
-/// The log of a running server, which it never delays. Joints move only within intervals that are on the disk;
-/// without a file they move freely.
+/// A running server's log, which never delays it (core/adapters/dds/README.md, "The log").
 class MotionLog {
  public:
   /// `path`: empty for no file.
   /// Throws: Error if it cannot be opened or another server has it.
   MotionLog(const std::string& path, std::vector<std::string> names, std::vector<JointMotion> joints);
 
-  /// The joints' places at the start: the log's last ones, else `rest`. `period_s`: time between ticks.
-  /// Throws: Error if the log has other joints, is too old or has lost its end.
+  /// The joints of the log's last state, else `rest`. `period_s`: time between ticks.
+  /// Throws: Error if the log has other joints, is too old or lacks its end.
   LoggedStart start(const std::vector<double>& rest, int64_t now_us, double max_age_s, double period_s) const;
 
   /// `time_us`: system time.
@@ -35,12 +34,11 @@ class MotionLog {
   void received(const ReceivedLine& line);
   /// `at_rest`: no joint moves before a new start.
   void ticked(const RobotState& its, int64_t time_us, bool at_rest);
-  /// Writes that the joints stay in place.
+  /// Records that the joints stay in place.
   void finish(const RobotState& its, int64_t time_us);
 
-  /// Returns true if the joints may move freely for `seconds`.
+  /// Whether the joints may move freely for `seconds`.
   bool may_move(const std::vector<double>& positions, double seconds);
-  /// Lost lines, and why the first was lost.
   int64_t lost() const { return writer_ ? writer_->progress().lost : 0; }
   std::string failure() const { return writer_ ? writer_->progress().failure : ""; }
 

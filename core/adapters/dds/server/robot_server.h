@@ -13,15 +13,11 @@
 
 namespace glovebench {
 
-// Stages of a message:
-//   received   RobotServer::receive gets it with its Arrival.
-//   judged     read_joints or read_pose checks it, then CommandStream. Only `accepted` messages go on.
-//   followed   It is its topic's goal until the next one.
-//   limited    A tick moves towards the goal as far as CommandGuard allows.
-//   stated     The tick holds unless MotionLog allows the motion.
-//   sent       The tick's RobotState goes to the joints (dds_server.cpp).
+// A message passes RobotServer::receive, read_joints or read_pose, and CommandStream. If it is `accepted`, it is
+// its topic's goal until the next one. A tick moves towards the goal as far as CommandGuard and MotionLog allow.
+// The tick's RobotState goes to the joints (dds_server.cpp).
 
-/// The hand's topics, and the arm's `pose` of the wrist.
+/// `pose`: of the wrist.
 enum class RobotTopic { fingers, wrist, pose };
 inline constexpr int kRobotTopicCount = 3;
 std::string_view to_string(RobotTopic topic);
@@ -32,9 +28,9 @@ struct ServedRobot {
 
   GuardedPart part() const;
   std::string name() const;  ///< "hand", "arm" or "hand and arm"
-  /// All joints in order: the hand's (ShadowJoint), then the arm's.
+  /// All joints: the hand's (ShadowJoint), then the arm's.
   std::vector<std::string> names() const;
-  std::vector<double> at_rest() const;  ///< rad: an open hand, kArmAtRest
+  std::vector<double> at_rest() const;  ///< rad: open hand, kArmAtRest
   std::vector<JointMotion> motions(const CommandLimits& limits) const;
 };
 
@@ -44,18 +40,17 @@ struct StartPlace {
   double tolerance = radians_from_degrees(1e-6);  ///< rad: twice the log's rounding
 };
 
-/// Serves hand, arm or both, without middleware or clock; core/robot/README.md ("The guard") has the limits. Topics
-/// without a current message (CommandStream) move nothing. The coupling splits the sum of J1 and J2.
+/// Serves hand, arm or both, without middleware or clock. Topics without a current message (CommandStream) move
+/// nothing. The coupling splits the sum of J1 and J2.
 class RobotServer {
  public:
-  /// Moves joints within the start's tolerance of a limit onto it.
+  /// Moves joints that exceed a limit by at most the start's tolerance onto it.
   /// Throws: Error if the start is farther outside, or the limits have problems.
   RobotServer(const CommandLimits& limits, const ServedRobot& robot, const StartPlace& start);
 
-  /// Takes a message on a topic of the server's joints.
   Receipt receive(RobotTopic topic, const ros::JointTrajectory& message, const Arrival& arrival);
   Receipt receive(RobotTopic topic, const ros::PoseStamped& message, const Arrival& arrival);
-  /// The joints' next state; time must have advanced. `may_move`: false holds them.
+  /// Time must have advanced. `may_move` = false holds the joints.
   RobotState tick(const ServerTime& now, bool may_move = true);
   /// Units: rad.
   const std::vector<double>& positions() const { return last_.position; }
@@ -74,11 +69,11 @@ class RobotServer {
   ServedRobot robot_;
   CommandGuard guard_;
   CommandStream stream_;
-  RobotTargets stands_;  ///< last sent place of the joints
+  RobotTargets stands_;
   std::array<double, kShadowJointCount> hand_goal_{};
-  Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();  ///< if wanted
-  std::array<bool, kRobotTopicCount> wanted_{};                          ///< by topic: has a goal
-  bool changed_ = false;                                                 ///< the guard lacks the newest goal
+  Eigen::Isometry3d T_base_wrist_goal_ = Eigen::Isometry3d::Identity();
+  std::array<bool, kRobotTopicCount> wanted_{};
+  bool changed_ = false;
   bool ticked_ = false;
   RobotState last_;
 };

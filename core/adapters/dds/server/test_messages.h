@@ -8,8 +8,6 @@
 #include "core/base/math.h"
 #include "core/robot/test_arm_solver.h"
 
-// Messages for tests, and an arm for those of a server that moves one.
-
 namespace glovebench {
 
 inline ros::Time test_stamp(int64_t time_us) {
@@ -34,7 +32,7 @@ inline constexpr int64_t kArmPeriodUs = 10'000;
 inline constexpr uint64_t kSender = 3;
 inline constexpr double kArmRounding = 1e-9;  // of a pose after seven rotations
 
-/// T_base_wrist for the arm's joints, the last ones.
+/// For the arm's joints, which are the last.
 inline Eigen::Isometry3d wrist_of(const std::vector<double>& positions, const Eigen::Isometry3d& T_flange_wrist) {
   ArmJoints joints;
   std::copy_n(positions.end() - kArmJointCount, kArmJointCount, joints.begin());
