@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "eval/program.h"
 #include "render/label_renderer.h"
@@ -63,7 +64,7 @@ std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const P
   for (const reports::WorstFrame& worst : reports::worst_frames(result)) {
     const RunSpec& spec = find_spec(plan, worst.key, worst.seed);
     const ColorImage picture = explain_frame(workbench, spec, worst.frame.frame);
-    pictures.push_back({caption(worst), render::encode_jpeg(picture, kJpegQuality), complete_command(worst)});
+    pictures.push_back({caption(worst), encode_jpeg(picture, kJpegQuality), complete_command(worst)});
   }
   return pictures;
 }
@@ -273,7 +274,7 @@ FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure, std
     paste(sheet, painter.truth(frames[i]), i % kColumns, 2 * (i / kColumns));
     paste(sheet, painter.difference(frames[i], estimates[i]), i % kColumns, 2 * (i / kColumns) + 1);
   }
-  return {figure,      render::encode_jpeg(sheet, kKeyframeQuality),
+  return {figure,      encode_jpeg(sheet, kKeyframeQuality),
           kColumns,    kTileWidth,
           kTileHeight, estimates.front().frame,
           count};

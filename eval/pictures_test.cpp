@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "core/adapters/pictures/picture_files.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {
@@ -38,12 +37,11 @@ TEST(Keyframes, WindowHoldsTheHandOfEveryFrameAndSeesWhatTheCameraSees) {
 }
 
 /// The sheet's pixel in the middle of the glove in frame `i`, in its truth (row 0) or difference (row 1).
-cv::Vec3b pixel_at(const cv::Mat& sheet, const reports::FrameSheet& description, int i, int row,
-                   Eigen::Vector2d uv) {
+Rgb pixel_at(const ColorImage& sheet, const reports::FrameSheet& description, int i, int row,
+             const Eigen::Vector2d& uv) {
   const int left = i % description.columns * description.tile_width;
   const int top = (2 * (i / description.columns) + row) * description.tile_height;
-  return sheet.at<cv::Vec3b>(top + static_cast<int>(std::lround(uv.y())),
-                             left + static_cast<int>(std::lround(uv.x())));
+  return sheet(left + static_cast<int>(std::lround(uv.x())), top + static_cast<int>(std::lround(uv.y())));
 }
 
 TEST(Keyframes, DifferenceIsWhiteForTheTruthOrangeBehindItAndGrayWhereLost) {
@@ -57,10 +55,9 @@ TEST(Keyframes, DifferenceIsWhiteForTheTruthOrangeBehindItAndGrayWhereLost) {
   EXPECT_EQ(sheet.figure, "figure5");
   EXPECT_EQ(sheet.first_frame, 5);
   EXPECT_EQ(sheet.frames, 3);
-  const std::vector<uint8_t> bytes(sheet.image.begin(), sheet.image.end());
-  const cv::Mat image = cv::imdecode(bytes, cv::IMREAD_COLOR);
-  ASSERT_EQ(image.cols, sheet.columns * sheet.tile_width);
-  ASSERT_EQ(image.rows, 2 * sheet.tile_height);
+  const ColorImage image = decode_color(sheet.image, "sheet");
+  ASSERT_EQ(image.width(), sheet.columns * sheet.tile_width);
+  ASSERT_EQ(image.height(), 2 * sheet.tile_height);
 
   const PinholeCamera tile =
       camera_around(workbench.calibration().ir, *workbench.model(), frames, sheet.tile_width, sheet.tile_height);
@@ -68,9 +65,9 @@ TEST(Keyframes, DifferenceIsWhiteForTheTruthOrangeBehindItAndGrayWhereLost) {
     return pixel_at(image, sheet, i, 1, tile.project(frames[i].T_camera_hand.translation()));
   };
   constexpr int kJpegError = 12;  // of a channel, in a surface of one color
-  EXPECT_GT(difference(0)[0], 247 - kJpegError);
-  EXPECT_NEAR(difference(1)[2], 178, kJpegError);
-  EXPECT_NEAR(difference(1)[0], 10, kJpegError) << "30 mm behind the truth is beyond the range";
+  EXPECT_GT(difference(0)[2], 247 - kJpegError);
+  EXPECT_NEAR(difference(1)[0], 178, kJpegError);
+  EXPECT_NEAR(difference(1)[2], 10, kJpegError) << "30 mm behind the truth is beyond the range";
   for (int channel = 0; channel < 3; ++channel) EXPECT_NEAR(difference(2)[channel], 128, kJpegError);
 }
 

@@ -11,11 +11,11 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "core/adapters/pictures/picture_files.h"
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "eval/command_test.h"
@@ -63,11 +63,12 @@ TEST_F(TrackLong, WritesCsvPicturesAndAPage) {
   for (int i = 0; i < 3; ++i)
     EXPECT_NEAR(first.at("position_mm").at(i), 1000 * estimates[0].T_camera_hand.translation()[i], 1e-3);
   for (int number = 0; number < kFrames; ++number) {
-    const cv::Mat picture = cv::imread(fmt::format("{}/{:06}.png", path("pictures"), number));
-    ASSERT_EQ(picture.size(), cv::Size(640, 480));
-    cv::Mat bones;
-    cv::inRange(picture, cv::Scalar(0, 200, 245), cv::Scalar(10, 220, 255), bones);
-    EXPECT_GT(cv::countNonZero(bones), 100) << "joints and the bones between them are drawn";
+    const std::string file = fmt::format("{}/{:06}.png", path("pictures"), number);
+    const ColorImage picture = decode_color(read_file(file), file);
+    ASSERT_EQ(picture.width(), 640);
+    ASSERT_EQ(picture.height(), 480);
+    const auto is_bone = [](const Rgb& rgb) { return rgb[0] >= 245 && std::abs(rgb[1] - 210) <= 10 && rgb[2] <= 10; };
+    EXPECT_GT(std::ranges::count_if(picture, is_bone), 100) << "joints and the bones between them are drawn";
   }
   EXPECT_THAT(read_file(path("page.html")), AllOf(HasSubstr("track-position"), HasSubstr("index_pip_flexion_deg")));
   EXPECT_THAT(track("dump", "DB_open_power", "again.csv", {"--overlay", path("pictures")}).err,

@@ -1,28 +1,14 @@
 #include "render/pictures.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "core/base/whole_file.h"
 #include "render/glove_colors.h"
 
 namespace glovebench::render {
 namespace {
-
-/// The bytes of an image file.
-std::string encode(const ColorImage& image, const char* extension, const std::vector<int>& parameters) {
-  cv::Mat bgr(image.height(), image.width(), CV_8UC3);
-  for (int v = 0; v < image.height(); ++v) {
-    for (int u = 0; u < image.width(); ++u) {
-      const Rgb& rgb = image(u, v);
-      bgr.at<cv::Vec3b>(v, u) = {rgb[2], rgb[1], rgb[0]};
-    }
-  }
-  std::vector<uint8_t> bytes;
-  check(cv::imencode(extension, bgr, bytes, parameters), "an image encodes");
-  return {bytes.begin(), bytes.end()};
-}
 
 constexpr int kTitleHeight = 20;
 constexpr int kGap = 4;
@@ -139,14 +125,6 @@ ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage
       picture[i][c] = static_cast<uint8_t>(std::lround(kNone[c] + std::abs(share) * (end[c] - kNone[c])));
   }
   return picture;
-}
-
-std::string encode_png(const ColorImage& image) {
-  return encode(image, ".png", {});
-}
-
-std::string encode_jpeg(const ColorImage& image, int quality) {
-  return encode(image, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality});
 }
 
 void write_png(const std::string& path, const ColorImage& image) {

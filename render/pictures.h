@@ -24,9 +24,6 @@ struct Stroke {
 ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line);
 /// Writes a line of ASCII text at the upper left.
 ColorImage overlay_text(const ColorImage& color, const std::string& text);
-std::string encode_png(const ColorImage& image);
-/// `quality`: 0 to 100.
-std::string encode_jpeg(const ColorImage& image, int quality);
 /// Throws: Error; then no file is written.
 void write_png(const std::string& path, const ColorImage& image);
 

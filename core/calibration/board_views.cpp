@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <thread>
 
+#include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/input_file.h"
@@ -30,8 +28,7 @@ struct Picture {
 };
 
 bool is_image(const fs::path& path) {
-  static constexpr std::array<std::string_view, 9> endings = {".png", ".jpg", ".jpeg", ".pgm", ".ppm",
-                                                              ".pnm", ".tif", ".tiff", ".bmp"};
+  static constexpr std::array<std::string_view, 6> endings = {".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".pnm"};
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
@@ -68,38 +65,6 @@ std::vector<Picture> pictures_of_recording(const std::string& folder, size_t mos
   return pictures;
 }
 
-/// Stretches 16 bits to 8, because a sensor uses only a part of the 16.
-cv::Mat to_eight_bits(const cv::Mat& image) {
-  if (image.depth() == CV_8U) return image;
-  cv::Mat stretched;
-  cv::normalize(image, stretched, 0, 255, cv::NORM_MINMAX, CV_8U);
-  return stretched;
-}
-
-/// Refuses memory for images that are too large, since the header of a small file may claim any size. OpenCV has
-/// one allocator for the whole program, so this one checks its own thread only.
-class SmallImages : public cv::MatAllocator {
- public:
-  SmallImages() { cv::Mat::setDefaultAllocator(this); }
-  ~SmallImages() override { cv::Mat::setDefaultAllocator(standard_); }
-
-  cv::UMatData* allocate(int dimensions, const int* sizes, int type, void* data, size_t* step, cv::AccessFlag flags,
-                         cv::UMatUsageFlags usage) const override {
-    const int64_t pixels = std::accumulate(sizes, sizes + dimensions, int64_t{1}, std::multiplies<>());
-    if (std::this_thread::get_id() == thread_ && data == nullptr && pixels > kMostPixels)
-      throw Error(fmt::format("an image of {} pixels", pixels));
-    return standard_->allocate(dimensions, sizes, type, data, step, flags, usage);
-  }
-  bool allocate(cv::UMatData* data, cv::AccessFlag flags, cv::UMatUsageFlags usage) const override {
-    return standard_->allocate(data, flags, usage);
-  }
-  void deallocate(cv::UMatData* data) const override { standard_->deallocate(data); }
-
- private:
-  cv::MatAllocator* standard_ = cv::Mat::getDefaultAllocator();
-  std::thread::id thread_ = std::this_thread::get_id();
-};
-
 /// Throws Error if it is no image.
 Image<uint8_t> read_gray(const std::string& path) {
   return decode_gray(read_regular_file(path, kLargestFile), path);
@@ -132,24 +97,6 @@ Eigen::Vector2d along_first_row(const Corners& corners, const Chessboard& board)
 }
 
 }  // namespace
-
-Image<uint8_t> decode_gray(std::string_view content, const std::string& path) {
-  const cv::Mat bytes(1, static_cast<int>(content.size()), CV_8UC1, const_cast<char*>(content.data()));
-  cv::Mat image;
-  try {
-    const SmallImages small;
-    if (!content.empty()) image = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH);
-  } catch (const Error& error) {
-    throw Error(path, "size", error.what(), fmt::format("at most {} pixels", kMostPixels));
-  } catch (const cv::Exception&) {
-    // OpenCV's own limit; no camera's picture is so large.
-  }
-  if (image.empty()) throw Error(path, "content", "no image", "an image");
-  image = to_eight_bits(image);
-  Image<uint8_t> gray(image.cols, image.rows);
-  for (int v = 0; v < image.rows; ++v) std::copy_n(image.ptr(v), image.cols, &gray(0, v));
-  return gray;
-}
 
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked) {
   const bool is_recording = source.starts_with(kRecording);

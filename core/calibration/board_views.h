@@ -53,10 +53,6 @@ struct BoardViews {
 /// Called before each picture. `done`: earlier pictures.
 using Looked = std::function<void(size_t done, size_t count)>;
 
-/// Decodes an image file to gray.
-/// Throws: Error if it is no image or exceeds kMostPixels.
-Image<uint8_t> decode_gray(std::string_view content, const std::string& path);
-
 /// Finds the board in a folder of images, or in at most `most` evenly spaced color images of `fakenect:FOLDER`.
 /// Throws: Error without pictures, or if sizes differ.
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked = {});

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/registry.h"
@@ -71,8 +72,8 @@ struct Render {
 
   static void add_pngs(WholeFiles& pictures, const DeviceFrame& frame, int f) {
     const DepthImage depth = depth_from_disparity(frame.raw_disparity);
-    pictures.add(fmt::format("color_{:04}.png", f), render::encode_png(frame.color));
-    pictures.add(fmt::format("depth_{:04}.png", f), render::encode_png(render::picture_of_depth(depth, 0.4, 1.8)));
+    pictures.add(fmt::format("color_{:04}.png", f), encode_png(frame.color));
+    pictures.add(fmt::format("depth_{:04}.png", f), encode_png(render::picture_of_depth(depth, 0.4, 1.8)));
   }
 
   static void add_layers(WholeFiles& pictures, Workbench& workbench, const render::SyntheticKinect& kinect,

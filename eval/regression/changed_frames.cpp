@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "core/adapters/pictures/picture_files.h"
 #include "core/base/file_set.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
@@ -111,7 +112,7 @@ reports::Picture draw(Scene& scene, const ChangedFrame& change, const std::optio
                   "baseline's blue, the candidate's orange.",
                   to_string(change.key), change.frame, change.candidate_seed,
                   error_text(change.baseline_vertex_error_mm), error_text(change.candidate_vertex_error_mm)),
-      render::encode_png(render::montage(panels, static_cast<int>(panels.size()), kPanelSize, kPanelSize))};
+      encode_png(render::montage(panels, static_cast<int>(panels.size()), kPanelSize, kPanelSize))};
 }
 
 /// Used for its hands only; no database is needed.

@@ -1,35 +1,30 @@
 #pragma once
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/adapters/pictures/picture_files.h"
 #include "reports/page/page.h"
 
 namespace glovebench::reports {
-
-inline std::string encode(const cv::Mat& image, const char* extension) {
-  std::vector<uint8_t> bytes;
-  cv::imencode(extension, image, bytes);
-  return {bytes.begin(), bytes.end()};
-}
 
 /// Tiles show their frame number; differences are lighter.
 inline FrameSheet example_sheet(const std::string& figure, int frames) {
   FrameSheet sheet{figure, "", 16, 160, 128, 0, frames};
   const int rows = (frames + sheet.columns - 1) / sheet.columns;
-  cv::Mat image(2 * rows * sheet.tile_height, sheet.columns * sheet.tile_width, CV_8UC3, cv::Scalar(20, 25, 30));
+  ColorImage pixels(sheet.columns * sheet.tile_width, 2 * rows * sheet.tile_height, Rgb{30, 25, 20});
+  cv::Mat image(pixels.height(), pixels.width(), CV_8UC3, pixels.data());
   for (int frame = 0; frame < frames; ++frame) {
     for (const int row : {0, 1}) {
       const cv::Point corner(frame % sheet.columns * sheet.tile_width,
                              (2 * (frame / sheet.columns) + row) * sheet.tile_height);
       const cv::Point center = corner + cv::Point(80, 64);
       cv::ellipse(image, center, {40 + frame % 20, 30}, 3.0 * frame, 0, 360,
-                  row == 0 ? cv::Scalar(60, 140, 200) : cv::Scalar(240, 240, 240), cv::FILLED, cv::LINE_AA);
+                  row == 0 ? cv::Scalar(200, 140, 60) : cv::Scalar(240, 240, 240), cv::FILLED, cv::LINE_AA);
       cv::putText(image, std::to_string(frame), corner + cv::Point(8, 24), cv::FONT_HERSHEY_SIMPLEX, 0.6,
                   {220, 220, 220}, 1, cv::LINE_AA);
     }
   }
-  sheet.image = encode(image, ".jpg");
+  sheet.image = encode_jpeg(pixels, 90);
   return sheet;
 }
 
@@ -102,7 +97,7 @@ inline PageMaterial example_material(const RunResult& result, std::vector<std::s
   PageMaterial material{std::move(scripts), {example_sheet("figure5", 117), example_sheet("figure6", 137)}, {}};
   for (const WorstFrame& worst : worst_frames(result))
     material.worst_frames.push_back({caption(worst),
-                                     encode(cv::Mat(300, 400, CV_8UC3, cv::Scalar(90, 90, 90)), ".jpg"),
+                                     encode_jpeg(ColorImage(400, 300, Rgb{90, 90, 90}), 90),
                                      explain_command(worst)});
   return material;
 }
