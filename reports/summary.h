@@ -9,11 +9,11 @@
 namespace glovebench::reports {
 
 /// Rows are experiments; columns for trajectory, database, truth and noise precede `measured`.
-Table experiment_table(const std::vector<std::string>& measured);
+Table experiment_table(const std::vector<Column>& measured);
 /// The cells of these four columns. `last_subject`: of a row about several.
 Row experiment_names(const ExperimentKey& key, std::optional<int> last_subject = {});
 
-/// Position error with interval, metrics without joint convention, jitter, latency, lost and false frames.
+/// Position error with interval, and the metrics that have a heading.
 Table detail_summary(const RunResult& result);
 
 /// Position, posture, rotation, fingertips, vertices, found and usable of each experiment.

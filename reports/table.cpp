@@ -53,6 +53,11 @@ std::string html_cell(const Cell& cell, const Column& column) {
                   : text;
 }
 
+std::string html_heading(const Column& column, const std::string& link) {
+  const std::string text = escape_html(column.heading);
+  return link.empty() ? text : fmt::format("<a href=\"{}\">{}</a>", escape_html(link), text);
+}
+
 /// A row of HTML cells, with the plot's cell after the names if there is one.
 std::string html_row(const Table& table, const char* tag, const Texts& cells, const std::string* plot) {
   std::string html = "<tr>";
@@ -145,10 +150,10 @@ std::string to_markdown(const Table& table) {
   return markdown;
 }
 
-std::string to_html(const Table& table, const std::vector<std::string>& plots) {
+std::string to_html(const Table& table, const std::vector<std::string>& plots, std::string (*link)(const Column&)) {
   const std::string no_title;
-  Texts heading = headings_of(table);
-  for (std::string& text : heading) text = escape_html(text);
+  Texts heading;
+  for (const Column& column : table.columns) heading.push_back(html_heading(column, link ? link(column) : ""));
   std::string html = "<div class=\"scroll\"><table>\n<thead>" +
                      html_row(table, "th", heading, plots.empty() ? nullptr : &no_title) + "</thead>\n<tbody>\n";
   for (size_t r = 0; r < table.rows.size(); ++r) {

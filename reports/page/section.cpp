@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/metrics/glossary.h"
 #include "reports/summary.h"
 #include "reports/text.h"
 
@@ -23,7 +24,7 @@ constexpr std::array<CurveError, 3> kCurveErrors = {
      {"rotation", "rotation_error_deg", "Rotation error (deg)", &PaperErrors::rotation_deg}}};
 
 std::string headline_html(const RunResult& result) {
-  return "<p>" + escape_html(headline_explanation()) + "</p>\n" + to_html(headline_table(result));
+  return "<p>" + escape_html(headline_explanation()) + "</p>\n" + to_html_with_links(headline_table(result));
 }
 
 Section figure4_section(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
@@ -115,7 +116,7 @@ std::string table_html(const Table& table, bool is_only) {
   return (is_only ? "" : "<h3>" + escape_html(table.title) + "</h3>\n") + "<p>" + escape_html(table.explanation) +
          "</p>\n" + (charts.empty() ? "" : "<div class=\"row\">\n" + charts + "</div>\n") + data_note(table.name) +
          fmt::format("<details{}><summary>Table</summary>\n", table.rows.size() > kLong ? "" : " open=\"\"") +
-         to_html(table) + "</details>\n";
+         to_html_with_links(table) + "</details>\n";
 }
 
 constexpr int kKeyframes = 6;  // about as many as the paper shows
