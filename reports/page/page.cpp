@@ -86,6 +86,7 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
   if (any_was_run(verdicts) || !quick_note(result).empty())
     sections.push_back({"claims", "Claims", claims_section(verdicts)});
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));
+  if (!result.experiments.empty()) sections.push_back(frames_section(result));
   if (!result.experiments.empty()) sections.push_back(metrics_section(result));
   if (has_commands(result)) sections.push_back(command_section(result, timings));
   if (!material.worst_frames.empty()) sections.push_back(gallery_section(material.worst_frames));
@@ -152,7 +153,8 @@ std::string shell_quoted(const std::string& text) {
 }  // namespace
 
 std::string data_note(const std::string& table) {
-  return fmt::format("<p class=\"source\">Data: <a href=\"tables/{0}.csv\">tables/{0}.csv</a></p>\n", table);
+  return fmt::format("<p class=\"source\">Data: <a href=\"tables/{0}.csv\">tables/{0}.csv</a></p>\n",
+                     escape_html(table));
 }
 
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings,

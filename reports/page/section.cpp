@@ -23,6 +23,8 @@ constexpr std::array<CurveError, 3> kCurveErrors = {
      {"posture", "posture_rms_deg", "Posture error (deg)", &PaperErrors::posture_deg},
      {"rotation", "rotation_error_deg", "Rotation error (deg)", &PaperErrors::rotation_deg}}};
 
+constexpr const char* kBarHint = "<p>A click on a bar shows its frames.</p>\n";
+
 std::string headline_html(const RunResult& result) {
   return "<p>" + escape_html(headline_explanation()) + "</p>\n" + to_html_with_links(headline_table(result));
 }
@@ -31,6 +33,7 @@ Section figure4_section(const RunResult& result, const PaperNumbers& paper, cons
   std::string html =
       "<p>Mean errors with their 95% intervals. Diamonds are the means that the paper prints; it shows "
       "its other bars without numbers.</p>\n";
+  html += kBarHint;
   for (const CurveError& error : kCurveErrors)
     html += chart_place(fmt::format("figure4-{}", error.name), fmt::format("{} as bars", error.label));
   html += data_note("figure4");
@@ -40,7 +43,7 @@ Section figure4_section(const RunResult& result, const PaperNumbers& paper, cons
 }
 
 Section errors_section(const RunResult& result) {
-  std::string html = "<p>Mean errors with their 95% intervals.</p>\n";
+  std::string html = std::string("<p>Mean errors with their 95% intervals.</p>\n") + kBarHint;
   for (const CurveError& error : kCurveErrors)
     html += chart_place(fmt::format("errors-{}", error.name), fmt::format("{} as bars", error.label));
   html += data_note("errors") + headline_html(result);
