@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "reports/claims/claims_report.h"
@@ -133,6 +134,21 @@ std::string study_markdown(const StudyResult& study) {
     if (table.title != study.title) text += fmt::format("### {}\n\n", table.title);
     if (!table.explanation.empty()) text += table.explanation + "\n\n";
     text += to_markdown(table) + "\n";
+  }
+  return text;
+}
+
+std::string study_text(const StudyResult& study, size_t columns) {
+  std::string text = study.title + "\n\n";
+  for (const Table& table : study.tables) {
+    if (table.title != study.title) text += wrapped(table.title, columns) + "\n";
+    const std::string whole = to_text(table, false, std::numeric_limits<int>::max());
+    const bool fits = text_width(whole.substr(0, whole.find('\n'))) <= columns;
+    text += fits ? wrapped(table.explanation, columns) + "\n" + whole + "\n"
+                 : wrapped(fmt::format("{} columns, too wide for this terminal: tables/{}.csv, summary.md",
+                                       table.columns.size(), table.name),
+                           columns) +
+                       "\n";
   }
   return text;
 }

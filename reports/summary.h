@@ -32,6 +32,8 @@ std::string quick_note(const RunResult& result);
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
 /// Title, explanation and rows of each table.
 std::string study_markdown(const StudyResult& study);
+/// The same for a terminal; of tables that are wider it names the file.
+std::string study_text(const StudyResult& study, size_t columns);
 /// What the tables hold, in plain text.
 std::string summary_explanation();
 

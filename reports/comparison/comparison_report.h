@@ -19,8 +19,9 @@ struct ComparisonReport {
   std::vector<std::string> scripts;
 };
 
-/// For a terminal, at most 120 columns. Shows changed rows or all, then counts verdicts.
-std::string comparison_table(const ComparisonReport& report, bool all_rows);
+/// For a terminal: tables of at most 120 columns, text of `columns`. Shows changed rows or all, then counts
+/// verdicts.
+std::string comparison_table(const ComparisonReport& report, bool all_rows, size_t columns = kTerminalColumns);
 /// For a job summary or pull request; verdict first.
 std::string comparison_markdown(const ComparisonReport& report);
 std::string comparison_json(const ComparisonReport& report);  ///< reports/schema/comparison.schema.json
