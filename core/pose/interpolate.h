@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 
 #include "core/database/database.h"
@@ -17,9 +18,10 @@ struct CoarseEstimate {
 };
 
 /// Mean of the matches with weights 1 / (E + epsilon); rotations by Markley's quaternion mean. View rotations refer
-/// to the ray through the hand and are turned to `query_ray` (unit, camera frame). `matches` is not empty.
+/// to the ray through the hand and are turned to `query_ray` (unit, camera frame; empty: not turned). `matches` is
+/// not empty.
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
-                           const Eigen::Vector3d& query_ray, double epsilon);
+                           const std::optional<Eigen::Vector3d>& query_ray, double epsilon);
 
 /// Markley et al. 2007: largest eigenvector of the weighted sum of q q^T.
 Eigen::Quaterniond mean_rotation(std::span<const Eigen::Quaterniond> rotations, std::span<const double> weights);
