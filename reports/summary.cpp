@@ -136,12 +136,12 @@ std::string errors_latex(const RunResult& result) {
          to_latex(headline_table(result));
 }
 
-std::string study_markdown(const StudyResult& study) {
+std::string study_markdown(const StudyResult& study, std::string (*print)(const Table&)) {
   std::string text = fmt::format("## {}\n\n", study.title);
   for (const Table& table : study.tables) {
     if (table.title != study.title) text += fmt::format("### {}\n\n", table.title);
     if (!table.explanation.empty()) text += table.explanation + "\n\n";
-    text += to_markdown(table) + "\n";
+    text += print(table) + "\n";
   }
   return text;
 }
@@ -153,6 +153,15 @@ std::string summary_explanation() {
          "tracked once became the truth. Source truth is the movement itself. The tracker's hand model is the "
          "first subject's hand; the second subject's hand differs from it. The paper prints its means for two "
          "experiments only.";
+}
+
+std::string figure5_note(const RunResult& result, const PaperNumbers& paper) {
+  const auto& [trajectory, database, mean, frames] = paper.figure_5;
+  if (!find_experiment(result, {trajectory, database, TruthKind::recorded, 1, headline_noise(result)})) return "";
+  return fmt::format(
+      "Figure 5 ({} with {}) is a calibration, not evidence: the movement has the length and onsets of the printed "
+      "curve, and the filter and the distance from open hand to power grasp were read off it.",
+      trajectory, database);
 }
 
 std::string quick_note(const RunResult& result) {
@@ -173,6 +182,8 @@ std::string summary_markdown(const RunResult& result, const PaperNumbers& paper)
     text +=
         fmt::format("## Figure 4\n\n{} Noise: {} x {}.\n\n{}\nThe paper: {}.\n\n", summary_explanation(),
                     noise.model, noise.factor, to_markdown(figure4_summary(result, paper, noise)), paper.source);
+  if (const std::string calibration = figure5_note(result, paper); !calibration.empty())
+    text += calibration + "\n\n";
   if (!result.experiments.empty())
     text +=
         fmt::format("## Mean errors\n\n{}\n\n{}\n", headline_explanation(), to_markdown(headline_table(result)));

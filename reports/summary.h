@@ -25,13 +25,15 @@ std::string headline_text(const RunResult& result, size_t columns);
 /// The headline as LaTeX, after a comment that names the run.
 std::string errors_latex(const RunResult& result);
 
+/// What Figure 5 was used for, as plain text; empty if it was not run.
+std::string figure5_note(const RunResult& result, const PaperNumbers& paper);
 /// Warning for a quick run, as plain text; else empty.
 std::string quick_note(const RunResult& result);
 
 /// summary.md: claims, tables, explanations, studies, robot commands, protocol.
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
 /// Title, explanation and rows of each table.
-std::string study_markdown(const StudyResult& study);
+std::string study_markdown(const StudyResult& study, std::string (*print)(const Table&) = to_markdown);
 /// What the tables hold, in plain text.
 std::string summary_explanation();
 

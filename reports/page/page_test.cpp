@@ -28,7 +28,8 @@ RunResult without_studies(RunResult result) {
 TEST(Page, ShowsTablesAndPlacesForCharts) {
   const std::string page = html_page(example_page(), paper_numbers());
   EXPECT_THAT(page, HasSubstr("<td>3.88 / 2.60 / 2.70</td>"));
-  EXPECT_THAT(page, HasSubstr("<h2>Figure 5: Tr4 with DB_open_power, recorded truth</h2>"));
+  EXPECT_THAT(page, HasSubstr("<h2>Figure 5: Tr4 with DB_open_power, recorded truth</h2>\n<p>Figure 5 (Tr4 with "
+                              "DB_open_power) is a calibration, not evidence"));
   EXPECT_THAT(page, HasSubstr("<h2>Figure 6: Tr1 with DB_20_postures, recorded truth</h2>"));
   for (const char* chart : {"figure4-position", "figure5-rotation", "figure6-posture", "figure7-time", "figure8"})
     EXPECT_THAT(page, HasSubstr("data-chart=\"" + std::string(chart) + "\""));

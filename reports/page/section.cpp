@@ -64,12 +64,14 @@ Table curve_summary(const ExperimentResult& experiment, const PaperCurve& paper)
   return table;
 }
 
+/// `note`: plain text above the curves; may be empty.
 void add_curve_section(std::vector<Section>& sections, const std::string& figure, const std::string& title,
-                       const ExperimentResult* experiment, const PaperCurve& paper,
+                       const ExperimentResult* experiment, const PaperCurve& paper, const std::string& note,
                        const std::vector<FrameSheet>& sheets) {
   if (!experiment || experiment->runs.empty()) return;
   const auto sheet = std::ranges::find(sheets, figure, &FrameSheet::figure);
-  std::string html = fmt::format(
+  std::string html = note.empty() ? "" : "<p>" + escape_html(note) + "</p>\n";
+  html += fmt::format(
       "<p class=\"legend\"><span class=\"key series-0\"></span>glovebench, noise seed {}; gaps are lost frames "
       "<span class=\"key series-1\"></span>the paper's own movement, for the shape and size of its errors: frames "
       "of "
@@ -153,12 +155,13 @@ std::vector<Section> experiment_sections(const RunResult& result, const PaperNum
   const NoiseSetting noise = headline_noise(result);
   std::vector<Section> sections = {is_figure4(result) ? figure4_section(result, paper, noise)
                                                       : errors_section(result)};
-  const auto add = [&](const std::string& figure, const std::string& title, const PaperCurve& curve) {
+  const auto add = [&](const std::string& figure, const std::string& title, const PaperCurve& curve,
+                       const std::string& note) {
     const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
-    add_curve_section(sections, figure, title, find_experiment(result, key), curve, sheets);
+    add_curve_section(sections, figure, title, find_experiment(result, key), curve, note, sheets);
   };
-  add("figure5", "Figure 5", paper.figure_5);
-  add("figure6", "Figure 6", paper.figure_6);
+  add("figure5", "Figure 5", paper.figure_5, figure5_note(result, paper));
+  add("figure6", "Figure 6", paper.figure_6, "");
   return sections;
 }
 
