@@ -74,6 +74,8 @@ std::string to_latex(const Table& table, const std::string& heading = "");
 /// Text for a terminal; the widest columns shrink to fit. `grouped`: the first column becomes a line above its
 /// rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
+/// For a terminal: Markdown, or, if it has long names, text without their columns.
+std::string to_terminal(const Table& table);
 /// Keys, then values to 1e-6. `names`: columns in front, with the value of every row.
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});
 

@@ -70,8 +70,9 @@ struct Reproduce {
   /// Shows Figure 4 first, then the newest study. If stdout has no reader, the work goes on and the summary fails.
   void show_newest(const reports::RunResult& so_far) const {
     if (common.quiet) return;
-    const std::string text =
-        so_far.studies.empty() ? figure4_text(so_far) : reports::study_markdown(so_far.studies.back());
+    const std::string text = so_far.studies.empty()
+                                 ? figure4_text(so_far)
+                                 : reports::study_markdown(so_far.studies.back(), reports::to_terminal);
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
   }
