@@ -76,7 +76,7 @@ TEST_F(CalibrateColorsLong, refuses_what_shows_no_glove) {
 
 TEST_F(CalibrateColorsLong, refuses_what_cannot_be_read_or_written) {
   EXPECT_THAT(refusal(calibrate("nothing")), HasSubstr("nothing"));
-  EXPECT_THAT(refusal(run_glovebench({"calibrate"})), HasSubstr("subcommand is required"));
+  EXPECT_THAT(refusal(run_glovebench({"calibrate"})), HasSubstr("A command is required"));
   EXPECT_THAT(refusal(run_glovebench({"calibrate", "colors", "-o", path("x")})), HasSubstr("--source"));
   EXPECT_THAT(refusal(calibrate("nothing", {"--report", path("report.txt")})), HasSubstr("the ending .json"));
   EXPECT_THAT(refusal(calibrate("nothing", {"--picture", path("picture.jpg")})), HasSubstr("the ending .png"));

@@ -64,14 +64,14 @@ class CommandLine : public testing::Test {
 };
 
 TEST_F(CommandLine, MissingOrUnknownWords) {
-  EXPECT_THAT(refusal(std::vector<std::string>{}), HasSubstr("subcommand is required"));
+  EXPECT_THAT(refusal(std::vector<std::string>{}), HasSubstr("A command is required"));
   EXPECT_THAT(refusal({"--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"bogus"}), HasSubstr("bogus"));
   EXPECT_THAT(refusal({"run", "--bogus"}), HasSubstr("--bogus"));
   EXPECT_THAT(refusal({"track", "--databse", "x"}),
               HasSubstr("did you mean --database? (see glovebench track --help)"));
   EXPECT_THAT(refusal({"list", "metric"}), HasSubstr("did you mean metrics? (see glovebench list --help)"));
-  EXPECT_THAT(refusal({"db"}), HasSubstr("subcommand is required"));
+  EXPECT_THAT(refusal({"db"}), HasSubstr("A command is required"));
   EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_open_power"}), HasSubstr("--output"));
 }
 

@@ -274,9 +274,7 @@ FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure, std
     paste(sheet, painter.truth(frames[i]), i % kColumns, 2 * (i / kColumns));
     paste(sheet, painter.difference(frames[i], estimates[i]), i % kColumns, 2 * (i / kColumns) + 1);
   }
-  return {figure,      encode_jpeg(sheet, kKeyframeQuality),
-          kColumns,    kTileWidth,
-          kTileHeight, estimates.front().frame,
+  return {figure, encode_jpeg(sheet, kKeyframeQuality), kColumns, kTileWidth, kTileHeight, estimates.front().frame,
           count};
 }
 

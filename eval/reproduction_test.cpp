@@ -55,6 +55,12 @@ TEST(Reproduction, TheLiteralReadingIsThereOnRequestAlone) {
   EXPECT_EQ(exit_code_of({.not_run = 3}, literal, true), 0) << "Figure 4 itself was not asked for";
 }
 
+TEST(Reproduction, DeviationsAreThereOnRequestAlone) {
+  Workbench workbench(test_workbench());
+  EXPECT_THAT(describe_reproduction(workbench, only({})), testing::Not(HasSubstr("deviations")));
+  EXPECT_THAT(describe_reproduction(workbench, only({"deviations"})), testing::StartsWith("deviations "));
+}
+
 TEST(ReproductionLong, TheLiteralReadingStandsBesideThePapers) {
   Workbench workbench(test_workbench());
   ReproductionOptions options = only({"paper-literal"});

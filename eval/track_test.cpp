@@ -67,7 +67,9 @@ TEST_F(TrackLong, WritesCsvPicturesAndAPage) {
     const ColorImage picture = decode_color(read_file(file), file);
     ASSERT_EQ(picture.width(), 640);
     ASSERT_EQ(picture.height(), 480);
-    const auto is_bone = [](const Rgb& rgb) { return rgb[0] >= 245 && std::abs(rgb[1] - 210) <= 10 && rgb[2] <= 10; };
+    const auto is_bone = [](const Rgb& rgb) {
+      return rgb[0] >= 245 && std::abs(rgb[1] - 210) <= 10 && rgb[2] <= 10;
+    };
     EXPECT_GT(std::ranges::count_if(picture, is_bone), 100) << "joints and the bones between them are drawn";
   }
   EXPECT_THAT(read_file(path("page.html")), AllOf(HasSubstr("track-position"), HasSubstr("index_pip_flexion_deg")));

@@ -61,8 +61,13 @@ std::string command_explanation() {
 }
 
 Table command_stream_table(const RunResult& result) {
-  Table table = experiment_table(
-      {"frames", "sent", "rate Hz (by stamps)", "longest gap ms", "following", "holding", "stopped"});
+  Table table = experiment_table({{"frames", "frames"},
+                                  {"sent_commands", "sent"},
+                                  {"command_rate_hz", "rate Hz (by stamps)"},
+                                  {"command_gap_ms", "longest gap ms"},
+                                  {"following_commands", "following"},
+                                  {"holding_commands", "holding"},
+                                  {"stopped_commands", "stopped"}});
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
     const CommandResult& commands = *experiment.commands;
@@ -76,8 +81,8 @@ Table command_stream_table(const RunResult& result) {
 
 Table command_intervention_table(const RunResult& result) {
   const std::vector<Intervention> kinds = interventions_of(result);
-  std::vector<std::string> columns;
-  for (const Intervention kind : kinds) columns.emplace_back(to_string(kind));
+  std::vector<Column> columns;
+  for (const Intervention kind : kinds) columns.push_back({"interventions", std::string(to_string(kind))});
   Table table = experiment_table(columns);
   if (kinds.empty()) return table;
   for (const ExperimentResult& experiment : result.experiments) {
@@ -90,9 +95,10 @@ Table command_intervention_table(const RunResult& result) {
 }
 
 Table command_error_table(const RunResult& result) {
-  std::vector<std::string> columns;
-  for (const CommandErrorInfo& info : command_error_infos()) columns.emplace_back(info.heading);
-  columns.insert(columns.end(), {"jerk deg/s³", "jerk m/s³"});
+  std::vector<Column> columns;
+  for (const CommandErrorInfo& info : command_error_infos())
+    columns.push_back({fmt::format("command_{}", info.key), std::string(info.heading)});
+  columns.insert(columns.end(), {{"jerk_joints_deg_s3", "jerk deg/s³"}, {"jerk_position_m_s3", "jerk m/s³"}});
   Table table = experiment_table(columns);
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
@@ -108,7 +114,7 @@ Table command_error_table(const RunResult& result) {
 }
 
 Table command_latency_table(const RunResult& result, const Timings& timings) {
-  Table table = experiment_table({"median ms", "p99 ms", "longest ms"});
+  Table table = experiment_table({{"", "median ms"}, {"", "p99 ms"}, {"", "longest ms"}});
   for (const ExperimentTiming& timing : timings.experiments) {
     const ExperimentResult* experiment = find_experiment(result, timing.key);
     if (!experiment || timing.command_ms.empty()) continue;

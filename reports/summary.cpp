@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
@@ -47,8 +49,8 @@ void join_names(Table& table) {
   table.name_columns = 1;
 }
 
-std::optional<double> fingertip_area(const ExperimentResult& experiment) {
-  return experiment.fingertip_pck ? experiment.fingertip_pck->area : std::nullopt;
+Cell metric_cell(const ExperimentResult& experiment, const Column& column) {
+  return fixed(value_of(metric_of(column.key), experiment), column.digits);
 }
 
 std::string truth_cell(const ExperimentKey& key, std::optional<int> last_subject) {
@@ -61,9 +63,9 @@ std::string truth_cell(const ExperimentKey& key, std::optional<int> last_subject
 
 }  // namespace
 
-Table experiment_table(const std::vector<std::string>& measured) {
+Table experiment_table(const std::vector<Column>& measured) {
   Table table = table_of({"trajectory", "database", "truth", "noise"}, 4);
-  for (const std::string& heading : measured) table.columns.push_back({"", heading});
+  table.columns.insert(table.columns.end(), measured.begin(), measured.end());
   return table;
 }
 
@@ -73,39 +75,29 @@ Row experiment_names(const ExperimentKey& key, std::optional<int> last_subject) 
 }
 
 Table detail_summary(const RunResult& result) {
-  std::vector<std::string> headings = {"position mm [95%]"};
-  for (const Metric& metric : frame_metrics())
-    if (!metric.heading.empty()) headings.emplace_back(metric.heading);
-  for (const char* heading : {"PCK area", "fingertip AUC", "jitter mm", "jitter deg", "latency frames",
-                              "coverage %", "lost", "false tracked", "false lost", "frames", "visible frames"})
-    headings.emplace_back(heading);
-  Table table = experiment_table(headings);
+  std::vector<Column> columns = {{"position_error_mm", "position mm [95%]"}};
+  for (const Metric& metric : metrics())
+    if (!metric.heading.empty())
+      columns.push_back({std::string(metric.key), std::string(metric.heading), metric.digits});
+  Table table = experiment_table(columns);
   for (const ExperimentResult& experiment : result.experiments) {
-    const Coverage& coverage = experiment.coverage;
     Row& row = table.rows.emplace_back(experiment_names(experiment.key));
-    row.push_back(mean_with_interval(experiment, "position_error_mm"));
-    for (const Metric& metric : frame_metrics())
-      if (!metric.heading.empty()) row.push_back(fixed(experiment.aggregate_of(metric.key).mean, 2));
-    for (const Cell& cell : std::initializer_list<Cell>{
-             fixed(experiment.pck.area, 3), fixed(fingertip_area(experiment), 3),
-             fixed(experiment.sequence.jitter_position_mm, 2), fixed(experiment.sequence.jitter_rotation_deg, 2),
-             fixed(experiment.sequence.latency_frames, 1), fixed(covered_percent(experiment), 1), coverage.lost,
-             coverage.false_tracked, coverage.false_lost, coverage.frames, coverage.visible})
-      row.push_back(cell);
+    row.push_back(mean_with_interval(experiment, columns.front().key));
+    for (const Column& column : std::span(columns).subspan(1)) row.push_back(metric_cell(experiment, column));
   }
   return table;
 }
 
 Table headline_table(const RunResult& result) {
-  Table table = experiment_table(
-      {"position mm", "posture deg", "rotation deg", "fingertips mm", "vertices mm", "found %", "usable %"});
+  const std::vector<Column> columns = {
+      {"position_error_mm", "position mm"},   {"posture_rms_deg", "posture deg"},
+      {"rotation_error_deg", "rotation deg"}, {"fingertip_error_mm", "fingertips mm"},
+      {"vertex_error_mm", "vertices mm"},     {"found_percent", "found %", 1},
+      {"usable_percent", "usable %", 1}};
+  Table table = experiment_table(columns);
   for (const ExperimentResult& experiment : result.experiments) {
     Row& row = table.rows.emplace_back(experiment_names(experiment.key));
-    for (const char* metric :
-         {"position_error_mm", "posture_rms_deg", "rotation_error_deg", "fingertip_error_mm", "vertex_error_mm"})
-      row.push_back(fixed(experiment.aggregate_of(metric).mean, 2));
-    for (const auto& share : {experiment.coverage.found_share(), experiment.coverage.usable_share()})
-      row.push_back(share ? fixed(100 * *share, 1) : fixed(share, 1));
+    for (const Column& column : columns) row.push_back(metric_cell(experiment, column));
   }
   return table;
 }
@@ -146,6 +138,21 @@ std::string study_markdown(const StudyResult& study) {
   return text;
 }
 
+std::string study_text(const StudyResult& study, size_t columns) {
+  std::string text = study.title + "\n\n";
+  for (const Table& table : study.tables) {
+    if (table.title != study.title) text += wrapped(table.title, columns) + "\n";
+    const std::string whole = to_text(without_long_names(table), false, std::numeric_limits<int>::max());
+    const bool fits = text_width(whole.substr(0, whole.find('\n'))) <= columns;
+    text += fits ? wrapped(table.explanation, columns) + "\n" + whole + "\n"
+                 : wrapped(fmt::format("{} columns, too wide for this terminal: tables/{}.csv, summary.md",
+                                       table.columns.size(), table.name),
+                           columns) +
+                       "\n";
+  }
+  return text;
+}
+
 std::string summary_explanation() {
   return "Each cell holds the mean position error (mm), posture error (RMS over the 22 joint angles, degrees) and "
          "rotation error (degrees), then the coverage: the share of all frames, lost ones included, that are "
@@ -153,6 +160,15 @@ std::string summary_explanation() {
          "tracked once became the truth. Source truth is the movement itself. The tracker's hand model is the "
          "first subject's hand; the second subject's hand differs from it. The paper prints its means for two "
          "experiments only.";
+}
+
+std::string figure5_note(const RunResult& result, const PaperNumbers& paper) {
+  const auto& [trajectory, database, mean, frames] = paper.figure_5;
+  if (!find_experiment(result, {trajectory, database, TruthKind::recorded, 1, headline_noise(result)})) return "";
+  return fmt::format(
+      "Figure 5 ({} with {}) is a calibration, not evidence: the movement has the length and onsets of the printed "
+      "curve, and the filter and the distance from open hand to power grasp were read off it.",
+      trajectory, database);
 }
 
 std::string quick_note(const RunResult& result) {
@@ -173,6 +189,8 @@ std::string summary_markdown(const RunResult& result, const PaperNumbers& paper)
     text +=
         fmt::format("## Figure 4\n\n{} Noise: {} x {}.\n\n{}\nThe paper: {}.\n\n", summary_explanation(),
                     noise.model, noise.factor, to_markdown(figure4_summary(result, paper, noise)), paper.source);
+  if (const std::string calibration = figure5_note(result, paper); !calibration.empty())
+    text += calibration + "\n\n";
   if (!result.experiments.empty())
     text +=
         fmt::format("## Mean errors\n\n{}\n\n{}\n", headline_explanation(), to_markdown(headline_table(result)));

@@ -53,12 +53,36 @@ std::string html_cell(const Cell& cell, const Column& column) {
                   : text;
 }
 
+std::string html_heading(const Column& column, const std::string& link) {
+  const std::string text = escape_html(column.heading);
+  return link.empty() ? text : fmt::format("<a href=\"{}\">{}</a>", escape_html(link), text);
+}
+
+/// Whether names of a column, which is not the first, are too long for a line.
+bool has_long_names(const Table& table, size_t column) {
+  constexpr size_t kLong = 60;  // bytes
+  return column > 0 && is_name_column(table, column) && std::ranges::any_of(table.rows, [&](const Row& row) {
+           return cell_text(row[column], table.columns[column]).size() > kLong;
+         });
+}
+
+/// The attribute of each column's cells.
+std::vector<std::string> html_classes(const Table& table) {
+  std::vector<std::string> classes(table.columns.size());
+  for (size_t c = 0; c < classes.size(); ++c) {
+    if (!is_name_column(table, c)) continue;
+    classes[c] = has_long_names(table, c) ? " class=\"name long\"" : " class=\"name\"";
+  }
+  return classes;
+}
+
 /// A row of HTML cells, with the plot's cell after the names if there is one.
-std::string html_row(const Table& table, const char* tag, const Texts& cells, const std::string* plot) {
+std::string html_row(const Table& table, const std::vector<std::string>& classes, const char* tag,
+                     const Texts& cells, const std::string* plot) {
   std::string html = "<tr>";
   for (size_t c = 0; c < cells.size(); ++c) {
     if (plot && std::cmp_equal(c, table.name_columns)) html += fmt::format("<{0}>{1}</{0}>", tag, *plot);
-    html += fmt::format("<{0}{1}>{2}</{0}>", tag, is_name_column(table, c) ? " class=\"name\"" : "", cells[c]);
+    html += fmt::format("<{0}{1}>{2}</{0}>", tag, classes[c], cells[c]);
   }
   return html + "</tr>";
 }
@@ -145,17 +169,19 @@ std::string to_markdown(const Table& table) {
   return markdown;
 }
 
-std::string to_html(const Table& table, const std::vector<std::string>& plots) {
+std::string to_html(const Table& table, const std::vector<std::string>& plots, std::string (*link)(const Column&)) {
   const std::string no_title;
-  Texts heading = headings_of(table);
-  for (std::string& text : heading) text = escape_html(text);
+  Texts heading;
+  for (const Column& column : table.columns) heading.push_back(html_heading(column, link ? link(column) : ""));
+  const std::vector<std::string> classes = html_classes(table);
   std::string html = "<div class=\"scroll\"><table>\n<thead>" +
-                     html_row(table, "th", heading, plots.empty() ? nullptr : &no_title) + "</thead>\n<tbody>\n";
+                     html_row(table, classes, "th", heading, plots.empty() ? nullptr : &no_title) +
+                     "</thead>\n<tbody>\n";
   for (size_t r = 0; r < table.rows.size(); ++r) {
     Texts cells;
     for (size_t c = 0; c < table.columns.size(); ++c)
       cells.push_back(html_cell(table.rows[r][c], table.columns[c]));
-    html += html_row(table, "td", cells, plots.empty() ? nullptr : &plots[r]) + "\n";
+    html += html_row(table, classes, "td", cells, plots.empty() ? nullptr : &plots[r]) + "\n";
   }
   return html + "</tbody></table></div>\n";
 }
@@ -203,6 +229,16 @@ std::string to_text(const Table& table, bool grouped, size_t columns) {
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;
+}
+
+Table without_long_names(Table table) {
+  for (int c = table.name_columns; --c > 0;) {
+    if (!has_long_names(table, static_cast<size_t>(c))) continue;
+    table.columns.erase(table.columns.begin() + c);
+    for (Row& row : table.rows) row.erase(row.begin() + c);
+    --table.name_columns;
+  }
+  return table;
 }
 
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names) {

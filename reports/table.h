@@ -15,7 +15,7 @@
 namespace glovebench::reports {
 
 struct Column {
-  std::string key;       ///< with unit, for CSV and JSON: "posture_error_deg"; empty in tables for people
+  std::string key;  ///< with unit, for CSV and JSON: "posture_error_deg"; in tables for people a metric's or empty
   std::string heading;   ///< with unit, for people
   int digits = 2;        ///< for people
   bool is_time = false;  ///< for timings.json, not results.json
@@ -65,12 +65,15 @@ nlohmann::ordered_json cell_json(const Cell& cell);
 
 /// "Better" and "worse" are bold.
 std::string to_markdown(const Table& table);
-/// `plots`: an SVG per row, after the names.
-std::string to_html(const Table& table, const std::vector<std::string>& plots = {});
-/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings.
+/// `plots`: an SVG for each row, after the names. `link`: where a heading leads ("#place"); empty: nowhere.
+std::string to_html(const Table& table, const std::vector<std::string>& plots = {},
+                    std::string (*link)(const Column&) = nullptr);
+/// A booktabs tabular to \input. `heading`: LaTeX rows above the headings, such as to span columns.
 std::string to_latex(const Table& table, const std::string& heading = "");
 /// The widest columns shrink to fit. `grouped`: the first column becomes a line above its rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
+/// Without columns of names, other than the first, that are too long for a terminal.
+Table without_long_names(Table table);
 /// Keys, then values to 1e-6. `names`: columns in front, with the value of every row.
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});
 

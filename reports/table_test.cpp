@@ -88,6 +88,16 @@ std::string as_shown(const std::string& csv, const Column& column, const Cell& c
   return text;
 }
 
+TEST(Table, ColumnsOfLongNamesWrapOnThePageAndAreNotForTheTerminal) {
+  Table table = table_of({"name", "words", "count"}, 2);
+  table.rows = {{"a", std::string(61, 'x'), int64_t{1}}, {"b", "short", {}}};
+  EXPECT_EQ(to_text(without_long_names(table)), "name  count\na         1\nb         -\n");
+  EXPECT_THAT(to_html(table), testing::HasSubstr("<td class=\"name long\">xxx"));
+  EXPECT_THAT(to_html(table), testing::HasSubstr("<td class=\"name long\">short"));
+  table.rows.erase(table.rows.begin());
+  EXPECT_EQ(without_long_names(table), table);
+}
+
 TEST(Table, EveryCellIsTheSameInEveryFile) {
   const std::string folder = test_folder();
   const RunResult result = full_result();

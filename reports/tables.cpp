@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 #include "reports/results_json.h"
@@ -47,10 +48,49 @@ std::string paper_cells(const PaperErrors* paper) {
   return fmt::format("{:>5.2f} {:>5.2f} {:>5.2f}", paper->position_mm, paper->posture_deg, paper->rotation_deg);
 }
 
-std::string table_line(std::string_view trajectory, std::string_view database,
-                       const std::array<std::string, 4>& cells) {
-  return fmt::format("{:<4} {:<16}|{:^25}|{:^25}|{:^25}|{:^18}", trajectory, database, cells[0], cells[1], cells[2],
-                     cells[3]);
+std::string trimmed(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + "\n";
+}
+
+/// Columns of Figure 4 that stay together on a terminal.
+struct Block {
+  std::string title, units;
+  std::function<std::string(const Figure4Row&)> cells;
+  size_t width = 0;
+};
+
+std::vector<Block> figure4_blocks() {
+  std::vector<Block> blocks;
+  const std::string units = fmt::format("{:>6} {:>6} {:>6} {:>5}", "mm", "post.", "rot.", "cov.");
+  for (size_t v = 0; v < figure4_variants().size(); ++v)
+    blocks.push_back({figure4_variants()[v].title, units,
+                      [v](const Figure4Row& row) { return variant_cells(row.variants[v]); }, 25});
+  blocks.push_back({"paper", fmt::format("{:>5} {:>5} {:>5}", "mm", "post.", "rot."),
+                    [](const Figure4Row& row) { return paper_cells(row.paper); }, 18});
+  return blocks;
+}
+
+constexpr size_t kNameWidth = 21;  // of trajectory and database
+
+std::string blocks_text(std::span<const Block> blocks, const std::vector<Figure4Row>& rows) {
+  const auto line = [&](std::string_view trajectory, std::string_view database, const auto& cells) {
+    std::string text = fmt::format("{:<4} {:<16}", trajectory, database);
+    for (const Block& block : blocks) text += fmt::format("|{:^{}}", cells(block), block.width);
+    return trimmed(text);
+  };
+  std::string rule(kNameWidth, '-');
+  for (const Block& block : blocks) rule.append("+").append(block.width, '-');
+  std::string text = line("", "", [](const Block& block) { return block.title; }) +
+                     line("", "database DB_", [](const Block& block) { return block.units; });
+  std::string previous;
+  for (const Figure4Row& row : rows) {
+    if (row.trajectory != previous) text += rule + "\n";
+    text += line(row.trajectory == previous ? "" : row.trajectory, short_name(row.database),
+                 [&](const Block& block) { return block.cells(row); });
+    previous = row.trajectory;
+  }
+  return text;
 }
 
 std::string means_heading(bool with_paper) {
@@ -113,11 +153,6 @@ std::string variant_heading() {
   return titles + " \\\\\n" + rules + "\n";
 }
 
-std::string trimmed(std::string line) {
-  line.erase(line.find_last_not_of(' ') + 1);
-  return line + "\n";
-}
-
 }  // namespace
 
 const std::array<Variant, 3>& figure4_variants() {
@@ -163,22 +198,23 @@ std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers
   return rows;
 }
 
-std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
-  const std::string units = fmt::format("{:>6} {:>6} {:>6} {:>5}", "mm", "post.", "rot.", "cov.");
-  std::string text = fmt::format(
-      "Mean errors: position (mm), posture (RMS of 22 angles, deg), rotation (deg); coverage (%). Noise: {} x {}\n",
-      noise.model, noise.factor);
-  text += trimmed(table_line(
-      "", "", {figure4_variants()[0].title, figure4_variants()[1].title, figure4_variants()[2].title, "paper"}));
-  text += trimmed(table_line("", "database DB_",
-                             {units, units, units, fmt::format("{:>5} {:>5} {:>5}", "mm", "post.", "rot.")}));
-  std::string previous;
-  for (const Figure4Row& row : figure4_rows(result, paper, noise)) {
-    if (row.trajectory != previous) text += fmt::format("{0:-<21}+{0:-<25}+{0:-<25}+{0:-<25}+{0:-<18}\n", "");
-    text += trimmed(table_line(row.trajectory == previous ? "" : row.trajectory, short_name(row.database),
-                               {variant_cells(row.variants[0]), variant_cells(row.variants[1]),
-                                variant_cells(row.variants[2]), paper_cells(row.paper)}));
-    previous = row.trajectory;
+std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise,
+                          size_t columns) {
+  const std::vector<Figure4Row> rows = figure4_rows(result, paper, noise);
+  const std::vector<Block> blocks = figure4_blocks();
+  std::string text = wrapped(
+      fmt::format("Mean errors: position (mm), posture (RMS of 22 angles, deg), rotation (deg); coverage (%). "
+                  "Noise: {} x {}",
+                  noise.model, noise.factor),
+      columns);
+  for (size_t first = 0, count = 0; first < blocks.size(); first += count) {
+    size_t width = kNameWidth;
+    for (count = 0; first + count < blocks.size(); ++count) {
+      width += 1 + blocks[first + count].width;
+      if (count > 0 && width > columns) break;
+    }
+    if (first > 0) text += "\n";
+    text += blocks_text(std::span(blocks).subspan(first, count), rows);
   }
   return text;
 }

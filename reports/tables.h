@@ -37,9 +37,10 @@ struct Figure4Row {
 /// In running order. Rows refer to both arguments.
 std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
-/// At most 120 columns: position, posture (RMS) and rotation errors with coverage per variant, beside the paper's.
-/// "-" for no value.
-std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
+/// Position, posture (RMS) and rotation errors with coverage per variant, beside the paper's; below each other
+/// where `columns` are fewer than 115. "-" for no value.
+std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise,
+                          size_t columns = 120);
 
 /// One column per variant, one for the paper's means.
 Table figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);

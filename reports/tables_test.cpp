@@ -38,6 +38,30 @@ TEST(Figure4Table, FitsA120ColumnTerminal) {
     EXPECT_LE(line.size(), 120u) << line;
 }
 
+TEST(Figure4Table, BreaksIntoBlocksOnANarrowTerminal) {
+  const std::string table = figure4_table(full_result(), paper_numbers(), {}, 80);
+  size_t names = 0;
+  for (const std::string& line : lines_of_table(table)) {
+    EXPECT_LE(line.size(), 80u) << line;
+    names += line.starts_with("Tr4");
+  }
+  EXPECT_EQ(names, 2U) << "two variants, then the third and the paper";
+  for (const char* title : {"recorded truth", "source truth", "source, second subject", "paper"})
+    EXPECT_THAT(table, HasSubstr(title));
+}
+
+TEST(StudyText, NamesTheFileOfATableThatIsTooWide) {
+  Table narrow = table_of({"a", "b"}), wide = narrow;
+  narrow.title = wide.title = "S";
+  narrow.explanation = "Both columns.";
+  narrow.rows = wide.rows = {{"c", "d"}};
+  wide.name = "wide";
+  wide.columns[1].heading = std::string(80, 'b');
+  EXPECT_EQ(study_text({"s", "S", {narrow, wide}, {}}, 80),
+            "S\n\nBoth columns.\n\na  b\nc  d\n\n2 columns, too wide for this terminal: tables/wide.csv, "
+            "summary.md\n\n");
+}
+
 TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
   const std::string table = figure4_table(small_result(), paper_numbers(), {"kinect", 0.5});
   EXPECT_THAT(table, HasSubstr("Noise: kinect x 0.5"));

@@ -28,7 +28,7 @@ class Articulated : public Method {
   TrackResult estimate(const DeviceFrame& frame, const TrackResult* previous, const StageObserver& observe);
   /// The matches, their mean, and the frame before.
   RecycledVector<ArticulatedPose> starts(const TrackResult& result, const TrackResult* previous,
-                                         const CoarseEstimate& mean, const Eigen::Vector3d& ray,
+                                         const CoarseEstimate& mean, const std::optional<Eigen::Vector3d>& ray,
                                          const LabeledCloud& cloud) const;
 
   MethodInputs in_;
@@ -37,7 +37,8 @@ class Articulated : public Method {
 };
 
 RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, const TrackResult* previous,
-                                                    const CoarseEstimate& mean, const Eigen::Vector3d& ray,
+                                                    const CoarseEstimate& mean,
+                                                    const std::optional<Eigen::Vector3d>& ray,
                                                     const LabeledCloud& cloud) const {
   RecycledVector<ArticulatedPose> all = {{mean.posture, result.T_camera_hand_coarse}};
   if (previous != nullptr) all.push_back({previous->posture_unfiltered, previous->T_camera_hand_unfiltered});
@@ -62,7 +63,6 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
   result.matches = std::move(found.matches);
   result.status = found.status;
   if (result.status != TrackStatus::tracked) return result;
-  const Eigen::Vector3d ray = square_ray(found.square, in_.calibration.ir);
   const CoarseEstimate& mean = found.coarse;
   result.ambiguous = mean.ambiguous;
   result.T_camera_hand_coarse =
@@ -73,7 +73,7 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
 
   observe(Stage::fit);
   const ArticulatedEstimate fitted =
-      fit_({view_.points, view_.mask, in_.calibration.ir}, starts(result, previous, mean, ray, seen.cloud),
+      fit_({view_.points, view_.mask, in_.calibration.ir}, starts(result, previous, mean, found.ray, seen.cloud),
            previous == nullptr ? nullptr : &previous->posture_unfiltered);
   result.posture_unfiltered = fitted.pose.posture;
   result.T_camera_hand_unfiltered = fitted.pose.T_camera_hand;

@@ -30,13 +30,14 @@ RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int
 }
 
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
-                              std::span<const LabeledPoint> points) {
+                              std::span<const LabeledPoint> points, bool center_visible_surface) {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   for (const LabeledPoint& point : points) center += point.p.cast<double>();
   if (!points.empty()) center /= static_cast<double>(points.size());
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = R_camera_hand;
   T.translation() = center;
+  if (!center_visible_surface) return T;
   T.translation() = center - R_camera_hand * seen_center(model, hand, viewpoint_hand(T)).cast<double>();
   return T;
 }

@@ -18,14 +18,15 @@ constexpr auto names_of(Implementation) {
 }
 
 struct IcpConfig {
-  std::string algorithm = "horn";    ///< a name of `alignments`
-  int max_points = 1000;             ///< at most, by uniform stride, >= 3
-  int subsampling_factor = 0;        ///< every nth point (Figure 9), >= 0; 0: by `max_points`
-  int max_iterations = 100;          ///< >= 1
-  double convergence_share = 1e-3;   ///< stop if the mean distance changes by a smaller share, > 0
-  bool cull_each_iteration = false;  ///< false: only before the first iteration (the paper)
-  Implementation implementation = Implementation::fast;
-  bool color_sensitive = true;  ///< false: any color
+  std::string algorithm = "horn";      ///< a name of `alignments`
+  bool center_visible_surface = true;  ///< false: the hand's origin starts at the cloud's center of gravity
+  int max_points = 1000;               ///< at most, by uniform stride, >= 3
+  int subsampling_factor = 0;          ///< every nth point (Figure 9), >= 0; 0: by `max_points`
+  int max_iterations = 100;            ///< >= 1
+  double convergence_share = 1e-3;     ///< stops when the mean distance changes by a smaller share, > 0
+  bool cull_each_iteration = false;    ///< false: only before the first iteration (the paper)
+  Implementation implementation = Implementation::fast;  ///< of the closest-point search
+  bool color_sensitive = true;                           ///< false: any color
 };
 
 enum class AlignmentStatus { converged, not_converged, too_few_points, degenerate_cloud, no_shared_color };
@@ -42,10 +43,10 @@ RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, siz
 /// Takes the smallest stride that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
-/// The given rotation, with the camera-facing faces centered on the cloud.
-/// Paper: section III-C.
+/// The given rotation; puts the center of the camera-facing faces, or else the hand's origin, at the cloud's
+/// center. Paper: section III-C.
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
-                              std::span<const LabeledPoint> points);
+                              std::span<const LabeledPoint> points, bool center_visible_surface = true);
 
 /// X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`.
 struct AlignmentEntry {

@@ -256,5 +256,13 @@ TEST(CoarsePose, puts_the_visible_center_on_the_clouds) {
   EXPECT_LT(distance_mm(coarse, truth), 15);
 }
 
+TEST(CoarsePose, puts_the_origin_on_the_clouds_center_if_asked) {
+  const RecycledVector<LabeledPoint> cloud = {{{0.1f, 0, 0.7f}, 1}, {{0.3f, 0.2f, 0.9f}, 2}};
+  const Eigen::Matrix3d R = test_pose({0, 0, 1}).linear();
+  const Eigen::Isometry3d coarse = coarse_pose(test_hand(), posed(), R, cloud, false);
+  EXPECT_EQ(coarse.linear(), R);
+  EXPECT_LT((coarse.translation() - Eigen::Vector3d(0.2, 0.1, 0.8)).norm(), 1e-6) << "single precision";
+}
+
 }  // namespace
 }  // namespace glovebench

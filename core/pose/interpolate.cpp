@@ -30,7 +30,7 @@ Eigen::Quaterniond mean_rotation(std::span<const Eigen::Quaterniond> rotations, 
 }
 
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
-                           const Eigen::Vector3d& query_ray, double epsilon) {
+                           const std::optional<Eigen::Vector3d>& query_ray, double epsilon) {
   check(!matches.empty(), "there is a match to interpolate");
   RecycledVector<double> weights;
   RecycledVector<Eigen::Quaterniond> rotations;
@@ -38,8 +38,8 @@ CoarseEstimate interpolate(const Database& database, std::span<const Match> matc
   double total = 0;
   for (const Match& match : matches) {
     const double weight = 1.0 / (match.error + epsilon);
-    const auto R_query_view = Eigen::Quaterniond::FromTwoVectors(database.box_ray(match.entry), query_ray);
-    rotations.push_back(R_query_view * Eigen::Quaterniond(view_rotations()[Database::view(match.entry)]));
+    Eigen::Quaterniond& R = rotations.emplace_back(view_rotations()[Database::view(match.entry)]);
+    if (query_ray) R = Eigen::Quaterniond::FromTwoVectors(database.box_ray(match.entry), *query_ray) * R;
     weights.push_back(weight);
     posture += weight * database.posture(match.entry);
     total += weight;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 
 #include "core/database/database.h"
@@ -16,10 +17,11 @@ struct CoarseEstimate {
   bool ambiguous = false;  ///< two rotations differ by more than 60 degrees
 };
 
-/// Mean of the matches with weights 1 / (E + epsilon). View rotations refer to the ray through the hand and are
-/// turned to `query_ray` (unit, camera frame). `matches` is not empty.
+/// Mean of the matches with weights 1 / (E + epsilon); rotations by Markley's quaternion mean. View rotations refer
+/// to the ray through the hand and are turned to `query_ray` (unit, camera frame; empty: not turned). `matches` is
+/// not empty.
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
-                           const Eigen::Vector3d& query_ray, double epsilon);
+                           const std::optional<Eigen::Vector3d>& query_ray, double epsilon);
 
 /// Largest eigenvector of the weighted sum of q q^T (Markley et al. 2007).
 Eigen::Quaterniond mean_rotation(std::span<const Eigen::Quaterniond> rotations, std::span<const double> weights);

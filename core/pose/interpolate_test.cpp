@@ -51,6 +51,15 @@ TEST(Interpolate, weighs_by_the_inverse_of_the_error) {
   EXPECT_FALSE(estimate.ambiguous);
 }
 
+TEST(Interpolate, without_a_ray_the_view_keeps_its_rotation) {
+  const Database& database = test_database();
+  const RecycledVector<Match> matches = {{250, 0.5f}};
+  const Eigen::Matrix3d& R_view = view_rotations()[250];
+  EXPECT_LT(rotation_apart_deg(interpolate(database, matches, std::nullopt, 0.01).R_camera_hand, R_view), 1e-5);
+  const Vector3d ray = Vector3d(0.3, 0, 1).normalized();
+  EXPECT_GT(rotation_apart_deg(interpolate(database, matches, ray, 0.01).R_camera_hand, R_view), 10);
+}
+
 TEST(Interpolate, epsilon_bounds_the_weight_of_a_perfect_match) {
   const Database& database = test_database();
   const RecycledVector<Match> matches = {{0, 0.0f}, {kViewCount, 0.5f}};

@@ -87,7 +87,8 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
 
   observe(Stage::alignment);
   const PosedHand hand = model_->pose(coarse.posture);
-  result.T_camera_hand_coarse = coarse_pose(*model_, hand, coarse.R_camera_hand, cloud.points);
+  result.T_camera_hand_coarse =
+      coarse_pose(*model_, hand, coarse.R_camera_hand, cloud.points, config_.icp.center_visible_surface);
   const Alignment alignment = align(*model_, hand, cloud.points, result.T_camera_hand_coarse, config_.icp);
   result.T_camera_hand_unfiltered = alignment.T_camera_hand;
   result.converged = alignment.status == AlignmentStatus::converged;
@@ -116,8 +117,8 @@ HandLookUp look_up_hand(const LabelImage& labels, const PinholeCamera& camera, c
     return found;
   }
   found.status = TrackStatus::tracked;
-  found.coarse =
-      interpolate(database, found.matches, square_ray(found.square, camera), config.interpolation_epsilon);
+  if (config.turn_to_ray) found.ray = square_ray(found.square, camera);
+  found.coarse = interpolate(database, found.matches, found.ray, config.interpolation_epsilon);
   return found;
 }
 

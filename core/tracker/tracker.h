@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "core/camera/pinhole_camera.h"
@@ -54,6 +55,7 @@ class Tracker {
 struct HandLookUp {
   TrackStatus status = TrackStatus::no_hand;  ///< tracked, no_hand or poor_match
   Square square;
+  std::optional<Eigen::Vector3d> ray;  ///< to which the rotations are turned, if they are
   RecycledVector<Match> matches;
   CoarseEstimate coarse;  ///< mean of the matches, if tracked
 };

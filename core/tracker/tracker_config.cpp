@@ -62,8 +62,10 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("lookup", "cascade", c.lookup.cascade, Range{});
   visit("lookup", "implementation", c.lookup.implementation, Names{names_in(look_ups())});
   visit("lookup", "interpolation_epsilon_px", c.lookup.interpolation_epsilon, kPositive);
+  visit("lookup", "turn_to_ray", c.lookup.turn_to_ray, Range{});
   visit("lookup", "max_matching_error_share", c.lookup.max_matching_error, kPositive);
   visit("icp", "algorithm", c.icp.algorithm, Names{names_in(alignments())});
+  visit("icp", "center_visible_surface", c.icp.center_visible_surface, Range{});
   visit("icp", "max_points", c.icp.max_points, Range{3, 307200});
   visit("icp", "subsampling_factor", c.icp.subsampling_factor, Range{0, 307200});
   visit("icp", "implementation", c.icp.implementation, Range{});

@@ -24,6 +24,7 @@ struct SegmentationConfig {
 struct LookupConfig {
   Cascade cascade = {{16, 500}, {64, 3}};  ///< section IV-B
   double interpolation_epsilon = 0.01;     ///< eps in 1 / (E + eps), px, > 0
+  bool turn_to_ray = true;                 ///< false: a view's rotation stays as it was rendered
   std::string implementation = "fast";     ///< a name of `look_ups`
   double max_matching_error = 0.08;        ///< as a share of the last stage's side, > 0; larger: `poor_match`
 };

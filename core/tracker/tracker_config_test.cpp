@@ -88,7 +88,7 @@ TEST(TrackerConfig, each_key_changes_its_field_alone) {
       ++fields;
     }
   }
-  EXPECT_EQ(fields, 32);
+  EXPECT_EQ(fields, 34);
 }
 
 TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
@@ -99,8 +99,8 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
     "database": {"view_distance_m": 0.6, "field_of_view_deg": 30, "image_size_px": 128, "field_cap_share": 0.4},
     "detection": {"min_pixels": 99, "second_hand_share": 0.2, "component_depth_step_m": 0.03, "max_border_pixels": 3,
                   "max_border_share": 0.6},
-    "lookup": {"cascade": "8:9", "implementation": "plain", "interpolation_epsilon_px": 0.1, "max_matching_error_share": 0.2},
-    "icp": {"algorithm": "robust", "implementation": "plain", "max_points": 500, "subsampling_factor": 20, "max_iterations": 50, "convergence_share": 0.01,
+    "lookup": {"cascade": "8:9", "implementation": "plain", "interpolation_epsilon_px": 0.1, "turn_to_ray": false, "max_matching_error_share": 0.2},
+    "icp": {"algorithm": "robust", "implementation": "plain", "center_visible_surface": false, "max_points": 500, "subsampling_factor": 20, "max_iterations": 50, "convergence_share": 0.01,
             "cull_each_iteration": true, "color_sensitive": false, "max_residual_m": 0.01},
     "smoothing": {"posture_keep": 0.5, "pose_keep": 0.25, "forget_after_frames": 4}})"));
   EXPECT_EQ(config.registration.occlusion_tolerance, 0.02);
@@ -123,8 +123,10 @@ TEST(TrackerConfig, keys_reach_the_fields_that_they_name) {
   EXPECT_EQ(config.detection.max_border_share, 0.6);
   EXPECT_EQ(config.lookup.cascade, (Cascade{{8, 9}}));
   EXPECT_EQ(config.lookup.interpolation_epsilon, 0.1);
+  EXPECT_FALSE(config.lookup.turn_to_ray);
   EXPECT_EQ(config.lookup.max_matching_error, 0.2);
   EXPECT_EQ(config.icp.algorithm, "robust");
+  EXPECT_FALSE(config.icp.center_visible_surface);
   EXPECT_EQ(config.icp.max_points, 500);
   EXPECT_EQ(config.icp.subsampling_factor, 20);
   EXPECT_FALSE(config.icp.color_sensitive);

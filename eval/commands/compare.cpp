@@ -4,6 +4,7 @@
 #include "eval/program.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
+#include "eval/terminal.h"
 #include "reports/comparison/comparison_report.h"
 
 namespace glovebench::eval {
@@ -38,7 +39,7 @@ struct Compare {
       report.scripts = page_scripts();
       reports::write_comparison(output, report);
     }
-    fmt::print("{}", reports::comparison_table(report, all_rows));
+    fmt::print("{}", reports::comparison_table(report, all_rows, terminal_columns()));
     if (!output.empty()) fmt::print("Report: {}/index.html\n", output);
   }
 

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
 #include "eval/program.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"
+#include "eval/terminal.h"
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/gate_rule.h"
 #include "reports/text.h"
@@ -45,16 +48,23 @@ struct Gate {
     return or_refusal([&] { return update ? replace(folder, candidate) : judge(folder, candidate); });
   }
 
-  /// Says what the new baseline changes before making it the baseline.
-  int replace(const std::string& folder, const FinishedRun& candidate) const {
-    std::vector<std::string> accepted;
+  /// The rows that would have stopped the change, printed; none without an older baseline to compare with.
+  std::vector<std::string> accepted_rows(const std::string& folder, const FinishedRun& candidate) const {
+    if (!std::filesystem::exists(folder + "/results.json")) return {};
     try {
       const Baseline old = load_baseline(folder);
-      accepted = report(old, folder, candidate, compare(old, candidate)).failures;
+      const std::vector<std::string> accepted = report(old, folder, candidate, compare(old, candidate)).failures;
       for (const std::string& failure : accepted) fmt::print("ACCEPTED: {}\n", failure);
+      return accepted;
     } catch (const reports::Incomparable& e) {
-      fmt::print("Not compared with an older baseline: {}\n", e.what());
+      fmt::print("Not compared with the older baseline: {}\n", e.what());
+      return {};
     }
+  }
+
+  /// Says what the new baseline changes before making it the baseline.
+  int replace(const std::string& folder, const FinishedRun& candidate) const {
+    const std::vector<std::string> accepted = accepted_rows(folder, candidate);
     const reports::NamedResult& run = candidate.results;
     update_baseline(folder, run, suite_of(run, suite), measured_speed(), load_stage_times(candidate.files),
                     accepted);
@@ -95,7 +105,7 @@ struct Gate {
         "To accept it, e.g. for what became better, run `glovebench gate {} --baseline {} --update`{} and commit "
         "that folder: its provenance.json records the accepted rows and the replaced baseline.",
         candidate_path, folder, suite.empty() ? " (with --suite FILE for a suite of your own)" : "");
-    fmt::print("{}", reports::wrapped(text));
+    fmt::print("{}", reports::wrapped(text, terminal_columns()));
   }
 
   reports::ComparisonReport compare(const Baseline& baseline, const FinishedRun& candidate) const {
@@ -121,7 +131,7 @@ struct Gate {
       if (!output.empty()) reports::write_comparison(output, made);
     }
     const reports::GateDecision decision = decide(made.comparison, made.speed);
-    fmt::print("{}", reports::comparison_table(made, false));
+    fmt::print("{}", reports::comparison_table(made, false, terminal_columns()));
     if (speed_path.empty() && !baseline.speed.empty())
       fmt::print("warning: no --speed: only the accuracy is gated\n");
     for (const std::string& warning : decision.warnings) fmt::print("warning: {}\n", warning);

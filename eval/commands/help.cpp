@@ -16,14 +16,27 @@ namespace {
 constexpr size_t kOptionColumn = 32;  ///< where the helps of options begin
 constexpr size_t kGap = 2;
 
+/// Breaks lines that are too wide after commas, which have no spaces in lists of values.
+std::string broken_at_commas(std::string text, size_t columns) {
+  const std::string indent(2 * kGap, ' ');
+  for (size_t begin = 0; text.size() - begin > columns;) {
+    const size_t comma = text.rfind(',', begin + columns - 1);
+    if (comma == std::string::npos || comma <= begin + indent.size()) break;
+    text.insert(comma + 1, "\n" + indent);
+    begin = comma + 2;
+  }
+  return text;
+}
+
 /// `left`, and `right` beside it from `column` on; below it if `left` is too wide.
 std::string entry(const std::string& left, const std::string& right, size_t column, size_t columns) {
-  std::string text = std::string(kGap, ' ') + left;
+  std::string text = broken_at_commas(std::string(kGap, ' ') + left, columns);
   if (right.empty()) return text + "\n";
-  if (text.size() + kGap > column)
+  const size_t width = text.size() - (text.rfind('\n') + 1);  // without a line end: all
+  if (width + kGap > column)
     text.append("\n").append(column, ' ');
   else
-    text.resize(column, ' ');
+    text.append(column - width, ' ');
   return text + reports::wrapped(right, columns, column);
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "eval/test_program.h"
 
@@ -114,6 +115,13 @@ TEST(ManPage, IsReadWithoutWarnings) {
   const std::string page = said({"manual"});
   EXPECT_THAT(page, AllOf(HasSubstr(".SS glovebench calibrate colors"), HasSubstr("\\-\\-robot\\-coupling")));
   EXPECT_THAT(said_by("sh", "'" + build_paths::program("glovebench") + "' manual | groff -man -ww -z"), "");
+}
+
+TEST(Help, OfAllCommandsFitsATerminal) {
+  std::istringstream lines(said({"--help-all"}));
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_GT(count, 300);
 }
 
 TEST(Help, OfEveryCommandNamesItsFlags) {

@@ -113,7 +113,7 @@ std::string explained_config(const TrackerConfig& config, const std::string& wor
     if (word.empty() || has_word(plain, word)) all += text;
   }
   if (all.empty())
-    throw Error("list config", "word", word, "one that a field's name, meaning or paper's words have");
+    throw Error("list config", "word", word, "a word in a field's name or meaning, or in the paper's words for it");
   return all;
 }
 
@@ -150,7 +150,8 @@ void add_list(Command program) {
       .runs(list_entries<render::DepthNoise, render::depth_noises>);
   list.subcommand("formats", "Files of movements and postures, and captures for `glovebench import`.")
       .runs(list_formats);
-  list.subcommand("metrics", "What is measured of each frame, and which of it `compare` and `gate` compare.")
+  list.subcommand("metrics",
+                  "What is measured, by which formula, over which frames; what `compare` and `gate` judge.")
       .runs(list_metrics);
   list.subcommand("subjects", "The hands in front of the camera, for --subject.").runs(list_subjects);
   list.subcommand("angles", "The 22 joint angles and their limits.").runs(list_angles);

@@ -135,7 +135,9 @@ std::string describe(const CLI::App& command, const std::string& name, const CLI
     return fmt::format("{} (see {} --help)", describe_unknown(text_of(command), *unknown), name);
   if (const auto chosen = command.get_subcommands(); !chosen.empty())
     return describe(*chosen.front(), name + " " + chosen.front()->get_name(), error);
-  return fmt::format("{} (see {} --help)", error.what(), name);
+  std::string problem = error.what();
+  if (const size_t at = problem.find("subcommand"); at != std::string::npos) problem.erase(at, 3);  // CLI11's word
+  return fmt::format("{} (see {} --help)", problem, name);
 }
 
 }  // namespace

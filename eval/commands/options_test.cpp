@@ -213,7 +213,7 @@ TEST_F(Options, DoesWhatIsChosenOnceAllIsRead) {
   EXPECT_TRUE(rested);
   rested = false;
   EXPECT_EQ(run({"rest"}), 2);
-  EXPECT_THAT(err, HasSubstr("subcommand is required"));
+  EXPECT_THAT(err, HasSubstr("A command is required"));
   EXPECT_EQ(run({"rest", "on", "--bogus"}), 2);
   EXPECT_THAT(err, HasSubstr("--bogus"));
   EXPECT_EQ(run({"rest", "on", "--help"}), 0);

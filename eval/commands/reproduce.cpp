@@ -70,8 +70,9 @@ struct Reproduce {
   /// Shows Figure 4 first, then the newest study. If stdout has no reader, the work goes on and the summary fails.
   void show_newest(const reports::RunResult& so_far) const {
     if (common.quiet) return;
-    const std::string text =
-        so_far.studies.empty() ? figure4_text(so_far) : reports::study_markdown(so_far.studies.back());
+    const std::string text = so_far.studies.empty()
+                                 ? figure4_text(so_far)
+                                 : reports::study_text(so_far.studies.back(), terminal_columns());
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
   }
@@ -81,7 +82,7 @@ struct Reproduce {
     if (result.experiments.empty()) return text;
     for (const reports::NoiseSetting& noise : options.noises) {
       if (all_gains) text += fmt::format("Depth noise: {} x{}\n", noise.model, noise.factor);
-      text += reports::figure4_table(result, reports::paper_numbers(), noise) + "\n";
+      text += reports::figure4_table(result, reports::paper_numbers(), noise, terminal_columns()) + "\n";
     }
     return text;
   }

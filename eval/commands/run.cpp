@@ -136,7 +136,8 @@ struct RunCommand {
   }
   void print_study(const reports::StudyResult& result) const {
     if (quick) fmt::print("A quick run: nothing can be concluded from its numbers.\n\n");
-    fmt::print("{}", reports::study_markdown(result));
+    fmt::print("{}", common.output.empty() ? reports::study_markdown(result)
+                                           : reports::study_text(result, terminal_columns()));
   }
 
   /// The suite by name, or an unnamed suite from the flags.

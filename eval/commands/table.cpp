@@ -38,7 +38,7 @@ void add_table(Command program) {
   const auto state = std::make_shared<TableCommand>();
   command.option("runs", state->runs, "folders of runs, two or more; a row is named after its folder").required();
   command.option("--format", state->format, "of the output").one_of({"text", "markdown", "csv", "latex", "html"});
-  state->flags.add(command, fmt::format("{}", fmt::join(reports::headline_metrics(), ",")));
+  state->flags.add(command, fmt::format("{}", fmt::join(reports::headline_metrics(), ", ")));
   command.option("--other-seeds", state->other_seeds,
                  "the runs have other noise seeds, as many: pair them in their order");
   command.option("--partial", state->partial, "compare the experiments that the reference shares with each");

@@ -279,7 +279,7 @@ void add_track(Command program) {
       program.subcommand("track", "Track the hand in a recording or before a Kinect and write the estimates.");
   const auto state = std::make_shared<Track>();
   state->from.add(command, "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect, until Ctrl-C");
-  command.option("--frames", state->limit, "stop after that many; 0: none is the last").not_negative();
+  command.option("--frames", state->limit, "how many to track; 0: all").not_negative();
   command
       .option("--every-frame", state->from.every_frame,
               "freenect: drop none that comes too fast, for what the fakenect library plays")

@@ -92,7 +92,11 @@ reports::StudyResult run_figure8(const StudyContext& context);
 reports::StudyResult run_figure9(const StudyContext& context);
 reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
-/// Figure 4 with profiles paper and paper-literal. Decides no claim.
+/// Figures 5 and 6 with profiles paper and paper-literal, beside what the printed curves say of the filter.
+reports::StudyResult run_filter(const StudyContext& context);
+/// What each deviation from the paper changes. Has no measures.
+reports::StudyResult run_deviations(const StudyContext& context);
+/// Figure 4 with profiles paper and paper-literal side by side. Has no measures, so it decides no claim.
 reports::StudyResult run_paper_literal(const StudyContext& context);
 /// monocular.depth_error_cm is of the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);

@@ -139,6 +139,48 @@ def check_numbers(browser, folder):
            [row["distance_us"] for row in read_table(folder, "figure7")], "figure7-time draws other numbers")
 
 
+def check_glossary(browser, scheme):
+    """A heading of each metric leads to its entry, which is in sight then."""
+    links = browser.execute_script("""
+        return [...document.querySelectorAll('th a[href^="#metric-"]')].map(link => link.hash);""")
+    for metric in ["position_error_mm", "found_percent", "latency_frames", "jitter_position_mm", "joint_pck_area",
+                   "command_joints_deg"]:
+        expect(f"#metric-{metric}" in links, f"{scheme}: no heading leads to {metric}")
+    for target in set(links):
+        expect(browser.execute_script("return document.querySelector(arguments[0])?.tagName === 'DT'", target),
+               f"{scheme}: a heading leads to {target}, which is no entry of the glossary")
+    without = browser.execute_script("""
+        return [...document.querySelectorAll('#metrics th:not(.name), #commands h3 + div th:not(.name)')]
+            .filter(heading => !heading.querySelector('a')).map(heading => heading.textContent);""")
+    expect(without == [], f"{scheme}: headings without a link: {without}")
+    browser.execute_script("document.querySelector('#metrics th a[href=\"#metric-latency_frames\"]').click()")
+    expect(is_in_sight(browser, "metric-latency_frames"), f"{scheme}: the entry of latency_frames is not in sight")
+
+
+def is_in_sight(browser, name):
+    return browser.execute_script("""
+        const box = document.getElementById(arguments[0]).getBoundingClientRect();
+        return box.top >= 0 && box.top < innerHeight;""", name)
+
+
+def check_bars(browser, page, chart):
+    """A click on a bar opens the frames of its experiment."""
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+
+    bar = browser.find_elements(By.CSS_SELECTOR, f'[data-chart="{chart}"] .mark-rect.role-mark path')[0]
+    browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", bar)
+    ActionChains(browser).move_to_element(bar).click().perform()
+    names = browser.execute_script("return [...document.querySelectorAll('#frames details[open]')].map(d => d.id)")
+    expect(len(names) == 1, f"{page}: a click on a bar opens {names}")
+    for name in names:
+        expect(is_in_sight(browser, name), f"{page}: {name} is open and not in sight")
+        text = browser.execute_script("return document.getElementById(arguments[0]).innerText", name)
+        experiment = name.removeprefix("frames-")
+        expect("glovebench explain . " in text and f"--experiment {experiment} " in text and
+               f"tables/frames_{experiment}.csv" in text, f"{page}: {name} shows {text}")
+
+
 def shown_frame(browser):
     return browser.execute_script("""
         const viewer = document.querySelector('.frame-viewer[data-figure="figure5"]');
@@ -213,6 +255,7 @@ def check_own_run(browser, folder):
         const marks = [".mark-rect.role-mark path", ".mark-symbol.role-mark path"];
         return marks.map(mark => place.querySelectorAll("svg " + mark).length);""")
     expect(bars >= 2 and diamonds == 0, f"own run: {bars} bars and {diamonds} diamonds")
+    check_bars(browser, "own run", "errors-rotation")
 
 
 def check_print(browser):
@@ -253,6 +296,8 @@ def main():
                 check_charts(browser, scheme)
                 check_claims(browser, scheme)
                 check_frames(browser, folder, scheme)
+                check_glossary(browser, scheme)
+                check_bars(browser, scheme, "figure4-position")
                 check_colors(browser, scheme, colors)
                 check_silence(browser, page, scheme)
                 print(f"{scheme}: drawn in {browser.execute_script('return glovebench.drawnMs'):.0f} ms")

@@ -129,6 +129,14 @@ TEST(ClaimsHistory, TheClaimThatWasRemovedIsBackWithItsOutcome) {
   EXPECT_TRUE(claim->history[1].definition.withdrawn);
 }
 
+TEST(ClaimsHistory, TheCalibrationOfFigure5IsNoClaim) {
+  const auto claim = std::ranges::find(claims(), "figure-5-posture", &Claim::id);
+  ASSERT_NE(claim, claims().end());
+  EXPECT_TRUE(claim->definition().withdrawn);
+  EXPECT_THAT(claim->history.back().set, ElementsAre("withdrawn"));
+  EXPECT_THAT(claim->history.back().why, HasSubstr("calibration, not evidence"));
+}
+
 /// Output of a program; empty if it failed.
 std::optional<std::string> output_of(const std::string& command) {
   FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");

@@ -21,17 +21,17 @@ std::string folded(const std::string& summary, const std::string& content) {
 
 }  // namespace
 
-std::string comparison_table(const ComparisonReport& report, bool all_rows) {
+std::string comparison_table(const ComparisonReport& report, bool all_rows, size_t columns) {
   const Comparison& comparison = report.comparison;
   std::vector<ComparisonRow> shown;
   for (const ComparisonRow& row : comparison.rows)
     if (all_rows || is_worth_reading(row)) shown.push_back(row);
-  std::string text = wrapped("baseline  " + result_sentence(comparison.baseline)) +
-                     wrapped("candidate " + result_sentence(comparison.candidate)) + "\n";
+  std::string text = wrapped("baseline  " + result_sentence(comparison.baseline), columns) +
+                     wrapped("candidate " + result_sentence(comparison.candidate), columns) + "\n";
   if (!shown.empty()) text += to_text(rows_table(shown), true) + "\n";
   for (const Table& table : comparison_tables(report))
-    text += to_text(table) + (table.explanation.empty() ? "" : wrapped(table.explanation)) + "\n";
-  return text + wrapped(comparison_explanation(comparison)) + outcome_line(report) + "\n";
+    text += to_text(table) + (table.explanation.empty() ? "" : wrapped(table.explanation, columns)) + "\n";
+  return text + wrapped(comparison_explanation(comparison), columns) + outcome_line(report) + "\n";
 }
 
 std::string comparison_markdown(const ComparisonReport& report) {

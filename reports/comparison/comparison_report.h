@@ -19,9 +19,10 @@ struct ComparisonReport {
   std::vector<std::string> scripts;
 };
 
-/// At most 120 columns: changed rows or all, then counts of verdicts.
-std::string comparison_table(const ComparisonReport& report, bool all_rows);
-/// For a job summary or pull request. Verdict first.
+/// For a terminal: tables of at most 120 columns, text of `columns`. Shows changed rows or all, then counts
+/// verdicts.
+std::string comparison_table(const ComparisonReport& report, bool all_rows, size_t columns = kTerminalColumns);
+/// For a job summary or pull request; verdict first.
 std::string comparison_markdown(const ComparisonReport& report);
 std::string comparison_json(const ComparisonReport& report);  ///< reports/schema/comparison.schema.json
 std::string comparison_csv(const ComparisonReport& report);

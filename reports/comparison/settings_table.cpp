@@ -333,8 +333,10 @@ std::string settings_markdown(const SettingsTable& settings) {
 }
 
 std::string settings_html(const SettingsTable& settings) {
-  std::string body = "<p>" + escape_html(settings.recommendation) + "</p>\n" + to_html(settings.table);
-  if (!settings.changes.rows.empty()) body += to_html(settings.changes);
+  std::string body =
+      "<p>" + escape_html(settings.recommendation) + "</p>\n<h2>Errors and times</h2>\n" + to_html(settings.table);
+  if (!settings.changes.rows.empty())
+    body += "<h2>Differences from the reference</h2>\n" + to_html(settings.changes);
   if (!settings.enough.empty())
     body += "<p>Enough data would be, if further movements vary as these do:</p>\n<ul>\n";
   for (const std::string& line : settings.enough) body += "<li>" + escape_html(line) + "</li>\n";

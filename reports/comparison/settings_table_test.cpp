@@ -103,6 +103,8 @@ TEST(SettingsTable, EveryFormatHasTheSameRows) {
   for (const std::string& text :
        {settings_text(settings, 80), settings_markdown(settings), settings_html(settings), to_csv(settings.table)})
     EXPECT_THAT(text, AllOf(HasSubstr("position_error_mm"), HasSubstr("worse"), HasSubstr("0.5")));
+  EXPECT_THAT(settings_html(settings), AllOf(HasSubstr("<h2>Errors and times</h2>\n<div class=\"scroll\"><table>"),
+                                             HasSubstr("</div>\n<h2>Differences from the reference</h2>\n<div")));
   EXPECT_THAT(settings_latex(settings), AllOf(HasSubstr("\\toprule"), HasSubstr("position\\_error\\_mm")));
 }
 

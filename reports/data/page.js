@@ -42,5 +42,6 @@ addEventListener('beforeprint', () => document.querySelectorAll('details').forEa
   for (const [name, text] of Object.entries(texts)) glovebench.tables[name] = parseCsv(text);
   await drawCharts(glovebench);
   connectFrames(glovebench);
+  connectBars(glovebench);
   glovebench.drawnMs = performance.now() - start;
 })();

@@ -47,7 +47,7 @@ function means(table, metric, title, isFirst) {
   return tables => {
     const noises = new Set(tables[table].map(row => `${row.noise} x ${row.noise_factor}`));
     const rows = tables[table].map(row => ({
-      trajectory: row.trajectory, database: row.database,
+      experiment: row.experiment, trajectory: row.trajectory, database: row.database,
       role: table === 'figure4' ? databaseRole(row.database) : withoutPrefix(row.database),
       variant: (variants[`${row.truth} ${row.subject}`] || `${row.truth}, subject ${row.subject}`) +
           (noises.size > 1 ? `, ${row.noise} x ${row.noise_factor}` : ''),
@@ -85,7 +85,7 @@ function means(table, metric, title, isFirst) {
         width: Math.min(Math.floor(960 / panels.length) - 20, 110 * distinct(rows, 'trajectory').length), height: 140,
         layer: [
           {
-            mark: {type: 'bar'},
+            mark: {type: 'bar', cursor: 'pointer'},
             encoding: {
               x, xOffset, tooltip, y: {field: 'mean', type: 'quantitative', title, axis: {minExtent: 30}},
               color: {

@@ -1,4 +1,5 @@
-// The frames under the curves of figures 5 and 6: pointing at a curve, a keyframe or the slider shows one of them.
+// The way to frames: a click on a bar opens those of its experiment. Under the curves of figures 5 and 6, pointing at a
+// curve, a keyframe or the slider shows one of them.
 
 function tilePosition(viewer, frame, row) {
   const columns = Number(viewer.dataset.columns);
@@ -60,5 +61,16 @@ function connectFrames(page) {
     for (const key of document.querySelectorAll(`.keyframes[data-figure="${figure}"] button`))
       key.addEventListener('click', () => showFrame(page, figure, Number(key.dataset.frame)));
     showFrame(page, figure, 0);
+  }
+}
+
+function connectBars(page) {
+  for (const place of document.querySelectorAll('[data-chart^="figure4-"], [data-chart^="errors-"]')) {
+    page.views[place.dataset.chart].addEventListener('click', (event, item) => {
+      const frames = item && item.datum && document.getElementById(`frames-${item.datum.experiment}`);
+      if (!frames) return;
+      frames.open = true;
+      location.hash = frames.id;
+    });
   }
 }

@@ -65,8 +65,8 @@ std::vector<Metric> coverage_metrics() {
        .of_column = "visible_percent"},
       {.key = "visible_percent",
        .unit = "%",
-       .description = "share of the glove's camera-facing area that is in both images and in the volume",
-       .formula = "100 camera-facing area inside both images and the volume / camera-facing area",
+       .description = "share of the glove's camera-facing area, hidden or not, in both images and the volume",
+       .formula = "100 area inside both images and 0.40 to 0.95 m from the camera / camera-facing area",
        .place = 1020,
        .of_any = [](const TrackResult&, const FrameTruth& truth) { return truth.visible_percent; }},
   };

@@ -19,7 +19,8 @@ std::vector<Metric> sorted_metrics() {
   std::ranges::sort(all, {}, [](const Metric& metric) { return std::tuple(metric.place, metric.key); });
   for (const Metric& metric : all) {
     check(std::ranges::count(all, metric.key, &Metric::key) == 1, "each metric has a key of its own");
-    check(!!metric.of_tracked + !!metric.of_any + !!metric.of_record == 1, "a metric has one function");
+    check(!!metric.of_tracked + !!metric.of_any + !!metric.of_record + !!metric.of_experiment == 1,
+          "a metric has one function");
   }
   return all;
 }
@@ -34,10 +35,13 @@ std::vector<Metric> metrics_if(Condition condition) {
 }  // namespace
 
 std::string_view Metric::averaged_over() const {
-  if (is_share()) return of_column.empty() ? "all frames, lost ones too" : "the visible frames, lost ones too";
-  if (of_any) return "the frames that have one, lost ones too";
-  return is_partial ? "the tracked frames that have one; lost ones are left out"
-                    : "the tracked frames; lost ones are left out";
+  if (of_experiment) return over;
+  if (is_share())
+    return of_column.empty() ? "mean over all frames, lost ones too"
+                             : "mean over the visible frames, lost ones too";
+  if (of_any) return "mean over the frames that have one, lost ones too";
+  return is_partial ? "mean over the tracked frames that have one; lost ones are left out"
+                    : "mean over the tracked frames; lost ones are left out";
 }
 
 std::span<const Metric> metrics() {
@@ -46,7 +50,7 @@ std::span<const Metric> metrics() {
 }
 
 std::span<const Metric> frame_metrics() {
-  static const std::vector<Metric> columns = metrics_if([](const Metric& metric) { return !metric.is_share(); });
+  static const std::vector<Metric> columns = metrics_if([](const Metric& metric) { return metric.is_column(); });
   return columns;
 }
 
@@ -61,9 +65,14 @@ std::span<const Metric> gated_metrics() {
   return gated;
 }
 
-const Metric& metric_of(std::string_view key) {
+const Metric* find_metric(std::string_view key) {
   const auto found = std::ranges::find(metrics(), key, &Metric::key);
-  check(found != metrics().end(), "a metric of that key exists");
+  return found == metrics().end() ? nullptr : &*found;
+}
+
+const Metric& metric_of(std::string_view key) {
+  const Metric* found = find_metric(key);
+  check(found != nullptr, "a metric of that key exists");
   return *found;
 }
 
@@ -84,6 +93,10 @@ std::optional<double> value_of(const Metric& metric, const FrameRecord& frame) {
   const std::optional<bool> answer = metric.of_record(frame);
   if (!answer) return {};
   return *answer ? 100 : 0;
+}
+
+std::optional<double> value_of(const Metric& metric, const ExperimentResult& experiment) {
+  return metric.of_experiment ? metric.of_experiment(experiment) : experiment.aggregate_of(metric.key).mean;
 }
 
 }  // namespace glovebench::reports

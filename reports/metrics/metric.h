@@ -10,12 +10,14 @@
 
 namespace glovebench::reports {
 
+struct ExperimentResult;
 struct FrameRecord;
 struct FrameTruth;
 struct MeasuredFrame;
 
-/// A number per frame. In gated metrics, less is better. Exactly one of `of_tracked`, `of_any` and `of_record` is
-/// set. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
+/// A number per frame or per experiment; of those with a gate, less is better. Exactly one of `of_tracked`,
+/// `of_any`, `of_record` and `of_experiment` is set. reports/metrics/X_metrics.cpp defines `std::vector<Metric>
+/// X_metrics()`.
 struct Metric {
   /// For changes of the mean, in the metric's unit.
   struct Gate {
@@ -24,8 +26,8 @@ struct Metric {
     double tolerance;  ///< possible change by another machine
   };
 
-  std::string_view key;   ///< in files, with unit: "_mm", "_deg", "_px", "_percent"
-  std::string_view unit;  ///< for people: "mm", "deg", "px", "%"
+  std::string_view key;        ///< in files, with unit: "_mm", "_deg", "_px", "_percent"
+  std::string_view unit = {};  ///< for people: "mm", "deg", "px", "%"; empty: 0 to 1
   std::string_view description;
   std::string_view formula = {};  ///< plain text; primes mark the estimate
   std::string_view heading = {};  ///< in the table "More metrics"; empty: not there
@@ -39,10 +41,15 @@ struct Metric {
   std::optional<double> (*of_any)(const TrackResult&, const FrameTruth&) = nullptr;
   /// Share of the frames that have a value; no column.
   std::optional<bool> (*of_record)(const FrameRecord&) = nullptr;
-  std::string_view of_column = {};  ///< of a share: only frames with this column have a value
+  std::string_view of_column = {};  ///< of a share: the column without which no frame has an answer
+  /// Over all frames and seeds; no column.
+  std::optional<double> (*of_experiment)(const ExperimentResult&) = nullptr;
+  std::string_view over = {};  ///< with `of_experiment`: what it is taken over, and what becomes of lost frames
+  int digits = 2;              ///< with `of_experiment`: for people
 
   bool is_share() const { return of_record != nullptr; }
-  /// The frames whose mean is reported, and the treatment of lost ones.
+  bool is_column() const { return of_tracked || of_any; }
+  /// The frames over which the mean is taken (for `of_experiment`: `over`), and what becomes of lost ones.
   std::string_view averaged_over() const;
 };
 
@@ -54,7 +61,9 @@ std::vector<std::string> frame_metric_keys();
 /// Those of comparisons and the gate.
 std::span<const Metric> gated_metrics();
 
-/// Throws: std::logic_error for an unknown key.
+/// Null for an unknown key.
+const Metric* find_metric(std::string_view key);
+/// An unknown key is a broken invariant.
 const Metric& metric_of(std::string_view key);
 /// Index in frame_metrics().
 /// Throws: std::logic_error for an unknown key.
@@ -64,5 +73,7 @@ std::optional<size_t> find_frame_metric(std::string_view key);
 
 /// 100 or 0 for a share. Empty if the frame has no value.
 std::optional<double> value_of(const Metric& metric, const FrameRecord& frame);
+/// Of a column: the mean of the frames. A share is a broken invariant.
+std::optional<double> value_of(const Metric& metric, const ExperimentResult& experiment);
 
 }  // namespace glovebench::reports

@@ -1,15 +1,22 @@
 #include "reports/metrics/metric.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cctype>
 #include <sstream>
 #include <stdexcept>
 
+#include "reports/command_tables.h"
 #include "reports/example_result.h"
 #include "reports/metrics/glossary.h"
+#include "reports/results_json.h"
 
 namespace glovebench::reports {
 namespace {
+
+using testing::AnyOf;
+using testing::HasSubstr;
 
 std::vector<std::string_view> keys_of(std::span<const Metric> metrics) {
   std::vector<std::string_view> keys;
@@ -19,10 +26,13 @@ std::vector<std::string_view> keys_of(std::span<const Metric> metrics) {
 
 TEST(Metrics, EachSaysWhatItIs) {
   for (const Metric& metric : metrics()) {
-    const std::string suffix = metric.unit == "%" ? "_percent" : "_" + std::string(metric.unit);
-    EXPECT_TRUE(metric.key.ends_with(suffix)) << metric.key;
+    std::string suffix = metric.unit == "%" ? "percent" : std::string(metric.unit);
+    std::ranges::transform(suffix, suffix.begin(),
+                           [](char c) { return c == '/' ? '_' : static_cast<char>(std::tolower(c)); });
+    EXPECT_TRUE(metric.unit.empty() || metric.key == suffix || metric.key.ends_with("_" + suffix)) << metric.key;
     EXPECT_FALSE(metric.description.empty()) << metric.key;
     EXPECT_FALSE(metric.formula.empty()) << metric.key;
+    EXPECT_FALSE(metric.averaged_over().empty()) << metric.key;
     if (!metric.gate) continue;
     EXPECT_GT(metric.gate->minimum_effect, metric.gate->tolerance) << metric.key;
   }
@@ -30,26 +40,81 @@ TEST(Metrics, EachSaysWhatItIs) {
 }
 
 TEST(Metrics, SayWhereLostFramesGo) {
-  EXPECT_EQ(metric_of("position_error_mm").averaged_over(), "the tracked frames; lost ones are left out");
+  EXPECT_EQ(metric_of("position_error_mm").averaged_over(), "mean over the tracked frames; lost ones are left out");
   EXPECT_EQ(metric_of("posture_rms_hidden_deg").averaged_over(),
-            "the tracked frames that have one; lost ones are left out");
-  EXPECT_EQ(metric_of("matching_error_px").averaged_over(), "the frames that have one, lost ones too");
-  EXPECT_EQ(metric_of("uncovered_percent").averaged_over(), "all frames, lost ones too");
+            "mean over the tracked frames that have one; lost ones are left out");
+  EXPECT_EQ(metric_of("matching_error_px").averaged_over(), "mean over the frames that have one, lost ones too");
+  EXPECT_EQ(metric_of("uncovered_percent").averaged_over(), "mean over all frames, lost ones too");
 }
 
 TEST(Metrics, GlossaryHasAllOfThem) {
-  const Table table = glossary_table();
-  EXPECT_EQ(table.rows.size(), metrics().size());
-  std::istringstream text(glossary_text(80));
+  const std::string terms = glossary_text(80), html = glossary_html();
+  for (const Metric& metric : metrics()) {
+    EXPECT_THAT("\n" + terms, AnyOf(HasSubstr(fmt::format("\n{}\n", metric.key)),
+                                    HasSubstr(fmt::format("\n{}, compared\n", metric.key))));
+    EXPECT_THAT(html, HasSubstr(fmt::format("<dt id=\"metric-{}\">", metric.key)));
+  }
+  std::istringstream text(terms);
   for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << line;
-  EXPECT_THAT(glossary_text(80),
-              testing::HasSubstr("rotation_error_deg, compared\n    geodesic angle between the "
-                                 "hands\n    angle of R'^T R\n    mean over the tracked frames"));
+  EXPECT_THAT(terms, HasSubstr("rotation_error_deg, compared\n    geodesic angle between the "
+                               "hands\n    angle of R'^T R\n    mean over the tracked frames"));
 }
 
-TEST(Metrics, SharesAreNoColumns) {
-  EXPECT_EQ(frame_metrics().size() + 4, metrics().size());
-  for (const Metric& metric : frame_metrics()) EXPECT_FALSE(metric.is_share()) << metric.key;
+/// Whatever a report shows of an experiment as a number stands in the glossary.
+TEST(Metrics, GlossaryExplainsEachHeadingOfAReport) {
+  const RunResult result = small_result();
+  for (const Table& table : {headline_table(result), detail_summary(result), command_stream_table(result),
+                             command_intervention_table(result), command_error_table(result)}) {
+    EXPECT_FALSE(table.rows.empty());
+    for (size_t c = static_cast<size_t>(table.name_columns); c < table.columns.size(); ++c)
+      EXPECT_TRUE(metric_in(table.columns[c])) << table.columns[c].heading;
+  }
+}
+
+TEST(Metrics, GlossaryExplainsEachMetricOfTheResultsFile) {
+  const nlohmann::json experiment = nlohmann::json::parse(results_json(small_result()))["experiments"][0];
+  for (const auto& [key, value] : experiment["aggregates"].items()) EXPECT_TRUE(find_metric(key)) << key;
+  for (const auto& [key, value] : experiment["sequence"].items()) EXPECT_TRUE(find_metric(key)) << key;
+  for (const auto& [key, value] : experiment["commands"]["errors"].items())
+    EXPECT_TRUE(find_metric("command_" + key)) << key;
+  for (const auto& [key, value] : experiment["commands"]["jerk"].items())
+    EXPECT_TRUE(find_metric("jerk_" + key)) << key;
+  for (const auto& [key, value] : experiment.items())
+    if (value.is_object() && value.contains("area")) {
+      const std::string name = key.substr(0, key.find("_pck"));
+      EXPECT_TRUE(find_metric(name + "_pck_area")) << key;
+    }
+}
+
+TEST(Metrics, AColumnOfAStudyShowsItsMetric) {
+  for (const auto& [key, metric] : std::vector<std::pair<std::string, std::string>>{
+           {"rotation_error_deg_high", "rotation_error_deg"}, {"posture_change_deg_low", "posture_rms_deg"}}) {
+    ASSERT_TRUE(metric_in({key, ""})) << key;
+    EXPECT_EQ(metric_in({key, ""})->key, metric);
+  }
+  EXPECT_FALSE(metric_in({"mean_rank", ""}));
+  EXPECT_FALSE(metric_in({"", "position mm"}));
+}
+
+TEST(Metrics, OfAnExperimentAreWhatItsResultSays) {
+  const ExperimentResult tracked = small_result().experiments[0], none = small_result().experiments[2];
+  const auto value = [](std::string_view key, const ExperimentResult& e) { return value_of(metric_of(key), e); };
+  EXPECT_EQ(value("covered_percent", tracked), 75) << "one of four frames is lost";
+  EXPECT_EQ(value("lost_frames", tracked), 1);
+  EXPECT_EQ(value("latency_frames", tracked), 3);
+  EXPECT_EQ(value("position_error_mm", tracked), 4);
+  EXPECT_EQ(value("command_joints_deg", tracked), 4.5);
+  EXPECT_EQ(value("interventions", tracked), 3);
+  EXPECT_EQ(value("frames", none), 0);
+  for (const char* key : {"covered_percent", "found_percent", "usable_percent", "joint_pck_area",
+                          "fingertip_pck_area", "jitter_position_mm", "position_error_mm", "command_rate_hz"})
+    EXPECT_EQ(value(key, none), std::nullopt) << key;
+}
+
+TEST(Metrics, OnlyThoseOfAFrameAreColumns) {
+  EXPECT_EQ(std::ranges::count_if(metrics(), &Metric::is_column), std::ssize(frame_metrics()));
+  for (const Metric& metric : frame_metrics())
+    EXPECT_FALSE(metric.is_share() || metric.of_experiment) << metric.key;
   EXPECT_EQ(FrameRecord().values.size(), frame_metrics().size());
 }
 

@@ -96,9 +96,8 @@ inline StudyResult example_ablations() {
 inline PageMaterial example_material(const RunResult& result, std::vector<std::string> scripts) {
   PageMaterial material{std::move(scripts), {example_sheet("figure5", 117), example_sheet("figure6", 137)}, {}};
   for (const WorstFrame& worst : worst_frames(result))
-    material.worst_frames.push_back({caption(worst),
-                                     encode_jpeg(ColorImage(400, 300, Rgb{90, 90, 90}), 90),
-                                     explain_command(worst)});
+    material.worst_frames.push_back(
+        {caption(worst), encode_jpeg(ColorImage(400, 300, Rgb{90, 90, 90}), 90), explain_command(worst)});
   return material;
 }
 

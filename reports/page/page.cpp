@@ -18,18 +18,23 @@ Section metrics_section(const RunResult& result) {
   return {"metrics", "More metrics",
           "<p>Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
           "hands.</p>\n" +
-              to_html(detail_summary(result)) +
-              "<details><summary>What each metric is</summary>\n<p>Primes mark the estimate, the rest is the truth."
-              "</p>\n" +
-              to_html(glossary_table()) + "</details>\n"};
+              to_html_with_links(detail_summary(result))};
+}
+
+Section glossary_section() {
+  return {"glossary", "Glossary of metrics",
+          "<p>Primes mark the estimate, the rest is the truth. \"Compared\" are those that compare, table and the "
+          "gate judge. What one study alone measures is explained above its table.</p>\n" +
+              glossary_html()};
 }
 
 Section command_section(const RunResult& result, const Timings& timings) {
   std::string html = "<p>" + escape_html(command_explanation()) + "</p>\n<h3>The stream</h3>\n";
-  html += to_html(command_stream_table(result)) + "<h3>Interventions</h3>\n";
+  html += to_html_with_links(command_stream_table(result)) + "<h3>Interventions</h3>\n";
   const Table interventions = command_intervention_table(result);
-  html += interventions.rows.empty() ? "<p>None.</p>\n" : to_html(interventions);
-  html += "<h3>Against the truth's commands</h3>\n" + to_html(command_error_table(result)) + data_note("commands");
+  html += interventions.rows.empty() ? "<p>None.</p>\n" : to_html_with_links(interventions);
+  html += "<h3>Against the truth's commands</h3>\n" + to_html_with_links(command_error_table(result)) +
+          data_note("commands");
   if (const Table latency = command_latency_table(result, timings); !latency.rows.empty())
     html +=
         "<h3>From frame to command</h3>\n<p>Processor time from a frame of the device to its command: tracking, "
@@ -81,9 +86,11 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
   if (any_was_run(verdicts) || !quick_note(result).empty())
     sections.push_back({"claims", "Claims", claims_section(verdicts)});
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));
+  if (!result.experiments.empty()) sections.push_back(frames_section(result));
   if (!result.experiments.empty()) sections.push_back(metrics_section(result));
   if (has_commands(result)) sections.push_back(command_section(result, timings));
   if (!material.worst_frames.empty()) sections.push_back(gallery_section(material.worst_frames));
+  if (!result.experiments.empty() || !result.studies.empty()) sections.push_back(glossary_section());
   sections.push_back(configuration_section(result));
   if (!result.studies.empty()) sections.push_back(environment_section(timings));
   return sections;
@@ -146,7 +153,8 @@ std::string shell_quoted(const std::string& text) {
 }  // namespace
 
 std::string data_note(const std::string& table) {
-  return fmt::format("<p class=\"source\">Data: <a href=\"tables/{0}.csv\">tables/{0}.csv</a></p>\n", table);
+  return fmt::format("<p class=\"source\">Data: <a href=\"tables/{0}.csv\">tables/{0}.csv</a></p>\n",
+                     escape_html(table));
 }
 
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings,

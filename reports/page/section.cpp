@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "reports/metrics/glossary.h"
 #include "reports/summary.h"
 #include "reports/text.h"
 
@@ -22,14 +23,17 @@ constexpr std::array<CurveError, 3> kCurveErrors = {
      {"posture", "posture_rms_deg", "Posture error (deg)", &PaperErrors::posture_deg},
      {"rotation", "rotation_error_deg", "Rotation error (deg)", &PaperErrors::rotation_deg}}};
 
+constexpr const char* kBarHint = "<p>A click on a bar shows its frames.</p>\n";
+
 std::string headline_html(const RunResult& result) {
-  return "<p>" + escape_html(headline_explanation()) + "</p>\n" + to_html(headline_table(result));
+  return "<p>" + escape_html(headline_explanation()) + "</p>\n" + to_html_with_links(headline_table(result));
 }
 
 Section figure4_section(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise) {
   std::string html =
       "<p>Mean errors with their 95% intervals. Diamonds are the means that the paper prints; it shows "
       "its other bars without numbers.</p>\n";
+  html += kBarHint;
   for (const CurveError& error : kCurveErrors)
     html += chart_place(fmt::format("figure4-{}", error.name), fmt::format("{} as bars", error.label));
   html += data_note("figure4");
@@ -39,7 +43,7 @@ Section figure4_section(const RunResult& result, const PaperNumbers& paper, cons
 }
 
 Section errors_section(const RunResult& result) {
-  std::string html = "<p>Mean errors with their 95% intervals.</p>\n";
+  std::string html = std::string("<p>Mean errors with their 95% intervals.</p>\n") + kBarHint;
   for (const CurveError& error : kCurveErrors)
     html += chart_place(fmt::format("errors-{}", error.name), fmt::format("{} as bars", error.label));
   html += data_note("errors") + headline_html(result);
@@ -64,12 +68,14 @@ Table curve_summary(const ExperimentResult& experiment, const PaperCurve& paper)
   return table;
 }
 
+/// `note`: plain text above the curves; may be empty.
 void add_curve_section(std::vector<Section>& sections, const std::string& figure, const std::string& title,
-                       const ExperimentResult* experiment, const PaperCurve& paper,
+                       const ExperimentResult* experiment, const PaperCurve& paper, const std::string& note,
                        const std::vector<FrameSheet>& sheets) {
   if (!experiment || experiment->runs.empty()) return;
   const auto sheet = std::ranges::find(sheets, figure, &FrameSheet::figure);
-  std::string html = fmt::format(
+  std::string html = note.empty() ? "" : "<p>" + escape_html(note) + "</p>\n";
+  html += fmt::format(
       "<p class=\"legend\"><span class=\"key series-0\"></span>glovebench, noise seed {}; gaps are lost frames "
       "<span class=\"key series-1\"></span>the paper's own movement, for the shape and size of its errors: frames "
       "of "
@@ -115,7 +121,7 @@ std::string table_html(const Table& table, bool is_only) {
   return (is_only ? "" : "<h3>" + escape_html(table.title) + "</h3>\n") + "<p>" + escape_html(table.explanation) +
          "</p>\n" + (charts.empty() ? "" : "<div class=\"row\">\n" + charts + "</div>\n") + data_note(table.name) +
          fmt::format("<details{}><summary>Table</summary>\n", table.rows.size() > kLong ? "" : " open=\"\"") +
-         to_html(table) + "</details>\n";
+         to_html_with_links(table) + "</details>\n";
 }
 
 constexpr int kKeyframes = 6;  // about as many as the paper shows
@@ -153,12 +159,13 @@ std::vector<Section> experiment_sections(const RunResult& result, const PaperNum
   const NoiseSetting noise = headline_noise(result);
   std::vector<Section> sections = {is_figure4(result) ? figure4_section(result, paper, noise)
                                                       : errors_section(result)};
-  const auto add = [&](const std::string& figure, const std::string& title, const PaperCurve& curve) {
+  const auto add = [&](const std::string& figure, const std::string& title, const PaperCurve& curve,
+                       const std::string& note) {
     const ExperimentKey key = {curve.trajectory, curve.database, TruthKind::recorded, 1, noise};
-    add_curve_section(sections, figure, title, find_experiment(result, key), curve, sheets);
+    add_curve_section(sections, figure, title, find_experiment(result, key), curve, note, sheets);
   };
-  add("figure5", "Figure 5", paper.figure_5);
-  add("figure6", "Figure 6", paper.figure_6);
+  add("figure5", "Figure 5", paper.figure_5, figure5_note(result, paper));
+  add("figure6", "Figure 6", paper.figure_6, "");
   return sections;
 }
 

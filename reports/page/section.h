@@ -20,6 +20,8 @@ std::string data_note(const std::string& table);
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
 std::vector<Section> study_sections(const RunResult& result);
+/// Curves and worst frames of each experiment, where a click on its bar leads.
+Section frames_section(const RunResult& result);
 
 /// Keyframes of a curve; place and slider of one frame for data/page_frames.js.
 std::string keyframes_html(const FrameSheet& sheet);

@@ -24,6 +24,8 @@ constexpr int64_t kLookAroundUs = 100'000;  // between looks at other processes
 constexpr int kMostStates = 10;             // of other servers, read at a look
 constexpr int kMessagesAtOnce = 200;      // before the clock is read again, so that a flood delays no state by much
 constexpr int64_t kListenUs = 1'000'000;  // to another server, before the first state
+constexpr double kFastPace = 1.5;         // stamps against the clock; messages that waited 0.15 s explain 1.3
+constexpr int64_t kManyLate = 10;         // stale messages; a few are the network's
 
 int64_t steady_us() {
   using namespace std::chrono;
@@ -139,6 +141,7 @@ class Service {
         port_.server.stream().keep_only(port_.present());
         look_for_others();
         look_at_log();
+        look_at_stream();
         look_us = now_us + kLookAroundUs;
       }
       receive();
@@ -165,6 +168,18 @@ class Service {
   void look_at_log() {
     if (log_.lost() > 0 && !std::exchange(told_of_log_, true))
       options_.tell(fmt::format("{}: found {}: lines are lost, and the joints hold", options_.log, log_.failure()));
+  }
+  /// Says once that the stream leaves the server behind, and how far.
+  void look_at_stream() {
+    const CommandStream& stream = port_.server.stream();
+    if (stream.pace() > kFastPace && !std::exchange(told_of_pace_, true))
+      options_.tell(
+          fmt::format("{}: left behind: commands come {:.1f} times as fast as their frames were taken, and the "
+                      "joints keep their speed limits",
+                      name_, stream.pace()));
+    if (const int64_t late = stream.count(Receipt::stale); late >= kManyLate && !std::exchange(told_of_late_, true))
+      options_.tell(fmt::format("{}: left behind: {} commands came more than {:g} s late and move nothing", name_,
+                                late, options_.limits.silence_s));
   }
   void tick(int64_t now_us) {
     if (now_us <= last_.clock_us) return;
@@ -216,7 +231,7 @@ class Service {
   RobotState last_;
   int64_t longest_gap_us_ = 0, states_sent_ = 0;
   int64_t waited_ = 0;  ///< states that waited for the disk with a command
-  bool told_of_log_ = false;
+  bool told_of_log_ = false, told_of_pace_ = false, told_of_late_ = false;
   int seen_others_ = 0;  ///< looks that found another server
 };
 

@@ -137,14 +137,14 @@ TEST_F(DdsServer, TheHandFollowsAStreamOverTheNetwork) {
   set_joint(*command.targets, kFFJ3, 0.2);
   const auto arrived = [&] { return read_file(log).find("\"accepted\"") != std::string::npos; };
   for (int i = 0; i < 2000 && !arrived(); ++i) {  // until both have found each other
-    command.frame_timestamp_us += 33'333;
+    command.frame_timestamp_us += 10'000;
     sink.send(command);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   // It moves for 0.1 s, as soon as the disk has what its log states.
   const auto there = [&] { return std::abs(last_positions(log, hand_joint_names())[kFFJ3] - 0.2) < 1e-8; };
   for (int i = 0; i < 2000 && !there(); ++i) {
-    command.frame_timestamp_us += 33'333;
+    command.frame_timestamp_us += 10'000;
     sink.send(command);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -69,8 +69,8 @@ template <typename Pixel>
 Picture finish_jpeg(const Jpeg& jpeg, std::string_view content, int width, int height, TJPF format,
                     const std::string& path) {
   Image<Pixel> image(width, height);
-  if (tjDecompress2(jpeg.get(), bytes_of(content), content.size(), reinterpret_cast<uint8_t*>(image.data()), width, 0,
-                    height, format, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0)
+  if (tjDecompress2(jpeg.get(), bytes_of(content), content.size(), reinterpret_cast<uint8_t*>(image.data()), width,
+                    0, height, format, TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0)
     refuse(path, tjGetErrorStr2(jpeg.get()), "JPEG");
   return image;
 }
@@ -87,7 +87,8 @@ Picture decode_jpeg(std::string_view content, const std::string& path) {
 
 /// The next number of a Netpbm header, behind white space and comments. -1: none.
 int64_t next_number(std::string_view& rest) {
-  while (!rest.empty() && (std::string_view(" \t\r\n").find(rest.front()) != std::string_view::npos || rest.front() == '#'))
+  while (!rest.empty() &&
+         (std::string_view(" \t\r\n").find(rest.front()) != std::string_view::npos || rest.front() == '#'))
     rest.remove_prefix(rest.front() == '#' ? std::min(rest.find('\n'), rest.size() - 1) + 1 : 1);
   int64_t number = -1;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);

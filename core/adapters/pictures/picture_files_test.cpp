@@ -61,8 +61,9 @@ TEST(PictureFiles, OfOtherProgramsAreRead) {
 }
 
 TEST(PictureFiles, SixteenBitsAreStretched) {
-  EXPECT_THAT(decode_gray(std::string_view("P5\n# a sensor of ten bits\n3 1 1023\n\0\x10\x01\x10\0\x90", 41), "a.pgm"),
-              ElementsAre(0, 255, 128));
+  EXPECT_THAT(
+      decode_gray(std::string_view("P5\n# a sensor of ten bits\n3 1 1023\n\0\x10\x01\x10\0\x90", 41), "a.pgm"),
+      ElementsAre(0, 255, 128));
 }
 
 TEST(PictureFiles, CutAnywhereAreRefused) {
@@ -70,7 +71,8 @@ TEST(PictureFiles, CutAnywhereAreRefused) {
                                    "P6 37 11 255\n" + std::string(37 * 11 * 3, 'x')}) {
     EXPECT_EQ(refusal(whole), "");
     for (size_t size = 0; size + 12 < whole.size(); ++size)  // without its last chunk a PNG has all pixels
-      EXPECT_THAT(refusal(whole.substr(0, size)), AllOf(HasSubstr("a.png: content: found "), HasSubstr("expected a")))
+      EXPECT_THAT(refusal(whole.substr(0, size)),
+                  AllOf(HasSubstr("a.png: content: found "), HasSubstr("expected a")))
           << size;
   }
 }

@@ -15,6 +15,7 @@ constexpr int64_t kCatchUpUs = 20'000;     // that source times may gain on the 
 constexpr int64_t kWindowUs = 10'000'000;  // for the smallest delay
 constexpr int64_t kBucketUs = 1'000'000;   // part of the window; bounds the memory
 constexpr size_t kMostStreams = 64;
+constexpr int64_t kPaceUs = 500'000;  // over which the pace is measured: a short recording is over in a second
 
 int64_t whole_us(double seconds) {
   return std::llround(seconds * 1e6);
@@ -51,7 +52,8 @@ CommandStream::CommandStream(const CommandLimits& limits, int topics)
     : silence_us_(whole_us(limits.silence_s)),
       release_us_(whole_us(limits.stop_after_s)),
       stamps_ns_(static_cast<size_t>(topics)),
-      until_us_(static_cast<size_t>(topics)) {}
+      until_us_(static_cast<size_t>(topics)),
+      paced_from_(static_cast<size_t>(topics)) {}
 
 bool CommandStream::ignores(uint64_t sender, int64_t now_us) {
   watch(now_us);
@@ -101,6 +103,7 @@ Receipt CommandStream::judge_order(const Arrival& arrival, int topic, const ros:
     ++owners_;
     std::ranges::fill(stamps_ns_, std::nullopt);
     std::ranges::fill(until_us_, std::nullopt);  // the last owner's goals end
+    std::ranges::fill(paced_from_, std::nullopt);
   }
   const int64_t stamp_ns = nanoseconds(stamp);
   std::optional<int64_t>& last_ns = stamps_ns_.at(static_cast<size_t>(topic));
@@ -108,7 +111,17 @@ Receipt CommandStream::judge_order(const Arrival& arrival, int topic, const ros:
   if (last_ns && stamp_ns <= *last_ns && !unstamped) return Receipt::went_back;
   last_ns = stamp_ns;
   good_us_ = arrival.now_us;
+  measure_pace(arrival.now_us, topic, stamp_ns);
   return Receipt::accepted;
+}
+
+void CommandStream::measure_pace(int64_t now_us, int topic, int64_t stamp_ns) {
+  std::optional<std::pair<int64_t, int64_t>>& from = paced_from_.at(static_cast<size_t>(topic));
+  if (from && now_us - from->first < kPaceUs) return;
+  if (from)
+    pace_ = std::max(
+        pace_, 1e-3 * static_cast<double>(stamp_ns - from->second) / static_cast<double>(now_us - from->first));
+  from = {now_us, stamp_ns};
 }
 
 bool CommandStream::is_foreign(uint64_t sender, int64_t now_us) const {

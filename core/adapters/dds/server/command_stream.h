@@ -48,6 +48,9 @@ class CommandStream {
   /// How often a sender became owner.
   int64_t owners() const { return owners_; }
   int64_t gaps() const { return gaps_; }
+  /// How many times as fast as its frames were taken the owner's stream came, in the fastest half second of a
+  /// topic; 0 before a whole one with stamps.
+  double pace() const { return pace_; }
   int64_t count(Receipt receipt) const { return receipts_[static_cast<size_t>(receipt)]; }
 
  private:
@@ -67,6 +70,7 @@ class CommandStream {
   Receipt judge(const Arrival& arrival, int topic, const ros::Time& stamp);
   std::pair<Receipt, int64_t> judge_age(const Arrival& arrival, int topic);
   Receipt judge_order(const Arrival& arrival, int topic, const ros::Time& stamp);
+  void measure_pace(int64_t now_us, int topic, int64_t stamp_ns);
   bool is_foreign(uint64_t sender, int64_t now_us) const;
   Delays& delays(uint64_t sender, int topic);
   bool watch(int64_t now_us);
@@ -83,6 +87,9 @@ class CommandStream {
   int64_t owners_ = 0;
   int64_t good_us_ = 0;
   std::vector<std::optional<int64_t>> stamps_ns_, until_us_;  ///< by topic: last stamp; end of its effect
+  /// By topic: reception and stamp from which the pace is measured.
+  std::vector<std::optional<std::pair<int64_t, int64_t>>> paced_from_;
+  double pace_ = 0;
 };
 
 }  // namespace glovebench

@@ -211,6 +211,30 @@ TEST_F(CommandStreamTest, WithoutSourceTimesNothingIsFollowed) {
   }
 }
 
+/// A stream at 30 Hz for 3 s; its stamps go on `faster` times as fast as the clock, and some messages come late.
+double pace_of(double faster, int64_t late_us) {
+  CommandStream stream({}, kTopics);
+  int64_t now = 100 * kSecondUs;
+  for (int i = 0; i < 90; ++i) {
+    now += kPeriod;
+    stream.tick({now, kEpoch + now});
+    const int64_t source = now - (i % 4 == 0 ? late_us : 0);
+    const auto stamp = static_cast<int64_t>(faster * static_cast<double>(source));
+    stream.receive({1, source * 1000, now}, 0, ros_time(stamp), Receipt::accepted);
+  }
+  return stream.pace();
+}
+
+TEST(CommandStreamPace, IsThatOfTheStampsAgainstTheClock) {
+  EXPECT_NEAR(pace_of(1, 0), 1, 1e-6);
+  EXPECT_NEAR(pace_of(12.5, 0), 12.5, 1e-6);
+  EXPECT_EQ(pace_of(0, 0), 0) << "without stamps";
+}
+
+TEST(CommandStreamPace, OfLateMessagesIsNearlyOne) {
+  EXPECT_NEAR(pace_of(1, 15'000), 1, 0.031) << "15 ms of half a second";
+}
+
 /// Whatever comes, what is accepted is no older than the limit and the 0.1 s by which a start may be wrong.
 TEST_F(CommandStreamTest, NothingOldIsAcceptedWhateverHappens) {
   std::mt19937 random(5);
