@@ -80,6 +80,7 @@ Picture decode_jpeg(std::string_view content, const std::string& path) {
   int width = 0, height = 0, sampling = 0, colors = 0;
   if (tjDecompressHeader3(jpeg.get(), bytes_of(content), content.size(), &width, &height, &sampling, &colors) != 0)
     refuse(path, tjGetErrorStr2(jpeg.get()), "JPEG");
+  if (width < 1 || height < 1) refuse(path, "no header", "JPEG");
   require_size(width, height, path);
   if (colors == TJCS_GRAY) return finish_jpeg<uint8_t>(jpeg, content, width, height, TJPF_GRAY, path);
   return finish_jpeg<Rgb>(jpeg, content, width, height, TJPF_RGB, path);

@@ -66,9 +66,8 @@ TEST(PictureFiles, OfOtherProgramsAreRead) {
 }
 
 TEST(PictureFiles, SixteenBitsAreStretched) {
-  EXPECT_THAT(
-      decode_gray(std::string_view("P5\n# a sensor of ten bits\n3 1 1023\n\0\x10\x01\x10\0\x90", 41), "a.pgm"),
-      ElementsAre(0, 255, 128));
+  using namespace std::string_view_literals;
+  EXPECT_THAT(gray_of("P5\n# a sensor of ten bits\n3 1 1023\n\0\x10\x01\x10\0\x90"sv), ElementsAre(0, 255, 128));
 }
 
 TEST(PictureFiles, CutAnywhereAreRefused) {
