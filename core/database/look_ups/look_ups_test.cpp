@@ -148,7 +148,7 @@ TEST(FastLookUp, made_distances_are_the_stored_ones_or_above_the_limit) {
 }
 
 TEST(FastLookUpLong, finds_the_neighbors_of_brute_force_for_ten_thousand_queries) {
-  const Database database = database_of_one_posture(std::array{32});  // brute force is what takes the time
+  const Database database = database_of_one_posture(std::array{64});  // brute force is what takes the time
   const Cascade exact = parse_cascade("exact:3");
   for (int number = 0; number < 10'000; ++number) {
     const TinyImages query = hostile_queries(database, exact, number);
