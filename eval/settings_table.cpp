@@ -47,7 +47,7 @@ void write_settings_table(const std::string& folder, const reports::SettingsTabl
   reports::require_own_folder(folder);
   WholeFiles files(folder);
   files.add("table.md", settings_markdown(table));
-  files.add("table.csv", to_csv(table.table));
+  files.add("table.csv", settings_csv(table));
   files.add("table.tex", settings_latex(table));
   files.add("index.html", settings_html(table));
   files.commit();

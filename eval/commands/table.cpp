@@ -20,7 +20,7 @@ struct TableCommand {
     reports::PairingOptions pairing{other_seeds, partial, {}, flags.metrics};
     const reports::SettingsTable table = settings_table(runs, pairing, flags.config());
     if (format == "markdown") return fmt::print("{}", settings_markdown(table));
-    if (format == "csv") return fmt::print("{}", to_csv(table.table));
+    if (format == "csv") return fmt::print("{}", settings_csv(table));
     if (format == "latex") return fmt::print("{}", settings_latex(table));
     if (format == "html") return fmt::print("{}", settings_html(table));
     fmt::print("{}", settings_text(table, terminal_columns()));

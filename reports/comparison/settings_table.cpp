@@ -123,18 +123,17 @@ Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
                    const std::vector<const Metric*>& metrics) {
   Table table = empty_table();
   const std::set<std::string> left_out = unshared(all);
-  const Cell none = Judgment{"-", Tone::same};
   for (size_t m = 0; m < metrics.size(); ++m) {
     for (const Compared& each : all) {
       Row& row = table.rows.emplace_back(Row{std::string(metrics[m]->key), each.name()});
       row.push_back(cell(mean_of(each.setting->run.result, *metrics[m], left_out)));
       if (&each == &reference) {
-        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
+        row.insert(row.end(), {Cell(), Cell(), Cell(), Cell()});
         continue;
       }
       const auto found = std::ranges::find(each.rows, metrics[m], &ComparisonRow::metric);
       if (found == each.rows.end()) {  // of an older run, which lacks the metric
-        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
+        row.insert(row.end(), {Cell(), Cell(), Cell(), Cell()});
         continue;
       }
       const ComparisonRow& compared = *found;
@@ -150,7 +149,7 @@ Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
     const std::optional<double> ms = each.setting->time_ms;
     const bool differs = &each != &reference && ms && reference_ms;
     table.rows.push_back({kTimeKey, each.name(), cell(ms), differs ? Cell(*ms - *reference_ms) : Cell(), Cell(),
-                          Cell(), differs ? time_cell(*ms, *reference_ms) : none});
+                          Cell(), differs ? time_cell(*ms, *reference_ms) : Cell()});
   }
   return table;
 }
@@ -246,6 +245,16 @@ std::string basis_of(const SettingRun& reference, size_t metrics, const std::set
       metrics == 1 ? "" : "s");
 }
 
+/// By name; many by their number.
+std::string experiments_of(const SettingRun& reference, const std::set<std::string>& left_out) {
+  constexpr size_t kMostNamed = 3;
+  std::vector<std::string> names;
+  for (const ExperimentResult& experiment : reference.run.result.experiments)
+    if (const std::string name = to_string(experiment.key); !left_out.contains(name)) names.push_back(name);
+  return names.size() <= kMostNamed ? fmt::format("{}", fmt::join(names, " "))
+                                    : fmt::format("{} experiments", names.size());
+}
+
 std::string recommendation_of(const std::vector<Compared>& all, const Compared& reference, size_t metrics) {
   const Compared *best = best_of(all), *fastest = fastest_of(all, reference);
   std::string text;
@@ -305,6 +314,8 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
     for (const ComparisonRow& row : each.rows)
       if (std::ranges::count(metrics, row.metric) == 0) metrics.push_back(row.metric);
   const Compared& first = all[static_cast<size_t>(reference - runs.begin())];
+  settings.experiments = experiments_of(*reference, unshared(all));
+  for (const SettingRun& each : runs) settings.runs[each.run.name] = run_name(each.run.result);
   settings.table = table_of_all(all, first, metrics);
   settings.changes = changes_of(all);
   settings.enough = enough_lines(all);
@@ -344,8 +355,20 @@ std::string settings_html(const SettingsTable& settings) {
   return html_document("glovebench settings", body + "<p>" + escape_html(settings.explanation) + "</p>\n");
 }
 
+std::string settings_csv(const SettingsTable& settings) {
+  constexpr int kSetting = 1;  // its column
+  Table table = settings.table;
+  table.columns.insert(table.columns.begin() + kSetting + 1, {"run", "run"});
+  ++table.name_columns;
+  for (Row& row : table.rows)
+    row.insert(row.begin() + kSetting + 1, settings.runs.at(std::get<std::string>(row[kSetting])));
+  return to_csv(table, {{"experiments", settings.experiments}});
+}
+
 std::string settings_latex(const SettingsTable& settings) {
-  return latex_comment(settings.recommendation) + to_latex(settings.table);
+  std::string names = latex_comment(settings.experiments);
+  for (const auto& [setting, run] : settings.runs) names += latex_comment(fmt::format("{}: run {}", setting, run));
+  return names + latex_comment(settings.recommendation) + to_latex(settings.table);
 }
 
 }  // namespace glovebench::reports

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,10 +18,12 @@ struct SettingRun {
 /// Runs of the same frames, each compared with the reference.
 struct SettingsTable {
   std::string reference;
-  bool is_paper = false;            ///< reference has the paper's configuration
-  Table table;                      ///< quantity, setting, mean, difference with its interval, verdict
-  Table changes;                    ///< fields that differ from the reference
-  std::vector<std::string> enough;  ///< one line per undecided row: how much data would decide
+  bool is_paper = false;                    ///< reference has the paper's configuration
+  std::string experiments;                  ///< whose frames are compared
+  std::map<std::string, std::string> runs;  ///< `run_name` by setting
+  Table table;                              ///< quantity, setting, mean, difference with its interval, verdict
+  Table changes;                            ///< fields that differ from the reference
+  std::vector<std::string> enough;          ///< one line per undecided row: how much data would decide
   std::string recommendation;
   std::string explanation;
 };
@@ -37,6 +40,8 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
 std::string settings_text(const SettingsTable& settings, size_t columns);
 std::string settings_markdown(const SettingsTable& settings);
 std::string settings_html(const SettingsTable& settings);
+/// CSV and LaTeX name experiments and runs.
+std::string settings_csv(const SettingsTable& settings);
 std::string settings_latex(const SettingsTable& settings);
 
 }  // namespace glovebench::reports

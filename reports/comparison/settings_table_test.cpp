@@ -101,11 +101,17 @@ TEST(SettingsTable, RunsThatDoNotCompareAreRefused) {
 TEST(SettingsTable, EveryFormatHasTheSameRows) {
   const SettingsTable settings = compare_settings({setting("paper", 0, 10), setting("bad", 0.5, 9)}, kHeadline);
   for (const std::string& text :
-       {settings_text(settings, 80), settings_markdown(settings), settings_html(settings), to_csv(settings.table)})
+       {settings_text(settings, 80), settings_markdown(settings), settings_html(settings), settings_csv(settings)})
     EXPECT_THAT(text, AllOf(HasSubstr("position_error_mm"), HasSubstr("worse"), HasSubstr("0.5")));
   EXPECT_THAT(settings_html(settings), AllOf(HasSubstr("<h2>Errors and times</h2>\n<div class=\"scroll\"><table>"),
                                              HasSubstr("</div>\n<h2>Differences from the reference</h2>\n<div")));
-  EXPECT_THAT(settings_latex(settings), AllOf(HasSubstr("\\toprule"), HasSubstr("position\\_error\\_mm")));
+  const auto& [name, run] = *settings.runs.begin();
+  EXPECT_EQ(name, "bad");
+  EXPECT_THAT(settings_csv(settings), AllOf(HasSubstr("experiments,quantity,setting,run,mean"),
+                                            HasSubstr(settings.experiments + ",position_error_mm,bad," + run)));
+  EXPECT_THAT(settings_latex(settings),
+              AllOf(HasSubstr("% " + settings.experiments), HasSubstr("% bad: run " + run), HasSubstr("\\toprule"),
+                    HasSubstr("position\\_error\\_mm")));
 }
 
 }  // namespace
