@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
+#include <sstream>
 
 #include "core/base/file_set.h"
 #include "reports/comparison/comparison_text.h"
@@ -19,6 +21,26 @@ std::string folded(const std::string& summary, const std::string& content) {
   return fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", summary, content);
 }
 
+void erase_column(Table& table, std::string_view heading) {
+  const auto at = std::ranges::find(table.columns, heading, &Column::heading) - table.columns.begin();
+  table.columns.erase(table.columns.begin() + at);
+  for (Row& row : table.rows) row.erase(row.begin() + at);
+}
+
+/// On a narrow terminal without two columns, which the report's files have.
+std::string rows_text(std::span<const ComparisonRow> rows, size_t columns) {
+  Table table = rows_table(rows);
+  const auto fits = [&] {
+    std::istringstream lines(to_text(table, true, std::numeric_limits<int>::max()));
+    size_t widest = 0;
+    for (std::string line; std::getline(lines, line);) widest = std::max(widest, line.size());
+    return widest <= columns;
+  };
+  for (const char* heading : {"minimum effect", "candidate"})
+    if (!fits()) erase_column(table, heading);
+  return to_text(table, true, columns);
+}
+
 }  // namespace
 
 std::string comparison_table(const ComparisonReport& report, bool all_rows, size_t columns) {
@@ -28,10 +50,11 @@ std::string comparison_table(const ComparisonReport& report, bool all_rows, size
     if (all_rows || is_worth_reading(row)) shown.push_back(row);
   std::string text = wrapped("baseline  " + result_sentence(comparison.baseline), columns) +
                      wrapped("candidate " + result_sentence(comparison.candidate), columns) + "\n";
-  if (!shown.empty()) text += to_text(rows_table(shown), true) + "\n";
+  if (!shown.empty()) text += rows_text(shown, columns) + "\n";
   for (const Table& table : comparison_tables(report))
-    text += to_text(table) + (table.explanation.empty() ? "" : wrapped(table.explanation, columns)) + "\n";
-  return text + wrapped(comparison_explanation(comparison), columns) + outcome_line(report) + "\n";
+    text += to_text(table, false, columns) +
+            (table.explanation.empty() ? "" : wrapped(table.explanation, columns)) + "\n";
+  return text + wrapped(comparison_explanation(comparison), columns) + wrapped(outcome_line(report), columns);
 }
 
 std::string comparison_markdown(const ComparisonReport& report) {

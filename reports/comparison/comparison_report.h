@@ -19,8 +19,7 @@ struct ComparisonReport {
   std::vector<std::string> scripts;
 };
 
-/// For a terminal: tables of at most 120 columns, text of `columns`. Shows changed rows or all, then counts
-/// verdicts.
+/// For a terminal. Shows changed rows or all, then counts verdicts.
 std::string comparison_table(const ComparisonReport& report, bool all_rows, size_t columns = kTerminalColumns);
 /// For a job summary or pull request; verdict first.
 std::string comparison_markdown(const ComparisonReport& report);

@@ -123,17 +123,18 @@ Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
                    const std::vector<const Metric*>& metrics) {
   Table table = empty_table();
   const std::set<std::string> left_out = unshared(all);
+  const Cell none = Judgment{"", Tone::same};
   for (size_t m = 0; m < metrics.size(); ++m) {
     for (const Compared& each : all) {
       Row& row = table.rows.emplace_back(Row{std::string(metrics[m]->key), each.name()});
       row.push_back(cell(mean_of(each.setting->run.result, *metrics[m], left_out)));
       if (&each == &reference) {
-        row.insert(row.end(), {Cell(), Cell(), Cell(), Cell()});
+        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
         continue;
       }
       const auto found = std::ranges::find(each.rows, metrics[m], &ComparisonRow::metric);
       if (found == each.rows.end()) {  // of an older run, which lacks the metric
-        row.insert(row.end(), {Cell(), Cell(), Cell(), Cell()});
+        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
         continue;
       }
       const ComparisonRow& compared = *found;
@@ -149,7 +150,7 @@ Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
     const std::optional<double> ms = each.setting->time_ms;
     const bool differs = &each != &reference && ms && reference_ms;
     table.rows.push_back({kTimeKey, each.name(), cell(ms), differs ? Cell(*ms - *reference_ms) : Cell(), Cell(),
-                          Cell(), differs ? time_cell(*ms, *reference_ms) : Cell()});
+                          Cell(), differs ? time_cell(*ms, *reference_ms) : none});
   }
   return table;
 }
