@@ -147,6 +147,7 @@ std::string encode_png(const ColorImage& image) {
   png.width = image.width();
   png.height = image.height();
   png.format = PNG_FORMAT_RGB;
+  png.flags = PNG_IMAGE_FLAG_FAST;  // a sixth of the time for a quarter more bytes
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
   check(png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data(), 0, nullptr) != 0, "an image encodes");
