@@ -311,7 +311,7 @@ function track(panelOf, lineOf, title, width) {
         width, height: 110, mark: {type: 'line', strokeWidth: 1.6},
         encoding: {
           x: {field: 'time', type: 'quantitative', title: 'time (s)'},
-          y: {field: 'value', type: 'quantitative', title, scale: {zero: false}, axis: {minExtent: 34, tickCount: 4, format: '~g'}},
+          y: {field: 'value', type: 'quantitative', title, scale: {zero: false}, axis: {minExtent: 34, tickCount: 4, format: '~f'}},
           color: {field: 'line', sort: names, scale: {domain: names, range: seriesColors}, legend: names.length > 1 ? {title: null} : null}
         }
       }
