@@ -239,17 +239,16 @@ TEST_F(RobotServer, AFloodOfHugeMessagesTakesNoMemory) {
   const std::string log = path("hand.jsonl");
   const StartedProgram server = serve_until_ready("hand", log);
   const size_t before = peak_memory(server);
-  EXPECT_EQ(finish(talk("wait hand\nhuge names 2 100000000\nhuge points 2 50000000\nhuge names 500 15000\n" +
-                        fingers(10, 1) + "again 60 10000\n"))
-                .out,
-            "said\n");
+  const StartedProgram sender =
+      talk("wait hand\nhuge names 2 100000000\nhuge points 2 50000000\nhuge names 500 15000\n" + fingers(10, 1) +
+           "again 100000 10000\n");
+  EXPECT_TRUE(comes_true([&] { return std::abs(last_angle(log, "rh_FFJ3") - 10) < 1e-6; })) << "still follows";
   EXPECT_LT(peak_memory(server), before + 90 * kMegabyte) << "a message alone would be more";
+  stop(sender, SIGKILL);
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(good(log, "fingers"), 61);
   EXPECT_THAT(run.out, HasSubstr("; too large: "));
   EXPECT_LE(std::ranges::count(run.err, '\n'), 100) << run.err;
-  EXPECT_NEAR(last_angle(log, "rh_FFJ3"), 10, 1e-6);
 }
 
 TEST_F(RobotServer, OneServesAHandAndALog) {
