@@ -115,10 +115,10 @@ std::string color_rows(const GloveColorFit& fit, const ColorSeparation& separati
 }
 
 std::string confusion_rows(const ColorSeparation& separation) {
-  std::string text = "| is | none |", line = "| ---: | ---: |";
+  std::string text = "| is | none |", line = "|---:|---:|";
   for (int k = 1; k <= kColorCount; ++k) {
     text += fmt::format(" {} |", k);
-    line += " ---: |";
+    line += "---:|";
   }
   text += fmt::format("\n{}\n", line);
   for (int k = 0; k <= kColorCount; ++k) {
@@ -241,9 +241,10 @@ nlohmann::ordered_json color_report_json(const ColorSamples& samples, const Glov
 std::string color_report_markdown(const ColorSamples& samples, const GloveColorFit& fit,
                                   const ColorSeparation& separation) {
   std::string text = fmt::format(
-      "{} frames, camera noise {:.1f} gray levels, light {:.2f} : 1 : {:.2f} (R, G, B) and saturation {:.2f} "
-      "against the seeds\n"
-      "{} glove pixels of one color, {} of two; without a label {:.2f}%, of those of two {:.1f}%\n\n",
+      "{} frames, camera noise {:.1f} gray levels\n"
+      "against the seeds: light {:.2f} : 1 : {:.2f} (R, G, B), saturation {:.2f}\n"
+      "{} glove pixels of one color, {} of two\n"
+      "without a label: {:.2f}%, of those of two colors {:.1f}%\n\n",
       samples.frames(), fit.noise_gray, fit.light.gain[0], fit.light.gain[2], fit.light.saturation, fit.glove,
       samples.mixed().size(), 100 * separation.unlabeled_share, 100 * separation.mixed_unlabeled_share);
   text += color_rows(fit, separation);
