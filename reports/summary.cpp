@@ -29,9 +29,7 @@ std::vector<std::string> remove_common_names(Table& table) {
       continue;
     common.insert(common.begin(),
                   table.columns[c].heading + " " + cell_text(table.rows.front()[c], table.columns[c]));
-    table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(c));
-    for (Row& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
-    --table.name_columns;
+    erase_column(table, c);
   }
   return common;
 }

@@ -231,13 +231,16 @@ std::string to_text(const Table& table, bool grouped, size_t columns) {
   return text;
 }
 
+void erase_column(Table& table, size_t column) {
+  const auto at = static_cast<std::ptrdiff_t>(column);
+  table.columns.erase(table.columns.begin() + at);
+  for (Row& row : table.rows) row.erase(row.begin() + at);
+  if (at < table.name_columns) --table.name_columns;
+}
+
 Table without_long_names(Table table) {
-  for (int c = table.name_columns; --c > 0;) {
-    if (!has_long_names(table, static_cast<size_t>(c))) continue;
-    table.columns.erase(table.columns.begin() + c);
-    for (Row& row : table.rows) row.erase(row.begin() + c);
-    --table.name_columns;
-  }
+  for (int column = table.name_columns - 1; column > 0; --column)
+    if (has_long_names(table, static_cast<size_t>(column))) erase_column(table, static_cast<size_t>(column));
   return table;
 }
 

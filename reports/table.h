@@ -72,6 +72,8 @@ std::string to_html(const Table& table, const std::vector<std::string>& plots = 
 std::string to_latex(const Table& table, const std::string& heading = "");
 /// The widest columns shrink to fit. `grouped`: the first column becomes a line above its rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
+/// Removes a column and its cells.
+void erase_column(Table& table, size_t column);
 /// Without columns of names, other than the first, that are too long for a terminal.
 Table without_long_names(Table table);
 /// Keys, then values to 1e-6. `names`: columns in front, with the value of every row.

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Where an output goes (core/base/README.md): a file, or a stream (device, pipe, "-", /dev/fd/3).
+/// The target of an output is a file or a stream (device, pipe, "-", /dev/fd/3): core/base/README.md.
 struct OutputTarget {
   bool is_stream = false;
   int descriptor = -1;  ///< of an open stream

@@ -28,7 +28,7 @@ inline Eigen::Array3d array_of(const Rgb& rgb) {
   return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
 }
 
-/// Whether a channel may be clipped.
+/// True if a channel may be clipped.
 inline bool is_overexposed(const Rgb& rgb) {
   constexpr uint8_t kWhite = 251;
   return rgb[0] >= kWhite || rgb[1] >= kWhite || rgb[2] >= kWhite;

@@ -38,7 +38,7 @@ class FieldRows {
   /// last entry also fills its block.
   void put(int first, std::span<const uint8_t> fields);
 
-  /// Whether sums are distances, not bounds.
+  /// True if sums are distances. False: they are lower bounds.
   bool exact() const { return pool_ == 1; }
   size_t block_count() const { return block_count_; }
   size_t row_count() const { return static_cast<size_t>(kColorCount) * cells_ * cells_; }

@@ -4,7 +4,7 @@
 
 namespace glovebench {
 
-/// What a guard controls. core/robot/README.md has the limits of each.
+/// A guard controls one of these parts. core/robot/README.md lists their limits.
 enum class GuardedPart {
   robot,  ///< all joints and `T_base_hand`
   hand,   ///< the hand's joints

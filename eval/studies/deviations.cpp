@@ -162,10 +162,9 @@ Table empty_deviations_table() {
       "deviations",
       "Deviations from the paper, and its gaps",
       "What profile \"paper\" does in another way than the paper says, or had to choose since the paper does not "
-      "say "
-      "it. Changes are those of the mean errors (position, posture as RMS over the 22 angles, rotation) if this "
-      "one "
-      "thing is done as the paper says, or otherwise: means over the movements of Figure 4 (source truth, the "
+      "say it. Changes are those of the mean errors (position, posture as RMS over the 22 angles, rotation) if "
+      "this one thing is done as the paper says, or otherwise: means over the movements of Figure 4 (source truth, "
+      "the "
       "tracker's own hand, all databases with the grasp) of their mean changes, over the frames that both trackers "
       "answer. Low and high: 95% interval, Student's t over the movements; none if no frame changes. Covered: of "
       "all frames, tracked within 50 mm and 30 degrees.",

@@ -6,6 +6,7 @@
 #include "eval/studies/study.h"
 #include "reports/claims/claims_report.h"
 #include "reports/claims/figure4_measures.h"
+#include "reports/metrics/metric.h"
 #include "reports/paper_numbers.h"
 #include "reports/summary.h"
 
@@ -78,13 +79,9 @@ Table errors_table(const RunResult& paper, const RunResult& literal) {
     const ExperimentResult* other = find_experiment(literal, experiment.key);
     check(other != nullptr, "both profiles run the same experiments");
     Row& row = table.rows.emplace_back(reports::experiment_names(experiment.key));
-    for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"})
+    for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg", "found_percent"})
       for (const ExperimentResult* each : {&experiment, other})
-        row.push_back(reports::cell(each->aggregate_of(metric).mean));
-    for (const ExperimentResult* each : {&experiment, other}) {
-      const std::optional<double> share = each->coverage.found_share();
-      row.push_back(reports::cell(share ? std::optional(100 * *share) : share));
-    }
+        row.push_back(reports::cell(value_of(reports::metric_of(metric), *each)));
   }
   return table;
 }

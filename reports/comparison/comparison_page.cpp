@@ -30,11 +30,7 @@ std::string interval_plot(const ComparisonRow& row) {
 /// `of_one`: all rows are of one experiment, whose name is in the heading.
 std::string rows_html(std::span<const ComparisonRow> rows, bool of_one) {
   Table table = verdict_first(rows_table(rows));
-  if (of_one) {
-    table.columns.erase(table.columns.begin());
-    for (Row& row : table.rows) row.erase(row.begin());
-    --table.name_columns;
-  }
+  if (of_one) erase_column(table, 0);
   std::vector<std::string> plots;
   for (const ComparisonRow& row : rows) plots.push_back(interval_plot(row));
   return to_html(table, plots);

@@ -21,12 +21,6 @@ std::string folded(const std::string& summary, const std::string& content) {
   return fmt::format("\n<details><summary>{}</summary>\n\n{}\n</details>\n", summary, content);
 }
 
-void erase_column(Table& table, std::string_view heading) {
-  const auto at = std::ranges::find(table.columns, heading, &Column::heading) - table.columns.begin();
-  table.columns.erase(table.columns.begin() + at);
-  for (Row& row : table.rows) row.erase(row.begin() + at);
-}
-
 /// On a narrow terminal without two columns, which the report's files have.
 std::string rows_text(std::span<const ComparisonRow> rows, size_t columns) {
   Table table = rows_table(rows);
@@ -37,7 +31,8 @@ std::string rows_text(std::span<const ComparisonRow> rows, size_t columns) {
     return widest <= columns;
   };
   for (const char* heading : {"minimum effect", "candidate"})
-    if (!fits()) erase_column(table, heading);
+    if (!fits())
+      erase_column(table, std::ranges::find(table.columns, heading, &Column::heading) - table.columns.begin());
   return to_text(table, true, columns);
 }
 

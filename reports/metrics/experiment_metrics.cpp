@@ -40,8 +40,7 @@ std::vector<Metric> pck_metrics() {
 std::vector<Metric> sequence_metrics() {
   constexpr std::string_view kAtRest =
       "10 or more pairs of successive tracked frames, the true hand at rest (under 1 mm, 0.5 degrees); mean over "
-      "the "
-      "seeds";
+      "the seeds";
   return {
       {.key = "jitter_position_mm",
        .unit = "mm",

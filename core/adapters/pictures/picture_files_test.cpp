@@ -44,7 +44,8 @@ TEST(PictureFiles, JpegComesBackNearlyEqual) {
   ASSERT_EQ(found.width(), image.width());
   ASSERT_EQ(found.height(), image.height());
   for (size_t i = 0; i < image.size(); ++i)
-    for (int channel = 0; channel < 3; ++channel) EXPECT_NEAR(found[i][channel], image[i][channel], 12) << i;
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR(found[i][channel], image[i][channel], 12) << i;  // chroma has half the size
   EXPECT_LT(encode_jpeg(image, 20).size(), encode_jpeg(image, 95).size());
 }
 
@@ -63,6 +64,8 @@ TEST(PictureFiles, OfOtherProgramsAreRead) {
   EXPECT_THAT(gray("small.png"), ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
   EXPECT_EQ(gray("two_by_two.pgm"), (std::vector<int>{0, 1, 2, 3}));
   EXPECT_THAT(gray("sixteen_bits.pgm"), ElementsAre(0, 255)) << "1 and 515 of 65535";
+  EXPECT_THAT(gray("sixteen_bits.png"), ElementsAre(0, 128, 255)) << "100, 200 and 300 of 65535";
+  EXPECT_THAT(gray("gray_alpha.png"), ElementsAre(7, 0)) << "opaque, and seen through on black";
 }
 
 TEST(PictureFiles, SixteenBitsAreStretched) {

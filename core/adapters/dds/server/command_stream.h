@@ -33,13 +33,13 @@ class CommandStream {
   /// `topics`: their number.
   CommandStream(const CommandLimits& limits, int topics);
 
-  /// Whether the sender is not the owner. Counts such messages.
+  /// True if another sender owns the topics. Counts such messages.
   bool ignores(uint64_t sender, int64_t now_us);
   /// Judges and counts a message. `found`: outcome of the content checks.
   Receipt receive(const Arrival& arrival, int topic, const ros::Time& stamp, Receipt found);
   void tick(const ServerTime& now);
-  /// Whether the last accepted message of a topic (or of any) still counts: at most `silence_s` old, with no gap or
-  /// new owner since.
+  /// True while the last accepted message of a topic (or of any) counts. It counts for `silence_s`, until a gap or
+  /// a new owner.
   bool is_current(int topic, int64_t now_us) const;
   bool is_current(int64_t now_us) const;
   /// Releases an absent owner.
