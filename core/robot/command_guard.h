@@ -4,15 +4,14 @@
 
 namespace glovebench {
 
-/// The part that a guard controls. core/robot/README.md lists its limits.
+/// The part that a guard controls.
 enum class GuardedPart {
   robot,  ///< all joints and `T_base_hand`
   hand,   ///< the hand's joints
   arm,    ///< the wrist (WRJ2) as `T_base_hand`
 };
 
-/// Makes commands safe for every sink (core/robot/README.md). Reads no clock. For any input, the output has these
-/// properties:
+/// Makes commands safe for every sink (core/robot/README.md). Reads no clock. For any input:
 /// - Values are finite, rotations valid, joints within limits. J1 and J2 follow ShadowCoupling; motors fit their
 ///   joints. Hand and fingertips are in the workspace (with an arm, to 0.1 mm).
 /// - Time stamps rise. Frame stamps go back only after the stream had stopped.
