@@ -2,8 +2,8 @@
 
 #include <string>
 
-/// Paths of this build, for tests and benchmarks. Only ci/build_paths.cpp.in contains them, so compiler caches work
-/// for clones anywhere.
+/// Paths of this build, for tests and benchmarks. Only ci/build_paths.cpp.in has them: compiler caches work for any
+/// clone.
 namespace glovebench::build_paths {
 
 std::string source(const std::string& path);   ///< of the repository
