@@ -28,7 +28,7 @@ inline std::string shared_folder(const std::string& name) {
   return path;
 }
 
-/// Private, empty at first, removed at the end.
+/// Private, at first empty. Removed at the end.
 class TestFolder {
  public:
   TestFolder() {
@@ -74,7 +74,7 @@ inline std::string shared_test_folder() {
   return folder.string();
 }
 
-/// A folder in `home` that `fill` is called for once; other processes wait for the one that fills it.
+/// A folder in `home` that `fill` fills once. Other processes wait.
 inline std::string filled_once(const std::string& home, const std::string& name,
                                const std::function<void(const std::string& folder)>& fill) {
   namespace fs = std::filesystem;
