@@ -59,8 +59,7 @@ inline const std::string& test_folder() {
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// A folder for expensive files, shared by all processes of this build of the executable. Removes those of other
-/// builds.
+/// A folder for expensive files, shared by all processes of this executable's build. Removes those of other builds.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");

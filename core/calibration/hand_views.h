@@ -20,7 +20,7 @@ std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& 
 
 struct ShownMotion {
   int views = 0;
-  double seconds = 0;                ///< from first to last view
+  double seconds = 0;                ///< first to last view
   double turn_deg = 0;               ///< largest angle between two viewing directions
   std::array<double, 5> bend_deg{};  ///< thumb to little: range of both middle joints' bend
 };

@@ -25,7 +25,7 @@ struct ViewConfig {
   double field_cap_share = 0.5;     ///< largest stored distance, share of the side, (0, 1]
 };
 
-/// Largest stored distance, 1/kFieldScale px.
+/// In 1/kFieldScale px.
 uint8_t field_cap(double cap_share, int size);
 
 /// 756 views of each posture as tiny images, with a distance field for each color. Entry = posture * 756 + view.

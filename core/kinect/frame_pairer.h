@@ -43,9 +43,9 @@ struct PairingRules {
 };
 
 /// Pairs each depth image with a copy of the color image nearest in time (of two, the earlier). A depth image waits
-/// until a color image is not before it, depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`.
-/// Pairs come in order of time. Drops an image that is not later than its kind's last. If the clock restarts, drops
-/// waiting images instead, and times go back.
+/// for a color image that is not earlier, at most until depth is `max_gap_us` ahead, more than `max_waiting` wait,
+/// or `finish`. Pairs come in order of time. Drops an image that is not later than its kind's last. If the clock
+/// restarts, drops waiting images instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:

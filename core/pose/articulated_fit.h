@@ -21,7 +21,7 @@ struct HandObservation {
 /// steps.
 struct FitStage {
   int steps;                ///< >= 1
-  int rigid_steps;          ///< first steps, which move only the pose
+  int rigid_steps;          ///< steps at the start that move only the pose
   int max_points;           ///< uniform stride
   double tukey_mm[2];       ///< farther points have no weight
   double start_weight[2];   ///< pull to the start's posture, per square degree

@@ -18,13 +18,14 @@ constexpr auto names_of(Implementation) {
 }
 
 struct IcpConfig {
-  std::string algorithm = "horn";      ///< a name of `alignments`
-  bool center_visible_surface = true;  ///< start at the cloud's center of gravity; false: the hand's origin
-  int max_points = 1000;               ///< uniform stride, >= 3
-  int subsampling_factor = 0;          ///< every nth point (Figure 9); 0: by `max_points`
-  int max_iterations = 100;            ///< >= 1
-  double convergence_share = 1e-3;     ///< stop if the mean distance changes by a smaller share, > 0
-  bool cull_each_iteration = false;    ///< false: only before the first iteration (the paper)
+  std::string algorithm = "horn";  ///< a name of `alignments`
+  bool center_visible_surface =
+      true;                          ///< the visible surface starts at the cloud's center; false: the hand's origin
+  int max_points = 1000;             ///< uniform stride, >= 3
+  int subsampling_factor = 0;        ///< every nth point (Figure 9); 0: by `max_points`
+  int max_iterations = 100;          ///< >= 1
+  double convergence_share = 1e-3;   ///< stop if the mean distance changes by a smaller share, > 0
+  bool cull_each_iteration = false;  ///< false: only before the first iteration (the paper)
   Implementation implementation = Implementation::fast;  ///< of the closest-point search
   bool color_sensitive = true;                           ///< false: any color
 };

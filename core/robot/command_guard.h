@@ -12,8 +12,8 @@ enum class GuardedPart {
 };
 
 /// Makes commands safe for every sink (core/robot/README.md). Reads no clock. For any input:
-/// - Values are finite, rotations valid, joints within limits. J1 and J2 follow ShadowCoupling; motors fit their
-///   joints. Hand and fingertips are in the workspace (with an arm, to 0.1 mm).
+/// - Values are finite, rotations valid, joints within limits. J1 and J2 follow ShadowCoupling; motor targets fit
+///   the joints. Hand and fingertips are in the workspace (with an arm, to 0.1 mm).
 /// - Time stamps rise. Frame stamps go back only after the stream had stopped.
 /// - Joints, hand, fingertips and arm keep their speed limits. A step counts as at most `longest_step_s`. One
 ///   factor slows all.

@@ -6,7 +6,7 @@ namespace glovebench {
 
 // The guard's computations, without its state.
 
-/// Why the targets are unusable. Empty if they are usable.
+/// Why the targets are unusable, if they are.
 std::optional<Intervention> refusal(const RobotTargets& targets);
 
 /// Moves finite targets into the limits: joints, then J1 and J2 by the coupling, then the hand. Flags moved joints.

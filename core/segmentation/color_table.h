@@ -54,7 +54,7 @@ class ColorTable {
   const std::vector<uint8_t>& labels() const { return labels_; }
   ColorSpace space() const { return space_; }
 
-  /// A versioned, checksummed file.
+  /// Versioned and checksummed.
   /// Throws: Error.
   void save(const std::string& path) const;
   static ColorTable load(const std::string& path);

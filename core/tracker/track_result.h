@@ -85,7 +85,7 @@ constexpr auto names_of(Stage) {
 }
 static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
 
-/// Called when a stage begins. A frame may enter a stage twice. Not empty.
+/// Called when a stage begins. A frame may enter a stage twice. Must not be empty.
 using StageObserver = std::function<void(Stage stage)>;
 inline void unobserved(Stage) {}
 

@@ -66,7 +66,7 @@ class MeasuredRobot {
   std::vector<MeasuredJoints> hand_, arm_;  ///< by preference
 };
 
-/// A joint this little beyond a limit, or J1 beyond J2, counts as at the limit.
+/// A joint up to this far beyond a limit, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
 /// Targets for `CommandGuard::start_from`. `T_base_hand` is used only without an arm.

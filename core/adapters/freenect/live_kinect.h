@@ -33,7 +33,7 @@ struct LiveLosses {
 /// Throws: Error, after earlier frames, if the device is unplugged, silent for `silence_limit`, or memory runs out.
 class LiveKinect : public Device {
  public:
-  /// Time when the last fetched frame was complete, microseconds since 1970. 0 before the first.
+  /// When the last fetched frame was complete, us since 1970. 0 before the first.
   virtual int64_t arrived_us() const = 0;
   virtual LiveLosses losses() const = 0;
   /// Why the stream ended. Empty before the end and after a failure.

@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Time of a file's last change, microseconds since 1970.
+/// A file's last change, us since 1970.
 /// Throws: Error.
 int64_t changed_us(const std::string& path);
 

@@ -14,8 +14,8 @@
 namespace glovebench {
 
 // RobotServer::receive checks a message with read_joints or read_pose, then with CommandStream. An `accepted`
-// message is its topic's goal until the next one. Each tick moves towards the goals as far as CommandGuard and
-// MotionLog allow, and returns a RobotState for the joints.
+// message is its topic's goal until the next one. A tick moves towards the goals as far as CommandGuard and
+// MotionLog allow.
 
 /// `pose`: of the wrist.
 enum class RobotTopic { fingers, wrist, pose };
