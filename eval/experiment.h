@@ -40,7 +40,7 @@ Outcome report_runs(
     const RobotOutput& robot, const std::string& folder,
     const std::function<void(reports::RunResult&)>& add_studies = [](reports::RunResult&) {});
 
-/// Adds studies. `store` keeps finished parts.
+/// `store` keeps finished parts.
 using AddStudies = std::function<void(reports::RunResult& result, RunStore& store)>;
 /// Executes and measures the plan's runs, then `report_runs` into `folder`. Resumes an interrupted run.
 /// Throws: Error before any work for a wrong plan, or if the folder cannot be written.

@@ -23,7 +23,7 @@ std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& track
 std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs);
 
 /// Jitter and latency (`glovebench list metrics` defines them). Latency needs 30 frames. At rest the posture also
-/// changes by less than 0.5 deg per frame. One estimate per frame of `truth`.
+/// changes by less than 0.5 deg per frame. `estimates`: one per frame of `truth`.
 reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates, std::span<const HandFrame> truth);
 
 }  // namespace glovebench::eval

@@ -89,7 +89,7 @@ class StatusLine {
   LiveStatus status_;
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP set a flag. A second SIGINT or SIGTERM ends the program. Respects
+/// During its lifetime SIGINT, SIGTERM and SIGHUP set a flag. A second SIGINT or SIGTERM ends the program. Respects
 /// nohup.
 class Interruption {
  public:

@@ -26,9 +26,9 @@ class Option {
   Option existing_file() const;
   Option existing_folder() const;
   Option count(int values) const;
-  /// A list: the option is repeated for each value.
+  /// A list: one option per value.
   Option repeated() const;
-  /// A list that commas may separate.
+  /// A list: commas may separate values.
   Option comma_separated() const;
   /// `other` must exist.
   Option needs(const std::string& other) const;

@@ -18,7 +18,7 @@ struct Figure7Setup {
 /// Paper: Figure 7.
 Figure7Setup figure7_setup(bool quick);
 
-/// Bootstrap intervals are over queries. Threads change no rank.
+/// Bootstrap intervals are over queries. Threads do not change ranks.
 reports::StudyResult measure_figure7(const StudyContext& context, const Figure7Setup& setup);
 
 /// Ranks start at 1. Ties share their mean rank.
