@@ -21,7 +21,7 @@ inline Posture test_posture() {
   return posture;
 }
 
-/// Back to the camera, fingers up, then turned about x, y, z.
+/// Back of the hand to the camera, fingers up, then turned about x, y, z.
 inline Eigen::Isometry3d test_pose(const Eigen::Vector3d& position,
                                    const Eigen::Vector3d& turn = {0.4, -0.5, 0.3}) {
   Eigen::Matrix3d R_camera_hand;

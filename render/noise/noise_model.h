@@ -17,7 +17,7 @@ inline constexpr double kGradientGain = 0.0014 * 0.0014 / (0.7 / 575.816);
 
 struct KinectNoiseConfig {
   double lateral_sigma_px = 0.5;  ///< of the sampled position (Handa et al. 2014), >= 0
-  /// before quantization, 1/8 px, >= 0; together: axial deviation of Khoshelham and Elberink 2012
+  /// before quantization, 1/8 px, >= 0; with quantization: axial deviation of Khoshelham and Elberink 2012
   double disparity_sigma_steps = 0.40;
   double grazing_from_deg = 70.0;     ///< incidence where dropouts begin, [0, 90)
   double grazing_to_deg = 85.0;       ///< incidence where all drop out, (grazing_from_deg, 90]

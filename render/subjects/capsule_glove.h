@@ -17,7 +17,6 @@ inline constexpr double kMostBorderShift = 0.003;
 /// Lattice noise in [-1, 1]. `scale`: lattice step, m.
 double smooth_noise(uint64_t seed, const Eigen::Vector3d& p, const Eigen::Vector3d& scale);
 
-/// Functions on a posed hand's surface.
 class CapsuleGlove {
  public:
   CapsuleGlove(const std::vector<HandCapsule>& capsules, std::vector<Capsule> placed,
