@@ -16,7 +16,7 @@ const std::vector<std::string>& ground_truth_names();
 /// "pinch" or "power".
 /// Throws: Error for another name.
 std::string grasp_of(std::string_view trajectory);
-/// Databases with its grasp; that of this grasp first.
+/// Databases with its grasp, the one for this grasp first.
 /// Throws: Error for another name.
 std::vector<std::string> databases_of(std::string_view trajectory);
 const std::vector<std::string>& posture_set_names();
