@@ -124,7 +124,7 @@ ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurv
 struct Protocol {
   int metric_definitions = 1;  ///< increases when a metric changes its meaning
   std::vector<std::string> joint_order;
-  std::vector<std::string> metric_keys;               ///< of frames; versions differ
+  std::vector<std::string> metric_keys;               ///< columns; versions differ
   std::string association;                            ///< estimates to truths: "by time stamp, exact"
   std::map<std::string, double> coverage_rules = {};  ///< metrics/coverage.h; empty in older results
 
@@ -139,7 +139,7 @@ class Incomparable : public Error {
   using Error::Error;
 };
 
-/// Not in the protocol: a part of a run compares with the whole.
+/// Not part of the protocol.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
   std::map<std::string, std::string> databases;  ///< content_hash by name

@@ -86,7 +86,7 @@ std::optional<ConfidenceInterval> stratified_interval(
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
     const BootstrapConfig& config = {});
 
-/// |T| is below it with probability `level`, 0..1.
+/// |T| is below this value with probability `level`, 0..1.
 double student_quantile(double level, int degrees_of_freedom);
 /// Interval of the mean of independent values. Empty for fewer than five values or equal ones.
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,

@@ -21,7 +21,7 @@ struct Variant {
 };
 const std::array<Variant, 3>& figure4_variants();
 
-/// Databases for Tr1 to Tr5: that of its grasp first, the largest last. Empty names for other trajectories.
+/// Databases for Tr1 to Tr5: the one for its grasp first, the largest last. Empty names for other trajectories.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
 /// Whether there are experiments, and all are Figure 4's (with any noise).
 bool is_figure4(const RunResult& result);

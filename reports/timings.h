@@ -20,7 +20,7 @@ struct ExperimentTiming {
   std::vector<double> command_ms = {};  ///< device frame to robot command, by frame
 };
 
-/// Differs from run to run.
+/// Values that differ between equal runs.
 struct Timings {
   std::string host;
   std::string processor;

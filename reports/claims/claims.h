@@ -51,7 +51,7 @@ struct ClaimDefinition {
   friend bool operator==(const ClaimDefinition&, const ClaimDefinition&) = default;
 };
 
-/// A change of a claim. The first one writes it.
+/// A change of a claim. The first one creates it.
 struct ClaimChange {
   std::string date;                   ///< "2026-11-21"
   std::optional<std::string> commit;  ///< empty only for the newest change
@@ -73,7 +73,7 @@ struct Claim {
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// A change of the judging of all claims.
+/// A change in how all claims are judged.
 struct JudgingChange {
   std::string date;
   std::optional<std::string> commit;  ///< as in ClaimChange

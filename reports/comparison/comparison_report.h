@@ -15,7 +15,7 @@ struct ComparisonReport {
   std::vector<SpeedRow> speed;    ///< empty if not measured
   StageTimeChanges times;         ///< for information; empty without times
   std::vector<Picture> pictures;  ///< of the worst frames
-  /// Vega, Vega-Lite and Vega-Embed, in this order. Empty: no charts.
+  /// As in PageMaterial.
   std::vector<std::string> scripts;
 };
 

@@ -53,7 +53,7 @@ class Draws {
 Eigen::VectorXd resampled_means(const BlockSums& sums, const std::string& trajectory, Draws& draws);
 /// Standard deviation, without NaN. Empty if over half are NaN.
 std::optional<double> standard_error(const Eigen::VectorXd& means);
-/// Student's t exceeds it with this probability.
+/// The value that Student's t exceeds with this probability.
 double student_t_above(double probability, int degrees_of_freedom);
 
 }  // namespace glovebench::reports

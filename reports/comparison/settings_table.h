@@ -11,7 +11,7 @@
 namespace glovebench::reports {
 
 struct SettingRun {
-  NamedResult run;                ///< its name names the row
+  NamedResult run;                ///< the row has its name
   std::optional<double> time_ms;  ///< of a frame, measured while no other job ran
 };
 
@@ -19,7 +19,7 @@ struct SettingRun {
 struct SettingsTable {
   std::string reference;
   bool is_paper = false;                    ///< reference has the paper's configuration
-  std::string experiments;                  ///< names of the compared ones
+  std::string experiments;                  ///< names of the compared experiments
   std::map<std::string, std::string> runs;  ///< `run_name` by setting
   Table table;                              ///< quantity, setting, mean, difference, interval, verdict
   Table changes;                            ///< fields that differ from the reference

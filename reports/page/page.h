@@ -26,7 +26,7 @@ struct FrameSheet {
 inline constexpr double kSheetDifferenceMm = 20;
 
 struct PageMaterial {
-  /// Vega, Vega-Lite, Vega-Embed. Empty: no charts.
+  /// Vega, Vega-Lite, Vega-Embed, in this order. Empty: no charts.
   std::vector<std::string> scripts;
   std::vector<FrameSheet> sheets;  ///< of Figures 5 and 6
   std::vector<Picture> worst_frames;
@@ -49,7 +49,7 @@ struct WorstFrame {
 /// repeated.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
-/// The command that explains the frame, run in the run's folder.
+/// The command that explains the frame, called in the run's folder.
 std::string explain_command(const WorstFrame& worst, const std::string& folder = ".");
 /// Names experiment, frame and errors.
 std::string caption(const WorstFrame& worst);
