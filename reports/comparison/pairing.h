@@ -24,7 +24,7 @@ constexpr auto names_of(Across) {
 }
 
 struct PairingOptions {
-  /// Pairs different noise seeds in their order, if their numbers are equal. Otherwise seeds must be equal.
+  /// Pairs different noise seeds in their order; counts must be equal. Otherwise seeds must be equal.
   bool other_seeds = false;
   /// Compares shared experiments. Otherwise the candidate needs all of the baseline's.
   bool partial = false;
