@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 
 #include "core/base/error.h"
 #include "core/base/random.h"
@@ -209,6 +210,25 @@ double student_quantile(double level, int degrees_of_freedom) {
     (share_within(middle, degrees_of_freedom) < level ? low : high) = middle;
   }
   return (low + high) / 2;
+}
+
+double student_p(double t, int degrees_of_freedom) {
+  check(t >= 0 && degrees_of_freedom >= 1, "a p-value is that of a distance");
+  return std::max(0.0, 1 - share_within(t, degrees_of_freedom));
+}
+
+std::vector<double> holm_adjusted(std::span<const double> p_values) {
+  std::vector<size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::ranges::stable_sort(order, {}, [&](size_t i) { return p_values[i]; });
+  std::vector<double> adjusted(p_values.size());
+  double before = 0;  // no hypothesis is significant if a smaller p-value is not
+  for (size_t step = 0; step < order.size(); ++step) {
+    const auto left = static_cast<double>(order.size() - step);
+    before = std::max(before, std::min(1.0, left * p_values[order[step]]));
+    adjusted[order[step]] = before;
+  }
+  return adjusted;
 }
 
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,

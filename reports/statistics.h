@@ -88,6 +88,11 @@ std::optional<ConfidenceInterval> stratified_interval(
 
 /// |T| is below this value with probability `level`, 0..1.
 double student_quantile(double level, int degrees_of_freedom);
+/// |T| is at least `t` with this probability: the two-sided p-value.
+double student_p(double t, int degrees_of_freedom);
+/// P-values adjusted for their number by Holm's step-down method. One of at most 0.05 is significant at 5% for all
+/// hypotheses together.
+std::vector<double> holm_adjusted(std::span<const double> p_values);
 /// Interval of the mean of independent values. Empty for fewer than five values or equal ones.
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
                                                    double level = 0.95);

@@ -165,6 +165,29 @@ TEST(Statistics, StudentQuantilesAreThoseOfTheTables) {
   EXPECT_NEAR(student_quantile(0.5, 1), 1, 1e-12) << "half of Cauchy's distribution";
 }
 
+TEST(StudentP, IsThatOfTheTables) {
+  EXPECT_NEAR(student_p(2.776445, 4), 0.05, 1e-7);
+  EXPECT_NEAR(student_p(4.604095, 4), 0.01, 1e-7);
+  EXPECT_NEAR(student_p(12.706205, 1), 0.05, 1e-8);
+  EXPECT_EQ(student_p(0, 4), 1);
+  EXPECT_NEAR(student_p(std::numeric_limits<double>::infinity(), 4), 0, 1e-15);
+}
+
+TEST(Holm, WorkedExamples) {
+  const auto expect = [](const Values& p_values, const Values& adjusted) {
+    const Values found = holm_adjusted(p_values);
+    ASSERT_EQ(found.size(), adjusted.size());
+    for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], adjusted[i], 1e-12) << i;
+  };
+  // The example of the textbooks: at 5% the first and the last are significant; 0.03 is not, for 2 x 0.03 > 5%.
+  expect({0.01, 0.04, 0.03, 0.005}, {0.03, 0.06, 0.06, 0.02});
+  expect({0.02}, {0.02});
+  expect({}, {});
+  expect({0.5, 0.9}, {1, 1});
+  expect({0.01, 0.01, 0.01}, {0.03, 0.03, 0.03});
+  expect({0.001, 0.04, 0.021}, {0.003, 0.042, 0.042});
+}
+
 TEST(Statistics, AStudentIntervalComputedByHand) {
   // Mean 3, standard deviation sqrt(2.5), so 3 +- 2.776445 * sqrt(2.5 / 5).
   const auto interval = student_interval(Values{1, 2, 3, 4, 5}, "movements");
