@@ -57,6 +57,20 @@ Density blur(const Density& density, size_t step) {
   return blurred;
 }
 
+/// Mean over groups of `pooled` cells along each axis, in each cell of the group.
+Density pool(const Density& density, const std::array<int, 3>& pooled) {
+  const auto group_of = [&](size_t cell) {
+    const auto first = [](size_t index, int width) { return index - index % static_cast<size_t>(width); };
+    return (first(cell / (kSide * kSide), pooled[0]) * kSide + first(cell / kSide % kSide, pooled[1])) * kSide +
+           first(cell % kSide, pooled[2]);
+  };
+  Density sums(density.size()), means(density.size());
+  for (size_t cell = 0; cell < density.size(); ++cell) sums[group_of(cell)] += density[cell];
+  const auto count = static_cast<float>(pooled[0] * pooled[1] * pooled[2]);
+  for (size_t cell = 0; cell < density.size(); ++cell) means[cell] = sums[group_of(cell)] / count;
+  return means;
+}
+
 /// Scaled to a sum of 1; all zero if there is nothing.
 Density normalize(Density density) {
   const double sum = std::accumulate(density.begin(), density.end(), 0.0);
@@ -85,24 +99,24 @@ using Counts = std::vector<std::array<uint32_t, kColorCount + 1>>;
 
 /// Where the pixels of one label fall, as seen and relit, as a density over the cells.
 Density relit_density(const Counts& counts, ColorSpace space, int label, const std::vector<Eigen::Array3d>& gains,
-                      int min_luma) {
+                      const ColorModel& model) {
   Density density(ColorTable::kCells);
   for (size_t cell = 0; cell < counts.size(); ++cell) {
     const float count = static_cast<float>(counts[cell][label]);
     if (count == 0) continue;
     const Eigen::Array3d rgb = rgb_of_cell(cell, space);
-    if (rgb.matrix().dot(Eigen::Vector3d(0.299, 0.587, 0.114)) < min_luma) continue;
+    if (rgb.matrix().dot(Eigen::Vector3d(0.299, 0.587, 0.114)) < model.min_luma) continue;
     const bool clipped = rgb.maxCoeff() >= kClipped;  // its true color is unknown: it stays as it is
     for (const Eigen::Array3d& gain : std::span(gains).first(clipped ? 1 : gains.size())) {
       const Eigen::Array3d relit = (rgb * gain).max(0.0).min(255.0).round();
       const Rgb relit_rgb = {static_cast<uint8_t>(relit[0]), static_cast<uint8_t>(relit[1]),
                              static_cast<uint8_t>(relit[2])};
-      if (yuv_from_rgb(relit_rgb)[0] < min_luma) continue;
+      if (yuv_from_rgb(relit_rgb)[0] < model.min_luma) continue;
       density[ColorTable::cell_of_rgb(relit_rgb, space)] += clipped ? count * gains.size() : count;
     }
   }
   for (size_t step : {size_t{1}, size_t{kSide}, size_t{kSide * kSide}}) density = blur(density, step);
-  return normalize(std::move(density));
+  return normalize(pool(density, model.pooled));
 }
 
 }  // namespace
@@ -127,11 +141,13 @@ void ColorCalibration::add_pixel(const Rgb& color, uint8_t label) {
 }
 
 ColorTable ColorCalibration::build(const ColorModel& model) const {
+  for (const int width : model.pooled)
+    check(width >= 1 && kSide % width == 0, "pooled cells divide those of a channel");
   const std::vector<Eigen::Array3d> gains = relighting_gains(model);
-  const Density not_glove = relit_density(counts_, space_, 0, gains, model.min_luma);
+  const Density not_glove = relit_density(counts_, space_, 0, gains, model);
   std::array<Density, kColorCount + 1> colors;
   for (int label = 1; label <= kColorCount; ++label) {
-    colors[label] = relit_density(counts_, space_, label, gains, model.min_luma);
+    colors[label] = relit_density(counts_, space_, label, gains, model);
     if (std::all_of(colors[label].begin(), colors[label].end(), [](float d) { return d == 0; }))
       throw Error("color calibration", "color " + std::to_string(label), "no bright pixel", "at least one");
     colors[label] = keep_densest(std::move(colors[label]), model.kept_share);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "core/base/random.h"
 
@@ -175,6 +177,36 @@ TEST(ColorCalibration, RelightingIsWhatReachesUnseenStrengths) {
   const double missed_relit = rate(calibration.build(), bright, 1).missed;
   EXPECT_GT(missed_as_seen, 0.3);
   EXPECT_LT(missed_relit, 0.02);
+}
+
+TEST(ColorCalibration, PooledCellsShareALabel) {
+  ColorModel model = stripes_model();
+  model.pooled = {2, 1, 2};
+  const ColorTable fine = calibrate(ColorSpace::rgb).build(stripes_model()),
+                   coarse = calibrate(ColorSpace::rgb).build(model);
+  size_t changed = 0;
+  for (size_t cell = 0; cell < ColorTable::kCells; ++cell) {
+    const size_t first = cell & ~(size_t{1} << (2 * ColorTable::kBits)) & ~size_t{1};
+    ASSERT_EQ(coarse.labels()[cell], coarse.labels()[first]) << cell;
+    changed += coarse.labels()[cell] != fine.labels()[cell];
+  }
+  EXPECT_GT(changed, 0U);
+  const Summary seen = summarize(coarse, {3500, 4500, 5700}, {0.8, 1.2});
+  EXPECT_LT(seen.worst.wrong, 0.01);
+  EXPECT_LT(seen.worst.missed, 0.1);
+  model.pooled = {3, 1, 1};
+  EXPECT_THROW(calibrate(ColorSpace::rgb).build(model), std::logic_error);
+}
+
+TEST(ColorCalibration, ColorsReachAsManyCellsOfYuvAsOfPooledRgb) {
+  std::vector<bool> is_reached(ColorTable::kCells);
+  for (int r = 0; r < 256; ++r)
+    for (int g = 0; g < 256; ++g)
+      for (int b = 0; b < 256; ++b) {
+        const Rgb color = {static_cast<uint8_t>(r), static_cast<uint8_t>(g), static_cast<uint8_t>(b)};
+        is_reached[ColorTable::cell_of_rgb(color, ColorSpace::yuv)] = true;
+      }
+  EXPECT_EQ(std::ranges::count(is_reached, true), 68'183) << "pooled by 2, 1, 2, RGB has 65,536";
 }
 
 TEST(ColorCalibration, LeavesDarkCellsUnlabeled) {

@@ -113,25 +113,29 @@ TEST(LightLong, own_light_is_labeled_best_and_the_mean_is_that_of_the_others) {
   const reports::StudyResult result = run_light({workbench, options});
   ASSERT_EQ(result.tables.size(), 2U);
   const Table& light = result.tables[0];
-  ASSERT_EQ(light.rows.size(), 4 * (2U + 1 + 1))
-      << "two calibrations, two spaces; two lightings, its own, the mean";
-  double excess = 0;
+  ASSERT_EQ(light.rows.size(), 6 * (2U + 1 + 1))
+      << "two calibrations, three tables; two lightings, its own, the mean";
+  double excess = 0, equal_excess = 0;
   for (size_t row = 0; row < light.rows.size(); row += 4) {
     for (const char* key : {"wrong_percent", "missed_percent", "mislabeled_percent"}) {
       const double mean = (number_in(light, row, key) + number_in(light, row + 1, key)) / 2;
       EXPECT_NEAR(number_in(light, row + 3, key), mean, 1e-9);
       if (key != std::string_view("mislabeled_percent")) continue;
-      if (row == 8) excess -= mean;
-      if (row == 12) excess += mean;
+      if (row == 12) excess -= mean, equal_excess -= mean;
+      if (row == 16) excess += mean;
+      if (row == 20) equal_excess += mean;
       EXPECT_GE(mean, number_in(light, row + 3, "missed_percent"));
       EXPECT_LE(mean, 100);
     }
     EXPECT_LT(number_in(light, row + 2, "missed_percent"), number_in(light, row + 3, "missed_percent"));
   }
-  ASSERT_EQ(result.measures.size(), 2U);
+  ASSERT_EQ(result.measures.size(), 4U);
   EXPECT_EQ(result.measures[1].name, "light.rgb_excess_own_percent");
   EXPECT_EQ(result.measures[0].name, "light.rgb_excess_percent");
   EXPECT_NEAR(*result.measures[0].value, excess, 1e-9);
+  EXPECT_EQ(result.measures[2].name, "light.rgb_excess_equal_cells_percent");
+  EXPECT_NEAR(*result.measures[2].value, equal_excess, 1e-9);
+  EXPECT_NE(equal_excess, excess);
   EXPECT_EQ(result.tables[1].rows.size(), 4U);
 }
 

@@ -16,14 +16,16 @@ using reports::Table;
 
 /// A color table and its errors under each lighting.
 struct LightResult {
-  std::string calibration;  ///< to read
-  ColorSpace space = ColorSpace::yuv;
-  std::vector<LabelErrors> errors;  ///< one per lighting
+  std::string calibration, space;  ///< to read
+  std::shared_ptr<const ColorTable> table;
+  std::vector<LabelErrors> errors = {};  ///< one per lighting
 };
 
 constexpr std::array<ColorSpace, 2> kSpaces = {ColorSpace::yuv, ColorSpace::rgb};
-/// Indices of tables in measure_light; "own" is the tracker's, "one" calibrated under one lighting.
-constexpr size_t kOwnYuv = 0, kOwnRgb = 1, kOneYuv = 2, kOneRgb = 3;
+/// Indices of tables in light_tables; "own" is the tracker's, "one" calibrated under one lighting.
+constexpr size_t kOwnYuv = 0, kOwnRgb = 1, kOwnEqual = 2, kOneYuv = 3, kOneRgb = 4, kOneEqual = 5;
+/// Colors reach 68,183 of YUV's 262,144 cells, and all of RGB's: pooled by pairs in red and blue, RGB has 65,536.
+constexpr std::array<int, 3> kPooledRgb = {2, 1, 2};
 
 Table empty_light_table() {
   return {
@@ -35,7 +37,9 @@ Table empty_light_table() {
       "strengths 0.7 to 1.4 and 3500 to 5500 K, and with every color it saw relit by computation; \"one lighting, "
       "not relit\" is the plain look-up table, which shows what the color space itself is worth. Lightings that "
       "are "
-      "held out come from directions that no calibration has seen.",
+      "held out come from directions that no calibration has seen. Colors fill 24% of the YUV cube and all of "
+      "RGB's, so that RGB has four times as many cells for them; \"rgb, as many cells\" has 65,536, and 68,183 of "
+      "YUV's can be reached.",
       {{"calibration", "calibration"},
        {"color_space", "color space"},
        {"lighting", "lighting"},
@@ -82,15 +86,14 @@ double mean_over(std::span<const LabelErrors> errors, double (*percent)(const La
 }
 
 void add_light_rows(Table& table, const LightResult& result, std::span<const Lighting> lightings) {
-  const std::string space(to_string(result.space));
   const size_t held_out = lightings.size() - 1;
   for (size_t i = 0; i < lightings.size(); ++i)
-    table.rows.push_back({result.calibration, space,
+    table.rows.push_back({result.calibration, result.space,
                           i < held_out ? "held out" : "that of the one-lighting calibration", lightings[i].strength,
                           lightings[i].temperature_k, wrong_percent(result.errors[i]),
                           missed_percent(result.errors[i]), mislabeled_percent(result.errors[i])});
   const auto rest = std::span(result.errors).first(held_out);
-  table.rows.push_back({result.calibration, space, "mean of those held out", Cell(), Cell(),
+  table.rows.push_back({result.calibration, result.space, "mean of those held out", Cell(), Cell(),
                         mean_over(rest, wrong_percent), mean_over(rest, missed_percent),
                         mean_over(rest, mislabeled_percent)});
 }
@@ -145,19 +148,28 @@ Table tracking_table(const StudyContext& context) {
 }
 
 /// Order: calibration (the tracker's own, then under one lighting), then color space.
-std::vector<LightResult> measure_light(Workbench& workbench, std::span<const Lighting> lightings) {
+std::vector<LightResult> light_tables(Workbench& workbench) {
   const auto postures = trajectories::posture_set(trajectory_folder(), "DB_open_pinch_power").postures;
-  std::vector<LightResult> results;
+  const auto calibrated = [&](const ColorTableConfig& config) {
+    return std::make_shared<const ColorTable>(
+        calibrate_colors(workbench.model(), workbench.calibration(), postures, config));
+  };
+  ColorTableConfig own_equal, one_equal = one_lighting(ColorSpace::rgb);
+  own_equal.space = ColorSpace::rgb;
+  own_equal.model.pooled = one_equal.model.pooled = kPooledRgb;
+  const std::string own = "nine lightings, relit", one = "one lighting, not relit", equal = "rgb, as many cells";
+  return {{own, "yuv", workbench.color_table(ColorSpace::yuv)},
+          {own, "rgb", workbench.color_table(ColorSpace::rgb)},
+          {own, equal, calibrated(own_equal)},
+          {one, "yuv", calibrated(one_lighting(ColorSpace::yuv))},
+          {one, "rgb", calibrated(one_lighting(ColorSpace::rgb))},
+          {one, equal, calibrated(one_equal)}};
+}
+
+std::vector<LightResult> measure_light(Workbench& workbench, std::span<const Lighting> lightings) {
+  std::vector<LightResult> results = light_tables(workbench);
   std::vector<std::shared_ptr<const ColorTable>> tables;
-  for (const ColorSpace space : kSpaces) {
-    results.push_back({"nine lightings, relit", space, {}});
-    tables.push_back(workbench.color_table(space));
-  }
-  for (const ColorSpace space : kSpaces) {
-    results.push_back({"one lighting, not relit", space, {}});
-    tables.push_back(std::make_shared<ColorTable>(
-        calibrate_colors(workbench.model(), workbench.calibration(), postures, one_lighting(space))));
-  }
+  for (const LightResult& result : results) tables.push_back(result.table);
   for (const auto& of_lighting : measure_label_errors(workbench, 1, lightings, tables))
     for (size_t t = 0; t < tables.size(); ++t) results[t].errors.push_back(of_lighting[t]);
   return results;
@@ -173,11 +185,15 @@ reports::StudyResult run_light(const StudyContext& context) {
   const std::vector<LightResult> results = measure_light(context.workbench, lightings);
   Table table = empty_light_table();
   for (const LightResult& result : results) add_light_rows(table, result, lightings);
-  return {"light",
-          "Light",
-          {std::move(table), tracking_table(context)},
-          {rgb_excess("light.rgb_excess_percent", results[kOneRgb], results[kOneYuv], held_out),
-           rgb_excess("light.rgb_excess_own_percent", results[kOwnRgb], results[kOwnYuv], held_out)}};
+  const auto excess = [&](const std::string& name, size_t rgb, size_t yuv) {
+    return rgb_excess("light.rgb_excess_" + name, results[rgb], results[yuv], held_out);
+  };
+  return {
+      "light",
+      "Light",
+      {std::move(table), tracking_table(context)},
+      {excess("percent", kOneRgb, kOneYuv), excess("own_percent", kOwnRgb, kOwnYuv),
+       excess("equal_cells_percent", kOneEqual, kOneYuv), excess("own_equal_cells_percent", kOwnEqual, kOwnYuv)}};
 }
 
 }  // namespace glovebench::eval
