@@ -39,11 +39,13 @@ std::string to_string(const Rule& rule) {
 std::string field_text(const ClaimDefinition& definition, std::string_view field) {
   const ClaimDefinition& d = definition;
   if (field == "claim") return d.claim;
+  if (field == "quote") return d.quote;
   if (field == "source") return d.source;
   if (field == "paper_value") return d.paper_value;
   if (field == "measured") return d.measured;
   if (field == "measure") return d.measure;
   if (field == "rule") return to_string(d.rule);
+  if (field == "ours") return fmt::to_string(d.ours);
   if (field == "kind") return std::string(to_string(d.kind));
   if (field == "required") return fmt::to_string(d.required);
   if (field == "withdrawn") return fmt::to_string(d.withdrawn);
@@ -52,9 +54,11 @@ std::string field_text(const ClaimDefinition& definition, std::string_view field
 }
 
 int change_count(const Claim& claim) {
-  return static_cast<int>(
-             std::ranges::count_if(claim.history, [](const ClaimChange& c) { return !c.set.empty(); })) -
-         1;
+  const auto is_change = [](const ClaimChange& change) {
+    return std::ranges::any_of(change.set,
+                               [](const std::string& field) { return field != "quote" && field != "ours"; });
+  };
+  return static_cast<int>(std::ranges::count_if(claim.history, is_change)) - 1;
 }
 
 const ClaimSet& claim_set() {

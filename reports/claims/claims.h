@@ -38,11 +38,13 @@ constexpr auto names_of(ClaimKind) {
 /// What the paper says, and what a run must measure.
 struct ClaimDefinition {
   std::string claim;        ///< one sentence
+  std::string quote;        ///< the paper's words that are judged
   std::string source;       ///< section or figure of the paper
   std::string paper_value;  ///< as printed; "": no number
   std::string measured;     ///< what is measured, on which truth; the rule's meaning
   std::string measure;      ///< of a Measure
   Rule rule;
+  bool ours = false;  ///< the paper states neither the rule nor its bound
   ClaimKind kind = ClaimKind::reproduction;
   bool required = false;   ///< the run fails if it does not hold
   bool withdrawn = false;  ///< listed, not judged
@@ -94,7 +96,7 @@ struct ClaimSet {
 /// A field of claims.json as text: "below 10", "true".
 /// Throws: std::logic_error for another field.
 std::string field_text(const ClaimDefinition& definition, std::string_view field);
-/// Number of changes after the first.
+/// Number of changes after the first, not counting a quote or mark alone.
 int change_count(const Claim& claim);
 
 /// reports/data/claims.json.

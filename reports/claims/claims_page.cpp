@@ -64,11 +64,13 @@ std::string row_html(const ClaimVerdict& verdict) {
   return fmt::format(
       "<tr id=\"claim-{}\"><td class=\"name verdict {}\">{}{}</td><td "
       "class=\"name\">{}<br/><small>{}</small>{}{}</td>"
-      "<td class=\"name\">{}<br/><small>{}</small></td><td>{}</td><td>{}</td></tr>\n",
+      "<td class=\"name\">{}{}<br/><small>{}</small></td><td>{}</td><td>{}</td></tr>\n",
       escape_html(verdict.claim.id), css_class(verdict.outcome), to_string(verdict.outcome),
       claim.required ? "<br/>required *" : "", escape_html(claim.claim), escape_html(claim.measured), note,
-      history_html(verdict.claim), escape_html(claim.paper_value), escape_html(claim.source),
-      escape_html(measured_text(verdict)), escape_html(rule_text(verdict)));
+      history_html(verdict.claim),
+      claim.quote.empty() ? "" : fmt::format("<q>{}</q><br/>", escape_html(claim.quote)),
+      escape_html(claim.paper_value), escape_html(claim.source), escape_html(measured_text(verdict)),
+      escape_html(rule_text(verdict)));
 }
 
 /// The claims with one of the outcomes, in the order of the outcomes; empty if there are none.
@@ -104,8 +106,9 @@ std::string judging_html() {
 }  // namespace
 
 std::string claims_section(const std::vector<ClaimVerdict>& verdicts) {
-  const std::string html = fmt::format("<h2>Claims</h2>\n<p>{}. {}. {}</p>\n", escape_html(count_text(verdicts)),
-                                       escape_html(required_text(verdicts)), escape_html(judging_text()));
+  const std::string html = fmt::format("<h2>Claims</h2>\n<p>{}. {}. {}. {}</p>\n",
+                                       escape_html(count_text(verdicts)), escape_html(required_text(verdicts)),
+                                       escape_html(chance_text(verdicts)), escape_html(judging_text()));
   return html +
          table_html(verdicts,
                     {ClaimOutcome::not_reproduced, ClaimOutcome::not_consistent, ClaimOutcome::inconclusive}) +

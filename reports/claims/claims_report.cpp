@@ -14,6 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr size_t kColumns = 80;
 constexpr std::array<ClaimOutcome, 7> kOutcomes = {ClaimOutcome::reproduced,   ClaimOutcome::not_reproduced,
                                                    ClaimOutcome::consistent,   ClaimOutcome::not_consistent,
                                                    ClaimOutcome::inconclusive, ClaimOutcome::not_run,
@@ -35,6 +36,16 @@ std::string ids_of(const std::vector<ClaimVerdict>& verdicts, ClaimOutcome outco
   return fmt::format("{}", fmt::join(ids, ", "));
 }
 
+std::string quoted(const std::string& quote) {
+  return quote.empty() ? "" : fmt::format("\"{}\"", quote);
+}
+
+/// Quote and number; "-": neither.
+std::string paper_text(const ClaimDefinition& claim) {
+  if (claim.quote.empty()) return claim.paper_value.empty() ? "-" : claim.paper_value;
+  return quoted(claim.quote) + (claim.paper_value.empty() ? "" : ": " + claim.paper_value);
+}
+
 /// Rows of the claims that were run.
 Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
   Table table = table_of({"outcome", "claim", "source", "paper", "measured", "holds if"}, 4);
@@ -43,8 +54,7 @@ Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
     const ClaimDefinition& claim = verdict.claim.definition();
     table.rows.push_back({fmt::format("{}{}", to_string(verdict.outcome), claim.required ? ", required" : ""),
                           claim.claim + " " + claim.measured + (has_failed(verdict) ? " " + claim.if_not : ""),
-                          claim.source, claim.paper_value.empty() ? "-" : claim.paper_value, measured_text(verdict),
-                          rule_text(verdict)});
+                          claim.source, paper_text(claim), measured_text(verdict), rule_text(verdict)});
   }
   return table;
 }
@@ -57,6 +67,7 @@ Json or_null(const std::optional<std::string>& text) {
 Json field_json(const ClaimDefinition& definition, const std::string& field) {
   if (field == "required") return definition.required;
   if (field == "withdrawn") return definition.withdrawn;
+  if (field == "ours") return definition.ours;
   return field_text(definition, field);
 }
 
@@ -97,10 +108,13 @@ Json verdict_json(const ClaimVerdict& verdict) {
           {"required", claim.required},
           {"kind", to_string(claim.kind)},
           {"claim", claim.claim},
+          {"quote", claim.quote},
           {"source", claim.source},
           {"paper_value", claim.paper_value},
           {"measured", claim.measured},
           {"rule", to_string(claim.rule)},
+          {"ours", claim.ours},
+          {"holm_p", rounded_or_null(verdict.p)},
           {"measure_name", claim.measure},
           {"measure", std::move(measure)},
           {"if_not", claim.if_not},
@@ -124,13 +138,16 @@ Json csv_row(const std::string& run, const ClaimVerdict& verdict) {
               claim.source,
               claim.paper_value,
               claim.measure,
-              to_string(claim.rule)};
+              to_string(claim.rule),
+              claim.ours};
   const auto& measure = verdict.measure;
   row.push_back(measure ? Json(measure->unit) : Json());
   row.push_back(measure ? rounded_or_null(measure->value) : Json());
   row.push_back(measure && measure->interval ? Json(rounded(measure->interval->low)) : Json());
   row.push_back(measure && measure->interval ? Json(rounded(measure->interval->high)) : Json());
+  row.push_back(rounded_or_null(verdict.p));
   row.push_back(claim.claim);
+  row.push_back(claim.quote);
   return row;
 }
 
@@ -142,11 +159,13 @@ std::string measured_text(const ClaimVerdict& verdict) {
   std::string text = fmt::format("{:.4g}", rounded(*verdict.measure->value));
   if (const auto& interval = verdict.measure->interval)
     text += fmt::format(" [{:.4g}, {:.4g}]", rounded(interval->low), rounded(interval->high));
-  return with_unit(text, verdict);
+  text = with_unit(text, verdict);
+  return verdict.p ? fmt::format("{}, p {:.2g}", text, rounded(*verdict.p)) : text;
 }
 
 std::string rule_text(const ClaimVerdict& verdict) {
-  return with_unit(to_string(verdict.claim.definition().rule), verdict);
+  const ClaimDefinition& claim = verdict.claim.definition();
+  return with_unit(to_string(claim.rule), verdict) + (claim.ours ? " (ours)" : "");
 }
 
 std::string count_text(const std::vector<ClaimVerdict>& verdicts) {
@@ -164,6 +183,17 @@ std::string required_text(const std::vector<ClaimVerdict>& verdicts) {
                      hold + inconclusive + failed + not_run, hold, inconclusive, failed, not_run);
 }
 
+std::string chance_text(const std::vector<ClaimVerdict>& verdicts) {
+  const auto count = std::ranges::count_if(verdicts, [](const ClaimVerdict& verdict) {
+    return !verdict.claim.definition().required && verdict.outcome != ClaimOutcome::withdrawn && verdict.measure &&
+           verdict.measure->interval;
+  });
+  return fmt::format(
+      "Of {} other claims judged by a 95% interval, about {:.1f} ({} x 5%) would hold by chance even if none were "
+      "true",
+      count, 0.05 * static_cast<double>(count), count);
+}
+
 std::string judging_text() {
   const auto changed = std::ranges::count_if(claims(), [](const Claim& claim) { return change_count(claim) > 0; });
   return fmt::format(
@@ -175,28 +205,34 @@ std::string judging_text() {
 }
 
 std::string claims_table(const std::vector<ClaimVerdict>& verdicts) {
-  std::string text = count_text(verdicts) + "\n" + required_text(verdicts) + "\n", notes;
+  std::string text, notes, quote;
+  for (const std::string& line : {count_text(verdicts), required_text(verdicts), chance_text(verdicts)})
+    text += wrapped(line, kColumns, 2);
   for (const ClaimVerdict& verdict : verdicts) {
     if (verdict.outcome == ClaimOutcome::not_run) continue;
     const ClaimDefinition& claim = verdict.claim.definition();
-    text += fmt::format("{:<15}{} {:<34} {:<32} {}\n", to_string(verdict.outcome), claim.required ? "*" : " ",
+    if (claim.quote != quote) text += "\n" + wrapped(quoted(claim.quote), kColumns);
+    quote = claim.quote;
+    text += fmt::format("  {:<15}{} {}\n      {}; {}\n", to_string(verdict.outcome), claim.required ? "*" : " ",
                         verdict.claim.id, measured_text(verdict), rule_text(verdict));
-    if (has_failed(verdict)) notes += fmt::format("{}: {}\n", verdict.claim.id, claim.if_not);
+    if (has_failed(verdict)) notes += wrapped(fmt::format("{}: {}", verdict.claim.id, claim.if_not), kColumns, 2);
   }
-  return text + notes;
+  return text + "\n" + notes;
 }
 
 std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts) {
   if (!any_was_run(verdicts)) return "";
   const std::string not_run = ids_of(verdicts, ClaimOutcome::not_run);
-  return fmt::format("## Claims\n\n{}. {}. {} `claims.json` holds the histories.\n\n{}\n{}", count_text(verdicts),
-                     required_text(verdicts), judging_text(), to_markdown(verdict_table(verdicts)),
+  return fmt::format("## Claims\n\n{}. {}. {}. {} `claims.json` holds the histories.\n\n{}\n{}",
+                     count_text(verdicts), required_text(verdicts), chance_text(verdicts), judging_text(),
+                     to_markdown(verdict_table(verdicts)),
                      not_run.empty() ? "" : fmt::format("Not run: {}.\n\n", not_run));
 }
 
 std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& verdicts) {
   std::string csv =
-      "run,id,outcome,required,kind,source,paper_value,measure,rule,unit,value,value_low,value_high,claim\n";
+      "run,id,outcome,required,kind,source,paper_value,measure,rule,ours,unit,value,value_low,value_high,holm_p,"
+      "claim,quote\n";
   for (const ClaimVerdict& verdict : verdicts) csv += csv_line(csv_row(run, verdict));
   return csv;
 }

@@ -7,18 +7,20 @@
 
 namespace glovebench::reports {
 
-/// "3.88 [3.50, 4.20] mm"; "-": no value.
+/// "3.88 [3.50, 4.20] mm", with p of required claims; "-": no value.
 std::string measured_text(const ClaimVerdict& verdict);
-/// "below 10 mm".
+/// "below 10 mm", "above 0.5 (ours)".
 std::string rule_text(const ClaimVerdict& verdict);
 /// "20 claims: 11 reproduced, ...".
 std::string count_text(const std::vector<ClaimVerdict>& verdicts);
 /// "3 required (*): 2 hold, 1 inconclusive, 0 failed, 0 not run".
 std::string required_text(const std::vector<ClaimVerdict>& verdicts);
+/// How many claims that are not required would hold by chance: at most 5% of those with an interval.
+std::string chance_text(const std::vector<ClaimVerdict>& verdicts);
 /// How claims are judged, with a summary of their histories.
 std::string judging_text();
 
-/// At most 120 columns. Then `if_not` of claims that do not hold.
+/// At most 80 columns. Then `if_not` of claims that do not hold.
 std::string claims_table(const std::vector<ClaimVerdict>& verdicts);
 /// For summary.md. Empty if nothing was run.
 std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts);

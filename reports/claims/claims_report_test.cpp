@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "reports/example_result.h"
+#include "reports/text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -17,6 +18,8 @@ ClaimVerdict example_verdict(ClaimOutcome outcome, std::optional<Measure> measur
   ClaimDefinition claim;
   claim.claim = "Is <small>.";
   claim.source = "section IX";
+  claim.quote = "It is <tiny>.";
+  claim.ours = true;
   claim.measured = "Its size.";
   claim.measure = "size";
   claim.rule = {.kind = Rule::Kind::below, .high = 2.5};
@@ -36,9 +39,12 @@ const std::vector<ClaimVerdict> kNotRunClaim = {example_verdict(ClaimOutcome::no
 
 TEST(ClaimsReport, NumbersHaveFourDigitsAndTheirUnit) {
   EXPECT_EQ(measured_text(kFailed[0]), "3.142 [3, 3.25] mm");
-  EXPECT_EQ(rule_text(kFailed[0]), "below 2.5 mm");
+  EXPECT_EQ(rule_text(kFailed[0]), "below 2.5 mm (ours)");
   EXPECT_EQ(measured_text(kNotRunClaim[0]), "-");
-  EXPECT_EQ(rule_text(kNotRunClaim[0]), "below 2.5");
+  EXPECT_EQ(rule_text(kNotRunClaim[0]), "below 2.5 (ours)");
+  ClaimVerdict with_p = kFailed[0];
+  with_p.p = 0.01234;
+  EXPECT_EQ(measured_text(with_p), "3.142 [3, 3.25] mm, p 0.012");
   EXPECT_EQ(measured_text(example_verdict(ClaimOutcome::inconclusive, Measure{"size", "", {}, {}, false})), "-");
 }
 
@@ -53,6 +59,30 @@ TEST(ClaimsReport, CountsOutcomes) {
   EXPECT_THAT(claims_table(verdicts), HasSubstr("inconclusive   * fast"));
 }
 
+TEST(ClaimsReport, CountsWhatWouldComeOutByChance) {
+  std::vector<ClaimVerdict> verdicts(21, example_verdict(ClaimOutcome::reproduced, kLarge));
+  for (size_t i = 0; i < 20; ++i) verdicts[i].claim.history.back().definition.required = false;
+  EXPECT_THAT(chance_text(verdicts), HasSubstr("Of 20 other claims judged by a 95% interval, about 1.0 (20 x 5%)"));
+  verdicts[0].outcome = ClaimOutcome::withdrawn;
+  verdicts[1].measure->interval.reset();
+  verdicts[2].measure.reset();
+  EXPECT_THAT(chance_text(verdicts), HasSubstr("Of 17 other claims"));
+  for (const std::string& text : {claims_table(verdicts), claims_markdown(verdicts), claims_section(verdicts)})
+    EXPECT_THAT(text, HasSubstr("Of 17 other claims"));
+}
+
+TEST(ClaimsReport, QuotesAndMarksAreEverywhere) {
+  EXPECT_THAT(claims_table(kFailed), HasSubstr("\n\"It is <tiny>.\"\n"));
+  EXPECT_THAT(claims_table(kFailed), HasSubstr("below 2.5 mm (ours)"));
+  EXPECT_THAT(claims_markdown(kFailed), HasSubstr("| \"It is &lt;tiny>.\" |"));
+  EXPECT_THAT(claims_markdown(kFailed), HasSubstr("| below 2.5 mm (ours) |"));
+  EXPECT_THAT(claims_section(kFailed), HasSubstr("<q>It is &lt;tiny&gt;.</q>"));
+  EXPECT_THAT(claims_section(kFailed), HasSubstr("below 2.5 mm (ours)"));
+  const auto verdict = nlohmann::json::parse(claims_json(kFailed))["verdicts"][0];
+  EXPECT_EQ(verdict["quote"], "It is <tiny>.");
+  EXPECT_EQ(verdict["ours"], true);
+}
+
 TEST(ClaimsReport, WhatDoesNotHoldIsSaidEverywhere) {
   EXPECT_THAT(claims_table(kFailed), HasSubstr("It is large."));
   EXPECT_THAT(claims_markdown(kFailed),
@@ -62,9 +92,11 @@ TEST(ClaimsReport, WhatDoesNotHoldIsSaidEverywhere) {
   EXPECT_THAT(claims_section(kFailed), HasSubstr("It is large."));
   EXPECT_EQ(
       claims_csv("a-1", kFailed),
-      "run,id,outcome,required,kind,source,paper_value,measure,rule,unit,value,value_low,value_high,claim\n"
-      "a-1,\"fast, and \"\"small\"\"\",not reproduced,true,reproduction,section IX,,size,below 2.5,mm,3.141593,3.0,"
-      "3.25,Is <small>.\n");
+      "run,id,outcome,required,kind,source,paper_value,measure,rule,ours,unit,value,value_low,value_high,holm_p,"
+      "claim,quote\n"
+      "a-1,\"fast, and \"\"small\"\"\",not reproduced,true,reproduction,section IX,,size,below "
+      "2.5,true,mm,3.141593,"
+      "3.0,3.25,,Is <small>.,It is <tiny>.\n");
   const auto json = nlohmann::json::parse(claims_json(kFailed));
   EXPECT_EQ(json["required_claim_failed"], true);
   EXPECT_EQ(json["verdicts"][0]["measure"]["interval"]["high"], 3.25);
@@ -139,7 +171,7 @@ TEST(ClaimsReport, TableFitsATerminal) {
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(full_result()));
   std::istringstream lines(claims_table(verdicts));
   int count = 0;
-  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 120u) << line;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(text_width(line), 80u) << line;
   EXPECT_GT(count, 10);
   EXPECT_THAT(claims_markdown(verdicts), HasSubstr("Not run: posture-lags, lag-is-the-filter,"));
 }

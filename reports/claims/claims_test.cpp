@@ -100,6 +100,38 @@ TEST(Claims, OtherMovementsMethodsAndMachinesShowConsistencyOnly) {
                                                  "posture-lags", "15-hz", "15-hz-plain", "monocular-depth-error"));
 }
 
+TEST(Claims, EachQuotesTheSentenceItJudges) {
+  std::vector<std::string> ours;
+  for (const Claim& claim : claims()) {
+    EXPECT_GT(claim.definition().quote.size(), 40U) << claim.id;
+    if (claim.definition().ours) ours.push_back(claim.id);
+  }
+  EXPECT_THAT(ours, testing::UnorderedElementsAre("lag-is-the-filter", "small-images-are-cheaper",
+                                                  "small-images-rank-worse", "interpolation-of-distinct-postures"));
+}
+
+TEST(Claims, NoTrifleSatisfiesARule) {
+  for (const Claim& claim : claims()) {
+    const Rule& rule = claim.definition().rule;
+    EXPECT_NE(rule.low, 0) << claim.id << ": a difference of next to nothing would do";
+    const bool is_ratio = claim.definition().measure.ends_with("_share") && rule.low < 0;
+    if (is_ratio) {
+      EXPECT_LT(rule.high, 0.9) << claim.id << ": times of one machine differ by 8%";
+    }
+  }
+}
+
+TEST(Claims, MinimumEffectsAreHalfOfWhatThePaperPrints) {
+  const auto rule = [](const char* measure) { return find_claim(measure)->definition().rule; };
+  const auto printed = [](size_t row) { return paper_numbers().figure_8.at(row); };
+  const auto& [cascade, large, tiny] = std::tuple{printed(1), printed(2), printed(3)};
+  EXPECT_NEAR(rule("figure8.time_share").high, 1 - (1 - cascade.time_ms / large.time_ms) / 2, 0.005);
+  EXPECT_NEAR(rule("figure8.tiny_time_share").high, 1 - (1 - tiny.time_ms / cascade.time_ms) / 2, 0.005);
+  EXPECT_NEAR(rule("figure8.tiny_posture_excess_deg").low, (tiny.posture_error_deg - large.posture_error_deg) / 2,
+              0.01);
+  EXPECT_NEAR(rule("interpolation.distinct_excess_deg").low, paper_numbers().figure_5.mean.posture_deg, 0.005);
+}
+
 TEST(Claims, ErrorsNameFileFieldAndExpectation) {
   const auto first = [](json& j) -> json& { return j["claims"][0]; };
   const auto set = [](json& j) -> json& { return j["claims"][0]["history"][0]["set"]; };

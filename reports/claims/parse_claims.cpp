@@ -74,7 +74,9 @@ bool read_boolean(const JsonCursor& json) {
   return json.boolean();
 }
 
-constexpr std::array<Field, 10> kFields = {field<&ClaimDefinition::claim, read_sentence>("claim"),
+/// The first ten are in a claim's first entry. The others were added later and have defaults.
+constexpr size_t kFirstFields = 10;
+constexpr std::array<Field, 12> kFields = {field<&ClaimDefinition::claim, read_sentence>("claim"),
                                            field<&ClaimDefinition::source, read_sentence>("source"),
                                            field<&ClaimDefinition::paper_value, read_text>("paper_value"),
                                            field<&ClaimDefinition::measured, read_sentence>("measured"),
@@ -83,7 +85,9 @@ constexpr std::array<Field, 10> kFields = {field<&ClaimDefinition::claim, read_s
                                            field<&ClaimDefinition::kind, read_kind>("kind"),
                                            field<&ClaimDefinition::required, read_boolean>("required"),
                                            field<&ClaimDefinition::withdrawn, read_boolean>("withdrawn"),
-                                           field<&ClaimDefinition::if_not, read_sentence>("if_not")};
+                                           field<&ClaimDefinition::if_not, read_sentence>("if_not"),
+                                           field<&ClaimDefinition::quote, read_sentence>("quote"),
+                                           field<&ClaimDefinition::ours, read_boolean>("ours")};
 
 std::string read_date(const JsonCursor& json, const std::string& before) {
   const std::string date = json.text();
@@ -101,7 +105,7 @@ std::optional<std::string> read_commit(const JsonCursor& json, bool is_newest) {
   return json.text();
 }
 
-/// Sets the fields that a change names: all of them in the first change, only different ones later.
+/// Sets the fields that a change names: at least the first ones in the first change, only different ones later.
 void apply(const JsonCursor& set, bool is_first, ClaimChange& change) {
   const ClaimDefinition before = change.definition;
   for (const auto& [name, value] : set.members()) {
@@ -112,7 +116,7 @@ void apply(const JsonCursor& set, bool is_first, ClaimChange& change) {
     change.set.push_back(name);
   }
   if (is_first)
-    for (const Field& field : kFields) set[field.name];
+    for (size_t f = 0; f < kFirstFields; ++f) set[kFields[f].name];
 }
 
 ClaimChange read_change(const JsonCursor& json, const ClaimChange* before, bool is_newest) {

@@ -9,6 +9,8 @@
 namespace glovebench::reports {
 namespace {
 
+constexpr double kLevel = 0.95;
+
 bool is_interval(const ConfidenceInterval& interval) {
   return std::isfinite(interval.low) && std::isfinite(interval.high) && interval.low <= interval.high;
 }
@@ -41,6 +43,31 @@ ClaimVerdict verdict_of(const Claim& claim, Measure measure) {
   return {claim, std::move(measure), outcome};
 }
 
+bool does_hold(ClaimOutcome outcome) {
+  return outcome == ClaimOutcome::reproduced || outcome == ClaimOutcome::consistent;
+}
+
+/// Makes required claims inconclusive that do not hold at 5% together (Holm).
+std::vector<ClaimVerdict> judged_together(std::vector<ClaimVerdict> verdicts) {
+  std::vector<size_t> required;
+  std::vector<double> p_values;
+  for (size_t v = 0; v < verdicts.size(); ++v) {
+    const auto& [claim, measure, outcome, p] = verdicts[v];
+    if (!claim.definition().required || outcome == ClaimOutcome::withdrawn) continue;
+    required.push_back(v);
+    const bool has_interval = measure && measure->value && measure->interval;
+    p_values.push_back(has_interval ? p_value(claim.definition().rule, *measure->value, *measure->interval) : 1);
+  }
+  const std::vector<double> adjusted = holm_adjusted(p_values);
+  for (size_t i = 0; i < required.size(); ++i) {
+    ClaimVerdict& verdict = verdicts[required[i]];
+    if (!verdict.measure || !verdict.measure->value || !verdict.measure->interval) continue;
+    verdict.p = adjusted[i];
+    if (does_hold(verdict.outcome) && adjusted[i] > 1 - kLevel) verdict.outcome = ClaimOutcome::inconclusive;
+  }
+  return verdicts;
+}
+
 /// Claims are about the paper's configuration. A run without a configuration counts as the paper's.
 bool is_of_the_paper(const nlohmann::json& configuration) {
   const auto tracker = configuration.find("tracker");
@@ -61,6 +88,18 @@ std::vector<Measure> all_measures(const RunResult& result) {
   return measures;
 }
 
+double p_value(const Rule& rule, double value, const ConfidenceInterval& interval) {
+  constexpr int kDegreesOfFreedom = 4;
+  if (!holds(rule, value)) return 1;
+  const double half = (interval.high - interval.low) / 2, t = student_quantile(kLevel, kDegreesOfFreedom);
+  const auto on_side = [&](double margin, double arm) {
+    const double scale = std::max(arm, half);
+    return scale == 0 ? 0 : student_p(t * margin / scale, kDegreesOfFreedom);
+  };
+  return std::max(on_side(value - rule.low, value - interval.low),
+                  on_side(rule.high - value, interval.high - value));
+}
+
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures) {
   std::vector<ClaimVerdict> verdicts;
   for (const Claim& claim : claims) {
@@ -71,16 +110,16 @@ std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vec
       verdicts.push_back(
           {claim, {}, claim.definition().withdrawn ? ClaimOutcome::withdrawn : ClaimOutcome::not_run});
   }
-  return verdicts;
+  return judged_together(std::move(verdicts));
 }
 
 RequiredClaims count_required(const std::vector<ClaimVerdict>& verdicts) {
   RequiredClaims count;
-  for (const auto& [claim, measure, outcome] : verdicts) {
+  for (const auto& [claim, measure, outcome, p] : verdicts) {
     if (!claim.definition().required || outcome == ClaimOutcome::withdrawn) continue;
     if (outcome == ClaimOutcome::not_run)
       ++count.not_run;
-    else if (outcome == ClaimOutcome::reproduced || outcome == ClaimOutcome::consistent)
+    else if (does_hold(outcome))
       ++count.hold;
     else if (outcome == ClaimOutcome::inconclusive && measure && measure->value && measure->interval)
       ++count.inconclusive;

@@ -27,6 +27,7 @@ struct ClaimVerdict {
   Claim claim;
   std::optional<Measure> measure;  ///< empty if not run; its numbers are finite or empty
   ClaimOutcome outcome = ClaimOutcome::not_run;
+  std::optional<double> p = {};  ///< that the rule is broken, adjusted by Holm; of required claims with an interval
 
   friend bool operator==(const ClaimVerdict&, const ClaimVerdict&) = default;
 };
@@ -36,6 +37,11 @@ bool are_claims_judged(const RunResult& result);
 
 /// Measures of Figures 4 to 6 and studies, if run. Empty if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
+
+/// Two-sided p-value of a broken rule: 1 if the number breaks it, 0.05 if the 95% interval touches the bound. In
+/// between follows Student's t with 4 degrees of freedom, the fewest of an interval (five blocks or movements). Its
+/// scale is the interval's arm toward the bound, or half its width if that is longer.
+double p_value(const Rule& rule, double value, const ConfidenceInterval& interval);
 
 /// Judges (reports/README.md, "Claims"), in the order of the claims.
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);

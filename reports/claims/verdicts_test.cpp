@@ -125,6 +125,61 @@ TEST(Judge, NumbersOfVerdictsCanBeWritten) {
   }
 }
 
+TEST(PValue, IsFivePercentWhereTheIntervalTouchesTheBound) {
+  const auto p = [](const Rule& rule, double value, double low, double high) {
+    return p_value(rule, value, *with_interval(value, low, high).interval);
+  };
+  EXPECT_NEAR(p(kBelow10, 8, 6, 10), 0.05, 1e-9);
+  EXPECT_NEAR(p(kBelow10, 8, 7, 10), 0.05, 1e-9) << "only the arm toward the bound counts";
+  EXPECT_NEAR(p(kBelow10, 8, 2, 9), p(kBelow10, 8, 4.5, 11.5), 1e-9) << "but not less than half the width";
+  EXPECT_GT(p(kBelow10, 9, 7, 11), 0.05);
+  // Tables of Student's t: with 4 degrees of freedom |T| is over 2.776 in 5% and over 4.604 in 1%.
+  EXPECT_NEAR(p(kBelow10, 10 - 4.604, 10 - 4.604 - 2.776, 10 - 4.604 + 2.776), 0.01, 2e-5);
+  EXPECT_EQ(p(kBelow10, 10, 9, 11), 1);
+  EXPECT_EQ(p(kBelow10, 9, 9, 9), 0) << "nothing varies";
+  EXPECT_NEAR(p(kWithin, 6, 5, 7), 0.05, 1e-9) << "the nearer bound";
+}
+
+/// Required claims that are measured with intervals of +-1 at these distances below the bound.
+std::vector<ClaimVerdict> judged_at(const std::vector<double>& distances) {
+  std::vector<Claim> claims;
+  std::vector<Measure> measures;
+  for (const double distance : distances) {
+    Claim claim = example_claim(kBelow10, ClaimKind::reproduction, true);
+    claim.history[0].definition.measure = "m" + std::to_string(claims.size());
+    measures.push_back(with_interval(10 - distance, 9 - distance, 11 - distance));
+    measures.back().name = claim.definition().measure;
+    claims.push_back(claim);
+  }
+  return judge(claims, measures);
+}
+
+TEST(Judge, RequiredClaimsTogether) {
+  const auto outcomes = [](const std::vector<double>& distances) {
+    std::string text;
+    for (const ClaimVerdict& verdict : judged_at(distances))
+      text += verdict.outcome == ClaimOutcome::reproduced ? '+' : '?';
+    return text;
+  };
+  EXPECT_EQ(outcomes({1.1}), "+");
+  EXPECT_EQ(outcomes({1.1, 1.1}), "??") << "each alone would hold";
+  EXPECT_EQ(outcomes({1.1, 2}), "++") << "the second step compares with 5%";
+  EXPECT_EQ(outcomes({2, 1.1, 1.1}), "+??");
+  EXPECT_EQ(outcomes({0.9, 2}), "?+");
+  const auto verdicts = judged_at({1.1, 1.1});
+  EXPECT_EQ(count_required(verdicts), (RequiredClaims{.inconclusive = 2}));
+  EXPECT_DOUBLE_EQ(*verdicts[0].p, 2 * p_value(kBelow10, 8.9, *with_interval(8.9, 7.9, 9.9).interval));
+}
+
+TEST(Judge, ARequiredClaimWithoutANumberCountsAgainstTheOthers) {
+  Claim missing = example_claim(kBelow10, ClaimKind::reproduction, true), present = missing;
+  missing.history[0].definition.measure = "none";
+  const auto verdicts = judge({missing, present}, {with_interval(8.9, 7.9, 9.9)});
+  EXPECT_EQ(verdicts[0].outcome, ClaimOutcome::not_run);
+  EXPECT_FALSE(verdicts[0].p.has_value());
+  EXPECT_EQ(verdicts[1].outcome, ClaimOutcome::inconclusive);
+}
+
 TEST(Judge, AWithdrawnClaimIsNotJudgedAndFailsNothing) {
   Claim claim = example_claim(kBelow10, ClaimKind::reproduction, true);
   claim.history.back().definition.withdrawn = true;
