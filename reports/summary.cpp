@@ -47,6 +47,41 @@ void join_names(Table& table) {
   table.name_columns = 1;
 }
 
+void erase_interval_ends(Table& table) {
+  for (size_t c = table.columns.size(); c-- > 0;)
+    if (table.columns[c].key.ends_with("_low") || table.columns[c].key.ends_with("_high")) erase_column(table, c);
+}
+
+/// The names and the columns from `first` to before `end`.
+Table part_of(Table table, size_t first, size_t end) {
+  for (size_t c = table.columns.size(); c-- > static_cast<size_t>(table.name_columns);)
+    if (c < first || c >= end) erase_column(table, c);
+  return table;
+}
+
+bool fits(const Table& table, size_t columns) {
+  const std::string text = to_text(table, false, std::numeric_limits<int>::max());
+  return text_width(text.substr(0, text.find('\n'))) <= columns;
+}
+
+/// A table that is too wide loses the ends of intervals and the names that all rows share, and stands in parts, one
+/// below the other.
+std::string terminal_text(Table table, size_t columns) {
+  if (fits(table, columns)) return to_text(table, false, columns);
+  erase_interval_ends(table);
+  const std::vector<std::string> common = remove_common_names(table);
+  std::string text;
+  if (!common.empty()) text += wrapped(fmt::format("All: {}.", fmt::join(common, ", ")), columns) + "\n";
+  for (auto first = static_cast<size_t>(table.name_columns); first < table.columns.size();) {
+    size_t end = table.columns.size();
+    while (end > first + 1 && !fits(part_of(table, first, end), columns)) --end;
+    text += (first > static_cast<size_t>(table.name_columns) ? "\n" : "") +
+            to_text(part_of(table, first, end), false, columns);
+    first = end;
+  }
+  return text;
+}
+
 Cell metric_cell(const ExperimentResult& experiment, const Column& column) {
   return fixed(value_of(metric_of(column.key), experiment), column.digits);
 }
@@ -140,13 +175,8 @@ std::string study_text(const StudyResult& study, size_t columns) {
   std::string text = study.title + "\n\n";
   for (const Table& table : study.tables) {
     if (table.title != study.title) text += wrapped(table.title, columns) + "\n";
-    const std::string whole = to_text(without_long_names(table), false, std::numeric_limits<int>::max());
-    const bool fits = text_width(whole.substr(0, whole.find('\n'))) <= columns;
-    text += fits ? wrapped(table.explanation, columns) + "\n" + whole + "\n"
-                 : wrapped(fmt::format("{} columns, too wide for this terminal: tables/{}.csv, summary.md",
-                                       table.columns.size(), table.name),
-                           columns) +
-                       "\n";
+    if (!table.explanation.empty()) text += wrapped(table.explanation, columns) + "\n";
+    text += terminal_text(without_long_names(table), columns) + "\n";
   }
   return text;
 }

@@ -32,7 +32,7 @@ std::string quick_note(const RunResult& result);
 
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
 std::string study_markdown(const StudyResult& study);
-/// The same for a terminal; of tables that are wider it names the file.
+/// The same for a terminal. A table that is wider stands there in parts, without the ends of intervals.
 std::string study_text(const StudyResult& study, size_t columns);
 /// What the tables hold, in plain text.
 std::string summary_explanation();

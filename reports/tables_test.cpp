@@ -50,16 +50,27 @@ TEST(Figure4Table, BreaksIntoBlocksOnANarrowTerminal) {
     EXPECT_THAT(table, HasSubstr(title));
 }
 
-TEST(StudyText, NamesTheFileOfATableThatIsTooWide) {
-  Table narrow = table_of({"a", "b"}), wide = narrow;
-  narrow.title = wide.title = "S";
+TEST(StudyText, PutsATableThatIsTooWideIntoParts) {
+  Table narrow = table_of({"a", "b"});
+  narrow.title = "S";
   narrow.explanation = "Both columns.";
-  narrow.rows = wide.rows = {{"c", "d"}};
-  wide.name = "wide";
-  wide.columns[1].heading = std::string(80, 'b');
+  narrow.rows = {{"c", "d"}};
+  Table wide = table_of({"family", "truth"}, 2);
+  wide.title = "S";
+  const std::string heading(30, 'h');
+  wide.columns.push_back({"first", heading});
+  wide.columns.push_back({"first_low", "low"});
+  wide.columns.push_back({"first_high", "high"});
+  wide.columns.push_back({"second", heading});
+  wide.columns.push_back({"third", heading});
+  wide.rows = {{"side", "source", 1.0, 0.5, 1.5, 2.0, 3.0}, {"fast", "source", 4.0, 3.5, 4.5, 5.0, 6.0}};
+  const std::string space(26, ' ');
   EXPECT_EQ(study_text({"s", "S", {narrow, wide}, {}}, 80),
-            "S\n\nBoth columns.\n\na  b\nc  d\n\n2 columns, too wide for this terminal: tables/wide.csv, "
-            "summary.md\n\n");
+            "S\n\nBoth columns.\n\na  b\nc  d\n\nAll: truth source.\n\n"
+            "family  " +
+                heading + "  " + heading + "\nside    " + space + "1.00  " + space + "2.00\nfast    " + space +
+                "4.00  " + space + "5.00\n\nfamily  " + heading + "\nside    " + space + "3.00\nfast    " + space +
+                "6.00\n\n");
 }
 
 TEST(Figure4Table, ShowsOtherNoiseOnRequest) {

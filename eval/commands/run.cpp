@@ -65,7 +65,8 @@ struct RunCommand {
     if (common.quiet) return;
     warn_of_lost_hands(common.output, result, plan.tracker.volume);
     if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
-    for (const reports::StudyResult& families : result.studies) fmt::print("{}\n", study_markdown(families));
+    for (const reports::StudyResult& study : result.studies)
+      fmt::print("{}", study_text(study, terminal_columns()));
     fmt::print("All metrics, with intervals: {}/summary.md\n", common.output);
     print_end(timings);
   }
@@ -136,8 +137,7 @@ struct RunCommand {
   }
   void print_study(const reports::StudyResult& result) const {
     if (quick) fmt::print("A quick run: nothing can be concluded from its numbers.\n\n");
-    fmt::print("{}", common.output.empty() ? reports::study_markdown(result)
-                                           : reports::study_text(result, terminal_columns()));
+    fmt::print("{}", reports::study_text(result, terminal_columns()));
   }
 
   /// The suite by name, or an unnamed suite from the flags.
