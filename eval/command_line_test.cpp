@@ -341,6 +341,14 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
   EXPECT_FALSE(fs::exists(path("nothing")));
 }
 
+TEST_F(CommandLine, ListsFitATerminalOf80Columns) {
+  for (const char* list : {"trajectories", "families", "databases", "suites", "studies", "methods", "alignments",
+                           "look-ups", "noises", "formats", "metrics", "subjects", "angles", "mapping"}) {
+    std::istringstream text(run_glovebench({"list", list}).out);
+    for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << list << ": " << line;
+  }
+}
+
 TEST_F(CommandLine, ListsWhatItKnows) {
   EXPECT_THAT(run_glovebench({"list"}).out,
               AllOf(HasSubstr("\n  subjects      The hands"), HasSubstr("\n  mapping "), HasSubstr("\n  config ")));

@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
+#include "reports/terminal_table.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -18,20 +18,6 @@ std::string mean_with_interval(const ExperimentResult& experiment, std::string_v
   const auto& interval = experiment.interval_of(metric);
   const std::string mean = fixed(experiment.aggregate_of(metric).mean, 2);
   return interval ? fmt::format("{} [{:.2f}, {:.2f}]", mean, interval->low, interval->high) : mean;
-}
-
-/// Removes the columns of names in which all rows agree, but keeps one; returns what was removed.
-std::vector<std::string> remove_common_names(Table& table) {
-  std::vector<std::string> common;
-  for (auto c = static_cast<size_t>(table.name_columns); c-- > 0 && table.name_columns > 1;) {
-    if (table.rows.empty() ||
-        std::ranges::any_of(table.rows, [&](const Row& row) { return row[c] != table.rows.front()[c]; }))
-      continue;
-    common.insert(common.begin(),
-                  table.columns[c].heading + " " + cell_text(table.rows.front()[c], table.columns[c]));
-    erase_column(table, c);
-  }
-  return common;
 }
 
 /// Makes one column of all names.
@@ -45,41 +31,6 @@ void join_names(Table& table) {
   }
   table.columns.erase(table.columns.begin() + 1, table.columns.begin() + table.name_columns);
   table.name_columns = 1;
-}
-
-void erase_interval_ends(Table& table) {
-  for (size_t c = table.columns.size(); c-- > 0;)
-    if (table.columns[c].key.ends_with("_low") || table.columns[c].key.ends_with("_high")) erase_column(table, c);
-}
-
-/// The names and the columns from `first` to before `end`.
-Table part_of(Table table, size_t first, size_t end) {
-  for (size_t c = table.columns.size(); c-- > static_cast<size_t>(table.name_columns);)
-    if (c < first || c >= end) erase_column(table, c);
-  return table;
-}
-
-bool fits(const Table& table, size_t columns) {
-  const std::string text = to_text(table, false, std::numeric_limits<int>::max());
-  return text_width(text.substr(0, text.find('\n'))) <= columns;
-}
-
-/// A table that is too wide loses the ends of intervals and the names that all rows share, and stands in parts, one
-/// below the other.
-std::string terminal_text(Table table, size_t columns) {
-  if (fits(table, columns)) return to_text(table, false, columns);
-  erase_interval_ends(table);
-  const std::vector<std::string> common = remove_common_names(table);
-  std::string text;
-  if (!common.empty()) text += wrapped(fmt::format("All: {}.", fmt::join(common, ", ")), columns) + "\n";
-  for (auto first = static_cast<size_t>(table.name_columns); first < table.columns.size();) {
-    size_t end = table.columns.size();
-    while (end > first + 1 && !fits(part_of(table, first, end), columns)) --end;
-    text += (first > static_cast<size_t>(table.name_columns) ? "\n" : "") +
-            to_text(part_of(table, first, end), false, columns);
-    first = end;
-  }
-  return text;
 }
 
 Cell metric_cell(const ExperimentResult& experiment, const Column& column) {
@@ -176,7 +127,7 @@ std::string study_text(const StudyResult& study, size_t columns) {
   for (const Table& table : study.tables) {
     if (table.title != study.title) text += wrapped(table.title, columns) + "\n";
     if (!table.explanation.empty()) text += wrapped(table.explanation, columns) + "\n";
-    text += terminal_text(without_long_names(table), columns) + "\n";
+    text += to_terminal(without_long_names(table), columns) + "\n";
   }
   return text;
 }

@@ -53,8 +53,9 @@ struct Reproduce {
   void print_end(const Outcome& outcome, const std::vector<reports::ClaimVerdict>& verdicts, bool judged) const {
     if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
     if (!options.study.quick && !judged)
-      fmt::print("No claim is judged: they are about the paper's configuration, and this is another one.\n\n");
-    if (options.study.quick) fmt::print("{}\n", reports::quick_note(outcome.result));
+      fmt::print("No claim is judged: they are about the paper's configuration; this is another.\n\n");
+    if (options.study.quick)
+      fmt::print("{}\n", reports::wrapped(reports::quick_note(outcome.result), terminal_columns()));
     if (!outcome.result.experiments.empty()) fmt::print("Figures 4 to 6: {}/tables/figure*.csv\n", common.output);
     for (const reports::StudyResult& study : outcome.result.studies)
       fmt::print("{}: {}/summary.md\n", study.title, common.output);
