@@ -2,8 +2,7 @@
 
 #include <string>
 
-/// Paths of this build, for tests and benchmarks. Only ci/build_paths.cpp.in contains them, so compiler caches work
-/// for clones anywhere.
+/// Paths of this build, for tests and benchmarks. No other source may have them (compiler caches).
 namespace glovebench::build_paths {
 
 std::string source(const std::string& path);   ///< of the repository

@@ -28,7 +28,7 @@ inline std::string shared_folder(const std::string& name) {
   return path;
 }
 
-/// Private, empty at first, removed at the end.
+/// Private, at first empty. Removed at the end.
 class TestFolder {
  public:
   TestFolder() {
@@ -59,8 +59,7 @@ inline const std::string& test_folder() {
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// A folder for expensive files, shared by all processes of this build of the executable. Removes those of other
-/// builds.
+/// A folder for expensive files, shared by all processes of this executable's build. Removes those of other builds.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");
@@ -74,7 +73,7 @@ inline std::string shared_test_folder() {
   return folder.string();
 }
 
-/// A folder in `home` that `fill` is called for once; other processes wait for the one that fills it.
+/// A folder in `home` that `fill` fills once. Other processes wait.
 inline std::string filled_once(const std::string& home, const std::string& name,
                                const std::function<void(const std::string& folder)>& fill) {
   namespace fs = std::filesystem;

@@ -18,7 +18,7 @@ struct ColorTableConfig {
   std::vector<render::Lighting> lightings = calibration_lightings();
   ColorModel model;
 };
-/// For comparison: one lighting (strength 1, 4500 K), no relighting.
+/// For comparison: strength 1, 4500 K, no relighting.
 ColorTableConfig one_lighting(ColorSpace space);
 
 /// Calibrates from rendered, labeled views of the gloved hand.
@@ -30,7 +30,7 @@ ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCa
 std::string color_table_source_hash();
 
 /// Calibrates with all lightings. Caches the table in `folder` by the hash of inputs and sources. Replaces a
-/// damaged or outdated file.
+/// damaged or old file.
 ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space = ColorSpace::yuv);

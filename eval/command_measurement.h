@@ -27,7 +27,7 @@ std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 /// a row.
 class CommandMeasurement {
  public:
-  /// `frames`: all of the pass.
+  /// `frames`: number of all frames.
   void add(const CommandStream& stream, const CommandStream& of_truth, int frames);
   reports::CommandResult result() const;
 
@@ -50,13 +50,13 @@ class CommandMeasurement {
 };
 
 struct RobotOutput {
-  std::string folder = {};  ///< of JSON Lines, one file per run; empty: none
+  std::string folder = {};  ///< for JSON Lines, one file per run; empty: none
   RobotSetup setup = {};
   CommandLimits limits = {};
   nlohmann::json configuration = {};  ///< for the results; null: none
 };
 /// Makes the commands of `runs` and writes them as one set of files. Adds errors to `result` and latencies to
-/// `timings`, which must be of these runs.
+/// `timings`, both of these runs.
 void add_commands(reports::RunResult& result, reports::Timings& timings, std::span<const MeasuredRun> runs,
                   const RobotOutput& robot);
 

@@ -18,7 +18,7 @@ struct Experiment {
   reports::ExperimentKey key;
   std::vector<const MeasuredRun*> runs;
 };
-/// In order of first appearance. `runs` must outlive the result. Each seed occurs once.
+/// In order of appearance. `runs` must outlive the result. A seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
 
 /// Results without robot commands and studies.
@@ -31,20 +31,19 @@ struct Outcome {
 struct TimedWith {
   int threads = 1;
   std::chrono::steady_clock::time_point start;
-  bool commands = true;  ///< false: leave out command times, measured with other threads
+  bool commands = true;  ///< false: leave out command times, which had other threads
 };
-/// Writes the report of measured runs, with robot commands, the table of families and what `add_studies` adds.
-/// Throws: Error for a folder that cannot be written.
+/// Writes the report of measured runs, with robot commands, the table of families and `add_studies`.
+/// Throws: Error if the folder cannot be written.
 Outcome report_runs(
     Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const TimedWith& timed,
     const RobotOutput& robot, const std::string& folder,
     const std::function<void(reports::RunResult&)>& add_studies = [](reports::RunResult&) {});
 
-/// Adds studies. `store` keeps finished parts.
+/// `store` keeps finished parts.
 using AddStudies = std::function<void(reports::RunResult& result, RunStore& store)>;
-/// Executes and measures the plan's runs, adds robot commands and studies, and writes the report into `folder`.
-/// Resumes an interrupted run.
-/// Throws: Error for a wrong plan, before any work, or a folder that cannot be written.
+/// Executes and measures the plan's runs, then `report_runs` into `folder`. Resumes an interrupted run.
+/// Throws: Error before any work for a wrong plan, or if the folder cannot be written.
 Outcome carry_out(
     Workbench& workbench, const Plan& plan, const RobotOutput& robot, const std::string& folder,
     const AddStudies& add_studies = [](reports::RunResult&, RunStore&) {});

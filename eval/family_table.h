@@ -8,7 +8,7 @@
 
 namespace glovebench::eval {
 
-/// Errors of generated movements by family, database, hand and noise: means and Student's 95% intervals over
+/// Errors of generated movements by family, database, hand and noise: means with Student's 95% intervals over
 /// movements. Empty without such runs.
 std::optional<reports::StudyResult> family_table(std::span<const MeasuredRun> runs);
 

@@ -12,27 +12,27 @@
 
 namespace glovebench::eval {
 
-/// For tests: strength 0.5 to 2, 3000 to 6500 K, new directions.
+/// Strength 0.5 to 2, 3000 to 6500 K, other directions than in calibration.
 std::vector<render::Lighting> held_out_lightings();
 
-/// Label errors in IR pixels. Ignores glove pixels without color. Labels count only inside the working volume.
+/// In IR pixels. Ignores glove pixels without color. Labels count only in the working volume.
 struct LabelErrors {
   int glove = 0;       ///< true glove pixels
   int missed = 0;      ///< without a label
   int labeled = 0;     ///< pixels with a label
   int wrong = 0;       ///< with a false label
   int mislabeled = 0;  ///< glove pixels without the true label
-  int interior = 0;    ///< glove pixels whose 8 neighbors have the same true label
+  int interior = 0;    ///< glove pixels whose 8 neighbors have their true label
   int interior_missed = 0;
   int interior_mislabeled = 0;
   std::array<int, kColorCount + 1> glove_of{}, missed_of{};
 
-  /// Share of labeled pixels. 0 without any.
+  /// Share of labeled pixels; 0 without any.
   double wrong_share() const;
-  /// Share of glove pixels. There must be one.
+  /// Share of glove pixels, of which there must be one.
   double missed_share() const;
   double mislabeled_share() const;
-  /// Shares of interior and of all other glove pixels. There must be one.
+  /// Shares of interior and of other glove pixels; one must exist.
   double interior_mislabeled_share() const;
   double border_mislabeled_share() const;
   /// 0 for an unseen color.
@@ -41,14 +41,14 @@ struct LabelErrors {
   LabelErrors& operator+=(const LabelErrors& other);
 };
 
-/// After labeling. The paper uses none.
+/// The paper uses none.
 enum class LabelFilter { none, majority, surface };
 
 LabelErrors label_errors(const render::RgbdImages& truth, const DeviceFrame& frame,
                          const RgbdCalibration& calibration, const ColorTable& table,
                          LabelFilter filter = LabelFilter::none);
 
-/// [lighting][table], over four frames of Tr1 and Tr4, with the paper's noise.
+/// [lighting][table], over four frames of Tr1 and Tr4 with the paper's noise.
 std::vector<std::vector<LabelErrors>> measure_label_errors(
     Workbench& workbench, int subject, std::span<const render::Lighting> lightings,
     std::span<const std::shared_ptr<const ColorTable>> tables);

@@ -22,9 +22,8 @@ std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& track
 /// Measures on the workbench's threads, in the order of `runs`.
 std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs);
 
-/// Jitter: RMS change of the pose error between frames while the truth rests (under 1 mm, 0.5 deg, and 0.5 deg of
-/// posture per frame; at least 10 steps). Latency: the delay, 0..10 frames, at which the posture fits a moving
-/// truth best (parabola through three; at least 30 frames). Skips lost frames.
+/// Jitter and latency (`glovebench list metrics` defines them). Latency needs 30 frames. At rest the posture also
+/// changes by less than 0.5 deg per frame. `estimates`: one per frame of `truth`.
 reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates, std::span<const HandFrame> truth);
 
 }  // namespace glovebench::eval

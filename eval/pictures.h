@@ -11,24 +11,24 @@
 
 namespace glovebench::eval {
 
-/// Chart scripts, sheets of Figures 5 and 6 if run, and the worst frames (paper's method only).
+/// Chart scripts, sheets of Figures 5 and 6, and the worst frames (paper's method only).
 /// Throws: Error without the program's data.
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// Shows the frame of the run in `folder`, with flags for a user's own trajectory or database.
+/// The command that explains the frame of the run in `folder`, with flags for the user's own files.
 std::string complete_command(const reports::WorstFrame& worst, const std::string& folder = ".");
 
-/// All tracker stages of one frame, and its errors. The frame is tracked alone, without the filter.
+/// All tracker stages of a frame, and its errors. Tracks it alone, without the filter.
 /// Throws: Error if the frame does not exist or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
 
-/// The IR camera, cropped and scaled to a tile (px) that holds the glove of every frame. Needs a frame.
+/// The IR camera, cropped and scaled to a tile (px) that shows every frame's glove. Needs a frame.
 PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,
                             int tile_width, int tile_height);
 
-/// Two tiles per frame, without noise: true hand in color, and estimated minus true depth. `estimates` are of one
-/// seed, one per frame. A lost frame shows the true hand in gray.
+/// Two tiles per frame, without noise: true hand in color; estimated minus true depth (lost: the true hand in
+/// gray). `estimates`: one per frame.
 /// Paper: pictures under Figures 5 and 6.
 reports::FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
                                      std::span<const HandFrame> frames,

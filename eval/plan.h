@@ -9,7 +9,7 @@ namespace glovebench::eval {
 
 struct Plan {
   TrackerConfig tracker;
-  std::vector<RunSpec> specs;  ///< runs of the same frames in sequence
+  std::vector<RunSpec> specs;  ///< runs of the same frames are successive
   std::string suite = {};      ///< empty: none
   bool quick = false;          ///< few frames; no conclusions
 };
@@ -20,8 +20,7 @@ struct Figure4Options {
   std::vector<reports::NoiseSetting> noises = {{}};
   FrameRange frames;
 };
-/// Each ground truth with the databases that contain its grasp: recorded truth, source truth, source truth with
-/// subject 2.
+/// Each ground truth with the databases of its grasp: recorded truth, source truth, source truth with subject 2.
 /// Paper: Figure 4.
 Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options);
 

@@ -13,7 +13,7 @@ namespace glovebench::eval {
 
 struct ProgramInfo {
   std::string version;
-  std::string commit;  ///< "unknown" outside a checkout; "-dirty" after changes
+  std::string commit;  ///< "unknown" outside a checkout; "-dirty" if changed
 };
 const ProgramInfo& program_info();
 
@@ -32,10 +32,11 @@ std::vector<std::string> page_scripts();
 /// GLOVEBENCH_CACHE, XDG_CACHE_HOME/glovebench or ~/.cache/glovebench.
 std::string default_cache_folder();
 
-/// Built-in ("Tr4"), generated ("side_3") or a file (*.json). `truth`: the kind to select, or that a file must be.
+/// Built-in ("Tr4"), generated ("side_3") or a file (*.json). `truth`: the kind to select, or that the file must
+/// have.
 /// Throws: Error for an unknown name, another kind or a bad file.
 trajectories::Trajectory load_truth(const std::string& name_or_file, std::optional<reports::TruthKind> truth);
-/// The built-in truth of an experiment. Null for a user's file.
+/// An experiment's built-in truth. Null for a user's file.
 /// Throws: Error if the data folder is damaged.
 std::shared_ptr<const trajectories::Trajectory> find_truth(const reports::ExperimentKey& key);
 

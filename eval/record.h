@@ -5,7 +5,7 @@
 
 namespace glovebench::eval {
 
-/// Renders with subject 1 and `kinect` noise, tracks, and returns smoothed estimates.
+/// Renders with subject 1 and `kinect` noise, tracks, returns smoothed estimates.
 /// Throws: Error if a frame is lost.
 /// Paper: section IV.
 trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::Trajectory& source,

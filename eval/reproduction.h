@@ -14,21 +14,21 @@ struct ReproductionOptions {
   StudyOptions study;
   std::vector<std::string> trajectories;  ///< of Figure 4; empty: all five
   std::vector<reports::NoiseSetting> noises = {{}};
-  std::vector<std::string> only;  ///< part_names to run; empty: all, or with `trajectories` Figure 4 alone
+  std::vector<std::string> only;  ///< of part_names; empty: all, or with `trajectories` Figure 4
 };
 
 /// "fig4", "fig5", "fig6" and the studies.
 std::vector<std::string> part_names();
 
-/// 1 if a required claim failed; 3 if one was not measured although claims are judged and all of Figure 4 was
-/// requested; else 0.
+/// 1 if a required claim failed; 3 if one was not measured although `judged` and all of Figure 4 was requested;
+/// else 0.
 int exit_code_of(const reports::RequiredClaims& required, const ReproductionOptions& options, bool judged);
 
 /// Experiments of Figures 4 to 6.
 /// Throws: Error for an unknown part.
 Plan plan_reproduction(const ReproductionOptions& options);
 
-/// Parts, estimated times and existing databases. Builds nothing.
+/// Parts, estimated times, existing databases. Builds nothing.
 std::string describe_reproduction(Workbench& workbench, const ReproductionOptions& options);
 
 using ShowResults = std::function<void(const reports::RunResult& so_far)>;

@@ -18,13 +18,13 @@ struct MappingErrors {
   double gap_mean = 0, gap_max = 0;             ///< |robot's gap - human's|; 0 without pinches
   double largest_step = 0;                      ///< of a joint, between successive postures
 };
-inline constexpr double kPinch = 0.02;  ///< m; such fingertips (ends of bones) touch
+inline constexpr double kPinch = 0.02;  ///< m; fingertips (bone ends) this near touch
 
 using Mapping = std::function<ShadowHandTargets(const Posture&)>;
 /// Right hand; at least one posture.
 MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture>& postures, const Mapping& map);
 
-/// For `glovebench list mapping`: all posture sets and source trajectories, both mappings.
+/// For `glovebench list mapping`: both mappings on all posture sets and source trajectories.
 reports::Table mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling);
 
 }  // namespace glovebench::eval

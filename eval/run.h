@@ -35,17 +35,17 @@ struct RunSpec {
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
-  std::string setting = {};  ///< label without effect: a study's setting or a movement's family
+  std::string setting = {};  ///< a label: a study's setting or a movement's family
 };
 
-/// Measured on the true images and the true surface.
+/// Measured on true images and surface.
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
   double visible_percent = 0;                     ///< see reports/metrics/visibility.h
 };
 
-/// Results by frame, without errors (measured_run.h).
+/// Results by frame. Errors: measured_run.h.
 struct Run {
   RunSpec spec;
   std::vector<TrackResult> answers;
@@ -56,7 +56,7 @@ struct Run {
 
 /// Throws: Error if the trajectory lacks them.
 std::span<const HandFrame> frames_of(const RunSpec& spec);
-/// Equal for runs that differ only in the seed.
+/// The seed does not change it.
 reports::ExperimentKey key_of(const RunSpec& spec);
 render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec);
 /// Whether hand, frames, light and scene are the same.
@@ -67,7 +67,7 @@ struct RunOptions {
   RunStore* store = nullptr;  ///< loads and stores runs
 };
 /// Renders, adds noise and tracks, in the order of `specs`. Trackers get only device frames and calibration.
-/// `threads` change only times. Neighbors that share images are rendered once.
+/// `threads` change only times. Successive specs with the same images are rendered once.
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 

@@ -7,13 +7,12 @@
 namespace glovebench::eval {
 
 /// The folder of a run in progress. After a crash the same command resumes and writes the same bytes.
-/// FOLDER/.unfinished/ marks the run and holds a lock and the finished parts, each with program hash, key and
-/// checksum.
+/// FOLDER/.unfinished/ marks the run. It holds a lock and finished parts with program hash, key and checksum.
 class RunStore {
  public:
   /// Throws: Error if another run holds the folder or it cannot be written.
   explicit RunStore(const std::string& folder);
-  /// Removes a new mark, unless `begin` was called.
+  /// Removes a new mark unless `begin` was called.
   ~RunStore();
   RunStore(const RunStore&) = delete;
   RunStore& operator=(const RunStore&) = delete;
@@ -21,7 +20,7 @@ class RunStore {
   /// Keeps the mark until `finish`.
   void begin();
 
-  /// A part that this program stored, else empty. Removes a useless file and says so once on stderr. Thread-safe.
+  /// A part that this program stored, else empty. Removes useless files and says so once on stderr. Thread-safe.
   std::optional<std::string> load(const std::string& key) const;
   /// Thread-safe.
   /// Throws: Error if it cannot be written.
@@ -42,7 +41,7 @@ class RunStore {
   mutable std::once_flag told_;
 };
 
-/// Throws: reports::Incomparable for an unfinished run, Error if that is unknown.
+/// Throws: reports::Incomparable for an unfinished run, Error if unknown.
 void require_finished(const std::string& folder);
 
 }  // namespace glovebench::eval

@@ -7,8 +7,8 @@
 
 namespace glovebench::eval {
 
-/// Names runs after their folders. Shows the headline metrics unless `pairing` has others, and times only of runs
-/// that were measured one job at a time.
+/// Names runs after their folders. Shows the headline metrics unless `pairing` has others. Shows times only if
+/// measured one job at a time.
 /// Throws: Error, or Incomparable, also for an unfinished run.
 reports::SettingsTable settings_table(const std::vector<std::string>& folders, reports::PairingOptions pairing = {},
                                       const reports::CompareConfig& config = {});

@@ -9,7 +9,7 @@
 namespace glovebench::eval {
 
 struct SuiteEntry {
-  std::string trajectory;  ///< name, also of a generated movement, or *.json file
+  std::string trajectory;  ///< name (also of a generated movement) or *.json file
   std::optional<reports::TruthKind>
       truth;                           ///< kind of a named trajectory, or required kind of a file; empty: either
   std::vector<std::string> databases;  ///< names or files
@@ -18,7 +18,7 @@ struct SuiteEntry {
   FrameRange frames;
 };
 
-/// Experiments for a commit or a night, all with the same seeds.
+/// Experiments with the same seeds.
 struct Suite {
   std::string name;  ///< empty: command line
   std::string description;
@@ -26,7 +26,7 @@ struct Suite {
   std::vector<SuiteEntry> entries;
 };
 
-/// Reads the format of trajectories/README.md strictly. Relative files belong to the folder of `path`.
+/// Reads the format of trajectories/README.md. Relative files belong to the folder of `path`.
 /// Throws: Error.
 Suite parse_suite(std::string_view text, const std::string& path);
 /// "quick", "full" or a *.json file.
@@ -38,8 +38,8 @@ std::vector<std::string> suite_names();
 /// Throws: Error if it cannot be read.
 Side side_of(const Suite& suite);
 
-/// Experiments that match `filter` (shell wildcards; empty: all), same frames together. Registers database files in
-/// the workbench. Builds nothing.
+/// Experiments that match `filter` (shell wildcards; empty: all), those of the same frames together. Adds database
+/// files to the workbench. Builds nothing.
 /// Throws: Error for a repeated experiment, the other hand, or no match.
 Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter);
 

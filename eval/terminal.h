@@ -16,7 +16,7 @@
 
 namespace glovebench::eval {
 
-/// Drops text that nobody can read (full or closed pipe, lost terminal).
+/// Drops the text if stderr is broken (full or closed pipe, lost terminal).
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
@@ -28,10 +28,10 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
 /// Width of stdout, at least 60. 80 without a terminal.
 size_t terminal_columns();
 
-/// Lets each `Progress` log a line every `interval` s if stderr is no terminal.
+/// Each `Progress` then logs a line every `interval` s if stderr is no terminal.
 void log_progress(double interval);
 
-/// A bar for work over two seconds. Silent unless stderr is a terminal or `log_progress` was called. Thread-safe.
+/// A bar for work over 2 s. Silent unless stderr is a terminal or `log_progress` was called. Thread-safe.
 class Progress {
  public:
   Progress(std::string title, bool quiet);
@@ -61,7 +61,7 @@ class LiveStatus {
 
   /// `time`: s, must not decrease.
   void add(double time, const TrackResult& result);
-  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped". Dashes for unknown values.
+  /// "29.9 frames/s, 97% tracked, residual 1.3 mm, 2 dropped". "-" for unknown values.
   std::string line(int dropped) const;
 
  private:
@@ -90,8 +90,8 @@ class StatusLine {
   LiveStatus status_;
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP only set a flag. A second SIGINT or SIGTERM ends the program. nohup
-/// keeps working.
+/// During its lifetime SIGINT, SIGTERM and SIGHUP set a flag. A second SIGINT or SIGTERM ends the program. Respects
+/// nohup.
 class Interruption {
  public:
   Interruption();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Counts a thread's heap memory by replacing C library functions. Include it in one source of a program.
+// Counts a thread's heap memory. Replaces C library functions: include it in one source of a program.
 
 #include <malloc.h>
 
@@ -35,7 +35,6 @@ inline int64_t end() {
 
 }  // namespace counted_heap
 
-// Forward to the C library and count.
 extern "C" {
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);

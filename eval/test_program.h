@@ -55,7 +55,7 @@ struct ProgramSetting {
   bool unheard = false;                   ///< output pipes have no reader
 };
 
-/// In the child: becomes the program, or ends with 127.
+/// In the child: runs the program, or ends with 127.
 [[noreturn]] inline void become(const std::vector<std::string>& command, const ProgramSetting& setting,
                                 const std::string& out, const std::string& err) {
   for (const auto& [name, value] : setting.environment) setenv(name.c_str(), value.c_str(), 1);
@@ -124,7 +124,7 @@ inline std::map<std::string, std::string> read_folder(const std::string& folder)
   return files;
 }
 
-/// Without what differs between runs: timings.json, manifest, the page's command times.
+/// Without timings.json, manifest and the page's command times.
 inline std::map<std::string, std::string> read_timeless(const std::string& folder) {
   std::map<std::string, std::string> files = read_folder(folder);
   EXPECT_EQ(files.erase("timings.json") + files.erase("manifest.json"), 2U);

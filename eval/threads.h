@@ -10,7 +10,7 @@
 
 namespace glovebench::eval {
 
-/// Calls work(i) for i = 0..count-1 on `threads` threads, shared with parallel code inside `work`.
+/// Calls work(i) for i = 0..count-1. Parallel code inside `work` shares the `threads`.
 template <typename Work>
 void in_parallel(int threads, size_t count, const Work& work) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -11,7 +11,7 @@
 
 namespace glovebench::eval {
 
-/// Draws outline and joints of the tracked hand over color images.
+/// Draws the tracked hand's outline and joints over color images.
 class TrackOverlay {
  public:
   /// `path`: as open_picture_sink.

@@ -12,13 +12,12 @@ namespace glovebench::eval {
 /// The entry that a look-up should find.
 struct TrueNeighbor {
   int entry = 0;
-  double distance = 0;  ///< mean between equal vertices, m
+  double distance = 0;  ///< mean of the vertices', m
 };
 
-/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. Hands are
-/// compared at one origin and along one ray, through the middle of the bounding square (an entry's `box_ray`),
-/// because a look-up sees neither distance nor direction. `model`: the database's hand. Both must outlive the
-/// search. Thread-safe.
+/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. A look-up
+/// sees neither distance nor direction: hands are compared at one origin and along one ray, that to the middle of
+/// the bounding square (`box_ray`). `model`: the database's hand. Both must outlive the search. Thread-safe.
 class TrueNeighborSearch {
  public:
   TrueNeighborSearch(const HandModel& model, const Database& database);

@@ -26,7 +26,7 @@ struct WorkbenchConfig {
   RgbdCalibration calibration = synthetic_calibration();
 };
 
-/// What experiments share. Made or loaded on first use. Thread-safe.
+/// Shared by experiments. Makes or loads things on first use. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);
@@ -38,19 +38,19 @@ class Workbench {
   /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
-  /// The table for the synthetic Kinect's cameras, whatever `calibration` is.
+  /// The table for the synthetic Kinect's cameras, not for `calibration`.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
-  /// Registers a database (*.glovedb) or postures (*.csv, *.json) and returns its name. Returns other text
-  /// unchanged. Opens a file once.
+  /// Adds a database (*.glovedb) or postures (*.csv, *.json) and returns its name. Returns other text unchanged.
+  /// Opens a file once.
   /// Throws: Error for another hand, other views or a taken name.
   std::string add_database(const std::string& name_or_file);
   /// Whether `database(name)` builds nothing.
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// A tracker whose stages can be inspected.
+  /// The paper's tracker, whose stages can be inspected.
   /// Throws: Error if another method is configured.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 

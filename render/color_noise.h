@@ -19,7 +19,7 @@ class RowRandom {
  public:
   explicit RowRandom(uint64_t state) : state_(state) {}
 
-  /// Standard normal. Tails end at 4.3 sigma.
+  /// Standard normal, up to 4.3 sigma.
   float normal();
   /// [0, 1)
   float uniform() { return static_cast<float>(next16()) * 0x1p-16f; }

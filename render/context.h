@@ -4,9 +4,9 @@
 
 namespace glovebench::render {
 
-/// An off-screen OpenGL 4.5 core context (OSMesa). Making it current waits for other threads: they draw in turn,
-/// with equal images. A thread has at most one current context. Mesa's own threads are off (LP_NUM_THREADS=0);
-/// create the first context while no thread uses the environment.
+/// An off-screen OpenGL 4.5 core context (OSMesa). Threads draw in turn: making it current waits for the others. A
+/// thread has at most one current context. The first context sets LP_NUM_THREADS=0: create it while no thread uses
+/// the environment.
 class Context {
  public:
   /// Makes it current.

@@ -14,7 +14,7 @@
 
 namespace glovebench::render::gl {
 
-/// Limits of drawn depth, m.
+/// Drawn depth, m.
 inline constexpr double kNear = 0.05;
 inline constexpr double kFar = 10.0;
 

@@ -12,8 +12,8 @@ enum class Shader {
   second_subject,  ///< slightly other dyes, more gloss, a fine weave
 };
 
-/// Linear RGB by label, chosen for the largest UV distance to each other, skin, table and floor under 3000 to 6500
-/// K. Index 0 is unused.
+/// Linear RGB by label, with the largest UV distance to each other, skin, table and floor under 3000 to 6500 K.
+/// Index 0 is unused.
 const std::array<Eigen::Vector3f, kColorCount + 1>& glove_albedos(Shader shader);
 
 /// Colors in pictures. 0 is black.

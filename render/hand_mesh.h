@@ -8,7 +8,7 @@
 
 namespace glovebench::render {
 
-/// Triangles for drawing. Each patch has its own vertices at borders.
+/// Triangles for drawing. Each patch has its own vertices.
 struct HandMesh {
   std::vector<uint32_t> source;   ///< vertex of the hand
   std::vector<uint8_t> labels;    ///< 1..kColorCount

@@ -8,7 +8,7 @@
 
 namespace glovebench::render {
 
-/// Draws from 0.05 to 10 m, without back faces, for one thread at a time.
+/// Draws front faces from 0.05 to 10 m. For one thread at a time.
 class LabelRenderer : public ViewRenderer {
  public:
   /// Throws: Error without OpenGL.

@@ -12,19 +12,19 @@ namespace glovebench::render {
 ColorImage picture_of_labels(const LabelImage& labels);
 /// Warm: near. Black: no value. z_near < z_far, m.
 ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far);
-/// `other` minus `depth`: blue at -`range` (m), white at 0, orange at +`range`. Gray where one has no value, dark
-/// where both have none. Images have one size.
+/// `other` minus `depth`: blue at -`range` (m), white at 0, orange at +`range`; gray: one has no value; dark:
+/// neither has. Images must have one size.
 ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage& other, double range);
-/// Draws the borders of labels with a black edge, visible on every color. Images have one size.
+/// Draws the borders of labels with a black edge. Images must have one size.
 ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line = {255, 255, 255});
 struct Stroke {
   Eigen::Vector2d from_px, to_px;
 };
-/// Draws lines with a dot at each end and a dark edge.
+/// Draws lines with end dots and a dark edge.
 ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line);
 /// Writes a line of ASCII text at the upper left.
 ColorImage overlay_text(const ColorImage& color, const std::string& text);
-/// Throws: Error; then no file is written.
+/// Throws: Error. No file is written then.
 void write_png(const std::string& path, const ColorImage& image);
 
 struct Panel {
@@ -32,14 +32,14 @@ struct Panel {
   ColorImage image;
 };
 
-/// Scales panels (nearest pixel) into rows of `columns` cells on dark gray.
+/// Scales panels (nearest pixel) into rows of `columns` cells.
 ColorImage montage(const std::vector<Panel>& panels, int columns, int cell_width, int cell_height);
 
 struct TextLine {
   std::string text;
   Rgb color = {230, 230, 230};
 };
-/// Lines as large as the titles of a montage.
+/// Lines, as large as titles in a montage.
 ColorImage picture_of_text(const std::vector<TextLine>& lines, int width, int height);
 
 /// The whole image if nothing is labeled.

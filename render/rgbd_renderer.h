@@ -18,8 +18,8 @@ struct RgbdImages {
   Image<uint8_t> patch;  ///< IR camera; patch + 1, else 0
 };
 
-/// Draws a hand in a scene from a Kinect's two cameras, without shadows. A color is the mean of 2x2 samples; depth
-/// and truth are single samples. For one thread at a time.
+/// Draws a hand in a scene from a Kinect's two cameras, without shadows. Colors are means of 2x2 samples; depth and
+/// truth are single samples. For one thread at a time.
 class RgbdRenderer {
  public:
   /// Throws: Error without OpenGL.

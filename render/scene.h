@@ -9,7 +9,7 @@
 
 namespace glovebench::render {
 
-/// Diffuse, with a Blinn-Phong highlight and a fixed pattern.
+/// Diffuse, with a Blinn-Phong highlight and a pattern.
 struct Material {
   Eigen::Vector3f albedo = Eigen::Vector3f::Zero();  ///< linear RGB, 0..1
   float gloss = 0;
@@ -42,17 +42,17 @@ struct SurfaceMesh {
 struct SceneConfig {
   Shader shader = Shader::first_subject;
   bool clutter = true;             ///< objects of similar colors on the table
-  bool clutter_in_volume = false;  ///< one more box, in the working volume (z 0.90 m)
+  bool clutter_in_volume = false;  ///< another box, in the working volume (z 0.90 m)
 };
 
-/// Surroundings in the IR camera's frame: table top (1.0 m x 0.74 m at 1.06 m) and floor at 1.78 m.
+/// Surroundings, IR camera's frame: table top (1.0 m x 0.74 m, at 1.06 m), floor (at 1.78 m).
 struct Scene {
   SurfaceMesh surroundings;
   std::vector<Material> materials;  ///< kMaterialCount
 };
 Scene make_scene(const SceneConfig& config);
 
-/// The bare forearm, 200 mm, at the hand's cuff in any posture. Forearm joint's frame.
+/// The bare forearm, 200 mm from the hand's cuff on. Forearm joint's frame.
 SurfaceMesh make_forearm(const PosedHand& hand);
 
 }  // namespace glovebench::render

@@ -9,10 +9,10 @@ namespace glovebench::reports {
 
 bool has_commands(const RunResult& result);
 
-/// Explains the tables below, which have one row per experiment.
+/// Explains the tables below.
 std::string command_explanation();
 Table command_stream_table(const RunResult& result);
-/// Interventions by reason. No rows without any.
+/// By reason. No rows without interventions.
 Table command_intervention_table(const RunResult& result);
 /// Errors against the truth's commands, and smoothness.
 Table command_error_table(const RunResult& result);

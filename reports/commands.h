@@ -14,8 +14,7 @@
 
 namespace glovebench::reports {
 
-/// RMS jerk. Smaller is smoother (Flash and Hogan 1985). Noise dominates it in a tracked hand: compare it with the
-/// truth's.
+/// RMS jerk; smaller is smoother (Flash and Hogan 1985). Compare a tracked hand's with the truth's.
 struct Jerk {
   std::optional<double> joints_deg_s3;
   std::optional<double> position_m_s3;  ///< of the hand's origin

@@ -28,8 +28,8 @@ struct ExperimentEstimates {
 
 /// "estimates/EXPERIMENT.csv".
 std::string estimates_file(const ExperimentKey& key);
-/// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, the 22 angles (deg).
-/// Rounded to 1e-6. A lost frame has empty cells.
+/// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, 22 angles (deg). To 1e-6. A
+/// lost frame has empty cells.
 std::string estimates_csv(const ExperimentEstimates& estimates);
 /// Without line ends.
 std::string estimates_heading();

@@ -57,8 +57,7 @@ inline CommandResult example_commands(int frames, double error) {
   return commands;
 }
 
-/// Four experiments: means 4 mm, 3 deg, 2 deg with one of four frames lost; lost frames only; no frames; another
-/// noise.
+/// Four experiments: means 4 mm, 3 deg, 2 deg with one of four frames lost; all lost; no frames; another noise.
 inline RunResult small_result() {
   RunResult result;
   result.protocol = make_protocol("by time stamp, exact");

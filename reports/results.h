@@ -21,10 +21,10 @@ struct FrameRecord {
   int frame = 0;
   int64_t timestamp_us = 0;
   TrackStatus status = TrackStatus::no_hand;
-  bool covered = false;        ///< tracked, errors under 50 mm and 30 degrees
+  bool covered = false;        ///< tracked within 50 mm and 30 degrees
   bool false_tracked = false;  ///< tracked, but not covered
   bool false_lost = false;     ///< lost, though trackable
-  bool ambiguous = false;      ///< rotations of the matches differ by more than 60 degrees
+  bool ambiguous = false;      ///< two matches' rotations differ by more than 60 degrees
   bool converged = false;
   int icp_iterations = 0;
 
@@ -44,7 +44,7 @@ using glovebench::to_string;
 
 struct NoiseSetting {
   std::string model = "gradient";  ///< as in `glovebench list noises`
-  double factor = 1;               ///< on the noise's gain
+  double factor = 1;               ///< of the noise's gain
 
   friend bool operator==(const NoiseSetting&, const NoiseSetting&) = default;
 };
@@ -58,7 +58,7 @@ struct ExperimentKey {
 
   friend bool operator==(const ExperimentKey&, const ExperimentKey&) = default;
 };
-/// For file names: "Tr4_DB_open_power_recorded_subject1_gradient_1".
+/// "Tr4_DB_open_power_recorded_subject1_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
 /// Consecutive frames under one noise seed.
@@ -116,16 +116,16 @@ struct ExperimentResult {
   }
   friend bool operator==(const ExperimentResult&, const ExperimentResult&) = default;
 };
-/// Computes coverage, aggregates and intervals. Copies `pck` and `sequence`.
+/// Computes coverage, aggregates and intervals.
 ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
                            const BootstrapConfig& bootstrap = {});
 
-/// The meaning of a result's numbers. Comparable results share all but metric_keys.
+/// Results are comparable if these are equal, except metric_keys.
 struct Protocol {
   int metric_definitions = 1;  ///< increases when a metric changes its meaning
   std::vector<std::string> joint_order;
-  std::vector<std::string> metric_keys;               ///< of frames; versions differ
-  std::string association;                            ///< of estimates and truths: "by time stamp, exact"
+  std::vector<std::string> metric_keys;               ///< columns; versions differ
+  std::string association;                            ///< estimates to truths: "by time stamp, exact"
   std::map<std::string, double> coverage_rules = {};  ///< metrics/coverage.h; empty in older results
 
   std::string id() const;  ///< hash of the above
@@ -139,7 +139,7 @@ class Incomparable : public Error {
   using Error::Error;
 };
 
-/// Outside the protocol, so part of a run compares with the whole.
+/// Not part of the protocol.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
   std::map<std::string, std::string> databases;  ///< content_hash by name
@@ -151,7 +151,6 @@ struct InputHashes {
 /// "source/Tr4".
 std::string truth_name(const ExperimentKey& key);
 
-/// The same commit gives equal results.
 struct RunResult {
   Protocol protocol;
   InputHashes inputs;
@@ -164,9 +163,9 @@ struct RunResult {
 
   friend bool operator==(const RunResult&, const RunResult&) = default;
 };
-/// "COMMIT-HASH", with the hash of version, configuration, inputs, seeds and all else behind the results.
+/// "COMMIT-HASH", a hash of all that determines the results.
 std::string run_name(const RunResult& result);
-/// The paper's noise (gradient x 1) if any experiment has it, else the first one's.
+/// The paper's noise (gradient x 1) if an experiment has it, else the first one's.
 NoiseSetting headline_noise(const RunResult& result);
 /// Null if absent.
 const ExperimentResult* find_experiment(const RunResult& result, const ExperimentKey& key);

@@ -33,24 +33,24 @@ struct Aggregate {
 };
 Aggregate aggregate(std::span<const double> values);
 
-/// Share of keypoints within each threshold (PCK), and area under the curve (trapezoidal, 0..1).
+/// Share of keypoints within each threshold (PCK).
 struct PckCurve {
   std::vector<double> thresholds_mm;
   std::vector<double> shares;
-  std::optional<double> area;  ///< empty without keypoints
+  std::optional<double> area;  ///< under the curve (trapezoids), 0..1; empty without keypoints
 
   friend bool operator==(const PckCurve&, const PckCurve&) = default;
 };
 /// Thresholds 0, 1, ... 50 mm. `keypoint_count` includes lost frames.
 PckCurve pck_curve(std::span<const double> errors_mm, size_t keypoint_count);
 
-/// From a percentile bootstrap, or Student's.
+/// From a percentile bootstrap or Student's t.
 struct ConfidenceInterval {
   double low = 0;
   double high = 0;
   double level = 0;  ///< share of resampled means inside
   int seeds = 0;     ///< resampled
-  int blocks = 0;    ///< of consecutive frames, resampled
+  int blocks = 0;    ///< of successive frames, resampled
   int block_frames = 0;
   /// What was resampled.
   std::string over;
@@ -59,17 +59,17 @@ struct ConfidenceInterval {
 };
 
 struct BootstrapConfig {
-  int block_frames = 15;  ///< >= 1; successive frames depend on each other
+  int block_frames = 15;  ///< >= 1
   int resamples = 2000;   ///< >= 1
   double level = 0.95;    ///< in (0, 1)
   uint64_t seed = 1;
 };
-/// Interval of the mean over seeds (rows) and frames (columns; empty if lost). Resamples seeds and blocks of frames
-/// together. Empty for fewer than two blocks or no values.
+/// Interval of the mean over seeds (rows) and frames (columns). Resamples seeds and blocks of frames. Empty for
+/// fewer than two blocks, or without values.
 std::optional<ConfidenceInterval> confidence_interval(
     const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config = {});
 
-/// A fixed part, such as a trajectory, whose seeds and frames are resampled.
+/// A part, such as a trajectory, that is fixed. Its seeds and frames are resampled.
 struct StratumShape {
   int seeds = 1;   ///< >= 1
   int frames = 0;  ///< >= 0
@@ -79,20 +79,20 @@ struct Draw {
   std::vector<int> seeds;
   std::vector<int> frames;
 };
-/// Interval of a statistic over strata. Resamples seeds and blocks of frames in each. `statistic` gets one draw per
-/// stratum and may be empty. Empty if `statistic` always is, or for fewer than five blocks in all.
+/// Interval of a statistic over strata. `statistic` gets one draw per stratum and may be empty. Empty if it always
+/// is, or for fewer than five blocks in all.
 std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
     const BootstrapConfig& config = {});
 
-/// |T| is below it with probability `level`, 0..1.
+/// |T| is below this value with probability `level`, 0..1.
 double student_quantile(double level, int degrees_of_freedom);
-/// Interval of the mean of independent values. Empty for fewer than five values, and for equal ones.
+/// Interval of the mean of independent values. Empty for fewer than five values or equal ones.
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
                                                    double level = 0.95);
 
-/// A kilometer in mm. Sums of squares stay finite.
+/// A kilometer in mm.
 inline constexpr double kLargestError = 1e6;
 
 nlohmann::ordered_json aggregate_json(const Aggregate& aggregate);

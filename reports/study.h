@@ -37,14 +37,14 @@ const Measure* find_measure(const std::vector<StudyResult>& studies, std::string
 
 /// "studies" in results.json, without times.
 nlohmann::ordered_json studies_json(const std::vector<StudyResult>& studies);
-/// "studies" in timings.json: tables with a time, reduced to times and naming columns.
+/// "studies" in timings.json: naming columns and times, of tables with times.
 nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies);
 
 /// Throws: Error for other content.
 std::vector<StudyResult> read_studies(const JsonCursor& json);
 
-/// Unique names that no other report's file has, one cell per column, at least one naming column and none of them a
-/// time, at most six digits.
+/// Checks: names are unique and no other report file's; one cell per column; at least one naming column, none a
+/// time; at most six digits.
 /// Throws: std::logic_error.
 void check_studies(const std::vector<StudyResult>& studies);
 

@@ -13,7 +13,7 @@
 
 namespace glovebench::reports {
 
-/// Figure 4 against recorded truth, source truth, and source truth with subject 2.
+/// Figure 4 on recorded truth, source truth, and source truth with subject 2.
 struct Variant {
   std::string title;
   TruthKind truth;
@@ -21,10 +21,9 @@ struct Variant {
 };
 const std::array<Variant, 3>& figure4_variants();
 
-/// Databases for Tr1 to Tr5: the one with only its grasp first, the largest last. Empty names for other
-/// trajectories.
+/// Databases for Tr1 to Tr5: the one for its grasp first, the largest last. Empty names for other trajectories.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
-/// Whether there are experiments and all are Figure 4's, with any noise.
+/// Whether there are experiments, and all are Figure 4's (with any noise).
 bool is_figure4(const RunResult& result);
 
 /// Pointers are null where not run.
@@ -37,14 +36,13 @@ struct Figure4Row {
 /// In running order. Rows refer to both arguments.
 std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
-/// Position, posture (RMS) and rotation errors with coverage per variant, beside the paper's; below each other
-/// where `columns` are fewer than 115. "-" for no value.
+/// Errors and coverage per variant, beside the paper's; below each other for fewer than 115 `columns`.
 std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise,
                           size_t columns = 120);
 
-/// One column per variant, one for the paper's means.
+/// One column per variant, one for the paper.
 Table figure4_summary(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
-/// One column per number, after a comment that names the run.
+/// One column per number. A comment names the run.
 std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 /// One line per experiment, with intervals and the paper's numbers.
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
@@ -54,18 +52,17 @@ std::string errors_csv(const RunResult& result);
 /// Percent of all frames.
 std::optional<double> covered_percent(const ExperimentResult& experiment);
 
-// The first columns of every CSV name run (run_name) and experiment.
+// The first columns of each CSV name run (run_name) and experiment.
 
 /// Columns "run" to "noise_factor".
 nlohmann::ordered_json experiment_columns();
 nlohmann::ordered_json experiment_cells(const std::string& run, const ExperimentKey& key);
 
-/// Columns: run, experiment, seed, then frame_columns. Empty cells have no value.
+/// Columns: run, experiment, seed, frame_columns.
 std::string frames_csv(const std::string& run, const ExperimentResult& experiment);
-/// Errors per frame, beside the paper's, which are of another movement.
+/// Errors per frame beside the paper's, which are of another movement.
 std::string curve_csv(const std::string& run, const ExperimentResult& experiment, const PaperCurve& paper);
-/// CSV for the page's charts: Figure 4 or the errors of other experiments, Figures 5 and 6 if run, studies' tables.
-/// "figure4" is tables/figure4.csv.
+/// CSV texts for the page's charts, by name: "figure4" is tables/figure4.csv.
 nlohmann::ordered_json csv_tables(const RunResult& result, const PaperNumbers& paper);
 
 }  // namespace glovebench::reports

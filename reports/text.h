@@ -8,9 +8,9 @@
 namespace glovebench::reports {
 
 std::string escape_html(const std::string& text);  ///< also SVG
-/// XML 1.0. Characters that it cannot hold become U+FFFD.
+/// XML 1.0. Invalid characters become U+FFFD.
 std::string escape_xml(const std::string& text);
-/// One cell or line. Escapes brackets only in links.
+/// One cell or line. Escapes brackets only where they form links.
 std::string escape_markdown(const std::string& text);
 std::string escape_latex(const std::string& text);
 std::string latex_comment(const std::string& text);
@@ -23,11 +23,11 @@ inline constexpr size_t kTerminalColumns = 120;
 size_t text_width(std::string_view text);
 /// Cuts the middle.
 std::string shortened(const std::string& text, size_t columns);
-/// Lines of at most `columns`, broken between words. All but the first begin with `indent` spaces. The first has
-/// room for as many in front.
+/// Lines of at most `columns`, broken between words. Later lines begin with `indent` spaces; the first leaves room
+/// for them.
 std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
 
-/// One line per member, but one per array of plain values. Equal values give equal bytes. Numbers must be finite.
+/// One line per member; arrays of plain values in one line. Equal values give equal bytes. Numbers must be finite.
 std::string format_json(const nlohmann::ordered_json& json);
 
 /// Rounds to 1e-6, without minus zero.

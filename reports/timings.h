@@ -20,7 +20,7 @@ struct ExperimentTiming {
   std::vector<double> command_ms = {};  ///< device frame to robot command, by frame
 };
 
-/// What differs from run to run.
+/// Values that differ between equal runs.
 struct Timings {
   std::string host;
   std::string processor;
@@ -35,7 +35,7 @@ struct Timings {
   std::vector<ExperimentTiming> experiments;
 };
 
-/// Statistics of stages, the 99th percentile of robot commands, and times of studies.
+/// Statistics of stages, p99 of robot commands, times of studies.
 std::string timings_json(const Timings& timings, const std::vector<StudyResult>& studies = {});
 
 }  // namespace glovebench::reports

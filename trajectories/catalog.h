@@ -9,21 +9,21 @@
 
 namespace glovebench::trajectories {
 
-// The data folder. README.md lists its files.
+// The data folder (README.md).
 
 /// The ground truths of section IV.
 const std::vector<std::string>& ground_truth_names();
 /// "pinch" or "power".
 /// Throws: Error for another name.
 std::string grasp_of(std::string_view trajectory);
-/// Databases with its grasp, the grasp-specific one first.
+/// Databases with its grasp, the one for this grasp first.
 /// Throws: Error for another name.
 std::vector<std::string> databases_of(std::string_view trajectory);
 const std::vector<std::string>& posture_set_names();
 
 std::string trajectory_path(const std::string& data_folder, TrajectoryKind kind, const std::string& name);
 
-/// Throws: Error for an unknown name or a bad file. Name and kind must match the path.
+/// Throws: Error for an unknown name or bad file. Name and kind must match the path.
 Trajectory source_trajectory(const std::string& data_folder, const std::string& name);
 Trajectory recorded_trajectory(const std::string& data_folder, const std::string& name);
 

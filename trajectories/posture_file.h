@@ -12,7 +12,7 @@ namespace glovebench::trajectories {
 
 std::string in_quotes(std::string_view text);
 std::string joint_order_json();
-/// Throws: Error unless it lists the names of angle_infos().
+/// Throws: Error unless it is the names of angle_infos().
 void expect_joint_order(const JsonCursor& field);
 
 /// 22 angles in degrees, to 0.001.

@@ -10,7 +10,7 @@
 
 namespace glovebench::trajectories {
 
-/// `source`: a movement that no tracker has seen. `recorded`: a tracker's output on a source.
+/// `source`: a true movement. `recorded`: a tracker's output on a source.
 /// Paper: section IV.
 enum class TrajectoryKind { source, recorded };
 constexpr auto names_of(TrajectoryKind) {
@@ -28,7 +28,7 @@ struct Provenance {
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
-/// A ground truth: the hand before the camera.
+/// A ground truth.
 struct Trajectory {
   std::string name;
   std::string description;
@@ -39,8 +39,8 @@ struct Trajectory {
 };
 
 inline constexpr int64_t kMaxTimestampUs = 1'000'000'000'000'000;  ///< 31 years
-inline constexpr double kMaxPositionMm = 10'000;                   ///< of each coordinate, either sign
-/// Largest deviation from unit length in a file. Reading normalizes.
+inline constexpr double kMaxPositionMm = 10'000;                   ///< of each coordinate
+/// Largest deviation from unit length in a file; reading normalizes.
 inline constexpr double kQuaternionNormTolerance = 1e-3;
 
 /// Parses the JSON of README.md.
@@ -53,7 +53,7 @@ std::string canonical_text(const Trajectory& trajectory);
 /// Throws: Error.
 void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
-/// Hash of the canonical file. Identifies a truth in results.
+/// Hash of the canonical file.
 std::string hash(const Trajectory& trajectory);
 
 }  // namespace glovebench::trajectories

@@ -9,7 +9,7 @@
 
 namespace glovebench::trajectories {
 
-/// From the last frame at one end (open or grasp) to the first at the other.
+/// From the last frame at one end (open, grasp) to the first at the other.
 struct GraspTransition {
   int first_frame = 0;
   int last_frame = 0;
@@ -38,7 +38,7 @@ double finger_distance(const Posture& a, const Posture& b);
 
 /// Largest finger_distance of a settled frame.
 inline constexpr double kSettledDeg = 8;
-/// A frame is at one end within this share of the way.
+/// A frame within this share of the way is at the end.
 inline constexpr double kTransitionEnd = 0.15;
 
 TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, const Posture& grasp);
@@ -47,12 +47,12 @@ TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, 
 std::string properties_table(const std::vector<Trajectory>& trajectories,
                              const std::vector<TrajectoryProperties>& properties);
 
-// One sentence per valid value that is probably a mistake of units, with the likely cause.
+// A sentence per valid value that is probably in wrong units.
 
-/// Empty unless the angles, which files hold in degrees, look like radians.
+/// Empty unless the file's angles look like radians.
 std::string angle_doubt(std::span<const Posture> postures);
 
-/// Also whether most frames lie nearer or farther than the working volume.
+/// Also if most frames are nearer or farther than the working volume.
 std::vector<std::string> unit_doubts(const Trajectory& trajectory, const WorkingVolume& volume);
 
 }  // namespace glovebench::trajectories

@@ -19,7 +19,7 @@ namespace glovebench::bench {
 class LookUpPeer {
  public:
   virtual ~LookUpPeer() = default;
-  /// The `keep` nearest entries of each query, best first, ties in any order. Each query has glove pixels.
+  /// The `keep` nearest entries of each query, best first, ties in any order. Each query must have glove pixels.
   virtual std::vector<RecycledVector<Match>> operator()(std::span<const LabelImage> queries, int keep) = 0;
 };
 /// `database` must outlive the peer.
@@ -30,15 +30,15 @@ extern const MakeLookUpPeer kFaiss, kOpenCv;
 class ClosestPointPeer {
  public:
   virtual ~ClosestPointPeer() = default;
-  /// As `closest_points_plain`, with any of equally near faces. Calls pass the same points, moved a little. Valid
-  /// until the next call.
+  /// As `closest_points_plain`, with any of equally near faces. Pass the same points, moved a little. Valid until
+  /// the next call.
   virtual const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) = 0;
 };
 /// `surface` must outlive the peer.
 using MakeClosestPointPeer = std::unique_ptr<ClosestPointPeer> (*)(const Surface& surface);
 extern const MakeClosestPointPeer kEmbree, kCgal;
 
-/// Uses centers of the faces seen at the start, without colors.
+/// Uses centers of faces seen at the start, without colors.
 using AlignPeer = Alignment (*)(const Surface& surface, std::span<const LabeledPoint> points,
                                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 extern const AlignPeer kPcl;
@@ -46,7 +46,7 @@ extern const AlignPeer kPcl;
 /// Starts a search at the point's last face, or at that of the previous point of its color.
 class WarmStart {
  public:
-  /// The point on that face, or face -1. `last`: the point's last result, or face -1.
+  /// The closest point of that face, or face -1. `last`: the point's last result, or face -1.
   ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
     const int face = last.face >= 0 ? last.face : faces_[point.label];
     if (face < 0) return {};

@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Microseconds since 1970, comparable between machines. May jump: measure durations with steady_clock.
+/// Microseconds since 1970. May jump: measure durations with steady_clock.
 inline int64_t system_us() {
   using namespace std::chrono;
   return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();

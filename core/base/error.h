@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Bad input from outside the program, in one line. Readers take `where` from the caller.
+/// Bad input from outside the program, in one line. `where` names the file or other source.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}

@@ -14,10 +14,10 @@
 
 namespace glovebench {
 
-// A set: files of one folder that change together (core/base/README.md).
+// A set is files of one folder that change together (core/base/README.md).
 
 inline constexpr const char* kManifest = "manifest.json";
-/// Bytes, for 1.7 million files.
+/// Bytes.
 inline constexpr uint64_t kLargestManifest = uint64_t{256} << 20;
 
 /// A file is missing, changed or damaged.
@@ -35,21 +35,21 @@ using Manifest = std::map<std::string, ManifestEntry>;
 
 /// Throws: Error beyond `max_bytes`.
 std::string manifest_json(const Manifest& manifest, uint64_t max_bytes = kLargestManifest);
-/// Throws: Error, also for a name that leads out of the folder.
+/// Throws: Error, also if a name leads out of the folder.
 Manifest parse_manifest(const std::string& text, const std::string& where);
 /// Empty if the folder has none.
 /// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
 
-/// Reads files that belong to one state of the folder.
+/// Reads files of one state of the folder.
 class FileSet {
  public:
-  /// Throws: Error for an unreadable manifest.
+  /// Throws: Error if the manifest is unreadable.
   explicit FileSet(std::string folder) : folder_(std::move(folder)), manifest_(read_manifest(folder_)) {}
 
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// True if the manifest names the file. Without a manifest: true if it exists.
+  /// Whether the manifest names the file or, without a manifest, the file exists.
   bool has(const std::string& name) const;
   /// Throws: BrokenSet if it differs from the manifest, Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
@@ -73,7 +73,7 @@ class FileSet {
   std::optional<Manifest> manifest_;
 };
 
-/// Locks a folder for one writer, where the file system can.
+/// Locks a folder for one writer, if the file system can.
 /// Throws: Error if another process holds it for over 10 s.
 class FolderLock {
  public:
@@ -86,7 +86,7 @@ class FolderLock {
   int descriptor_;
 };
 
-/// Writes a set under a FolderLock. Other files stay. Without `commit` nothing changes.
+/// Writes a set under a FolderLock. Other files stay. Nothing changes until `commit`.
 /// Throws: Error, from every function.
 class WholeFiles {
  public:
@@ -96,12 +96,12 @@ class WholeFiles {
   WholeFiles& operator=(const WholeFiles&) = delete;
 
   const Manifest& manifest() const { return manifest_; }
-  /// `name` may contain folders. A replaced file keeps its mode. A new manifest gets the permissions that all files
-  /// share.
+  /// `name` may contain folders. A replaced file keeps its mode. A new manifest gets the permissions common to all
+  /// files.
   /// Throws: Error, also for a link.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
   void remove(const std::string& name);
-  /// The added files in order.
+  /// Added files, in order.
   const std::vector<std::string>& names() const { return added_; }
   void commit();
 

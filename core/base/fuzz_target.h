@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Runs on any bytes (eval/fuzz_main.cpp). May throw only an Error of one line.
+/// Runs on any bytes (eval/fuzz_main.cpp). May throw only Error, of one line.
 struct FuzzTarget {
   std::string name;  ///< of NAME_fuzz.cpp and ci/corpora/NAME
   std::function<void(std::string_view bytes)> run;

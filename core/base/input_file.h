@@ -24,7 +24,7 @@ class InputFile {
   /// Bytes (0 in /proc). Empty for a pipe.
   std::optional<uint64_t> size() const { return size_; }
   int descriptor() const { return descriptor_; }
-  /// Throws: Error if size or time of change differ from those at opening.
+  /// Throws: Error if size or time of change differ since opening.
   void require_unchanged() const;
   /// Returns the number of bytes, 0 at the end.
   /// Throws: Error.
@@ -45,7 +45,7 @@ inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
 /// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// Refuses pipes, whose writer may never come.
+/// The same, without pipes.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

@@ -84,7 +84,7 @@ class JsonCursor {
   friend class JsonMembers;
 };
 
-/// An array. Makes cursors on access, to save memory.
+/// An array. Makes cursors on access.
 class JsonItems {
  public:
   explicit JsonItems(const JsonCursor& array) : array_(array) {}

@@ -7,8 +7,8 @@
 
 namespace glovebench {
 
-/// Writes lines that cannot be made again (core/base/README.md) to NAME.partial, or NAME.partial-2 and so on.
-/// `finish` renames it to NAME. The constructor opens streams.
+/// Writes lines (core/base/README.md) to NAME.partial (NAME.partial-2, ... if it exists). `finish` renames it to
+/// NAME. The constructor opens streams.
 class LineFile {
  public:
   /// Throws: Error.
@@ -19,9 +19,9 @@ class LineFile {
   LineFile& operator=(const LineFile&) = delete;
 
   /// Adds the line end. After an error nothing is written.
-  /// Throws: Error with the partial file.
+  /// Throws: Error, which names the partial file.
   void append(std::string_view line);
-  /// Throws: Error with the partial file, also if it lacks a line.
+  /// Throws: Error, which names the partial file; also if a line is missing.
   void finish();
   /// "3 lines in NAME.partial". Empty without lines.
   std::string kept() const;

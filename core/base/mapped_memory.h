@@ -9,15 +9,15 @@ namespace glovebench {
 
 class InputFile;
 
-/// Private pages, or those of a file.
+/// Private pages or a file's.
 class MappedMemory {
  public:
   MappedMemory() = default;
   /// Zeros, in large pages if possible.
   /// Throws: std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// Maps a file for reading. A WholeFile may replace the file. If it is shortened, access to lost bytes ends the
-  /// process (SIGBUS).
+  /// Maps a file for reading. A WholeFile may replace it. If it is shortened, access to lost bytes ends the process
+  /// (SIGBUS).
   /// Throws: Error.
   static MappedMemory of_file(const std::string& path);
   /// Maps an open file for writing.
@@ -27,7 +27,7 @@ class MappedMemory {
   MappedMemory(MappedMemory&& other) noexcept;
   MappedMemory& operator=(MappedMemory&& other) noexcept;
 
-  /// Frees a file's pages wholly in this range until the next access. No effect on `zeros`.
+  /// Frees a file's pages inside this range until their next access. No effect on `zeros`.
   void release(size_t offset, size_t bytes) const;
   /// Turns off read-ahead.
   void expect_random_reads(size_t offset, size_t bytes) const;

@@ -20,7 +20,7 @@ inline double angle_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& 
   return Eigen::Quaterniond(from).normalized().angularDistance(Eigen::Quaterniond(to).normalized());
 }
 
-/// The value above this share of the values (0.5: the median). Empty without values.
+/// The value above `share` of the values (0.5: median). Empty without values.
 inline std::optional<double> quantile_of(std::vector<double> values, double share) {
   if (values.empty()) return {};
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));

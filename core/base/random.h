@@ -6,7 +6,7 @@
 
 namespace glovebench {
 
-/// Seeded by a hash of the arguments. Results do not depend on threads or order.
+/// Seeded by a hash of the arguments.
 class RandomStream {
  public:
   RandomStream(uint64_t seed, std::string_view sequence, int64_t frame, std::string_view purpose);

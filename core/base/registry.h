@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Checks that X_KIND.cpp defines an entry of the name X, if entries have names.
+/// Checks that the entry of X_KIND.cpp has the name X, if it has a name.
 template <typename Entry>
 Entry named(std::string_view name, Entry entry) {
   if constexpr (requires { entry.name; }) check(entry.name == name, "an entry has the name of its file");

@@ -11,25 +11,24 @@ namespace glovebench {
 
 // Excerpts are ASCII and short.
 
-/// "?" replaces unprintable bytes.
+/// Replaces unprintable bytes by "?".
 std::string printable(std::string_view text);
 
 /// An excerpt in quotes, escaped as in JSON.
 std::string quoted_excerpt(std::string_view text);
 
-/// A value, or only the kind of an array or object.
+/// An excerpt of a value. Of an array or object: only its kind.
 std::string excerpt(const nlohmann::json& value);
 
-/// "; did you mean NAME?" for the nearest name by edits (a character inserted, removed, replaced, or swapped with
-/// its neighbor; case is ignored). Empty if the edits exceed a third of the characters, or two names are equally
-/// near.
+/// "; did you mean NAME?" for the name with the fewest edits (insert, remove, replace, or swap neighbors; case is
+/// ignored). Empty above one edit per three characters, or if two names are equally near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// "one of horn, robust", with `did_you_mean`.
 std::string one_of(const std::vector<std::string>& names, std::string_view found);
 
-/// True if the text is a safe part of a path. It has 1 to 64 letters, digits, '_', '-', '.' or spaces, and begins
-/// with a letter or digit.
+/// Whether the text is a safe part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces; begins with a
+/// letter or digit.
 bool is_name(std::string_view text);
 inline constexpr const char* kNameExpected =
     "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
@@ -41,8 +40,8 @@ std::string checked_name(std::string name, const std::string& where, const std::
 /// "FOLDER/NAME". The name may contain folders.
 /// Throws: Error for an absolute name, or a part that is empty, begins with a dot or has control characters.
 std::string path_within(const std::string& folder, std::string_view name);
-/// The same for writing or removing.
-/// Throws: Error also if a folder in the name is a symbolic link.
+/// The same, for writing or removing.
+/// Throws: Error as above, and if a folder in the name is a symbolic link.
 std::string place_within(const std::string& folder, std::string_view name);
 
 }  // namespace glovebench

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// The target of an output is a file or a stream (device, pipe, "-", /dev/fd/3): core/base/README.md.
+/// An output goes to a file or a stream (device, pipe, "-", /dev/fd/3): core/base/README.md.
 struct OutputTarget {
   bool is_stream = false;
   int descriptor = -1;  ///< of an open stream
@@ -35,19 +35,19 @@ struct Written {
 };
 Written write_all(int descriptor, std::string_view content);
 
-/// Makes content (not of streams) survive a power failure. Returns 0 or errno.
+/// Makes a file's content survive a power failure. Returns 0 or errno.
 int sync_file(int descriptor);
 
 /// Creates and syncs a folder and its parents. "": the current one.
 /// Throws: Error.
 void make_folders(const std::string& folder);
-/// Makes new names survive a power failure, where the file system can.
+/// Makes new names survive a power failure, if the file system can.
 /// Throws: Error if the disk fails.
 void sync_folder(const std::string& folder);
 /// "." for a plain name.
 std::string folder_above(const std::string& path);
 
-/// Writes a file whole (core/base/README.md). Without `commit` the old file stays. Creates missing folders. Opens
+/// Writes a whole file (core/base/README.md). The old file stays until `commit`. Creates missing folders. Opens
 /// streams at the first `append`.
 /// Throws: Error, from every function.
 class WholeFile {
@@ -58,7 +58,7 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   void append(std::string_view content);
-  /// Reserves zeros on the disk for an empty file and maps them for writing. Not for streams.
+  /// Fills an empty file with zeros on the disk and maps it for writing. Not for streams.
   MappedMemory map(uint64_t bytes);
   /// Makes content and name survive a power failure.
   void commit();
@@ -72,8 +72,7 @@ class WholeFile {
 
 void write_file(const std::string& path, std::string_view content);
 
-/// Removes temporary files of killed writers if `is_such` accepts the target's name. Locked files are in use and
-/// stay.
+/// Removes temporary files of killed writers if `is_such` accepts the target's name. Files in use (locked) stay.
 void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 
 }  // namespace glovebench

@@ -22,20 +22,20 @@ struct Chessboard {
 /// Throws: Error.
 void check_chessboard(const Chessboard& board, const std::string& where);
 
-/// Inner corners row by row, uv_px. One image does not show which end of the board is first.
+/// Inner corners row by row, uv_px. Either end of the board may be first.
 using Corners = std::vector<Eigen::Vector2d>;
 
 /// In the board's frame, m, z = 0.
 std::vector<Eigen::Vector3d> corners_on(const Chessboard& board);
 
-/// With subpixel accuracy. Empty unless the whole board is visible.
+/// To subpixels. Empty unless the whole board is visible.
 std::optional<Corners> find_corners(const Image<uint8_t>& gray, const Chessboard& board);
 
-/// Reverses corners if their rows run opposite to `reference`, the same board from a nearby camera.
+/// Reverses corners if their rows run opposite to those of `reference`, the same board from a nearby camera.
 Corners in_the_order_of(const Corners& reference, Corners corners, const Chessboard& board);
 
 struct BoardView {
-  std::string name;  ///< file without ending, or number in the recording
+  std::string name;  ///< file name without ending, or number in the recording
   Corners corners;
 };
 struct LeftOut {
@@ -50,10 +50,10 @@ struct BoardViews {
   std::vector<std::string> changed = {};  ///< recorded files that differ from the manifest
 };
 
-/// Called before each picture. `done`: earlier pictures.
+/// Called before each picture. `done`: number of earlier ones.
 using Looked = std::function<void(size_t done, size_t count)>;
 
-/// Finds the board in a folder of images, or in at most `most` evenly spaced color images of `fakenect:FOLDER`.
+/// Searches a folder of images, or at most `most` evenly spaced color images of `fakenect:FOLDER`.
 /// Throws: Error without pictures, or if sizes differ.
 BoardViews find_boards(const std::string& source, const Chessboard& board, size_t most, const Looked& looked = {});
 

@@ -8,19 +8,19 @@
 
 namespace glovebench::calibration {
 
-/// Largest error of a kept view or pair: three times the median, at least 0.5 px. `errors_px` must not be empty.
+/// Largest error of a kept view or pair: three times the median, at least 0.5 px. `errors_px` is not empty.
 double misfit_limit(const std::vector<double>& errors_px);
 /// Throws: Error if the RMS error exceeds 2 px.
 void require_fit(double error_px, const std::string& where);
 LeftOut misfit(const std::string& name, double error_px, double limit_px);
 
-/// Fitted coefficients of LensDistortion.
+/// The fitted coefficients of LensDistortion.
 enum class LensModel { none, radial, full };  ///< none; k1, k2, k3; all five
 constexpr auto names_of(LensModel) {
   return std::to_array<std::string_view>({"none", "radial", "full"});
 }
 
-/// Errors are RMS distances of observed and fitted corners.
+/// Errors are RMS distances of observed from fitted corners.
 struct CameraFit {
   PinholeCamera camera;
   LensDistortion lens;
@@ -32,8 +32,8 @@ struct CameraFit {
   std::vector<LeftOut> left_out;
 };
 
-/// Fits a camera by Zhang's method (OpenCV) until no view exceeds misfit_limit.
-/// Throws: Error if too few or too similar views remain, or the fit is bad.
+/// Fits a camera by Zhang's method (OpenCV), leaving out views beyond misfit_limit.
+/// Throws: Error for too few or too similar views, or a bad fit (require_fit).
 CameraFit fit_camera(const BoardViews& views, const Chessboard& board, LensModel lens, const std::string& where);
 
 }  // namespace glovebench::calibration

@@ -20,7 +20,7 @@ inline Chroma chroma_of(const Eigen::Array3d& rgb) {
   const double luma = luma_of(rgb);
   return {(rgb[2] - luma) / (1.772 * luma), (rgb[0] - luma) / (1.402 * luma)};
 }
-/// The color with Y = 1.
+/// With Y = 1.
 inline Eigen::Array3d rgb_of_chroma(const Chroma& chroma) {
   return {1 + 1.402 * chroma[1], 1 - 0.344136 * chroma[0] - 0.714136 * chroma[1], 1 + 1.772 * chroma[0]};
 }
@@ -36,19 +36,19 @@ inline bool is_overexposed(const Rgb& rgb) {
 
 struct KnownChroma {
   Chroma place = Chroma::Zero();
-  double reach = 0;  ///< within it no new peak counts
+  double reach = 0;  ///< no new peak counts within it
 };
 
-/// Density of samples in the chroma plane, smoothed by a Gaussian of peak 1 and deviation `width`. Skips samples
-/// with Y < `min_luma`.
+/// Density of samples in the chroma plane, smoothed by a Gaussian (peak 1, deviation `width`). Skips samples with Y
+/// < `min_luma`.
 class ChromaDensity {
  public:
   ChromaDensity(std::span<const ColorSample> samples, double min_luma, double width);
 
   /// Weighted share of samples around `chroma`. 0 outside -1.2 to 2.
   double at(const Chroma& chroma) const;
-  /// At most `most` local maxima above `share`, highest first, outside the reach and slope of known ones. Peaks
-  /// become known with `reach`.
+  /// At most `most` local maxima above `share`, highest first, outside the reach and slope of known ones. Found
+  /// peaks get `reach`.
   std::vector<Chroma> peaks(std::vector<KnownChroma> known, double reach, double share, size_t most) const;
 
  private:

@@ -25,11 +25,11 @@ struct ColorSample {
 struct MixedSample {
   Rgb rgb{};
   Rgb near{};   ///< nearest even pixel, in the volume
-  Rgb other{};  ///< even pixel within 3 px, most different from `near`
+  Rgb other{};  ///< the even pixel within 3 px that differs most from `near`
   bool other_is_inside = false;
 };
 
-/// A frame in IR pixels. `inside` is 1 for a colored pixel with depth in the volume.
+/// A frame in IR pixels. `inside`: 1 for a colored pixel in the volume.
 struct VolumeView {
   ColorImage color;
   Image<uint8_t> inside;
@@ -51,7 +51,7 @@ class ColorSamples {
   const std::vector<MixedSample>& mixed() const { return mixed_; }
   /// Colored pixels in the volume.
   int64_t inside_pixels() const { return inside_pixels_; }
-  /// Standard deviation of noise in the green channel, 0..255. 0 without pixels in the volume.
+  /// Standard deviation of green noise, 0..255. 0 without pixels in the volume.
   double noise_gray() const;
 
  private:

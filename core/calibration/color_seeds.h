@@ -11,15 +11,14 @@
 
 namespace glovebench::calibration {
 
-/// Chroma of the glove's ten colors at the start of a calibration. Index 0 is unused.
+/// Chroma of the glove's colors at the start of a calibration. Index 0 is unused.
 using ColorSeeds = std::array<Chroma, kColorCount + 1>;
 
 /// The mean of each color's cells.
 /// Throws: Error for a color without cells.
 ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where);
 
-/// Reads {"format": "glovebench-glove-colors", "version": 1, "colors_rgb": [[R, G, B], ...]}: ten colors in the
-/// order of the labels, 0..255, not black.
+/// Reads "glovebench-glove-colors" (README.md). No color may be black.
 /// Throws: Error.
 ColorSeeds parse_glove_colors(std::string_view text, const std::string& where);
 
@@ -29,14 +28,14 @@ ColorSeeds load_seeds(const std::string& path);
 
 /// Change of light and camera between seeds and recording.
 struct RecordedLight {
-  Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< on linear R, G, B; G = 1
-  /// Factor on the chroma: > 1 in weak light, < 1 with haze or reflections.
+  Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< of linear R, G, B; G = 1
+  /// Factor of the chroma: > 1 in weak light, < 1 with haze or reflections.
   double saturation = 1;
 };
 
 ColorSeeds relit(const ColorSeeds& seeds, const RecordedLight& light);
 
-/// Estimates the light that puts the seeds where samples are dense. Without samples: no change.
+/// The light that puts the seeds where samples are dense. Without samples: no change.
 RecordedLight estimate_light(const ColorSeeds& seeds, std::span<const ColorSample> samples, double min_luma);
 
 }  // namespace glovebench::calibration

@@ -22,16 +22,16 @@ struct PatchFit {
 struct HandFit {
   HandShape shape;
   HandSizes deviation{};                ///< standard deviations
-  std::array<bool, kSizeCount> seen{};  ///< the recording tells more than population statistics
+  std::array<bool, kSizeCount> seen{};  ///< the recording tells more than the prior
   std::vector<ArticulatedPose> poses;   ///< one per view
   double residual_before = 0,
-         residual = 0;  ///< mean distance of points from mesh and fitted hand, m
+         residual = 0;  ///< mean distance of points from mesh and from fitted hand, m
   std::array<PatchFit, kPatchCount> patches{};
 };
 
 /// Fits a hand's sizes, with pose and posture in each view. Each round refines the poses, takes a Gauss-Newton step
 /// of all sizes, then shifts the patch borders. Sizes that the views do not show stay near the mesh's. Uses the
-/// caller's TBB arena. Results do not depend on threads.
+/// caller's TBB arena. Threads do not change results.
 HandFit fit_hand_shape(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh);
 
 }  // namespace glovebench::calibration

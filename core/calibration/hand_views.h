@@ -13,16 +13,16 @@ namespace glovebench::calibration {
 struct TrackedView {
   int64_t timestamp_us = 0;
   HandView seen;
-  ArticulatedPose pose;  ///< tracked with other sizes; start of the fit
+  ArticulatedPose pose;  ///< tracked with other sizes; the fit starts here
 };
-/// The view of a frame. Empty if the hand was lost. `inputs`: of the method.
+/// A frame's view. Empty if the hand was lost.
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
 struct ShownMotion {
   int views = 0;
-  double seconds = 0;                ///< from first to last view
+  double seconds = 0;                ///< first to last view
   double turn_deg = 0;               ///< largest angle between two viewing directions
-  std::array<double, 5> bend_deg{};  ///< thumb to little: range of the two middle joints' bending
+  std::array<double, 5> bend_deg{};  ///< thumb to little: range of both middle joints' bend
 };
 ShownMotion motion_of(std::span<const TrackedView> views);
 /// Throws: Error unless there are enough views, the fingers open and close, and the hand turns.

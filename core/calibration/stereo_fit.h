@@ -20,7 +20,7 @@ struct StereoFit {
 };
 
 /// Fits each camera alone, then both to views of the same name, which must show the board in one place.
-/// Throws: Error as fit_camera, and if too few pairs fit or T_rgb_ir is too large for one device.
+/// Throws: Error as fit_camera, and if too few pairs fit, or T_rgb_ir is too large for one device.
 StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board, LensModel lens);
 
 /// README.md lists the keys.

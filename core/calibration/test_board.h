@@ -17,7 +17,7 @@ inline Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector
   return guess;
 }
 
-/// A widely used calibration, with cameras rotated by 1.5 degrees.
+/// A common calibration, with cameras rotated by 1.5 degrees.
 inline RgbdCalibration kinect_with_lenses() {
   RgbdCalibration truth;
   truth.ir = {.width = 640, .height = 480, .fx = 594.21, .fy = 591.04, .cx = 339.31, .cy = 242.74};

@@ -28,7 +28,7 @@ inline RgbdCalibration test_calibration() {
   return {camera, camera, Eigen::Isometry3d::Identity()};
 }
 
-/// Color 1..10, kSkinStripe, or 0 for the table behind.
+/// Color 1..10, kSkinStripe, or 0 for the table.
 inline int stripe_at(int u, int v, const TestScene& scene) {
   const bool inside = u >= kTestMargin && u < kTestWidth - kTestMargin && v >= kTestMargin;
   const int stripe = (v - kTestMargin) / kStripe + 1;

@@ -6,10 +6,9 @@ namespace glovebench {
 
 /// Limits of images from files.
 inline constexpr int kMostSide_px = 4096;
-inline constexpr int kMostPixels = 1 << 21;  // a little over 1920x1080
+inline constexpr int kMostPixels = 1 << 21;  // over 1920x1080
 
-/// A camera without distortion. Axes: x right, y down, z forward. Pixel centers are integers: the image spans
-/// [-0.5, width - 0.5).
+/// Axes: x right, y down, z forward. Pixel centers are integers: the image spans [-0.5, width - 0.5).
 struct PinholeCamera {
   int width = 640;
   int height = 480;

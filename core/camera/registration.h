@@ -6,7 +6,7 @@
 namespace glovebench {
 
 struct RegistrationConfig {
-  /// A surface nearer by more than this on the RGB ray hides a pixel, m, > 0.
+  /// A surface hides a pixel if it is nearer by more than this on the RGB ray, m, > 0.
   double occlusion_tolerance = 0.015;
 };
 
@@ -17,8 +17,8 @@ struct RegisteredImage {
   Image<uint8_t> has_color;  ///< 1 if the RGB camera sees the pixel, else 0
 };
 
-/// Maps colors to the depth image. Inputs are rectified. Pixels that are without depth, hidden, or outside the RGB
-/// image get no color.
+/// Maps colors to the depth image. Inputs must be rectified. Pixels without depth, hidden, or outside the RGB image
+/// get no color.
 RegisteredImage register_color(const DepthImage& depth, const ColorImage& color, const RgbdCalibration& calibration,
                                const RegistrationConfig& config);
 

@@ -10,8 +10,8 @@
 
 namespace glovebench {
 
-/// z = 1 / (a * raw + b), raw: 11-bit disparity. With baseline B, focal length f (px) and disparity d at infinity,
-/// a = -1 / (8 f B), b = d / (8 f B).
+/// z = 1 / (a * raw + b); raw is 11-bit disparity. a = -1 / (8 f B), b = d / (8 f B) for baseline B, focal length f
+/// (px), disparity d at infinity.
 struct DisparityLine {
   double a_per_m = 0;  ///< below 0
   double b_per_m = 0;  ///< above 0
@@ -29,7 +29,7 @@ struct RgbdCalibration {
   LensDistortion ir_lens = {}, rgb_lens = {};                  ///< the device's
 
   bool has_lens() const { return !(ir_lens.is_none() && rgb_lens.is_none()); }
-  /// For rectified images.
+  /// The calibration of rectified images.
   RgbdCalibration rectified() const {
     RgbdCalibration calibration = *this;
     calibration.ir_lens = calibration.rgb_lens = {};
@@ -39,7 +39,7 @@ struct RgbdCalibration {
 
 RgbdCalibration synthetic_calibration();
 
-/// A Kinect by design: IR f 575.816 px, RGB f 525 px, the RGB camera 25 mm to the right. Real colors are some
+/// A nominal Kinect: IR f 575.816 px, RGB f 525 px, RGB camera 25 mm to the right. A real Kinect's colors are some
 /// pixels off.
 RgbdCalibration nominal_kinect_calibration();
 
@@ -54,7 +54,7 @@ nlohmann::json to_json(const RgbdCalibration& calibration);
 
 inline constexpr uint64_t kLargestCalibration = uint64_t{1} << 16;  // bytes
 
-/// A file's text. Keeps the calibration bit for bit.
+/// A file's text. Reading it gives the same calibration bit for bit.
 std::string calibration_text(const RgbdCalibration& calibration);
 /// Throws: Error.
 RgbdCalibration load_calibration(const std::string& path);

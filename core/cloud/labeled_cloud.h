@@ -14,7 +14,7 @@ struct WorkingVolume {
   double z_max = 0.95;  ///< m, > z_min; synthetic table: 1.06
 };
 
-/// Glove pixels this near the volume count as cut off, m.
+/// Glove pixels outside the volume count as cut off within this, m.
 inline constexpr double kCutOffMargin = 0.05;
 
 struct LabeledPoint {
@@ -36,8 +36,8 @@ struct LabeledCloud {
 LabeledCloud build_cloud(const DepthImage& depth, const LabelImage& labels, const PinholeCamera& camera,
                          const WorkingVolume& volume);
 
-/// Pixel counts of connected components, largest first. Neighbors (8) connect if depths differ by at most
-/// `depth_step`, m.
+/// Pixel counts of components, largest first. 8-neighbors connect if their depths differ by at most `depth_step`,
+/// m.
 RecycledVector<int> component_sizes(const LabeledCloud& cloud, double depth_step);
 /// Keeps the largest component. Not in the paper.
 LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step);

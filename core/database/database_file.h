@@ -14,7 +14,6 @@
 
 namespace glovebench {
 
-/// Other versions are refused.
 inline constexpr int kDatabaseVersion = 5;
 
 struct DatabaseHeader {
@@ -26,15 +25,15 @@ struct DatabaseHeader {
   std::set<int> sizes_px;
 };
 
-/// A part of the file. Its pieces are hashed in parallel.
+/// A part of the file. Pieces are hashed in parallel.
 struct Section {
   enum class Kind { box_rays, labels, fields };
 
   Kind kind = Kind::box_rays;
   int size_px = 0;  ///< 0: all sizes
   uint64_t offset = 0;
-  uint64_t bytes = 0;        ///< 0: fields in low memory, only hashed
-  uint64_t piece_bytes = 0;  ///< of kPieceEntries entries
+  uint64_t bytes = 0;  ///< 0: fields of low memory, which are only hashed
+  uint64_t piece_bytes = 0;
 
   std::string name() const;
 };
@@ -44,14 +43,14 @@ struct SizeSections {
 };
 
 /// A database's bytes, little-endian: magic, length and checksum of a JSON header, the header, then sections of
-/// whole pages, each followed by at least kBehind zero bytes.
+/// whole pages. At least kBehind zero bytes follow each section.
 class DatabaseLayout {
  public:
   static constexpr uint64_t kBehind = 64;
   static constexpr int kPieceEntries = 54;
 
   explicit DatabaseLayout(DatabaseHeader header);
-  /// Throws: Error if the bytes are no complete database.
+  /// Throws: Error unless the bytes are a complete database.
   DatabaseLayout(std::span<const uint8_t> file, const std::string& path);
 
   const DatabaseHeader& header() const { return header_; }
@@ -59,14 +58,14 @@ class DatabaseLayout {
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
   int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
-  /// Sections in file order, with fields that are not stored.
+  /// Sections in file order, also of fields that are not stored.
   std::vector<Section> sections() const;
-  /// Hash of angles, box rays, labels and fields. Equal for both memory modes.
+  /// Hash of angles, box rays, labels and fields. Memory modes do not change it.
   std::string content_hash() const;
 
   /// Writes the header with hashes.
   void seal(MappedMemory& file);
-  /// Checks the sections of these sizes and makes rows of their fields.
+  /// Checks the sections of these sizes and makes their rows.
   /// Throws: Error for a wrong hash or value.
   std::map<int, FieldRows> read_sections(const MappedMemory& file, const std::string& path,
                                          std::span<const int> sizes_px) const;

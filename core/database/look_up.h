@@ -18,7 +18,7 @@ struct CascadeStage {
 };
 using Cascade = std::vector<CascadeStage>;
 
-/// Reads "16:500,64:3". "exact:3" means "64:3".
+/// Reads "16:500,64:3", or "exact:3" for "64:3".
 /// Throws: Error for a malformed or impossible stage.
 Cascade parse_cascade(std::string_view text);
 std::string to_string(const Cascade& cascade);
@@ -33,7 +33,7 @@ struct TinyImages {
 };
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade);
 
-/// Mean distance from the query's glove pixels to the entry's nearest pixel of the same color, px. 0 without glove
+/// Mean distance from a glove pixel of the query to the entry's nearest pixel of its color, px. 0 without glove
 /// pixels.
 /// Paper: equation (2).
 float distance(const Database& database, int entry, const LabelImage& query);
@@ -45,7 +45,7 @@ struct LookUpTrace {
   std::vector<std::vector<int>> kept;
 };
 
-/// All searches give the same matches and trace. X_look_up.cpp in core/database/look_ups defines `LookUpEntry
+/// A search. All give equal matches and traces. X_look_up.cpp in core/database/look_ups defines `LookUpEntry
 /// X_look_up()`.
 struct LookUpEntry {
   std::string_view name;
@@ -56,7 +56,7 @@ struct LookUpEntry {
 /// Sorted by name.
 std::span<const LookUpEntry> look_ups();
 
-/// Each stage ranks what the previous one kept: best first, equal errors by entry number. Empty without glove
+/// Each stage ranks the entries that the stage before kept: best first, equal errors by number. Empty without glove
 /// pixels. `name`: of `look_ups`.
 /// Throws: Error for an unknown name.
 /// Paper: section III-B.

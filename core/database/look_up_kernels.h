@@ -15,7 +15,7 @@ struct QueryLabels {
   alignas(64) uint8_t labels[kLargest] = {};
 };
 
-/// 64 bytes of a field, read where the query has its color.
+/// 64 bytes of a field, with the query's pixels of its color.
 struct FieldChunk {
   uint32_t field;   ///< offset from the entry's first field, bytes
   uint16_t pixels;  ///< first pixel of the query
@@ -24,12 +24,13 @@ struct FieldChunk {
 
 // Inner loops (Highway). All instruction sets give equal results.
 
-/// Weighted sums of rows for each entry, at most 65535, and each block's minimum. `sums` has room for whole blocks.
+/// Weighted sums of rows for each entry, at most 65535, and their minimum per block. `sums` has room for whole
+/// blocks.
 void add_rows(const FieldRows& field_rows, std::span<const WeightedRow> rows, std::span<uint16_t> sums,
               std::span<uint16_t> block_minima);
 
-/// The sum over the chunks, or any number above `limit` if it is larger. Prefetches `next` unless null. Reads up to
-/// 63 bytes behind the fields.
+/// The sum over the chunks; if above `limit`, any number above it. Prefetches `next` unless null. Reads up to 63
+/// bytes behind the fields.
 uint32_t add_chunks(const uint8_t* fields, const QueryLabels& query, std::span<const FieldChunk> chunks,
                     uint32_t limit, const uint8_t* next);
 

@@ -8,7 +8,7 @@
 namespace glovebench {
 
 struct Candidate {
-  uint32_t sum = 0;  ///< of distances over glove pixels, 1/kFieldScale px
+  uint32_t sum = 0;  ///< of distances, 1/kFieldScale px
   int entry = 0;
 
   friend auto operator<=>(const Candidate&, const Candidate&) = default;
@@ -19,7 +19,7 @@ inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
   return static_cast<float>(sum) / static_cast<float>(kFieldScale * glove_pixels);
 }
 
-/// Offsets into an entry's fields, one for each glove pixel of the query.
+/// Offsets into an entry's fields, one per glove pixel of the query.
 RecycledVector<int> glove_offsets(const LabelImage& query);
 /// In 1/kFieldScale px, at most 4096 * 255.
 uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets);
@@ -43,7 +43,7 @@ class EntryFields {
  public:
   /// Throws: Error if the query's size is not loaded.
   EntryFields(const Database& database, const LabelImage& query);
-  /// As Database::fields, but undefined for colors that the query lacks. Valid until the next call.
+  /// As Database::fields, undefined for colors that the query lacks. Valid until the next call.
   const uint8_t* of(int entry);
 
  private:

@@ -7,13 +7,13 @@
 
 namespace glovebench {
 
-/// Distances of low-memory entries to one query. Makes fields color by color until the entry is too far.
+/// Distances of low-memory entries to a query. Makes fields color by color until the entry is too far.
 class MadeDistances {
  public:
   /// Throws: Error if the query's size is not loaded.
   MadeDistances(const Database& database, const LabelImage& query);
 
-  /// The sum over glove pixels, 1/kFieldScale px, or any number above `limit` if it is larger.
+  /// The sum over glove pixels, 1/kFieldScale px; if above `limit`, any number above it.
   uint32_t sum(int entry, uint32_t limit) const;
 
  private:

@@ -16,10 +16,10 @@ inline constexpr int kCameraPositions = 42;   ///< once subdivided icosahedron (
 inline constexpr int kInPlaneRotations = 18;  ///< 20 degrees apart
 inline constexpr int kViewCount = kCameraPositions * kInPlaneRotations;
 
-/// Unit vectors to an icosahedron's corners and edge midpoints.
+/// Unit vectors to corners and edge midpoints of an icosahedron.
 std::vector<Eigen::Vector3d> camera_directions();
 
-/// R_view_hand of cameras that look at the hand origin. View = position * 18 + rotation.
+/// R_view_hand of cameras that look at the hand's origin. View = position * 18 + rotation.
 const std::vector<Eigen::Matrix3d>& view_rotations();
 
 /// 0 off the hand.
@@ -29,7 +29,7 @@ struct HandImages {
   DepthImage depth;      ///< z, m
 };
 
-/// Use it in one thread.
+/// For one thread.
 class ViewRenderer {
  public:
   virtual ~ViewRenderer() = default;

@@ -48,7 +48,7 @@ struct GlovedMesh {
   std::vector<Triangle> triangles;
 };
 
-/// Patches of one color lie far apart, even in a fist. Front and back of the palm differ.
+/// Patches of one color are far apart, even in a fist.
 const std::array<uint8_t, kPatchCount>& patch_labels();
 /// Bit p: the angle moves patch p.
 const std::array<uint32_t, kAngleCount>& patches_moved();

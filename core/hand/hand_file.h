@@ -23,7 +23,7 @@ struct MeasuredHand {
 inline constexpr uint64_t kLargestHandFile = uint64_t{64} << 10;  // bytes
 
 /// Reads a versioned JSON object.
-/// Throws: Error if it is incomplete, of another version or mesh, or no hand has the size.
+/// Throws: Error if it is incomplete, of another version or mesh, or has impossible sizes.
 MeasuredHand hand_from_json(const nlohmann::json& json, const std::string& where);
 nlohmann::ordered_json to_json(const MeasuredHand& hand);
 /// Throws: Error.

@@ -21,15 +21,14 @@ struct PosedHand {
   JointPoses T_hand_joint;
 };
 
-/// The gloved hand: kinematics, linear blend skinning, closed mesh.
+/// The gloved hand: skeleton, linear blend skinning, closed mesh.
 class HandModel {
  public:
   /// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20.
   /// Throws: Error if the file is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
-  /// This hand with sizes multiplied by `factors`. Patches keep their places on the skin; `load` with such a shape
-  /// derives them anew.
+  /// This hand with sizes multiplied by `factors`. Patches keep their places on the skin, unlike those of `load`.
   HandModel stretched(const HandSizes& factors) const;
 
   PosedHand pose(const Posture& posture) const;

@@ -7,16 +7,16 @@
 
 namespace glovebench {
 
-/// Sizes are factors on the package's mesh. `kScale` is of the whole hand; others are relative to it. Segments:
-/// metacarpal, proximal, distal of the thumb; proximal, intermediate, distal of index, middle, ring, little.
+/// Sizes are factors on the package's mesh. `kScale` is the whole hand's; others are relative to it. Segments:
+/// thumb metacarpal, proximal, distal; index, middle, ring, little proximal, intermediate, distal.
 inline constexpr int kSegmentCount = 15;
 enum HandSize : int {
   kScale,
   kPalmBreadth,
   kPalmThickness,
-  kKnuckleArch,      ///< palmar distance of the other MCPs from the middle one
-  kThumbPalmLength,  ///< from wrist to the thumb's first joint, along the palm
-  kIndexPalmLength,  ///< to the MCP; the middle finger has none
+  kKnuckleArch,      ///< palmar distance of other MCPs from the middle one
+  kThumbPalmLength,  ///< wrist to the thumb's first joint, along the palm
+  kIndexPalmLength,  ///< wrist to MCP; the middle finger has none
   kRingPalmLength,
   kLittlePalmLength,
   kSegmentLengths,  ///< first of kSegmentCount
@@ -29,7 +29,7 @@ inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
 /// Names in files, such as "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();
 
-/// How a gloved hand differs from the package's mesh.
+/// A gloved hand's differences from the package's mesh.
 struct HandShape {
   HandSizes sizes = [] {
     HandSizes ones;
@@ -39,11 +39,10 @@ struct HandShape {
   double patch_border_shift = 0;  ///< towards the fingertips, m
 };
 
-/// 5% larger, segments +-8%, patch borders shifted by 2 mm.
+/// Subject 2 (render/README.md).
 HandShape second_subject();
 
-/// Scales the hand and stretches palm and segments, without `patch_border_shift`. `mesh`: hand frame, bind pose,
-/// with forearm.
+/// Applies the sizes, not `patch_border_shift`. `mesh`: hand frame, bind pose, with forearm.
 RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
 }  // namespace glovebench

@@ -32,7 +32,7 @@ inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28
 /// Throws: Error as HandModel::load.
 RiggedMesh load_rigged_mesh(const std::string& path);
 
-/// Replaces the cap at the wrist by a forearm of `length` m, blended in over +-12 mm. `hand`: hand frame.
+/// Replaces the wrist's cap by a forearm of `length` m, blended over +-12 mm. `hand`: hand frame.
 RiggedMesh with_forearm(const RiggedMesh& hand, double length);
 
 }  // namespace glovebench

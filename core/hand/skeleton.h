@@ -34,11 +34,11 @@ class Skeleton {
   explicit Skeleton(const JointPoses& T_hand_joint_bind);
 
   JointPoses pose(const Posture& posture) const;
-  /// Unit axis of each angle, right-handed, hand frame.
+  /// Unit axes of the angles, right-handed, hand frame.
   std::array<Eigen::Vector3d, kAngleCount> axes(const JointPoses& T_hand_joint) const;
   const Posture& bind_posture() const { return bind_posture_; }
 
-  /// A joint's position in its parent's frame (without parent: hand frame), m.
+  /// A joint's position in its parent's frame (else the hand frame), m.
   const Eigen::Vector3d& offset(int joint) const { return joints_.at(joint).offset; }
   void set_offset(int joint, const Eigen::Vector3d& offset) { joints_.at(joint).offset = offset; }
 

@@ -21,7 +21,7 @@ class FrameError : public Error {
   using Error::Error;
 };
 
-/// A source of frames. Depth and color are paired by time.
+/// A source of frames.
 class Device {
  public:
   virtual ~Device() = default;

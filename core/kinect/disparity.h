@@ -11,14 +11,14 @@ namespace glovebench {
 
 /// Kinect v1: z_mm = 345489 / (1089.41 - raw), from f 575.816 px, baseline 75 mm and steps of 1/8 px.
 inline constexpr uint16_t kNoDisparity = 2047;
-inline constexpr uint16_t kMaxDisparity = 1083;  ///< beyond it the formula is useless
+inline constexpr uint16_t kMaxDisparity = 1083;  ///< the formula is useless beyond
 
 /// m; 0 above kMaxDisparity.
 float depth_from_disparity(uint16_t raw);
-/// The nearest step. kNoDisparity if z (m) is not finite, not positive or out of range.
+/// The nearest step. kNoDisparity unless z (m) is finite, positive and in range.
 uint16_t disparity_from_depth(double z);
 
-/// Without a line, uses the formula. No depth outside the formula's 0..54 m.
+/// Empty: the formula above. No depth outside its 0..54 m.
 using OptionalLine = std::optional<DisparityLine>;
 float depth_from_disparity(uint16_t raw, const OptionalLine& line);
 uint16_t disparity_from_depth(double z, const OptionalLine& line);

@@ -10,14 +10,14 @@
 
 namespace glovebench {
 
-/// The Kinect's clock has 60 MHz and 32 bits. It wraps every 71.6 s.
+/// The Kinect's clock: 60 MHz, 32 bits, wraps every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
-/// Converts ticks to microseconds without wraps. Successive stamps must be less than 35.8 s apart.
+/// Converts ticks to microseconds without wraps. Successive stamps must be less than half a wrap apart.
 class TickClock {
  public:
   TickClock() = default;
-  /// `first_us`: the first stamp's time, within half a wrap. Magnitude below 1.5e17.
+  /// `first_us`: time of the first stamp, to half a wrap. Magnitude below 1.5e17.
   explicit TickClock(int64_t first_us) : first_us_(first_us) {}
 
   int64_t microseconds(uint32_t ticks) {
@@ -42,10 +42,10 @@ struct PairingRules {
   size_t max_waiting = std::numeric_limits<size_t>::max();  ///< of each kind
 };
 
-/// Pairs each depth image with the color image nearest in time, the earlier of two. A depth image waits for a color
-/// image that is not before it, until depth is `max_gap_us` ahead, more than `max_waiting` wait, or `finish`.
-/// Copies color images. Pairs come in order of time. Drops an image that is not later than its kind's last. A
-/// restart of the clock drops waiting images instead, and times go back.
+/// Pairs each depth image with a copy of the color image nearest in time (of two, the earlier). A depth image waits
+/// for a color image that is not earlier, at most until depth is `max_gap_us` ahead, more than `max_waiting` wait,
+/// or `finish`. Pairs come in order of time. Drops an image that is not later than its kind's last. If the clock
+/// restarts, drops waiting images instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
  public:
@@ -71,7 +71,7 @@ class FramePairer {
     pair_up();
     if (colors_.size() > rules_.max_waiting) colors_.pop_front();
   }
-  /// Pairs the waiting images. No push may follow.
+  /// Pairs waiting images. No push may follow.
   void finish() {
     finished_ = true;
     pair_up();
@@ -84,7 +84,7 @@ class FramePairer {
   }
 
   int unpaired() const { return unpaired_; }
-  /// Images not later than their kind's last.
+  /// Images dropped because they were not later.
   int went_back() const { return went_back_; }
 
  private:

@@ -10,33 +10,33 @@
 
 namespace glovebench {
 
-/// A recording: a folder as of libfreenect's fakenect, and two more files:
+/// A recording is a folder of libfreenect's fakenect with two more files:
 ///     INDEX.txt                         file names, one a line, in order of arrival
 ///     d-SECONDS.MICROS-TICKS.pgm        "P5 640 480 65535", raw disparity, 16-bit little-endian
 ///     r-SECONDS.MICROS-TICKS.ppm        "P6 640 480 255", RGB
 ///     a-SECONDS.MICROS-TICKS.dump       accelerometer, ignored
 ///     calibration.json                  rgbd_calibration.h
 ///     manifest.json                     core/base/file_set.h; optional
-/// SECONDS.MICROS is the arrival by the computer's clock, TICKS the image's time by the device's (TickClock). An
-/// image's time stamp is that of its ticks, in the round nearest to the arrival.
+/// SECONDS.MICROS is the arrival by the computer's clock, TICKS the time by the device's clock (TickClock). An
+/// image's time stamp is its ticks without wraps, nearest to the arrival.
 
 /// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
  public:
-  /// `calibration` replaces the folder's. Recordings of fakenect have none.
+  /// `calibration` replaces the folder's. fakenect's recordings have none.
   /// Throws: Error if index or calibration is missing or malformed, a file is listed twice, or there is no pair.
   explicit RecordingDevice(const std::string& folder,
                            const std::optional<RgbdCalibration>& calibration = std::nullopt);
 
   const RgbdCalibration& calibration() const override { return calibration_; }
-  /// Throws: FrameError for an image that is malformed or differs from the manifest.
+  /// Throws: FrameError if an image is malformed or differs from the manifest.
   std::optional<DeviceFrame> next_frame() override;
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
   /// Images with a repeated time stamp.
   int repeated_count() const { return repeated_count_; }
-  /// Calibration and index, if they differ from the manifest.
+  /// Those of calibration and index that differ from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }
 
  private:
@@ -53,7 +53,7 @@ class RecordingDevice : public Device {
   int repeated_count_ = 0;
 };
 
-/// Writes frames as a recording. It plays back equal if each color image is the nearest to its depth image.
+/// Writes a recording. It plays back equal frames if each color image is the nearest to its depth image.
 class RecordingWriter {
  public:
   /// Throws: Error if the folder has a recording or cannot be written.
@@ -62,7 +62,7 @@ class RecordingWriter {
   /// Depth time stamps must rise. An equal color time stamp means the same image.
   /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
-  /// Completes the recording. Without it all frames are lost.
+  /// Completes the recording. Otherwise all frames are lost.
   /// Throws: Error without frames.
   void finish();
 

@@ -19,9 +19,9 @@ class Rectification {
   /// Throws: Error as `require_unfolded`.
   Rectification(const PinholeCamera& camera, const LensDistortion& lens);
 
-  /// Takes the nearest pixel. Pixels from outside are 2047.
+  /// Takes the nearest pixel; 2047 outside.
   Image<uint16_t> operator()(const Image<uint16_t>& raw_disparity) const;
-  /// Interpolates. Pixels from outside are black.
+  /// Interpolates; black outside.
   ColorImage operator()(const ColorImage& color) const;
 
  private:
@@ -46,7 +46,7 @@ class RectifiedDevice : public Device {
   std::optional<Rectification> ir_, rgb_;
 };
 
-/// Rectifies a device whose calibration has a lens.
+/// Rectifies a device if its calibration has a lens.
 std::unique_ptr<Device> without_lens_distortion(std::unique_ptr<Device> device);
 
 }  // namespace glovebench

@@ -12,35 +12,36 @@
 namespace glovebench {
 
 struct HandObservation {
-  std::span<const LabeledPoint> points;  ///< camera frame, m; without doubtful depths
+  std::span<const LabeledPoint> points;  ///< camera frame, m; no doubtful depths
   const HandMask& mask;
   const PinholeCamera& camera;
 };
 
-/// Gauss-Newton steps. Pairs are first and last value. Widths and weights change in equal ratios, shares in equal
+/// Gauss-Newton steps. Pairs are first and last values. Widths and weights change by equal ratios, shares by equal
 /// steps.
 struct FitStage {
   int steps;                ///< >= 1
-  int rigid_steps;          ///< the first, which move only the pose
+  int rigid_steps;          ///< steps at the start that move only the pose
   int max_points;           ///< uniform stride
   double tukey_mm[2];       ///< farther points have no weight
-  double start_weight[2];   ///< of the start's posture, per square degree
-  double tangential[2];     ///< relative weight of a distance along the surface
+  double start_weight[2];   ///< pull to the start's posture, per square degree
+  double tangential[2];     ///< weight of a distance along the surface, relative to the normal
   bool outline_moves_pose;  ///< false: only the angles
 };
-/// Each start runs `trial`, the best of them `rough`, the best of those `fine`. Weights are for 1,000 points.
+/// All starts run `trial`, the best `kept_starts` run `rough`, the best of these runs `fine`. Weights are for 1,000
+/// points.
 struct FitSchedule {
   FitStage trial{4, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
   FitStage rough{6, 0, 1000, {25, 12}, {0.04, 0.01}, {0.17, 0}, true};
   FitStage fine{3, 0, 8000, {12, 4}, {0.01, 0.005}, {0, 0}, false};
-  int kept_starts = 2;             ///< that run `rough`
-  double previous_weight = 0.003;  ///< of the previous posture, per square degree
+  int kept_starts = 2;
+  double previous_weight = 0.003;  ///< pull to the previous posture, per square degree
   double outline_weight = 1;       ///< of a vertex outside the mask
   int outline_stride = 3;          ///< every nth vertex
-  double score_cut_mm = 15;        ///< limit of distances when starts are compared
+  double score_cut_mm = 15;        ///< cap on distances when starts are compared
 };
 
-/// An angle that moves fewer points is hidden.
+/// An angle is hidden if it moves fewer points.
 inline constexpr int kSeenPoints = 30;
 
 struct ArticulatedEstimate {
@@ -55,7 +56,7 @@ struct ArticulatedEstimate {
   uint32_t hidden = 0;                  ///< bit a: angle a
 };
 
-/// The bodies that move a face, and their shares in each corner.
+/// The bodies that move a face, with their shares at each corner.
 struct FaceBodies {
   static constexpr int kMost = 8;
   int count = 0;

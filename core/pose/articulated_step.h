@@ -25,7 +25,7 @@ struct Pull {
   double distance_mm = 0;
   double weight = 1;
 };
-/// Motion along the pull's direction per degree of rotation and mm of translation.
+/// Motion along the pull's direction, per degree of rotation and mm of translation.
 Vector6d row_of(const Pull& pull);
 
 /// H step = g.
@@ -84,7 +84,7 @@ class PullSums {
   std::array<Vector6d, kBodyCount> sums_;
 };
 
-/// Solves H step = g within joint limits (active set). `only_pose` fixes all angles. Empty if a motion is
+/// Solves H step = g within joint limits (active set). `only_pose` fixes the angles. Empty if a motion is
 /// undetermined.
 std::optional<StepVector> solve_within_limits(const NormalEquations& equations, const Posture& posture,
                                               bool only_pose = false);

@@ -19,7 +19,7 @@ class Surface {
     uint32_t triangle;  ///< in the model
   };
   enum class Coloring { by_color, any_color };
-  /// Label of all with `any_color`.
+  /// The label of all faces with `any_color`.
   static constexpr uint8_t kAnyColor = 0;
 
   Surface() = default;
@@ -39,7 +39,7 @@ class Surface {
   std::array<RecycledVector<Face>, kColorCount + 1> faces_;
 };
 
-/// Mean of the seen faces, weighted by visible area. Hand frame, m. The origin if none are seen.
+/// Mean of the camera-facing faces, weighted by visible area. Hand frame, m. The origin if there are none.
 Eigen::Vector3f seen_center(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand);
 
 struct ClosestPoint {
@@ -51,8 +51,8 @@ struct ClosestPoint {
 /// Ericson, Real-Time Collision Detection, section 5.1.5.
 Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Face& face);
 
-/// Searches all faces of each point's label. The first of equally near ones wins. Points without a finite squared
-/// distance get face -1.
+/// Searches all faces of each point's label. Of equally near faces the first wins. Without a finite squared
+/// distance the face is -1.
 RecycledVector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand,
                                                   const Surface& surface);
 

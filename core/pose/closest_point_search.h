@@ -11,10 +11,10 @@ namespace glovebench {
 
 /// Neighboring points of one color, searched together.
 struct PointGroup {
-  static constexpr int kPoints = 16;  ///< at most; fewer for short vectors
+  static constexpr int kPoints = 16;  ///< at most
 
   int32_t points[kPoints];   ///< indices, padded with the last
-  int32_t nearest[kPoints];  ///< distinct nearest faces of the last call, in FacePackets::faces
+  int32_t nearest[kPoints];  ///< distinct nearest faces in the last call, in FacePackets::faces
   int count = 0;
   int nearest_count = 0;  ///< 0 before the first call
   uint8_t label = 0;
@@ -34,13 +34,13 @@ struct SearchWork {
   int64_t boxes = 0;
 };
 
-/// Gives the results of `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`), faster.
-/// Serves one set of points that moves little between calls. Later calls do not allocate.
+/// Gives the results of `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`), faster. For
+/// one set of points that moves little between calls. Later calls allocate nothing.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;
   explicit ClosestPointSearch(const Surface& surface) { start(surface); }
-  /// Copies another surface. Points start at their last faces that remain.
+  /// Copies a new surface. Points start at their last faces if these remain.
   void start(const Surface& surface);
   /// Valid until the next call.
   const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);

@@ -19,7 +19,7 @@ struct alignas(64) Boxes {
 /// Faces of one color.
 struct FacePackets {
   static constexpr int kFaces = 8;     ///< per packet
-  static constexpr int kPackets = 16;  ///< per group, for the widest vectors
+  static constexpr int kPackets = 16;  ///< per group
 
   struct alignas(64) Face {
     float a[3], b[3], c[3];
@@ -36,7 +36,7 @@ struct FacePackets {
   void assign(std::span<const Surface::Face> surface_faces);
 };
 
-/// Rounding may place the closest point of a thin face outside it by blur * D^2, D being the point's distance.
+/// Rounding may place the closest point of a thin face up to blur * D^2 outside it, for a point at distance D.
 /// Infinite without area.
 float rounding_blur(const Surface::Face& face);
 

@@ -16,13 +16,13 @@ struct PixelBox {
 /// Around the labeled pixels, within the image. Empty without any.
 PixelBox label_box(const LabelImage& labels, int margin);
 
-/// Pixels that may show the hand: near ones and those without depth. Others store the offset to the nearest of them
-/// (Danielsson 1980, within 1 px).
+/// Pixels that may show the hand: near ones and those without depth. Others store the offset to the nearest one
+/// (Danielsson 1980, to 1 px).
 class HandMask {
  public:
   /// `farthest`: limit of the hand's depth, m.
   void assign(const DepthImage& depth, const Image<uint16_t>& raw_disparity, const PixelBox& box, float farthest);
-  /// From a position to the nearest mask pixel, px. Empty within 1 px or without a mask.
+  /// From a position to the nearest mask pixel, px. Empty within 1 px of it, or without a mask.
   std::optional<Eigen::Vector2d> way_back_px(const Eigen::Vector2d& uv_px) const;
 
  private:

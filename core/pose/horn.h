@@ -6,8 +6,7 @@
 
 namespace glovebench {
 
-/// T_to_from with the least mean squared distance (Horn 1987). Empty for fewer than three points or points on a
-/// line.
+/// T_to_from with the least mean squared distance (Horn 1987). Empty for fewer than three points or on a line.
 /// Paper: reference 23.
 std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> from,
                                               std::span<const Eigen::Vector3f> to);

@@ -11,20 +11,21 @@
 
 namespace glovebench {
 
-/// Both searches give equal results. `plain` follows the paper line by line.
+/// Both give equal results. `plain` follows the paper line by line.
 enum class Implementation { plain, fast };
 constexpr auto names_of(Implementation) {
   return std::to_array<std::string_view>({"plain", "fast"});
 }
 
 struct IcpConfig {
-  std::string algorithm = "horn";      ///< a name of `alignments`
-  bool center_visible_surface = true;  ///< false: the hand's origin starts at the cloud's center of gravity
-  int max_points = 1000;               ///< at most, by uniform stride, >= 3
-  int subsampling_factor = 0;          ///< every nth point (Figure 9), >= 0; 0: by `max_points`
-  int max_iterations = 100;            ///< >= 1
-  double convergence_share = 1e-3;     ///< stops when the mean distance changes by a smaller share, > 0
-  bool cull_each_iteration = false;    ///< false: only before the first iteration (the paper)
+  std::string algorithm = "horn";  ///< a name of `alignments`
+  bool center_visible_surface =
+      true;                          ///< the visible surface starts at the cloud's center; false: the hand's origin
+  int max_points = 1000;             ///< uniform stride, >= 3
+  int subsampling_factor = 0;        ///< every nth point (Figure 9); 0: by `max_points`
+  int max_iterations = 100;          ///< >= 1
+  double convergence_share = 1e-3;   ///< stop if the mean distance changes by a smaller share, > 0
+  bool cull_each_iteration = false;  ///< false: only before the first iteration (the paper)
   Implementation implementation = Implementation::fast;  ///< of the closest-point search
   bool color_sensitive = true;                           ///< false: any color
 };
@@ -40,11 +41,12 @@ struct Alignment {
 };
 
 RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
-/// Takes the smallest stride that leaves at most `max_points`.
+/// Takes every nth point, for the smallest n that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
-/// The given rotation; puts the center of the camera-facing faces, or else the hand's origin, at the cloud's
-/// center. Paper: section III-C.
+/// Has the given rotation. Puts the center of the camera-facing faces, else the hand's origin, at the cloud's
+/// center.
+/// Paper: section III-C.
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points, bool center_visible_surface = true);
 
@@ -52,13 +54,13 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
 struct AlignmentEntry {
   std::string_view name;
   std::string_view description;
-  /// `points`: at least 3, camera frame, m, labeled as the surface's faces. `config` limits the iterations.
+  /// `points`: at least 3, camera frame, m, labeled like the surface.
   Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                      const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 };
 std::span<const AlignmentEntry> alignments();
 
-/// Aligns part of the cloud, each point to the closest visible triangle of its color.
+/// Aligns subsampled points with the closest visible triangles of their colors.
 /// Throws: Error for an unknown alignment.
 /// Paper: section III-C, equation (3).
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,

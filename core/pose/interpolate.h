@@ -17,9 +17,8 @@ struct CoarseEstimate {
   bool ambiguous = false;  ///< two rotations differ by more than 60 degrees
 };
 
-/// Mean of the matches with weights 1 / (E + epsilon); rotations by Markley's quaternion mean. View rotations refer
-/// to the ray through the hand and are turned to `query_ray` (unit, camera frame; empty: not turned). `matches` is
-/// not empty.
+/// Mean of the matches with weights 1 / (E + epsilon), of rotations by `mean_rotation`. A view's rotation refers to
+/// the ray to its hand; turns it to `query_ray` (unit, camera frame; empty: not turned). `matches` is not empty.
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
                            const std::optional<Eigen::Vector3d>& query_ray, double epsilon);
 

@@ -8,7 +8,7 @@
 
 namespace glovebench {
 
-/// Orders points by label (at most 15), then along a Morton curve through 64 x 64 x 64 cells.
+/// Orders points by label (at most 15), then along a Morton curve of 64 x 64 x 64 cells.
 class PlaceOrder {
  public:
   /// Indices into `points`, valid until the next call.

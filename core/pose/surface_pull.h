@@ -9,7 +9,7 @@ namespace glovebench {
 double tukey_weight(double distance, double width);
 
 struct SurfacePull {
-  Pull pull;                 ///< along the normal inside a face, else along the line between both
+  Pull pull;                 ///< along the normal inside a face, else along the connecting line
   Eigen::Vector3d apart_mm;  ///< from surface to point, hand frame
   Eigen::Vector3d barycentric;
 };

@@ -14,16 +14,16 @@ struct CommandLimits {
   double hand_turn_speed = 1.5;  ///< rad/s
   double fingertip_speed = 0.5;  ///< m/s
   double arm_speed_share = 1;    ///< of `arm_joint_infos`, 0..1
-  /// For the hand's origin and fingertips, arm's base frame, m. Sides are at least 0.3 m.
+  /// For the hand's origin and fingertips; arm's base frame, m; sides >= 0.3 m.
   Eigen::Vector3d workspace_min{-1.5, -1.5, 0};
   Eigen::Vector3d workspace_max{1.5, 1.5, 2};
-  /// Speeds limit a step as if it took at most this time.
+  /// For speed limits, a step takes at most this time.
   double longest_step_s = 0.1;
   double silence_s = 0.15;                           ///< without commands for longer: holding
   double stop_after_s = 0.5;                         ///< lost or silent for longer: stopped; at least silence_s
   ShadowCoupling coupling = ShadowCoupling::series;  ///< not in the file of limits
 
-  /// One per problem.
+  /// One line per problem.
   std::vector<std::string> problems() const;
 };
 

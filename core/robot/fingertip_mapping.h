@@ -5,11 +5,11 @@
 
 namespace glovebench {
 
-/// Fingertips of the right hand, thumb to little. Hand frame, m.
+/// Of the right hand.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
-/// Maps postures so that a pinch stays a pinch (core/robot/README.md). Far from a pinch, this is the direct
-/// mapping. Starts at the last result and moves the motors, except the wrist's, as little as possible.
+/// Maps a pinch to a pinch (core/robot/README.md). Far from a pinch, equals the direct mapping. Starts at the last
+/// result and moves the motors (not the wrist's) as little as possible.
 class FingertipMapping {
  public:
   explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)
@@ -23,7 +23,7 @@ class FingertipMapping {
  private:
   Skeleton skeleton_;
   ShadowCoupling coupling_;
-  /// The last result minus the direct mapping, rad.
+  /// Last result minus direct mapping, rad.
   Eigen::Matrix<double, kShadowActuatorCount, 1> last_ = Eigen::Matrix<double, kShadowActuatorCount, 1>::Zero();
 };
 

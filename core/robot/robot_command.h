@@ -22,31 +22,31 @@ struct RobotTargets {
 /// Paper: section V.
 struct RobotCommand {
   int64_t frame_timestamp_us = 0;
-  int64_t timestamp_us = 0;  ///< of its frame, or the guard's time
+  int64_t timestamp_us = 0;  ///< of the frame, or the guard's time
   TrackStatus status = TrackStatus::no_hand;
-  bool hold = true;  ///< lost: the last targets repeat
+  bool hold = true;  ///< the frame is lost; the last targets repeat
   CommandState state = CommandState::stopped;
   std::optional<RobotTargets> targets;  ///< empty before the first tracked frame
   Interventions interventions;          ///< since the last command
 };
 
-/// The synthetic camera (core/robot/README.md). The top of its image points away from the arm.
+/// The synthetic camera (core/robot/README.md). The image's top points away from the arm.
 Eigen::Isometry3d default_T_base_camera();
 
-/// WRJ2 on the flange. The forearm lies across it (core/robot/README.md).
+/// The forearm lies across the flange (core/robot/README.md).
 Eigen::Isometry3d default_T_flange_wrist();
 
 struct RobotSetup {
   Eigen::Isometry3d T_base_camera = default_T_base_camera();
-  std::optional<Skeleton> skeleton = {};  ///< empty: maps angles, not fingertips
+  std::optional<Skeleton> skeleton = {};  ///< empty: mapping `direct`
   ShadowCoupling coupling = ShadowCoupling::series;
-  std::shared_ptr<const ArmSolver> arm = {};  ///< empty: no arm joints
-  ArmJoints arm_start = kArmAtRest;           ///< before the first frame, rad
+  std::shared_ptr<const ArmSolver> arm = {};
+  ArmJoints arm_start = kArmAtRest;  ///< before the first frame, rad
   Eigen::Isometry3d T_flange_wrist = default_T_flange_wrist();
 };
 
-/// Turns track results into commands, in time order. Lost frames repeat the last targets. Unreachable poses keep
-/// the arm's joints.
+/// Turns track results into commands, in time order. A lost frame repeats the last targets. An unreachable pose
+/// keeps the arm's joints.
 class RobotCommander {
  public:
   /// Throws: Error unless the transforms are finite and rigid.
@@ -57,7 +57,7 @@ class RobotCommander {
   RobotCommand command(const TrackResult& result);
 
  private:
-  /// Empty before the arm reaches a pose.
+  /// Empty until the arm reaches a pose.
   std::optional<ArmJoints> arm_joints(const RobotTargets& targets, Interventions& interventions);
 
   Eigen::Isometry3d T_base_camera_, T_wrist_flange_;
@@ -75,7 +75,7 @@ class RobotCommandSink {
   virtual void finish() = 0;
 };
 
-/// A line of JSON (core/robot/command.schema.json) without line end. Numbers are rounded to 1e-6 of their unit.
+/// JSON (core/robot/command.schema.json) without line end, rounded to 1e-6 of each unit.
 /// Throws: Error if a number is not finite.
 std::string to_json_line(const RobotCommand& command);
 

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// How one motor moves J1 and J2 of a free finger (core/robot/README.md): J0 = J1 + J2, 0 to 180 degrees.
+/// How J1 and J2 of a free finger share their motor's angle (core/robot/README.md).
 enum class ShadowCoupling {
   series,  ///< J2 alone to 90 degrees, then J1
   even,
@@ -23,13 +23,13 @@ struct CoupledJoints {
   double distal;    ///< J1, never above J2
   double proximal;  ///< J2
 };
-/// Splits a motor's target, 0 to pi rad. J1 + J2 equals `motor` to the last bit.
+/// Splits a motor's target, 0 to pi rad. J1 + J2 equals `motor` exactly.
 CoupledJoints split_motor(double motor, ShadowCoupling coupling);
-/// J1's share of a small motion of the motor, 0 to 1.
+/// J1's share of a small motor motion, 0 to 1.
 double distal_share(double motor, ShadowCoupling coupling);
 
-/// The joints at a share (0 to 1) of the way. The motor goes straight. A deviation of `from` from the model fades.
-/// J1 stays below J2.
+/// The joints at a share (0 to 1) of the way. The motor's angle changes linearly. If `from` does not follow the
+/// coupling, its deviation fades. J1 never exceeds J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
 /// Joints of the Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
@@ -64,8 +64,8 @@ enum ShadowJoint : int {
 inline constexpr int kShadowJointCount = 24;
 inline constexpr int kShadowActuatorCount = 20;
 
-/// Robot angle = sign * human angle. THJ5 turns the thumb across the palm, THJ4 lifts it off. WRJ1 bends to the
-/// palm, WRJ2 turns to the thumb.
+/// Robot angle = sign * human angle. Positive: THJ5 turns the thumb across the palm, THJ4 lifts it off the palm,
+/// WRJ1 bends to the palm, WRJ2 turns to the thumb.
 struct ShadowJointInfo {
   std::string_view name;
   double min_deg;
@@ -75,7 +75,7 @@ struct ShadowJointInfo {
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// J0 drives two joints. Its target is their sum.
+/// A motor of two joints (J0) has their sum as its target.
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;
@@ -83,7 +83,7 @@ struct ShadowActuatorInfo {
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, rad. Flags mark those that the limits changed.
+/// Targets within the limits, rad. `clamped`: changed by the limits.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};
   std::array<bool, kShadowJointCount> joint_clamped{};
@@ -91,10 +91,10 @@ struct ShadowHandTargets {
   std::array<bool, kShadowActuatorCount> actuator_clamped{};
 };
 
-/// Fills the motors from the joints.
+/// Computes the motors' targets from the joints'.
 void make_actuators(ShadowHandTargets& hand);
 
-/// Each joint takes its source's angle, clamped. The coupling splits the clamped sum of J1 and J2.
+/// Each joint takes the angle of its source, clamped. The coupling splits the clamped sum of J1 and J2.
 /// Throws: Error if an angle is not finite.
 /// Paper: section V.
 ShadowHandTargets map_to_shadow_hand(const Posture& posture, ShadowCoupling coupling = ShadowCoupling::series);

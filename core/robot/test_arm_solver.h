@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Gauss-Newton with a numerical Jacobian: slow, but good near a solution.
+/// Gauss-Newton with a numerical Jacobian.
 class JacobianSolver : public ArmSolver {
  public:
   std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const override {

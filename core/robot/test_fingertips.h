@@ -12,7 +12,7 @@ class TestFingertips {
  public:
   using Tips = Eigen::Matrix<double, 3, 5>;
 
-  /// In the hand frame, m; `q` in the order of ShadowJoint, rad.
+  /// Hand frame, m. `q`: by ShadowJoint, rad.
   explicit TestFingertips(const std::array<double, 24>& q) : q_(q) {
     const Tips palm = in_palm();
     tips_.row(0) = (0.0055 - palm.row(0).array()).matrix();
@@ -42,7 +42,7 @@ class TestFingertips {
   static Eigen::Vector3d about_z(double a, const Eigen::Vector3d& p) {
     return {p.x() * std::cos(a) - p.y() * std::sin(a), p.x() * std::sin(a) + p.y() * std::cos(a), p.z()};
   }
-  /// From the knuckle of the finger with J1 = `first`.
+  /// From the finger's knuckle. `first`: its J1.
   Eigen::Vector3d finger(int first, double spread) const {
     const double a = q_[first + 2], b = a + q_[first + 1], c = b + q_[first];
     const Eigen::Vector3d bent(0, -0.045 * std::sin(a) - 0.025 * std::sin(b) - 0.026 * std::sin(c),

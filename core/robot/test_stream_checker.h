@@ -14,10 +14,10 @@ class StreamChecker {
  public:
   explicit StreamChecker(const CommandLimits& limits) : limits_(limits) {}
 
-  /// J1 and J2 may be off their model.
+  /// J1 and J2 may differ from their coupling.
   void start(const RobotTargets& targets) { targets_ = targets; }
 
-  /// The problem of the next command; empty if none.
+  /// The next command's problem; empty: none.
   std::string problem(const RobotCommand& command) {
     std::string found = stamps(command);
     if (found.empty()) found = states(command);

@@ -9,7 +9,7 @@ struct ColorModel {
   double strength_factor = 2.5;           ///< weaker and stronger light, >= 1
   double temperature_shift_mired = 50.0;  ///< warmer and colder light, >= 0
   double not_glove_prior = 0.95;          ///< share of pixels, (0, 1)
-  double kept_share = 0.995;              ///< of a color's pixels; rarer shades get no label, (0, 1]
+  double kept_share = 0.995;              ///< of a color's pixels; rarer shades get no label; (0, 1]
   double min_posterior = 0.7;             ///< of the label in its cell, [0, 1)
   int min_luma = 28;                      ///< darker cells get no label, 0..255
 };
@@ -19,11 +19,11 @@ class ColorCalibration {
  public:
   explicit ColorCalibration(ColorSpace space = ColorSpace::yuv) : space_(space) {}
 
-  /// Skips pixels beside a label border. 0: not glove. Images have one size.
+  /// Skips pixels beside a label border. Label 0: not glove. Images must have one size.
   void add_view(const ColorImage& color, const LabelImage& labels);
   /// `label`: 0..kColorCount.
   void add_pixel(const Rgb& color, uint8_t label);
-  /// Relights seen colors as far as `model` says, then gives each cell its most probable label.
+  /// Relights seen colors as far as `model` says. Each cell gets its most probable label.
   /// Throws: Error if a glove color was never bright enough.
   ColorTable build(const ColorModel& model = {}) const;
 

@@ -13,7 +13,7 @@
 
 namespace glovebench {
 
-/// 0..255 (BT.601, full range, U and V centered at 128).
+/// BT.601, full range, U and V centered at 128.
 using Yuv = std::array<uint8_t, 3>;
 constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
   // 16-bit fixed point. Halves round down, so no clamp is needed.
@@ -30,7 +30,7 @@ constexpr auto names_of(ColorSpace) {
   return std::to_array<std::string_view>({"yuv", "rgb"});
 }
 
-/// Labels 0..10 of 64 x 64 x 64 color cells.
+/// A label for each of 64 x 64 x 64 color cells.
 /// Paper: section III-A.
 class ColorTable {
  public:
@@ -54,7 +54,7 @@ class ColorTable {
   const std::vector<uint8_t>& labels() const { return labels_; }
   ColorSpace space() const { return space_; }
 
-  /// A versioned, checksummed file.
+  /// Versioned and checksummed.
   /// Throws: Error.
   void save(const std::string& path) const;
   static ColorTable load(const std::string& path);
@@ -68,15 +68,14 @@ class ColorTable {
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table);
 LabelImage segment(const ColorImage& color, const ColorTable& table);
 
-/// The most frequent label of 3x3 pixels (not in the paper).
+/// The most frequent label of 3x3 pixels. Not in the paper.
 LabelImage majority_filter(const LabelImage& labels);
 
 /// Throws: Error.
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
 
-/// Corrects labels at borders, where pixels mix colors (not in the paper): takes the most frequent label of the 3x3
-/// pixels within `depth_step`, m. Ties go to the pixel's own label, else the smallest. Unlabeled pixels need two
-/// votes.
+/// The most frequent label of those 3x3 pixels that are within `depth_step`, m. Ties go to the pixel's own label,
+/// else the smallest. Unlabeled pixels need two votes. Not in the paper.
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step = 0.02);
 
 }  // namespace glovebench

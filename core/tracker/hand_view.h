@@ -7,7 +7,7 @@ namespace glovebench {
 
 /// Input of the fit of pose and posture.
 struct HandView {
-  RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at the edge of a surface
+  RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at a surface's edge
   HandMask mask;
 
   /// `seen` must be `tracked`. Reuses memory.

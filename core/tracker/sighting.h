@@ -10,7 +10,7 @@
 
 namespace glovebench {
 
-/// Whether the glove touches the image border over a longer stretch than `config` allows.
+/// Whether the glove touches the image border over too long a stretch.
 bool is_cut_by_border(const LabelImage& labels, size_t glove_pixels, const DetectionConfig& config);
 
 /// `tracked` if the cloud is one whole hand.
@@ -29,7 +29,7 @@ struct Sighting {
 /// Processes the whole images.
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
              const TrackerConfig& config);
-/// The same cloud and status, faster. Ignores depths more than `kCutOffMargin` behind the working volume, also in
+/// The same cloud and status, faster. Ignores depths over `kCutOffMargin` behind the volume, also in
 /// `labeled_outside`.
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);

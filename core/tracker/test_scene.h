@@ -16,7 +16,7 @@ std::shared_ptr<const T> borrowed(const T& object) {
   return {&object, [](const T*) {}};
 }
 
-/// Made by the first test process that asks.
+/// Made by the first test process.
 inline const ColorTable& test_color_table() {
   static const ColorTable table = [] {
     const std::string path = shared_test_folder() + "/colors.table";

@@ -13,18 +13,18 @@
 
 namespace glovebench {
 
-/// A frame that is not `tracked` is lost. It repeats the last tracked posture and pose (at first the open hand at
-/// the origin).
+/// A frame that is not `tracked` is lost. It repeats the last tracked posture and pose (before any: the open hand
+/// at the origin).
 enum class TrackStatus {
   tracked,
   no_hand,         ///< too few glove pixels
-  outside_volume,  ///< at least a third of the glove is too near or too far
-  cut_by_border,   ///< glove touches the image border too long
+  outside_volume,  ///< over a third of the glove is too near or too far
+  cut_by_border,   ///< the glove touches the image border over too long a stretch
   several_hands,   ///< more than one large glove-colored object
   too_few_points,
   degenerate_cloud,  ///< points on one line
   no_shared_color,   ///< cloud and visible model share none
-  poor_match,        ///< nearest entry beyond `max_matching_error`
+  poor_match,        ///< nearest entry's error above `max_matching_error`
   poor_alignment,    ///< final mean distance above `max_residual`
 };
 constexpr auto names_of(TrackStatus) {
@@ -60,7 +60,7 @@ struct TrackResult {
   int icp_iterations = 0;
   double icp_residual = 0;  ///< final mean point-to-triangle distance, m
   std::optional<AngleCertainty> certainty;
-  /// RMS distance of whole patches of points from the refined hand, m. Large if the model has wrong sizes.
+  /// RMS of the patches' mean signed distances from the refined hand, m. Large if the model has wrong sizes.
   std::optional<double> misfit;
 };
 
@@ -85,13 +85,13 @@ constexpr auto names_of(Stage) {
 }
 static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
 
-/// Called when a stage begins, for timing. A frame may enter a stage twice. Not empty.
+/// Called when a stage begins. A frame may enter a stage twice. Must not be empty.
 using StageObserver = std::function<void(Stage stage)>;
 inline void unobserved(Stage) {}
 
 /// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
 /// icp_iterations, icp_residual_mm, ambiguous, converged; if known, angle_deviations_deg and hidden (names). A lost
-/// frame has no posture and pose.
+/// frame lacks posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

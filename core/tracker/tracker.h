@@ -18,7 +18,7 @@ struct FrameTrace : Sighting {
   LabelImage tiny;  ///< of the last stage; empty without a hand
 };
 
-/// Throws: Error if the configuration is impossible, or side, tiny images or color spaces differ.
+/// Throws: Error for an impossible configuration, or if side, tiny images or color spaces differ.
 void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
                   const ColorTable& table);
 /// `tracked` for `converged` and `not_converged`.
@@ -32,7 +32,7 @@ class Tracker {
   Tracker(TrackerConfig config, RgbdCalibration calibration, std::shared_ptr<const HandModel> model,
           std::shared_ptr<const Database> database, std::shared_ptr<const ColorTable> table);
 
-  /// `previous`: earlier results in time order. The newest `smoothing.forget_after` suffice.
+  /// `previous`: earlier results in time order; the newest `smoothing.forget_after` suffice.
   TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous = {},
                     const StageObserver& observe = unobserved) const;
   /// Processes the whole images.
@@ -55,7 +55,7 @@ class Tracker {
 struct HandLookUp {
   TrackStatus status = TrackStatus::no_hand;  ///< tracked, no_hand or poor_match
   Square square;
-  std::optional<Eigen::Vector3d> ray;  ///< to which the rotations are turned, if they are
+  std::optional<Eigen::Vector3d> ray;  ///< to which the rotations are turned; empty: not turned
   RecycledVector<Match> matches;
   CoarseEstimate coarse;  ///< mean of the matches, if tracked
 };

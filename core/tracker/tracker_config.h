@@ -17,16 +17,16 @@ namespace glovebench {
 struct SegmentationConfig {
   ColorSpace color_space = ColorSpace::yuv;
   bool majority_filter = false;    ///< 3x3 (not in the paper)
-  bool surface_majority = false;   ///< of neighbors within 2 cm depth (not in the paper)
+  bool surface_majority = false;   ///< among neighbors within 2 cm of depth (not in the paper)
   bool largest_component = false;  ///< not in the paper
 };
 
 struct LookupConfig {
   Cascade cascade = {{16, 500}, {64, 3}};  ///< section IV-B
   double interpolation_epsilon = 0.01;     ///< eps in 1 / (E + eps), px, > 0
-  bool turn_to_ray = true;                 ///< false: a view's rotation stays as it was rendered
+  bool turn_to_ray = true;                 ///< turn a view's rotation to the ray through the hand
   std::string implementation = "fast";     ///< a name of `look_ups`
-  double max_matching_error = 0.08;        ///< as a share of the last stage's side, > 0; larger: `poor_match`
+  double max_matching_error = 0.08;        ///< share of the last stage's side, > 0; larger: `poor_match`
 };
 
 struct SmoothingConfig {
@@ -37,11 +37,11 @@ struct SmoothingConfig {
 
 struct DetectionConfig {
   int min_pixels = 150;  ///< of the glove, >= 3; fewer: `no_hand`
-  /// A second component above this share of the largest means `several_hands`, (0, 1].
+  /// A second component above this share of the largest: `several_hands`, (0, 1].
   double second_hand_share = 0.3;
   double component_depth_step = 0.05;  ///< between components, m, > 0
   int max_border_pixels = 40;          ///< of the glove, >= 0; more: `cut_by_border`
-  /// The same for single fingers, as a share of the square root of all glove pixels, > 0.
+  /// The same for one finger, as a share of the square root of all glove pixels, > 0.
   double max_border_share = 0.35;
 };
 
@@ -62,10 +62,10 @@ struct TrackerConfig {
   std::vector<std::string> problems() const;
 };
 
-/// "paper", or "paper-literal", which filters the pose, too.
+/// "paper", or "paper-literal", which also filters the pose.
 /// Throws: Error for other names.
 TrackerConfig profile(const std::string& name);
-/// Overrides fields of `base` by those of a JSON object.
+/// Replaces fields of `base` by those of a JSON object.
 /// Throws: Error for an unknown, mistyped or out-of-range key.
 TrackerConfig config_from_json(const nlohmann::json& json, const TrackerConfig& base, const std::string& where);
 nlohmann::json to_json(const TrackerConfig& config);

@@ -46,9 +46,9 @@ struct CommonFlags {
   /// Empty without `hand` and `hand_json`.
   /// Throws: Error, also for a hand of the other side.
   std::optional<MeasuredHand> measured_hand() const;
-  /// Warns on stderr of likely mistakes of units.
+  /// Warns on stderr of likely mistakes in units.
   void warn_of_units(const trajectories::Trajectory& trajectory) const;
-  /// `count` seeds from `seed` up.
+  /// `count` seeds from `seed` on.
   /// Throws: Error beyond the largest seed.
   std::vector<uint64_t> seeds(int count) const;
   /// Makes the folder.
@@ -61,7 +61,7 @@ struct NamedTracker {
   TrackerConfig tracker;
 };
 
-/// The tracker's flags of a command that compares. One of them may be repeated.
+/// Flags of a command that compares trackers. One of them may be repeated.
 struct TrackerChoices {
   std::vector<std::string> profiles, configs, methods, cascades;
 
@@ -70,9 +70,9 @@ struct TrackerChoices {
   /// Throws: Error if two flags have several values.
   void choose(CommonFlags& common) const;
   bool are_several() const;
-  /// One configuration per value of the repeated flag, after the paper's if it is none of them. Other flags are
-  /// those of `common`.
-  /// Throws: Error for a bad value, equal names, or other views of the databases.
+  /// One configuration per value of the repeated flag, with the other flags of `common`. Begins with the paper's if
+  /// it is none of them.
+  /// Throws: Error for a bad value, equal names, or different database views.
   std::vector<NamedTracker> trackers(const CommonFlags& common) const;
 };
 
@@ -92,7 +92,7 @@ struct MountingFlag {
 };
 
 struct LimitsFlag {
-  std::string file;  ///< as `glovebench list limits` prints; empty: defaults
+  std::string file;  ///< like `glovebench list limits`; empty: defaults
 
   std::string coupling{to_string(CommandLimits().coupling)};
 
@@ -107,11 +107,11 @@ struct FileFlag {
   std::string path;         ///< empty: none
   std::string ending = {};  ///< required; empty: any
 };
-/// Checks all files that a command writes or could overwrite.
-/// Throws: Error if two are one file, or one is another's unfinished form (core/base/line_file.h).
+/// Checks files that a command writes or could overwrite.
+/// Throws: Error if two are one file, or one is another's partial file (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
-/// The same before the work.
-/// Throws: Error also for another ending, or a file that cannot be written.
+/// The same, and that they can be written.
+/// Throws: Error as above, for another ending, or if a file cannot be written.
 void require_writable_files(const std::vector<FileFlag>& files);
 
 /// Throws: Error in a build without a solver.
@@ -127,7 +127,7 @@ struct RobotFlags {
 
   /// Returns the option of `output`.
   Option add(Command command, const std::string& what);
-  /// Throws: Error for an arm that this build lacks.
+  /// Throws: Error for an arm in a build without a solver.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };

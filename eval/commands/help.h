@@ -8,10 +8,10 @@
 
 namespace glovebench::eval {
 
-/// The text of --help: description, `usage`, arguments, options by group, commands. Rare options only if `all`.
+/// The text of --help. Rare options only if `all`.
 std::string help_text(const CommandText& command, const std::string& usage, bool all, size_t columns);
 
-/// The commands below `command`, with the first lines of their descriptions.
+/// The subcommands, with the first lines of their descriptions.
 std::string commands_text(const CommandText& command, size_t columns);
 
 /// "unknown flag --ouptut; did you mean --output?"
@@ -20,7 +20,7 @@ std::string describe_unknown(const CommandText& command, const std::string& word
 /// For man(1).
 std::string man_page(const CommandText& program, const std::string& version);
 
-/// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty where the shell completes file names.
+/// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty for file names, which the shell completes.
 std::string completions(const CommandText& program, const std::vector<std::string>& line);
 
 /// For bash, zsh or fish. Calls `completions`.

@@ -12,7 +12,7 @@ class Option;
 
 namespace glovebench::eval {
 
-/// Restricts an option. Each call returns the same one.
+/// Restricts an option. Each call returns the same option.
 class Option {
  public:
   explicit Option(CLI::Option& option) : option_(&option) {}
@@ -25,13 +25,12 @@ class Option {
   Option named_file() const;
   Option existing_file() const;
   Option existing_folder() const;
-  /// Exactly this many values.
   Option count(int values) const;
-  /// A list whose option is repeated for each value.
+  /// A list: one option per value.
   Option repeated() const;
-  /// A list that commas may separate.
+  /// A list: commas may separate values.
   Option comma_separated() const;
-  /// `other` must be declared before.
+  /// `other` must exist.
   Option needs(const std::string& other) const;
   /// Only --help-all shows it.
   Option rare() const;
@@ -52,7 +51,7 @@ struct OptionText {
   bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// A command for help, man page and completion.
+/// A command, for help, man page and completion.
 struct CommandText {
   std::string name;
   std::string description;
@@ -60,7 +59,7 @@ struct CommandText {
   std::vector<CommandText> subcommands;
 };
 
-/// Copyable. Its values and actions must live as long as the program.
+/// Copyable. Values and actions must live as long as the program.
 class Command {
  public:
   using Action = std::function<int()>;
@@ -68,19 +67,18 @@ class Command {
   /// `chosen` receives the action of the chosen command.
   Command(CLI::App& app, Action& chosen) : app_(&app), chosen_(&chosen) {}
 
-  /// With subcommands, the user must name one unless the command `runs` by itself. Each line of the description is
-  /// a paragraph. Lists of commands show the first.
+  /// The user must name a subcommand unless the command `runs` by itself. Each line of the description is a
+  /// paragraph; lists of commands show the first.
   Command subcommand(const std::string& name, const std::string& description) const;
   /// The help shows its options under `heading`.
   Command group(const std::string& heading) const;
-  /// Adds an option for `value`. `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help
-  /// shows the default unless it is empty or the option required. A bool is a flag. A transform is X Y Z (m) QW QX
-  /// QY QZ.
-  /// Throws: Error for a transform that is not finite or has no unit quaternion.
+  /// `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help shows the default unless it
+  /// is empty or the option is required. A bool is a flag. A transform is X Y Z (m) QW QX QY QZ.
+  /// Throws: Error unless a transform is finite with a unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
   bool given(const std::string& name) const;
-  /// The options so far, with subcommands.
+  /// Options and subcommands so far.
   CommandText text() const;
   /// Sets the action, whose result is the exit code; void: 0.
   template <typename Does>
@@ -103,11 +101,11 @@ class Command {
   std::string group_ = "Options";
 };
 
-/// Returns the exit code: 2 for a wrong command line, with one line on stderr.
+/// Returns the exit code. A wrong command line: 2, with one line on stderr.
 /// Throws: what the command throws.
 int run_program(int argc, const char* const* argv, const std::function<void(Command program)>& add_commands);
 
-// Each adds the command of its file.
+// Each adds its file's command.
 void add_reproduce(Command program);
 void add_run(Command program);
 void add_record(Command program);

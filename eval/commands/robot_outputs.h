@@ -32,11 +32,12 @@ class RobotOutputs {
   bool any() const { return file_ || bus_; }
   /// The arm's joints at the start. Empty without a controller.
   std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
-  /// Guards and sends a command. A robot's clock is the first frame's stamp plus wall time. With a controller,
-  /// motion starts at the measured joints, also after a lost hand. `arrived_us`: of the frame, since 1970.
-  /// Throws: Error, also if the robot is not measured.
+  /// Guards and sends a command. On a bus, time is the first frame's stamp plus wall time. With a controller,
+  /// motion starts at the measured joints, also after a lost hand. `arrived_us`: when the frame arrived, since
+  /// 1970.
+  /// Throws: Error, also without measured joints.
   void send(CommandGuard& guard, const RobotCommand& command, int64_t arrived_us);
-  /// `whole`: gives the file its name. Otherwise its lines stay at `kept()`, and an older file remains.
+  /// `whole`: renames the file to its final name. Otherwise lines stay at `kept()`, and an older file remains.
   /// Throws: Error.
   void finish(bool whole = true);
   /// Path of unfinished lines, if any.

@@ -29,7 +29,7 @@
 
 namespace glovebench::eval {
 
-/// A robot whose joints are at once where the server tells.
+/// A robot whose joints follow the server at once.
 class SimulatedRobot {
  public:
   explicit SimulatedRobot(int domain)
@@ -118,11 +118,11 @@ class RobotServer : public DdsBus {
     return std::ranges::count_if(
         all, [&](const json& line) { return line.at("topic") == topic && line.at("receipt") == receipt; });
   }
-  /// Valid messages: followed, at a start, or too late.
+  /// Valid messages: followed, at a start, or late.
   static int64_t good(const std::string& log, const std::string& topic) {
     return received(log, topic, "accepted") + received(log, topic, "starting") + received(log, topic, "stale");
   }
-  /// A busy server misses ticks, then waits for a new start of its sender.
+  /// A busy server misses ticks, then waits for its sender's new start.
   static bool had_gaps(const ProgramRun& run) { return run.out.find("; gaps: ") != std::string::npos; }
   static double last_angle(const std::string& log, const std::string& joint) {
     return lines(log, "state").back().at("position_deg").at(joint).get<double>();

@@ -43,7 +43,7 @@ class DdsBus : public testing::Test {
     return finish(program);
   }
 
-  /// Prints messages until `seconds` pass without one. Waits longer for the first.
+  /// Prints messages until `seconds` pass without one (longer for the first).
   StartedProgram listen(const std::string& seconds = "1.5", const ProgramSetting& setting = {}) {
     const StartedProgram listener = start({build_paths::program("dds_probe"), "listen", domain_, seconds}, setting);
     EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));

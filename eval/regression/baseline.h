@@ -13,7 +13,6 @@
 
 namespace glovebench::eval {
 
-/// `files` reads one state of the folder.
 struct FinishedRun {
   FileSet files;
   reports::NamedResult results;
@@ -24,17 +23,17 @@ std::optional<reports::NoiseFloor> load_noise_floor_beside(const FileSet& files)
 /// Empty without times.
 reports::StageTimes load_stage_times(const FileSet& files);
 
-/// ci/README.md lists the files ("Baselines"). Noise floor and speed are optional. Old folders lack manifest.json.
+/// Files: ci/README.md, "Baselines". Noise floor and speed are optional. Old folders lack manifest.json.
 struct Baseline {
   FinishedRun run;
   std::optional<reports::NoiseFloor> noise_floor;
   std::vector<reports::SpeedRatio> speed;
   reports::StageTimes times;
 };
-/// Throws: Error, or Incomparable without a baseline or if its results were changed by hand.
+/// Throws: Error, or Incomparable without a baseline or if its results were edited.
 Baseline load_baseline(const std::string& folder);
 
-/// The part of provenance.json that is read again.
+/// The part of provenance.json that is read.
 struct Provenance {
   std::string results_hash;
   reports::StageTimes times;
@@ -45,14 +44,13 @@ Provenance parse_provenance(const std::string& text, const std::string& where);
 /// "ci/baselines/quick".
 std::string default_baseline_folder(const std::string& suite);
 
-/// The suite of the given name or file, else the program's own.
+/// The suite of this name or file, else the program's own.
 /// Throws: Error if the run has none or another.
 Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file);
 
-/// Makes a run the baseline in its folder and keeps the noise floor. `accepted`: what would have stopped the
-/// change.
+/// Makes a run the baseline and keeps the noise floor. `accepted`: what would have stopped the change.
 /// Throws: Error if the run is not the whole suite, the folder holds a run, or a truth differs from the old
-/// baseline's (delete that first).
+/// baseline's.
 void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times,
                      const std::vector<std::string>& accepted);

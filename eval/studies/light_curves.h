@@ -14,7 +14,7 @@ struct LightPoint {
   render::Lighting lighting;
   Eigen::Vector3d white_balance = Eigen::Vector3d::Ones();  ///< gains on linear R, G, B
 };
-/// One property of the light varies.
+/// Light that varies in one property.
 struct LightAxis {
   std::string table;  ///< "light_strength"
   std::string title;
@@ -22,10 +22,10 @@ struct LightAxis {
   std::string heading;
   std::vector<LightPoint> points;
 };
-/// Strength 1/8 to 4 times the default's, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two each.
+/// Strength 1/8 to 4 times the default, 2000 to 10000 K, green gain 0.6 to 1.67. `quick`: two each.
 std::vector<LightAxis> light_axes(bool quick);
 
-/// An unlabeled recording for calibration: Tr2, Tr3 and Tr5, which no curve measures.
+/// An unlabeled recording for calibration, of Tr2, Tr3 and Tr5, which no curve uses.
 calibration::ColorSamples record_under(Workbench& workbench, int subject, const LightPoint& point, int frames);
 
 /// `errors` is empty where calibration failed.
@@ -33,7 +33,7 @@ struct LightWay {
   std::string name;
   std::optional<LabelErrors> errors;
 };
-/// Over eight hands of Tr1 and Tr4: the tracker's table and the recalibrated one, plain and filtered, and the best
+/// Eight hands of Tr1 and Tr4 with the tracker's table and the recalibrated one, plain and filtered, and the best
 /// table for these pixels.
 std::vector<LightWay> measure_light_point(Workbench& workbench, int subject, const LightPoint& point);
 

@@ -10,8 +10,7 @@
 
 namespace glovebench::eval {
 
-/// [stratum][noise seed][frame]. Empty for a lost frame, for example. A stratum is a trajectory, which is not
-/// resampled.
+/// [stratum][noise seed][frame]; empty without value, as for a lost frame. A stratum is a trajectory.
 using Sample = std::vector<std::vector<std::vector<std::optional<double>>>>;
 
 /// `value` is empty without values, `interval` also with too few to resample.
@@ -23,14 +22,14 @@ struct Estimated {
 std::optional<double> mean(const Sample& sample);
 Estimated estimate_mean(const Sample& sample);
 
-/// `combine` of the samples' means. The samples have the same frames, resampled together.
+/// `combine` of the samples' means. All samples must have the same frames, which are resampled together.
 Estimated estimate(std::span<const Sample> samples,
                    const std::function<std::optional<double>(std::span<const double> means)>& combine);
 
 /// Mean of a - b over frames with both values.
 Estimated estimate_difference(const Sample& a, const Sample& b);
 
-/// Bootstrap interval of a statistic of `count` things, named `over`. `drawn`: indices with repetitions. Empty if
+/// Bootstrap interval of a statistic of `count` things, named `over`. `drawn`: indices, some repeated. Empty if
 /// count < 2.
 std::optional<reports::ConfidenceInterval> interval_over(
     int count, const std::string& over,

@@ -6,7 +6,7 @@
 
 namespace glovebench::render {
 
-/// Balls on a segment, radius linear, m.
+/// Balls along a segment, with linear radius, m.
 struct Capsule {
   Eigen::Vector3d a;
   Eigen::Vector3d b;
@@ -33,8 +33,8 @@ struct FieldSample {
 
 FieldSample distance_to(const Capsule& capsule, const Eigen::Vector3d& p);
 
-/// Smooth union of distances d_i with shares s_i: -k log sum s_i exp(-d_i / k), at most the smallest distance of a
-/// full part.
+/// Smooth union of distances d_i with shares s_i: -k log sum s_i exp(-d_i / k), at most a full part's smallest
+/// distance.
 FieldSample smooth_union(std::span<const Capsule> capsules, std::span<const UnionPart> parts,
                          const Eigen::Vector3d& p);
 
@@ -43,7 +43,7 @@ inline constexpr double kSegmentJoining = 0.0015;
 /// k inside the palm, m.
 inline constexpr double kPalmJoining = 0.005;
 
-/// Moves `p` along the gradient to this level by Newton steps. May stop short in creases.
+/// Moves `p` along the gradient to `level` by Newton steps. May stop short in creases.
 Eigen::Vector3d project_to_level(std::span<const Capsule> capsules, std::span<const UnionPart> parts, double level,
                                  Eigen::Vector3d p);
 

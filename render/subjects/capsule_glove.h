@@ -14,10 +14,9 @@ inline constexpr double kGloveThickness = 0.001;
 inline constexpr double kLeastFold = 0.001, kMostFold = 0.002;
 inline constexpr double kMostBorderShift = 0.003;
 
-/// Interpolated lattice noise in [-1, 1]. `scale`: step of the lattice, m.
+/// Lattice noise in [-1, 1]. `scale`: lattice step, m.
 double smooth_noise(uint64_t seed, const Eigen::Vector3d& p, const Eigen::Vector3d& scale);
 
-/// Functions on a posed hand's surface.
 class CapsuleGlove {
  public:
   CapsuleGlove(const std::vector<HandCapsule>& capsules, std::vector<Capsule> placed,

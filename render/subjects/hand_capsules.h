@@ -11,7 +11,7 @@ namespace glovebench::render {
 struct CapsuleEnd {
   int joint = kWristJoint;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< in the joint's frame, m
-  /// added to `place` by a fully arched palm, m
+  /// added to `place` if the palm is fully arched, m
   Eigen::Vector3d arched = Eigen::Vector3d::Zero();
 };
 

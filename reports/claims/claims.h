@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// Values with which a claim holds; one end may be infinite.
+/// The values with which a claim holds. One end may be infinite.
 struct Rule {
   enum class Kind { below, at_most, above, at_least, within };
   Kind kind = Kind::below;
@@ -29,7 +29,7 @@ bool meets(const Rule& rule, double low, double high);
 /// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);
 
-/// Reproduction: the paper's experiment. Consistency: the cited number is plausible.
+/// Reproduction: the paper's experiment. Consistency: the paper's number is plausible.
 enum class ClaimKind { reproduction, consistency };
 constexpr auto names_of(ClaimKind) {
   return std::to_array<std::string_view>({"reproduction", "consistency"});
@@ -40,24 +40,24 @@ struct ClaimDefinition {
   std::string claim;        ///< one sentence
   std::string source;       ///< section or figure of the paper
   std::string paper_value;  ///< as printed; "": no number
-  std::string measured;     ///< what, on which truth, meaning of the rule
+  std::string measured;     ///< what is measured, on which truth; the rule's meaning
   std::string measure;      ///< of a Measure
   Rule rule;
   ClaimKind kind = ClaimKind::reproduction;
-  bool required = false;   ///< else the run fails
+  bool required = false;   ///< the run fails if it does not hold
   bool withdrawn = false;  ///< listed, not judged
   std::string if_not;      ///< shown if it does not hold
 
   friend bool operator==(const ClaimDefinition&, const ClaimDefinition&) = default;
 };
 
-/// The first change writes the claim.
+/// A change of a claim. The first one creates it.
 struct ClaimChange {
   std::string date;                   ///< "2026-11-21"
   std::optional<std::string> commit;  ///< empty only for the newest change
   ClaimDefinition definition;
-  std::vector<std::string> set;         ///< changed fields; none: only the measuring program changed
-  std::optional<std::string> came_out;  ///< published measurements, commits in brackets; empty: none
+  std::vector<std::string> set;         ///< changed fields; none: only the program changed
+  std::optional<std::string> came_out;  ///< published measurements with commits
   std::string why;
 
   friend bool operator==(const ClaimChange&, const ClaimChange&) = default;
@@ -73,11 +73,11 @@ struct Claim {
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// A change of how all claims are judged.
+/// A change in how all claims are judged.
 struct JudgingChange {
   std::string date;
   std::optional<std::string> commit;  ///< as in ClaimChange
-  std::string rule;                   ///< sentences; valid from then on
+  std::string rule;                   ///< sentences; valid from `date` on
   std::string why;
 
   friend bool operator==(const JudgingChange&, const JudgingChange&) = default;
@@ -104,8 +104,8 @@ const std::vector<Claim>& claims();
 /// Throws: Error.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
-/// One sentence per change of `earlier`. Empty if `later` only adds. A missing commit or `came_out` may be filled
-/// once.
+/// One sentence per entry of `earlier` that `later` changes. It may add entries, and fill a missing commit or
+/// `came_out` once.
 std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

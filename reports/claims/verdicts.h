@@ -25,19 +25,19 @@ constexpr auto names_of(ClaimOutcome) {
 
 struct ClaimVerdict {
   Claim claim;
-  std::optional<Measure> measure;  ///< empty if not run; number and interval are finite or empty
+  std::optional<Measure> measure;  ///< empty if not run; its numbers are finite or empty
   ClaimOutcome outcome = ClaimOutcome::not_run;
 
   friend bool operator==(const ClaimVerdict&, const ClaimVerdict&) = default;
 };
 
-/// False for a quick run or another configuration than the paper's.
+/// False for a quick run, or with another configuration than the paper's.
 bool are_claims_judged(const RunResult& result);
 
-/// Measures of Figures 4 to 6 and the studies, as far as run. Empty if claims are not judged.
+/// Measures of Figures 4 to 6 and studies, if run. Empty if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
 
-/// Judges by the rules of reports/README.md ("Claims"), in the order of the claims.
+/// Judges (reports/README.md, "Claims"), in the order of the claims.
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
 /// Outcomes of required claims that are not withdrawn.

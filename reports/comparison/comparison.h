@@ -23,12 +23,12 @@ constexpr auto names_of(Verdict) {
 /// Name of rows over all experiments: means of their differences.
 inline constexpr std::string_view kAllExperiments = "all";
 
-/// With fewer blocks of frames, an interval is too wide to be read.
+/// Fewer blocks of frames give no interval to rely on.
 inline constexpr int kFewestBlocks = 5;
 
 struct CompareConfig {
-  double family_error = 0.01;  ///< of all intervals together (Bonferroni), in (0, 1)
-  int block_frames = 16;       ///< minimum, >= 16; successive frames are not independent
+  double family_error = 0.01;  ///< of all intervals together (Bonferroni), (0, 1)
+  int block_frames = 16;       ///< least frames of a block, >= 16
   int resamples = 4000;        ///< >= 100
   uint64_t seed = 1;
 };
@@ -42,12 +42,12 @@ struct ComparisonRow {
   std::optional<double> candidate;
   std::optional<double> difference;  ///< candidate - baseline; positive is worse
   std::optional<double> low, high;   ///< simultaneous interval
-  int blocks = 0;                    ///< resampled, of frames
+  int blocks = 0;                    ///< resampled blocks of frames
   int trajectories = 1;
-  /// Frames of all seeds that would decide if further movements vary as these do.
-  int enough_frames = 0;  ///< 0: decided, or unknown, as with fewer than kFewestBlocks blocks
+  /// Frames of all seeds that would decide, if further movements vary like these.
+  int enough_frames = 0;  ///< 0: decided or unknown
   double minimum_effect = 0;
-  bool is_measured = false;  ///< by a noise floor; else a default
+  bool is_measured = false;  ///< from a noise floor; else a default
   Verdict verdict = Verdict::not_enough_data;
 };
 
@@ -60,7 +60,7 @@ struct ChangedFrame {
   std::optional<double> candidate_vertex_error_mm;
 };
 
-/// Differences per frame of one experiment: means over seeds with both values.
+/// Differences per frame of an experiment: means over seeds with both values.
 struct FrameDifferences {
   std::string experiment;
   int first_frame = 0;
@@ -84,9 +84,9 @@ struct Comparison {
   ComparedResult candidate;
   CompareConfig config;
   int seeds = 0;             ///< maximum per experiment
-  bool other_seeds = false;  ///< noise seeds differ; noise is not paired
+  bool other_seeds = false;  ///< noise seeds differ
   bool has_noise_floor = false;
-  std::vector<std::string> preselected;  ///< metrics chosen before the comparison; empty: all
+  std::vector<std::string> preselected;  ///< metrics chosen beforehand; empty: all
   std::vector<ComparisonRow> rows;       ///< all experiments first
   std::vector<FrameDifferences> frames;
   std::vector<ChangedFrame> worst;  ///< most changed first; at most kWorstFrames
@@ -97,9 +97,8 @@ struct Comparison {
 };
 inline constexpr int kWorstFrames = 6;
 
-/// Compares frame by frame and seed by seed (ci/README.md, "When a change counts"). Resamples blocks of frames and
-/// seeds within each sequence (rescaled bootstrap of Rao and Wu, n - 1 of n). Experiments on one trajectory share
-/// draws. Student's t has blocks - 1 degrees of freedom. `floor` gives minimum effects; may be null.
+/// Compares frame by frame and seed by seed (ci/README.md, "When a change counts"). Standard errors:
+/// paired_bootstrap.h. Student's t has blocks - 1 degrees of freedom. `floor` gives minimum effects; may be null.
 /// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});

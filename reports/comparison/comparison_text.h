@@ -14,30 +14,29 @@ struct OutcomeCount {
   std::string verdict;
   Tone tone;
 };
-/// Each row counts once. "worse in places" only if there is such a row.
+/// Each row counts once. "worse in places" is left out if 0.
 std::vector<OutcomeCount> outcome_counts(const Comparison& comparison);
-/// "2 worse, 1 worse in places, 1 better, 33 same, 0 not enough data", then slower stages.
+/// "2 worse, 1 better, 33 same, 0 not enough data", then slower stages.
 std::string outcome_line(const ComparisonReport& report);
 
 /// Whether the row is changed, not judged, or stopping.
 bool is_worth_reading(const ComparisonRow& row);
 
-/// Rows by experiment, in order.
 std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison);
 
-/// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1". Other forms stay.
+/// "Tr5 open_power, source, subject 2" for "Tr5_DB_open_power_source_subject2_gradient_1".
 std::string readable_experiment(const std::string& experiment);
 
-/// At most nine characters; "-" for none. Signed numbers >= 0 have a plus.
+/// At most nine characters; "-" for none.
 std::string number_text(const std::optional<double>& value);
 std::string signed_number_text(const std::optional<double>& value);
-/// "[-0.120, +0.400]", "-" for none, or "too few blocks" if it could not be read.
+/// "[-0.120, +0.400]", "too few blocks", or "-" for none.
 std::string interval_text(const ComparisonRow& row);
-/// "1900 frames, or 8 movements like this". Empty if there is enough data or the need is unknown.
+/// "1900 frames, or 8 movements like this". Empty if decided or unknown.
 std::string enough_text(const ComparisonRow& row);
 std::string verdict_text(const ComparisonRow& row);
 
-/// "2.980 -> 3.400 mm, difference +0.420 [+0.300, +0.540], minimum effect 0.100, 234 of 234 frames"
+/// "2.980 -> 3.400 mm, difference +0.420 [+0.300, +0.540], minimum effect 0.100, 234 of 234 frames".
 std::string row_sentence(const ComparisonRow& row);
 /// "6.10 times faster than plain, was 8.20, limit 5.74"
 std::string speed_sentence(const SpeedRow& row);
@@ -47,11 +46,11 @@ std::string result_sentence(const ComparedResult& result);
 /// `worse` for rows that stop the change.
 Tone tone_of(const ComparisonRow& row);
 
-/// Verdict last.
+/// The last column is the verdict.
 Table rows_table(std::span<const ComparisonRow> rows);
-/// Tables of enough data, speed, configuration, uncompared metrics, stage times (for information).
+/// Enough data, speed, configuration, uncompared metrics, stage times.
 std::vector<Table> comparison_tables(const ComparisonReport& report);
-/// Moves a last verdict beside the names, for narrow screens.
+/// Moves the verdict beside the names, for narrow screens.
 Table verdict_first(Table table);
 
 }  // namespace glovebench::reports

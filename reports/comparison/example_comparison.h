@@ -52,7 +52,7 @@ inline ComparisonReport small_comparison() {
   return report;
 }
 
-/// Noise, and a change after a third of the movement that fades.
+/// Noise, and a change that begins at a third of the movement and fades.
 inline std::vector<std::optional<double>> example_differences(const std::string& name, size_t metric, double level,
                                                               bool loses_frames) {
   std::vector<std::optional<double>> values;

@@ -7,32 +7,31 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/speed.h"
 
-// The rule that stops a change (ci/README.md, "When a change counts"). A row stops it if it is significantly worse
-// by its minimum effect, or if it rises by its sure effect: two minimum effects, or one for a share of frames. A
-// slower stage stops it, too.
+// The rule that stops a change (ci/README.md, "When a change counts"). The sure effect is two minimum effects; for
+// a share of frames, one.
 
 namespace glovebench::reports {
 
 /// What another machine can cause; for a share, at least two frames. `frames`: of all seeds.
 double least_effect(const Metric& metric, int frames);
-/// The noise floor's effect or the default, at least least_effect. Grows if a result has fewer `seeds` than the
+/// The noise floor's effect or the default; at least least_effect. Grows if a result has fewer `seeds` than the
 /// floor. `floor` may be null.
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 
-/// Whether the row has enough blocks for its interval to be read.
+/// Whether the row has enough blocks for an interval.
 bool has_interval(const ComparisonRow& row);
 Verdict verdict_of(const ComparisonRow& row);
-/// Whether the row is worse, or rose by its sure effect.
+/// Whether the row is `worse` or rose by its sure effect.
 bool stops(const ComparisonRow& row);
-/// Whether the row stops the change without a significant interval.
+/// Whether the row stops the change without being `worse`.
 bool is_worse_in_places(const ComparisonRow& row);
-/// Smallest addition to every candidate frame with which the row stops the change. The row must have a difference.
+/// The least that must be added to every candidate frame for the row to stop the change. It must have a difference.
 double missing_to_stop(const ComparisonRow& row);
 
 struct GateDecision {
   std::vector<std::string> failures;  ///< one line each: experiment, metric, numbers
-  std::vector<std::string> warnings;  ///< possible regressions without enough data, and gaps
+  std::vector<std::string> warnings;  ///< possible regressions without enough data; gaps
   bool has_places = false;
   bool passed() const { return failures.empty(); }
 };

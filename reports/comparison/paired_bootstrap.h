@@ -20,7 +20,7 @@ struct PairedDifferences {
   std::optional<double> candidate_mean;
   std::optional<double> mean;
 };
-/// Both need equal numbers of runs and frames.
+/// Both must have equal numbers of runs and frames.
 PairedDifferences paired_differences(const Metric& metric, const std::vector<SeedRun>& baseline,
                                      const std::vector<SeedRun>& candidate);
 
@@ -29,12 +29,12 @@ struct BlockSums {
   Eigen::MatrixXd sums;
   Eigen::MatrixXd counts;
 };
-/// Blocks have similar lengths of at least `block_frames` frames, if there are that many. Skips blocks without a
+/// Blocks have about equal lengths, at least `block_frames` if there are that many frames. Skips blocks without a
 /// pair.
 BlockSums block_sums(const PairedDifferences& differences, int block_frames);
 
-/// How often each resample (row) has each block or seed. n - 1 of n are drawn, so the variance is unbiased even for
-/// small n (Rao and Wu, JASA 1988). Experiments on one trajectory share draws.
+/// How often each resample (row) has each block or seed. Draws n - 1 of n: the variance is unbiased (rescaled
+/// bootstrap, Rao and Wu, JASA 1988). Experiments on one trajectory share draws.
 class Draws {
  public:
   Draws(uint64_t seed, int resamples) : seed_(seed), resamples_(resamples) {}
@@ -51,7 +51,7 @@ class Draws {
 
 /// Mean differences per resample. NaN without a pair.
 Eigen::VectorXd resampled_means(const BlockSums& sums, const std::string& trajectory, Draws& draws);
-/// Standard deviation without NaN. Empty if over half are NaN.
+/// Standard deviation, without NaN. Empty if over half are NaN.
 std::optional<double> standard_error(const Eigen::VectorXd& means);
 /// The value that Student's t exceeds with this probability.
 double student_t_above(double probability, int degrees_of_freedom);

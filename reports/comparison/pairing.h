@@ -17,25 +17,25 @@ struct NamedResult {
   RunResult result;
 };
 
-/// In what compared experiments may differ.
+/// How compared experiments may differ.
 enum class Across { noise, subject, frames };
 constexpr auto names_of(Across) {
   return std::to_array<std::string_view>({"noise", "subject", "frames"});
 }
 
 struct PairingOptions {
-  /// Pairs different noise seeds, equal in number, in their order. Otherwise seeds must be equal.
+  /// Pairs different noise seeds in their order; counts must be equal. Otherwise seeds must be equal.
   bool other_seeds = false;
   /// Compares shared experiments. Otherwise the candidate needs all of the baseline's.
   bool partial = false;
-  /// Otherwise noise, subject and frames must be equal. Across frames, compares those of both results.
+  /// Otherwise noise, subject and frames must be equal. Across frames, compares shared frames.
   std::vector<Across> across = {};
-  std::vector<std::string> metrics = {};  ///< gated, chosen before the comparison; empty: all
+  std::vector<std::string> metrics = {};  ///< gated, chosen beforehand; empty: all
 
   bool is_across(Across what) const { return std::ranges::find(across, what) != across.end(); }
 };
 
-/// A difference in the configuration, or in what runs are compared across.
+/// A difference in the configuration, or in Across.
 struct ConfigurationChange {
   std::string field;     ///< "icp.max_iterations"
   std::string baseline;  ///< JSON; empty if absent
@@ -56,9 +56,9 @@ struct Pairing {
 std::vector<const Metric*> shared_metrics(const Protocol& baseline, const Protocol& candidate);
 std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, const Protocol& candidate);
 
-/// Throws: Incomparable naming the first difference: protocol (except metrics), hash of a shared truth or database
+/// Throws: Incomparable with the first difference: protocol (except metrics), hash of a shared truth or database
 /// (also if missing), repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
-/// Across noise or subject, also for two experiments of one result that differ in nothing else.
+/// Across noise or subject, also if two experiments of one result differ in nothing else.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 
 }  // namespace glovebench::reports

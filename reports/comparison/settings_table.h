@@ -11,28 +11,27 @@
 namespace glovebench::reports {
 
 struct SettingRun {
-  NamedResult run;                ///< its name is the row's
-  std::optional<double> time_ms;  ///< of a frame, measured while no other job ran; empty: unknown
+  NamedResult run;                ///< the row has its name
+  std::optional<double> time_ms;  ///< of a frame, measured while no other job ran
 };
 
 /// Runs of the same frames, each compared with the reference.
 struct SettingsTable {
   std::string reference;
   bool is_paper = false;                    ///< reference has the paper's configuration
-  std::string experiments;                  ///< whose frames are compared
+  std::string experiments;                  ///< names of the compared experiments
   std::map<std::string, std::string> runs;  ///< `run_name` by setting
-  Table table;                              ///< quantity, setting, mean, difference with its interval, verdict
+  Table table;                              ///< quantity, setting, mean, difference, interval, verdict
   Table changes;                            ///< fields that differ from the reference
-  std::vector<std::string> enough;          ///< one line per undecided row: how much data would decide
+  std::vector<std::string> enough;          ///< a line per undecided row: data that would decide
   std::string recommendation;
   std::string explanation;
 };
 
-/// The default metrics of a table.
 std::vector<std::string> headline_metrics();
 
-/// Compares each run with the one that has the paper's configuration, else with the first. All intervals of the
-/// table hold together (CompareConfig::family_error).
+/// Compares each run with the one of the paper's configuration, else with the first. All intervals hold together
+/// (CompareConfig::family_error).
 /// Throws: Error for fewer than two runs or a repeated name; Incomparable.
 SettingsTable compare_settings(const std::vector<SettingRun>& runs, const PairingOptions& pairing,
                                const CompareConfig& config = {});

@@ -9,13 +9,13 @@
 
 namespace glovebench::reports {
 
-/// For information: stage times depend on machine and load.
+/// Stage times depend on machine and load.
 struct StageTimes {
   std::string processor;
   int threads = 0;
   struct Stage {
     std::string name;
-    double median_ms = 0;  ///< mean of the experiments' medians
+    double median_ms = 0;  ///< mean of experiments' medians
   };
   std::vector<Stage> stages;
 };
@@ -25,11 +25,10 @@ struct StageTimes {
 StageTimes read_stage_times(const std::string& timings_path);
 StageTimes parse_stage_times(const std::string& text, const std::string& where);
 
-/// For a baseline's provenance.
 nlohmann::ordered_json stage_times_json(const StageTimes& times);
 StageTimes stage_times_from(const JsonCursor& json);
 
-/// Only stages of both runs.
+/// Only for stages of both runs.
 struct StageTimeChange {
   std::string stage;
   double baseline_ms = 0;

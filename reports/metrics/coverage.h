@@ -8,9 +8,9 @@ namespace glovebench::reports {
 
 struct FrameRecord;
 
-// The rules of coverage. Each result's protocol contains them: a new rule is a new protocol.
+// The rules of coverage. They are part of the protocol.
 
-/// A hand is visible from this share of its camera-facing area, in both images and in the volume.
+/// A hand is visible if this much of its camera-facing area is in both images and in the volume.
 inline constexpr double kVisible_percent = 30;
 inline constexpr double kVolumeNear_mm = 400, kVolumeFar_mm = 950;  ///< z in the IR camera's frame
 /// A frame is found, or "covered", below these errors.
@@ -22,11 +22,11 @@ inline constexpr double kUsableFingertips_mm = 20;  ///< mean of the five
 /// All rules by name.
 std::map<std::string, double> coverage_rules();
 
-// Errors are compared with the precision of files (1e-6).
+// Errors are compared to 1e-6, as in files.
 
 /// False for frames of older results.
 bool is_visible(const FrameRecord& frame);
-/// Whether the frame is tracked with errors below the usable ones. Ignores errors that the result lacks.
+/// Whether the frame is tracked within the usable errors. Ignores errors that the result lacks.
 bool is_usable(const FrameRecord& frame);
 
 }  // namespace glovebench::reports

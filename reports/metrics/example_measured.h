@@ -1,6 +1,6 @@
 #pragma once
 
-// For a test that computes the metrics again in another language.
+// For a test that computes the metrics in another language.
 
 #include "core/base/math.h"
 #include "core/base/random.h"
@@ -41,7 +41,7 @@ inline Json camera_json(const PinholeCamera& c) {
   return {{"width", c.width}, {"height", c.height}, {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx}, {"cy", c.cy}};
 }
 
-/// Errors grow with `spread`; the hand leaves the images to the right as `x` grows, m.
+/// Errors grow with `spread`. `x` moves the hand to the right, m.
 struct Case {
   double spread, x;
   TrackStatus status = TrackStatus::tracked;
@@ -72,7 +72,7 @@ inline Json metrics_json(const FrameRecord& record) {
   return json;
 }
 
-/// Measures one frame per case; `person` is the hand in front of the camera. Appends what it measured.
+/// Measures one frame per case. `person`: the hand in front of the camera.
 inline Json frames_json(const HandModel& tracker_hand, const HandModel& person, const RgbdCalibration& cameras,
                         std::vector<FrameErrors>& measured) {
   Json frames = Json::array();
@@ -99,7 +99,7 @@ inline Json frames_json(const HandModel& tracker_hand, const HandModel& person, 
 
 }  // namespace measured_example
 
-/// Points, poses and cameras of invented frames (m, in the IR camera's frame) and what the program makes of them.
+/// Points, poses and cameras of invented frames (m, IR camera's frame), and their metrics.
 inline nlohmann::ordered_json example_measured_json(const HandModel& tracker_hand) {
   using namespace measured_example;
   HandSizes sizes = HandShape().sizes;

@@ -10,7 +10,7 @@
 
 namespace glovebench::reports {
 
-/// An angle is observed if it moves at least this many visible pixels.
+/// An angle is observed if it moves at least so many visible pixels.
 inline constexpr int kObservedPixels = 30;
 
 struct FrameTruth {
@@ -19,7 +19,7 @@ struct FrameTruth {
   JointPoses T_hand_joint;                        ///< of the rendered hand
   std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
-  std::optional<double> visible_percent = {};     ///< see visibility.h; empty if not requested
+  std::optional<double> visible_percent = {};     ///< visibility.h; empty if not requested
 };
 
 /// Input of metrics. All values are finite.
@@ -27,7 +27,7 @@ struct MeasuredFrame {
   const TrackResult& estimate;
   const FrameTruth& truth;
   PosedHand estimated_hand, true_hand;  ///< tracker's mesh in both postures
-  /// In the camera's frame, per joint without the forearm. True joints are the rendered hand's.
+  /// By joint, without the forearm. True joints are the rendered hand's.
   std::vector<double> joint_errors_mm;
 };
 
@@ -35,7 +35,7 @@ struct FrameErrors {
   FrameRecord record;
   std::vector<double> joint_errors_mm;  ///< empty if lost
 };
-/// All metrics of one frame (X_metrics.cpp). A tracked frame must be finite.
+/// All metrics of a frame. A tracked frame must be finite.
 FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth,
                           const HandModel& tracker_model);
 

@@ -7,7 +7,7 @@
 
 namespace glovebench::reports {
 
-/// Tiles show their frame number; differences are lighter.
+/// Tiles show their frame number.
 inline FrameSheet example_sheet(const std::string& figure, int frames) {
   FrameSheet sheet{figure, "", 16, 160, 128, 0, frames};
   const int rows = (frames + sheet.columns - 1) / sheet.columns;

@@ -10,11 +10,11 @@
 
 namespace glovebench::reports {
 
-/// All frames of a curve in one image, each as two tiles, one above the other: true hand, and estimated minus true
-/// depth. Frame i is in column i % columns, tile row pair i / columns.
+/// All frames of a curve in one image. A frame has two tiles, one above the other: true hand, estimated minus true
+/// depth. Frame i is in column i % columns, pair of tile rows i / columns.
 struct FrameSheet {
   std::string figure;  ///< "figure5"
-  std::string image;   ///< of a JPEG or PNG file
+  std::string image;   ///< bytes of a JPEG or PNG file
   int columns = 1;
   int tile_width = 0;   ///< px
   int tile_height = 0;  ///< px
@@ -32,8 +32,8 @@ struct PageMaterial {
   std::vector<Picture> worst_frames;
 };
 
-/// index.html in one file: Figures 4 to 9 as far as run, beside the paper's numbers. Tables and keyframes need no
-/// JavaScript. `timings`: for robot commands and, with studies, the machine.
+/// index.html in one file (reports/README.md). Tables and keyframes need no JavaScript. `timings`: for robot
+/// commands and, with studies, the machine.
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
                       const PageMaterial& material = {});
 
@@ -44,14 +44,14 @@ struct WorstFrame {
   std::string metric;  ///< by which it was chosen
 };
 
-/// Half of `count` by position error, half by posture error (RMS), from subject 1 on source truth under the
-/// headline noise, else from all experiments. At most two per experiment, 0.5 s apart in one run, none twice, none
-/// lost.
+/// Half of `count` by position error, half by posture error (RMS). From subject 1 on source truth under the
+/// headline noise, else from all experiments. At most two per experiment, 0.5 s apart in a run. None lost or
+/// repeated.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
-/// Shows every stage of the frame, from the run's folder.
+/// The command that explains the frame, called in the run's folder.
 std::string explain_command(const WorstFrame& worst, const std::string& folder = ".");
-/// Experiment, frame, errors.
+/// Names experiment, frame and errors.
 std::string caption(const WorstFrame& worst);
 
 }  // namespace glovebench::reports

@@ -9,23 +9,23 @@ namespace glovebench::reports {
 struct Picture {
   std::string caption;
   std::string image;         ///< of a PNG or JPEG file
-  std::string command = "";  ///< that shows it again; may be empty
+  std::string command = "";  ///< shows it again; may be empty
 };
 
 /// Empty without pictures.
 std::string picture_section(const std::string& title, const std::vector<Picture>& pictures);
 
-/// "data:image/png;base64,..." of a PNG or JPEG file.
+/// "data:image/png;base64,..." of a PNG or JPEG file's bytes.
 std::string data_uri(const std::string& image);
 
-/// Place of a chart that data/page_charts.js draws from the page's tables. `chart`: its name there, numbered if
-/// several: "differences 3". `label`: what it shows.
+/// Where data/page_charts.js draws a chart. `chart`: its name there, with a number if there are several
+/// ("differences 3"). `label`: what it shows.
 std::string chart_place(const std::string& chart, const std::string& label);
-/// End of a page with charts: `tables` (CSV texts by name) and `scripts` (Vega, Vega-Lite, Vega-Embed). Empty
-/// without scripts.
+/// The end of a page with charts. `tables`: CSV texts by name. `scripts`: as in PageMaterial. Empty without
+/// scripts.
 std::string chart_scripts(const nlohmann::ordered_json& tables, const std::vector<std::string>& scripts);
 
-/// A document in the project's style plus `style`: title, `body` (HTML), `end`.
+/// A document in the project's style, plus `style`.
 std::string html_document(const std::string& title, const std::string& body, const std::string& style = "",
                           const std::string& end = "");
 

@@ -13,20 +13,20 @@ struct Section {
   std::string html;   ///< below the heading, or with its own
 };
 
-/// The place of a chart's numbers.
+/// Where a chart's numbers are.
 std::string data_note(const std::string& table);
 
-/// Figure 4 or other experiments' errors; Figures 5 and 6 with keyframes, if run.
+/// Figure 4 or other experiments' errors; Figures 5 and 6 if run.
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
 std::vector<Section> study_sections(const RunResult& result);
-/// Curves and worst frames of each experiment, where a click on its bar leads.
+/// Curves and worst frames of each experiment. A click on its bar leads here.
 Section frames_section(const RunResult& result);
 
-/// Keyframes of a curve; place and slider of one frame for data/page_frames.js.
+/// Keyframes of a curve, with one frame's place and slider for data/page_frames.js.
 std::string keyframes_html(const FrameSheet& sheet);
 std::string frame_viewer_html(const FrameSheet& sheet);
-/// Holds each sheet once; tiles are windows on it.
+/// CSS with each sheet once. Tiles are windows on it.
 std::string sheet_style(const std::vector<FrameSheet>& sheets);
 
 }  // namespace glovebench::reports

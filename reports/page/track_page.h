@@ -7,8 +7,7 @@
 
 namespace glovebench::reports {
 
-/// A page in one file: counts of each status, the hand's path and its angles over time. `scripts` as in
-/// PageMaterial; without them there are no charts.
+/// A page in one file: counts of each status, path and angles over time. `scripts`: as in PageMaterial.
 std::string track_page(const std::string& title, const std::vector<Estimate>& estimates,
                        const std::vector<std::string>& scripts);
 

@@ -6,19 +6,19 @@
 
 namespace glovebench::trajectories {
 
-/// Palm joints, segment lengths and marker positions of a person. 0 is the nominal hand.
+/// A person's palm joints, segment lengths and marker positions. 0: the nominal hand.
 class HandParameters {
  public:
   explicit HandParameters(const CaptureHand& nominal);
 
   int size() const { return static_cast<int>(deviations_.size()); }
-  /// Standard deviations between persons, m. Segments are relative.
+  /// Standard deviations between persons, m; segments relative.
   const Eigen::VectorXd& deviations() const { return deviations_; }
-  /// Fixes the hand frame: rows whose product with the parameters is 0, m.
+  /// Fix the hand frame: rows * parameters = 0, m.
   const Eigen::MatrixXd& frame_constraints() const { return frame_constraints_; }
 
   CaptureHand hand(const Eigen::VectorXd& parameters) const;
-  /// Derivative of the markers (capture frame), three rows each, by the parameters.
+  /// Derivative of the markers (capture frame, three rows each) by the parameters.
   Eigen::MatrixXd jacobian(const CaptureHand& hand, const HandState& state) const;
 
  private:
@@ -34,8 +34,8 @@ struct Calibration {
   std::vector<HandState> states;
 };
 
-/// Fits the hand and all states together by damped Gauss-Newton (bundle adjustment). `points`: a point or gap per
-/// frame and marker. Ends when a step gains less than `smallest_gain` of the cost.
+/// Fits the hand and all states together by damped Gauss-Newton (bundle adjustment). `points`: [frame][marker], or
+/// gaps. Ends when a step gains less than `smallest_gain` of the cost.
 Calibration calibrate_hand(const CaptureHand& start, const std::vector<std::vector<Eigen::Vector3d>>& points,
                            const std::vector<HandState>& states, double robust_scale, double smallest_gain);
 

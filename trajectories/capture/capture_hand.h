@@ -20,27 +20,27 @@ struct HandState {
   Eigen::Isometry3d T_capture_hand = Eigen::Isometry3d::Identity();  ///< m
 };
 
-/// Rotation vector about the hand origin and translation, capture frame; then angles.
+/// Rotation about the hand origin and translation (capture frame), then angles.
 inline constexpr int kStateSize = 6 + kAngleCount;
 using StateStep = Eigen::Matrix<double, kStateSize, 1>;
 /// Takes a step within joint limits.
 HandState moved(const HandState& state, const StateStep& step);
 
-/// Marker positions in the capture frame.
+/// Marker positions, capture frame, m.
 std::vector<Eigen::Vector3d> predict_points(const CaptureHand& hand, const HandState& state);
-/// Derivative of predict_points, three rows per marker.
+/// Of predict_points, three rows per marker.
 Eigen::MatrixXd state_jacobian(const CaptureHand& hand, const HandState& state);
 
-/// Pose of the frame that holds a marker, in the hand frame.
+/// Pose of the marker's joint, or of the palm, in the hand frame.
 Eigen::Isometry3d marker_frame(const PlacedMarker& marker, const JointPoses& T_hand_joint);
 
-/// Size relative to `hand`: the median ratio of distances that no posture changes, else 1. `points`: a point or gap
-/// per frame and marker.
+/// Size relative to `hand`: median ratio of distances that no posture changes; 1 without any. `points`:
+/// [frame][marker], or gaps.
 /// Throws: Error if no hand has this size.
 double hand_scale(const CaptureHand& hand, const std::vector<std::vector<Eigen::Vector3d>>& points,
                   const std::string& where);
 
-/// Guesses each frame from its neighbor, from the frame with the most points.
+/// Guesses each frame from its neighbor, beginning with the frame of most points.
 /// Throws: Error if no frame has three palm points.
 std::vector<HandState> start_states(const CaptureHand& hand,
                                     const std::vector<std::vector<Eigen::Vector3d>>& points, double robust_scale,

@@ -11,12 +11,11 @@ namespace glovebench::trajectories {
 struct PosturePrior {
   Posture center = Posture::Zero();  ///< rad
   double deviation = radians_from_degrees(60);
-  /// of an end joint from kEndJointShare of its middle joint, rad
+  /// end joint from kEndJointShare of its middle joint, rad
   double end_joint_deviation = radians_from_degrees(15);
 };
 
 double prior_cost(const Posture& posture, const PosturePrior& prior);
-/// Adds the prior to a state's normal equations.
 void add_prior(const Posture& posture, const PosturePrior& prior, Eigen::Ref<Eigen::MatrixXd> H,
                Eigen::Ref<Eigen::VectorXd> b);
 
@@ -30,8 +29,8 @@ struct FrameFitOptions {
 };
 
 struct WeightedResiduals {
-  Eigen::VectorXd residuals;  ///< three per marker, weighted, in kPointDeviation; 0 unseen
-  Eigen::VectorXd row_scale;  ///< from rows of a Jacobian (m) to `residuals`; 0 unseen
+  Eigen::VectorXd residuals;  ///< three per marker, weighted, in kPointDeviation; 0: unseen
+  Eigen::VectorXd row_scale;  ///< Jacobian rows (m) to `residuals`; 0: unseen
   double cost = 0;
 };
 /// `points`: a point or gap per marker.
@@ -50,7 +49,7 @@ struct FrameFit {
 FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
                    const FrameFitOptions& options = {});
 
-/// Distances from their markers, m. NaN for gaps.
+/// Distances from the markers, m. NaN for gaps.
 std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                     const HandState& state);
 
@@ -58,7 +57,7 @@ struct Observability {
   bool pose = false;
   std::array<bool, kAngleCount> angles = {};
 };
-/// An angle is shown if points with kPointDeviation fix it to this.
+/// An angle is shown if points with kPointDeviation determine it to this.
 inline constexpr double kShownDeviation = radians_from_degrees(15);
 Observability observability(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                             const HandState& state, double robust_scale);
@@ -71,8 +70,8 @@ struct Bridged {
   int angle_gaps = 0;  ///< of angles that other frames show
 };
 
-/// Interpolates what frames do not show, constant at the ends. An angle that no frame shows is 0, or kEndJointShare
-/// of the middle joint. `shown` and `times_s` have one item per frame.
+/// Interpolates what frames do not show; constant at the ends. An angle that no frame shows is 0, or kEndJointShare
+/// of the middle joint. `shown`, `times_s`: one per frame.
 Bridged bridge_gaps(const std::vector<HandState>& states, const std::vector<Observability>& shown,
                     const std::vector<double>& times_s);
 

@@ -17,18 +17,18 @@ struct FittedFrame {
   std::vector<double> residuals;  ///< by point, m
   std::array<bool, kAngleCount> bridged_angles = {};
   bool bridged_pose = false;
-  bool left_out = false;  ///< gap over kLongestPoseGapUs, or at an end
+  bool left_out = false;  ///< in a gap over kLongestPoseGapUs, or at an end
 };
 
 inline constexpr int64_t kLongestPoseGapUs = 500'000;
 
 struct HandFit {
   CaptureHand hand;
-  double scale = 1;  ///< of the model's hand before calibration
+  double scale = 1;  ///< of the model's hand, before calibration
   std::vector<FittedFrame> frames;
   std::array<bool, kAngleCount> never_shown = {};
   int angle_gaps = 0;
-  int missing_points = 0;  ///< of labeled markers, in all frames
+  int missing_points = 0;  ///< of labeled markers, over all frames
 };
 
 /// Fits a right hand and its movement to captured points. `markers`: from place_markers.

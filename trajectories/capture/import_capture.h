@@ -11,14 +11,14 @@
 
 namespace glovebench::trajectories {
 
-/// Fits files with equal points as one capture, a second apart. Mirrors a left hand.
+/// Fits files with the same points as one capture, 1 s apart. Mirrors a left hand.
 /// Throws: Error.
 HandFit import_capture(const std::vector<std::string>& paths, const Format& format, Side side,
                        const MarkerLayout& layout, const HandModel& right_hand);
 
 struct CapturePlacement {
   Side side = Side::right;
-  /// empty: kViewingDistance above the back of the average hand, fingers up in the image
+  /// empty: kViewingDistance above the back of the average hand, fingers up
   std::optional<Eigen::Isometry3d> T_capture_camera;
 };
 inline constexpr double kViewingDistance = 0.7;  ///< m
@@ -26,8 +26,7 @@ inline constexpr double kViewingDistance = 0.7;  ///< m
 /// Takes every nth frame.
 Trajectory trajectory_of(const HandFit& fit, const CapturePlacement& placement, const std::string& name, int every);
 
-/// At most `count` postures by low-dispersion sampling, the first frame's first. `names`: of frames; empty:
-/// numbers.
+/// At most `count` postures by low-dispersion sampling, from the first frame's. `names`: by frame; empty: numbers.
 PostureSet postures_of(const HandFit& fit, const std::string& name, size_t count,
                        const std::vector<std::string>& names);
 

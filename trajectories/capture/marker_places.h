@@ -14,10 +14,10 @@ namespace glovebench::trajectories {
 
 inline constexpr int kPalm = -1;  ///< the hand frame
 
-/// Points with WebXR's names are joint centers. Others lie on the skin.
+/// WebXR's names denote joint centers. Other markers lie on the skin.
 inline constexpr int kWebxrJointCount = kForearmJoint;  ///< without the forearm
 bool is_webxr_joint(const std::string& name);
-/// Joint centers, without frames.
+/// All joint centers, without frames.
 MarkerSequence sequence_of_joints();
 
 /// A point fixed to a joint or, for kPalm, the hand.
@@ -33,13 +33,13 @@ struct PlacedMarker {
 
 inline constexpr uint64_t kLargestMarkerLayout = uint64_t{1} << 20;  // bytes
 
-/// Maps other names to places.
+/// Other names with their places.
 using MarkerLayout = std::map<std::string, std::string>;
 /// Reads "glovebench-marker-layout" (README.md).
 /// Throws: Error.
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where);
 
-/// The place on a right hand. `name`: of README.md ("index_proximal_2") or WebXR.
+/// The place on a right hand. `name`: of README.md ("index_proximal_2") or WebXR. Empty for others.
 std::optional<PlacedMarker> place_marker(const std::string& name, const HandModel& model);
 
 /// Throws: Error for a point without a place, or a layout name without a point.

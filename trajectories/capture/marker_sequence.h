@@ -12,7 +12,7 @@ namespace glovebench::trajectories {
 
 struct MarkerFrame {
   int64_t timestamp_us = 0;
-  std::vector<Eigen::Vector3d> points;  ///< by name, capture frame, m; NaN: not seen
+  std::vector<Eigen::Vector3d> points;  ///< by name, capture frame, m; NaN: gap
 };
 
 struct MarkerSequence {
@@ -20,7 +20,6 @@ struct MarkerSequence {
   std::vector<MarkerFrame> frames;  ///< in time order, not empty
 };
 
-/// Limits of a file.
 inline constexpr size_t kMaxMarkers = 200;
 inline constexpr size_t kMaxMarkerFrames = 432'000;  ///< an hour at 120 Hz
 inline constexpr double kMaxCoordinate = 100;
@@ -31,43 +30,43 @@ inline Eigen::Vector3d gap() {
 inline bool is_seen(const Eigen::Vector3d& point) {
   return point.allFinite();
 }
-/// Whether the name is "unlabeled...", "unnamed..." (any case) or "*...".
+/// True for "unlabeled...", "unnamed..." (any case) and "*...".
 bool is_unlabeled(const std::string& name);
 
-/// Reads seconds.
+/// Reads a time in seconds.
 /// Throws: Error.
 int64_t timestamp_from(std::string_view cell, const std::string& where, const std::string& field);
 
-/// A point, or a gap if all cells are empty or NaN. `scale`: m per unit.
-/// Throws: Error if only some cells are empty, or one is no number or too large.
+/// A gap if all cells are empty or NaN. `scale`: m per unit.
+/// Throws: Error if only some cells are empty, or a cell is no number or too large.
 Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale, const std::string& where,
                            const std::string& field);
 
-/// Throws: Error for an invalid, repeated or surplus name.
+/// Throws: Error for an invalid or repeated name, or too many.
 void add_name(std::string_view name, MarkerSequence& sequence, const std::string& where, const std::string& field);
 
-/// Adds a frame. Times count from `first_us`.
-/// Throws: Error if time does not increase, or frames or gaps are too many for `text_bytes`.
+/// Times count from `first_us`.
+/// Throws: Error if time does not increase, or for too many frames, or gaps for `text_bytes`.
 void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSequence& sequence,
                const std::string& where, const std::string& field);
 
-/// The format "csv", mm to 0.001.
+/// Format "csv", mm to 0.001.
 std::string csv_markers(const MarkerSequence& sequence);
 
-/// Largest distance of a point from its marker's prediction, m.
+/// Largest distance of a point from its marker's predicted place, m.
 inline constexpr double kLabelGate = 0.015;
 
 struct Relabeling {
-  std::vector<Eigen::Vector3d> points;  ///< by marker; or a gap
+  std::vector<Eigen::Vector3d> points;  ///< a point or gap per marker
   int corrected = 0;                    ///< markers whose point changed or vanished
 };
 
 /// Assigns points within kLabelGate to markers by the least sum of squared distances. A marker's own point counts
-/// as half as far. `predicted` and `labeled` have one item per marker.
+/// as half as far. `predicted`, `labeled`: one per marker.
 Relabeling relabel(const std::vector<Eigen::Vector3d>& predicted, const std::vector<Eigen::Vector3d>& labeled,
                    const std::vector<Eigen::Vector3d>& unlabeled);
 
-/// Distinct columns for the rows with the least sum of finite costs (Kuhn and Munkres). At most as many rows as
+/// A distinct column for each row, with the least sum of finite costs (Kuhn and Munkres). At most as many rows as
 /// columns.
 std::vector<int> assign(const Eigen::MatrixXd& cost);
 

@@ -11,7 +11,7 @@
 
 namespace glovebench::trajectories {
 
-/// trajectories/formats/X_format.cpp defines `Format X_format()`. ci/corpora/format_X seeds its fuzzing. Readers
+/// trajectories/formats/X_format.cpp defines `Format X_format()`; ci/corpora/format_X seeds its fuzzing. Readers
 /// throw Error.
 struct Format {
   std::string_view name;
@@ -26,7 +26,7 @@ struct Format {
 /// Sorted by name.
 std::span<const Format> formats();
 
-/// Those with a reader: `formats_with(&Format::markers)`.
+/// Formats with this reader: `formats_with(&Format::markers)`.
 template <typename Reader>
 std::vector<const Format*> formats_with(Reader Format::*reader) {
   std::vector<const Format*> found;
@@ -43,7 +43,7 @@ const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   return nullptr;
 }
 
-/// Decides by the ending. Built-in names have none.
+/// By the ending, which built-in names lack.
 inline bool is_trajectory_file(std::string_view name) {
   return format_of_file(name, &Format::trajectory) != nullptr;
 }
@@ -54,7 +54,7 @@ inline bool is_posture_file(std::string_view name) {
 /// Reads by the ending.
 /// Throws: Error.
 Trajectory load_trajectory(const std::string& path);
-/// A set without a name takes the file's.
+/// A set without a name gets the file's.
 PostureSet load_posture_set(const std::string& path);
 
 /// Throws: Error for an unknown name.

@@ -16,11 +16,11 @@ std::vector<Posture> movement_posture_pool(const PostureSet& gestures);
 /// The sets of section IV.
 std::vector<PostureSet> make_database_posture_sets(const PostureSet& gestures);
 
-/// Makes every generated file, by path in the data folder, from its gestures and scripts.
+/// Generated files by path in the data folder, from its gestures and scripts.
 /// Throws: Error.
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder);
 
-/// Markdown: distances, speeds, grasps of the source trajectories.
+/// A Markdown table of the source trajectories.
 /// Throws: Error.
 std::string source_properties_table(const std::string& data_folder);
 

@@ -8,14 +8,13 @@
 
 namespace glovebench::trajectories {
 
-/// One tendon bends an end joint by this share of its middle joint.
+/// An end joint bends by this share of its middle joint.
 inline constexpr double kEndJointShare = 2.0 / 3.0;
 
-/// Departures from a gesture, each with RMS 1 degree over all angles. End joints follow by kEndJointShare. The
-/// wrist is still.
+/// Departures from a gesture, each of RMS 1 degree. End joints follow by kEndJointShare. The wrist is still.
 const std::vector<Posture>& variation_modes();
 
-/// A sum of sinusoids between two frequencies, mean 0, RMS 1.
+/// A sum of sinusoids between two frequencies; mean 0, RMS 1.
 class SmoothNoise {
  public:
   SmoothNoise(RandomStream& random, double low_hz, double high_hz);

@@ -14,7 +14,7 @@ struct DdsAccess {
   bool operator==(const DdsAccess&) const = default;
 };
 
-/// ROS 2 adds `rt/` to its names.
+/// Topic names, with ROS 2's prefix `rt/`.
 struct Topics {
   const char* hand;          ///< JointTrajectory
   const char* wrist;         ///< JointTrajectory

@@ -22,23 +22,23 @@ namespace glovebench {
 /// Throws: Error for an error code.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// Limits of messages, which bound the memory that others can use.
+/// Limits of the memory that others can fill.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
-inline constexpr int kMaxWaiting = 10'000;        // in a reader: a flood of 0.1 s
+inline constexpr int kMaxWaiting = 10'000;        // messages in a reader
 
-/// Depth of a writer, as in ROS 2.
+/// A writer keeps this many messages, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
-/// Messages dropped for their size since the process began.
+/// Messages dropped for their size, in this process.
 int64_t dds_messages_too_large();
 
 struct DdsDomain;
 
-/// Makes the other entities in a domain.
+/// Makes entities in a domain.
 class DdsParticipant {
  public:
-  /// Throws: Error for a domain outside 0..230, an unknown interface, an interface besides CYCLONEDDS_URI, or a
-  /// second access to the domain.
+  /// Throws: Error for a domain outside 0..230, an unknown interface, an interface together with CYCLONEDDS_URI, or
+  /// other access than the domain already has.
   explicit DdsParticipant(int domain, const DdsAccess& access = {});
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
@@ -46,11 +46,11 @@ class DdsParticipant {
   dds_entity_t entity() const { return entity_; }
 
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
-  /// As in ROS 2: reliable, volatile, the last 10 messages.
+  /// Reliable, volatile, as in ROS 2.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile. Senders wait while `max_waiting` messages wait.
+  /// Reliable, volatile. Senders block while `max_waiting` messages wait.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
-  /// Keeps the last `depth` messages of other participants.
+  /// Keeps the last `depth` messages from other participants.
   dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
 
  private:
@@ -84,13 +84,13 @@ class DdsWriter {
   dds_entity_t writer_;
 };
 
-/// Watches topics on which only this participant may write.
+/// Watches for other writers on topics.
 class DdsOtherWriters {
  public:
   /// Searches for 1 s.
   /// Throws: Error as `refuse`.
   DdsOtherWriters(const DdsParticipant& participant, std::vector<std::string> topics);
-  /// Throws: Error if another participant writes now.
+  /// Throws: Error if another participant writes on the topics now.
   void refuse();
 
  private:
@@ -101,18 +101,18 @@ class DdsOtherWriters {
   std::map<dds_instance_handle_t, std::string> writers_;
 };
 
-/// A reader ignores messages of further writers.
+/// A reader ignores messages from more writers than this.
 inline constexpr size_t kMostWriters = 64;
 
-/// Messages ignored for that reason since the process began.
+/// Messages ignored for this reason, in this process.
 int64_t dds_messages_of_too_many();
 
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The writer's participant, even if it is gone. Empty beyond kMostWriters; counts such messages.
+  /// The writer's participant, even if it is gone. Beyond kMostWriters: empty, and counts the message.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
-  /// Participants of present writers, even without messages.
+  /// Participants with a writer now.
   std::set<uint64_t> present();
 
  private:

@@ -13,9 +13,8 @@ struct DdsServerOptions {
   int domain = 0;
   DdsAccess access;
   ServedRobot robot;
-  /// Empty: no log.
   std::string log;
-  /// Limit for the log's last state, s.
+  /// Largest age of the log's last state, s.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
   std::function<bool()> stopping;  ///< polled at 100 Hz; true ends the server
@@ -27,8 +26,8 @@ struct DdsServerSummary {
   int64_t lost_log_lines = 0;
 };
 
-/// Serves a robot over DDS until `stopping`. Sends JointState at 100 Hz.
-/// Throws: Error if the domain or log is unusable, or another server uses one of them.
+/// Serves a robot over DDS until `stopping`. Publishes JointState at 100 Hz.
+/// Throws: Error if domain or log is unusable or another server has it.
 DdsServerSummary serve(const DdsServerOptions& options);
 
 }  // namespace glovebench

@@ -16,14 +16,14 @@ struct DdsSinkOptions {
   bool alone = false;                                      ///< allow no other writer on the topics
 };
 
-/// Sends commands as a ROS 2 node would (core/adapters/dds/README.md). Slow listeners do not block it.
+/// Sends commands as a ROS 2 node would (core/adapters/dds/README.md). Does not wait for listeners.
 class DdsSink : public RobotCommandSink {
  public:
   /// `domain`: 0..230.
   /// Throws: Error if domain or network is unusable or, if `alone`, another writer appears within 1 s.
   explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
 
-  /// Sets the source time of the next command, microseconds since 1970. Default: time of sending.
+  /// Sets the next command's source time, us since 1970. Default: time of sending.
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
   /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
   void send(const RobotCommand& command) override;

@@ -11,15 +11,13 @@
 
 namespace glovebench {
 
-/// Joints that a robot's driver measures. core/adapters/dds/README.md ("A controller's topics") says which messages
-/// are trusted.
+/// Joints measured by a robot's driver (core/adapters/dds/README.md, "A controller's topics").
 class MeasuredJoints {
  public:
-  /// `names`: order of the joints in results.
+  /// `names`: order of the results.
   MeasuredJoints(const DdsParticipant& participant, const std::string& topic, std::vector<std::string> names);
 
-  /// Positions (rad) from the newest message if it is trusted and at most 0.1 s old. `system_us`: since 1970.
-  /// `steady_us`: monotonic.
+  /// Positions in the newest message, rad, if it is trusted. `system_us`: since 1970. `steady_us`: monotonic.
   std::optional<std::vector<double>> latest(int64_t system_us, int64_t steady_us);
   /// Why `latest` returned nothing, else "".
   const std::string& doubt() const { return doubt_; }
@@ -46,7 +44,7 @@ class MeasuredJoints {
 };
 
 struct MeasuredState {
-  std::vector<double> hand;      ///< rad, as ShadowJoint; empty if not requested
+  std::vector<double> hand;      ///< rad, by ShadowJoint; empty if not requested
   std::optional<ArmJoints> arm;  ///< likewise
 };
 
@@ -68,10 +66,10 @@ class MeasuredRobot {
   std::vector<MeasuredJoints> hand_, arm_;  ///< by preference
 };
 
-/// A joint beyond a limit by at most this, or J1 beyond J2, counts as at the limit.
+/// A joint up to this far beyond a limit, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// The robot's present targets, for `CommandGuard::start_from`. `T_base_hand` matters only without an arm.
+/// Targets for `CommandGuard::start_from`. `T_base_hand` is used only without an arm.
 /// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);

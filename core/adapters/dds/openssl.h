@@ -12,7 +12,7 @@ struct OpensslResult {
   std::string reason;  ///< last line of standard error
 };
 
-/// Runs `openssl` in a folder. Private keys pass only through `input` (standard input).
+/// Runs `openssl` in a folder. Pass private keys only by `input` (standard input).
 /// Throws: Error if the program cannot run.
 OpensslResult run_openssl(const std::string& folder, std::vector<std::string> arguments,
                           std::string_view input = "");

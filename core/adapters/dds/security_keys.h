@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// DDS Security. `openssl` makes certificates and signatures (EC P-256, SHA-256).
+// Keys for DDS Security, made by `openssl` (EC P-256, SHA-256).
 namespace glovebench {
 
 /// Seconds since 1970.
@@ -26,13 +26,13 @@ const std::vector<SecurityRole>& security_roles();
 std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
-/// Makes keys for all roles (core/adapters/dds/README.md, "DDS Security"). `others`: roles with another validity.
+/// Makes all roles' keys (core/adapters/dds/README.md, "DDS Security"). `others`: roles with another validity.
 /// Throws: Error if the folder is not empty or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});
 
 /// Cyclone DDS's configuration for a role.
-/// Throws: Error for a file that is missing, unreadable, expired at `now_s` or of another key set.
+/// Throws: Error if a file is missing, unreadable, expired at `now_s` or of another key set.
 std::string security_configuration(const std::string& folder, const std::string& role, int64_t now_s);
 
 }  // namespace glovebench

@@ -10,11 +10,11 @@
 
 #include "core/adapters/dds/dds_entity.h"
 
-// A private loopback bus, and its far end in the same process.
+// A private loopback bus with both ends in this process.
 
 namespace glovebench {
 
-/// kFar is kDomain seen from outside: a process reaches its own domain without a network.
+/// kFar reaches kDomain through the network, not within the process.
 inline constexpr int kDomain = 7, kFar = 8;
 inline constexpr const char* kFarDomain =
     "<Domain id=\"8\"><Discovery><ExternalDomainId>7</ExternalDomainId></Discovery></Domain>";
@@ -49,7 +49,7 @@ class UnboundedWriter {
   dds_entity_t participant_, writer_ = 0;
 };
 
-/// Gives this process and its children a Cyclone DDS of their own on loopback. `more`: configuration.
+/// Gives this process and its children a private loopback bus. `more`: configuration.
 inline void use_loopback_dds(const std::string& more = "") {
   const std::string uri =
       "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"

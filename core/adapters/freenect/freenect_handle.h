@@ -6,7 +6,7 @@
 
 namespace glovebench {
 
-/// " (libfreenect: ...)" with the library's last complaint, or "".
+/// " (libfreenect: COMPLAINT)", or "".
 std::string last_complaint();
 /// Throws: Error with the last complaint unless `success`.
 void require_freenect(bool success, const char* field, const std::string& expected);

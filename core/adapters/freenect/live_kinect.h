@@ -10,30 +10,30 @@
 namespace glovebench {
 
 struct LiveOptions {
-  int index = 0;  ///< of libfreenect's devices
-  /// Makes fakenect wait for slow readers. No effect on a real Kinect.
+  int index = 0;  ///< of the device in libfreenect
+  /// fakenect waits for slow readers. No effect on a real Kinect.
   bool every_frame = false;
-  double silence_limit = 10;                     ///< s without a frame before the device counts as failed
+  double silence_limit = 10;                     ///< s without a frame; then the device has failed
   std::string calibration_name = "calibration";  ///< file, for messages
   std::function<bool()> interrupted;             ///< polled at 10 Hz; true ends the stream
 };
 
 /// Images that became no frame.
 struct LiveLosses {
-  int late = 0;       ///< fetched too late, after the first `next_frame`
+  int late = 0;       ///< fetched too late; counted after the first `next_frame`
   int unpaired = 0;   ///< depth images without a near color image
-  int went_back = 0;  ///< not later than the image before
+  int went_back = 0;  ///< not later than the image before it
 
   int total() const { return late + unpaired + went_back; }
 };
 
-/// A live Kinect v1, 640x480. FramePairer pairs images up to 33 ms after the depth image. An unfetched frame is
-/// dropped when the second next one comes. `next_frame` is empty at the end of fakenect's recording and when
+/// A live Kinect v1, 640x480. A frame comes up to 33 ms after its depth image (FramePairer). At most two frames
+/// wait to be fetched; older ones are dropped. `next_frame` is empty at the end of fakenect's recording and when
 /// `interrupted`.
 /// Throws: Error, after earlier frames, if the device is unplugged, silent for `silence_limit`, or memory runs out.
 class LiveKinect : public Device {
  public:
-  /// When the last fetched frame was complete, microseconds since 1970. 0 before the first.
+  /// When the last fetched frame was complete, us since 1970. 0 before the first.
   virtual int64_t arrived_us() const = 0;
   virtual LiveLosses losses() const = 0;
   /// Why the stream ended. Empty before the end and after a failure.
@@ -42,7 +42,7 @@ class LiveKinect : public Device {
 
 extern const bool kHasFreenect;
 
-/// Starts both streams and their thread. fakenect, in place of libfreenect, plays a recording.
+/// Starts the device and a thread. fakenect, loaded in place of libfreenect, plays a recording.
 /// Throws: Error if the device is missing or refuses, the calibration is not 640x480, this build lacks libfreenect,
 /// or fakenect's recording (FAKENECT_PATH) is damaged.
 std::unique_ptr<LiveKinect> open_kinect(const RgbdCalibration& calibration, const LiveOptions& options = {});

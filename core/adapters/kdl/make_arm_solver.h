@@ -6,8 +6,8 @@
 
 namespace glovebench {
 
-/// Inverse kinematics by Orocos KDL (ChainIkSolverPos_NR_JL) from near `start`, a little towards `rest`. Exact to
-/// 0.01 mm and 1e-5 rad. Not thread-safe. Empty in a build without KDL.
+/// Inverse kinematics by Orocos KDL (ChainIkSolverPos_NR_JL), from `start` a little towards `rest`. Exact to 0.01
+/// mm and 1e-5 rad. Not thread-safe. Null in a build without KDL.
 std::unique_ptr<ArmSolver> make_arm_solver(const ArmJoints& rest = kArmAtRest);
 
 }  // namespace glovebench

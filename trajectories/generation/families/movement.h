@@ -12,11 +12,11 @@
 
 namespace glovebench::trajectories {
 
-inline constexpr int kMovementFrames = 100;            ///< of a movement known by name
+inline constexpr int kMovementFrames = 100;            ///< of movements known by name
 inline constexpr uint64_t kMostMovements = 1'000'000;  ///< largest seed
 
 struct MovementMaterial {
-  PostureSet gestures;                              ///< random postures keep away from them
+  PostureSet gestures;                              ///< random postures keep away from these
   PostureSet captured;                              ///< for captured families
   Skeleton skeleton;                                ///< its parts must not overlap
   double least_distance_deg = kGestureDistanceDeg;  ///< finger_distance from each gesture
@@ -24,8 +24,8 @@ struct MovementMaterial {
 /// Throws: Error.
 MovementMaterial load_movement_material(const std::string& data_folder, const Skeleton& skeleton);
 
-/// A movement at 15 Hz. It depends only on family, seed and material. A shorter movement is the beginning of a
-/// longer one.
+/// A movement at 15 Hz. Depends only on family, seed and material. A shorter movement is the beginning of a longer
+/// one.
 /// Throws: Error if the ranges allow no posture or pose.
 Trajectory generate_movement(const MovementFamily& family, uint64_t seed, const MovementMaterial& material,
                              int frame_count = kMovementFrames);
@@ -39,7 +39,7 @@ struct NamedMovement {
 /// Empty for other names.
 std::optional<NamedMovement> find_movement(std::string_view name);
 
-/// The angle between the back of the hand and the camera, deg: 0 if the back faces it, 180 if the palm does.
+/// 0 if the back of the hand faces the camera, 180 if the palm does.
 double tilt_deg(const Eigen::Matrix3d& R_camera_hand);
 
 }  // namespace glovebench::trajectories

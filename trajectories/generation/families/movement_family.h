@@ -15,34 +15,34 @@ struct Range {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-// For all families except captured ones.
+// For all but captured families.
 inline constexpr Range kDipShare = {0.5, 0.9};        ///< of a finger's PIP angle
-inline constexpr double kNeighborCorrelation = 0.6;   ///< of drawn flexions of neighboring fingers, index to little
-inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance from each gesture
-inline constexpr double kMostOverlap = 2e-3;          ///< of parts of a hand, m
+inline constexpr double kNeighborCorrelation = 0.6;   ///< of neighboring fingers' flexions, index to little
+inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance from gestures
+inline constexpr double kMostOverlap = 2e-3;          ///< of a hand's parts, m
 inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways
 
-/// A kind of movement: ranges to draw from (trajectories/README.md).
+/// Ranges to draw from (trajectories/README.md).
 struct MovementFamily {
   std::string_view name;
   std::string_view description;
 
-  // Pose of the hand, in every frame.
-  Range tilt_deg;   ///< of the back of the hand: 0 faces the camera, 180 faces away
+  // In every frame.
+  Range tilt_deg;   ///< back of the hand: 0 faces the camera, 180 faces away
   Range depth;      ///< hand's origin, m
-  double off_axis;  ///< largest x and y of the origin, as a share of half the depth image there
+  double off_axis;  ///< largest x and y of the origin, share of half the depth image
   // Key poses.
   Range tilt_axis_deg;  ///< in the image, from the hand's breadth (0) to its length (90); reversed in half of the
                         ///< movements
-  double yaw_deg;       ///< about the optical axis, either way
-  // Ways between keys. The slower of both sets the time.
+  double yaw_deg;       ///< about the optical axis, both ways
+  // Between keys. The slower of both sets the time.
   Range speed;      ///< peak, m/s
   Range turn_rate;  ///< peak, rad/s
 
-  // Key postures: 0 is a straight finger, 1 a fist.
+  // Key postures. 0: straight finger, 1: fist.
   std::array<Range, 2> bends;  ///< of alternate keys
   double wrist;                ///< largest share of the wrist's limits
-  Range posture_s;             ///< from one posture to the next, s
+  Range posture_s;             ///< from posture to posture, s
   bool captured = false;       ///< people's postures, not random ones
 };
 

@@ -6,9 +6,8 @@
 
 namespace glovebench::trajectories {
 
-/// A random posture within limits and `bend`. MCP and PIP flexions of index to little are uniform and correlate
-/// with neighbors by kNeighborCorrelation. DIP is a uniform share of PIP (kDipShare). Thumb and wrist are uniform.
-/// Parts may overlap, and a gesture may be near.
+/// A random posture within limits and `bend`. MCP and PIP flexions are uniform and correlate with neighboring
+/// fingers (kNeighborCorrelation). DIP is a share of PIP (kDipShare). Parts may overlap, and a gesture may be near.
 Posture random_posture(const MovementFamily& family, const Range& bend, RandomStream& random);
 
 }  // namespace glovebench::trajectories

@@ -4,8 +4,8 @@
 
 namespace glovebench::trajectories {
 
-/// Overlap of capsules around the bones of different fingers, or of a finger and the palm, m. 0 or less: none
-/// touch. Flesh yields by about kMostOverlap.
+/// Largest overlap of capsules around the bones of two fingers, or of a finger and the palm, m. 0 or less: none
+/// touch. Real flesh yields by about kMostOverlap.
 double deepest_overlap(const Skeleton& skeleton, const Posture& posture);
 
 }  // namespace glovebench::trajectories

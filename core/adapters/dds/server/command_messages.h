@@ -10,7 +10,7 @@
 #include "core/base/enum_names.h"
 #include "core/robot/robot_command.h"
 
-/// ROS messages, whose content is unchecked.
+/// ROS messages. Their content is unchecked.
 namespace glovebench::ros {
 
 /// builtin_interfaces/Time and Duration
@@ -63,8 +63,8 @@ enum class Receipt {
   not_finite,
   not_rotation,  ///< no unit quaternion
   stale,         ///< older than `silence_s`, or delayed by a gap
-  starting,      ///< its stream is younger than 0.2 s
-  went_back,     ///< stamp not after the sender's last
+  starting,      ///< its stream began less than 0.2 s ago
+  went_back,     ///< stamp not after the sender's last one
   accepted,
 };
 constexpr auto names_of(Receipt) {
@@ -83,7 +83,7 @@ struct RobotState {
 
 inline constexpr const char* kBaseFrame = "base_link";
 
-/// ROS names (`rh_FFJ1` ...) of the hand's controller, of the wrist's, and of all in the order of ShadowJoint.
+/// ROS names (`rh_FFJ1` ...) of the hand's controller, the wrist's, and all (ShadowJoint).
 const std::vector<std::string>& hand_trajectory_names();
 const std::vector<std::string>& wrist_trajectory_names();
 const std::vector<std::string>& hand_joint_names();
@@ -94,17 +94,17 @@ const std::vector<std::string>& arm_joint_names();
 ros::Time ros_time(int64_t time_us);
 int64_t nanoseconds(const ros::Time& time);
 
-/// Largest age or lead of a trusted measured state.
+/// A measured state is trusted if its time is this near to now.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
-/// Time for a controller to reach targets. A straight path then keeps the guard's speeds.
+/// Time in which a controller reaches targets on a straight path without exceeding the guard's speeds.
 int64_t time_to_targets_us(double longest_step_s);
 
-/// A command's targets (required) as one point, to reach in `time_us`, with the frame's time stamp.
+/// The command's targets as one point, to reach in `time_us`, with the frame's time stamp. There must be targets.
 /// Throws: Error if a target is not finite.
 ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us);
 ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us);
-/// The pose of WRJ2 in kBaseFrame for T_base_hand.
+/// The pose of WRJ2 in kBaseFrame.
 ros::PoseStamped pose_message(const RobotCommand& command);
 
 struct JointsRead {

@@ -25,31 +25,30 @@ struct Arrival {
   int64_t now_us = 0;  ///< reception, monotonic
 };
 
-/// Selects the messages that a server follows: valid, fresh, in time order, from one owner
-/// (core/adapters/dds/README.md, "The server"). Reads no clock. A gap between ticks, or a jump of the owner's
-/// clock, releases the owner.
+/// Selects the messages that a server follows (core/adapters/dds/README.md, "The server"): valid, fresh, in time
+/// order, from one owner. Reads no clock. A gap between ticks or a jump of the owner's clock releases the owner.
 class CommandStream {
  public:
-  /// `topics`: their number.
+  /// `topics`: number of topics.
   CommandStream(const CommandLimits& limits, int topics);
 
-  /// True if another sender owns the topics. Counts such messages.
+  /// Whether another sender owns the topics. Counts the message if so.
   bool ignores(uint64_t sender, int64_t now_us);
   /// Judges and counts a message. `found`: outcome of the content checks.
   Receipt receive(const Arrival& arrival, int topic, const ros::Time& stamp, Receipt found);
   void tick(const ServerTime& now);
-  /// True while the last accepted message of a topic (or of any) counts. It counts for `silence_s`, until a gap or
-  /// a new owner.
+  /// Whether the last accepted message of a topic (or of any) is valid: at most `silence_s` old, without a gap or a
+  /// new owner since.
   bool is_current(int topic, int64_t now_us) const;
   bool is_current(int64_t now_us) const;
   /// Releases an absent owner.
   void keep_only(const std::set<uint64_t>& present);
 
-  /// How often a sender became owner.
+  /// How many times a sender became owner.
   int64_t owners() const { return owners_; }
   int64_t gaps() const { return gaps_; }
-  /// How many times as fast as its frames were taken the owner's stream came, in the fastest half second of a
-  /// topic; 0 before a whole one with stamps.
+  /// The owner's fastest half second on a topic: time between stamps over time between receptions. 0 before half a
+  /// second with stamps.
   double pace() const { return pace_; }
   int64_t count(Receipt receipt) const { return receipts_[static_cast<size_t>(receipt)]; }
 

@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// Time of a file's last change, microseconds since 1970.
+/// A file's last change, us since 1970.
 /// Throws: Error.
 int64_t changed_us(const std::string& path);
 
@@ -15,7 +15,7 @@ int64_t changed_us(const std::string& path);
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines in a thread of its own. A lost line still updates the file's time.
+/// Appends lines in its own thread. A lost line still updates the file's time.
 class LogWriter {
  public:
   /// Throws: Error if the file cannot be opened, or another LogWriter has this regular file.
@@ -24,21 +24,21 @@ class LogWriter {
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
-  /// Takes a line without its end. Returns its number, from 1; 0 if too many wait. Syncs it within 1 s, or at once
-  /// if `urgent`.
+  /// Takes a line without line end. Syncs it within 1 s, or at once if `urgent`. Returns its number, from 1; 0 if
+  /// too many lines wait.
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
     uint64_t done = 0;     ///< written or lost up to this line
-    uint64_t durable = 0;  ///< on the disk, from `failed` + 1 to this line; 0: device or pipe
+    uint64_t durable = 0;  ///< lines `failed` + 1 to this one are on the disk; 0: device or pipe
     uint64_t failed = 0;   ///< this or an earlier line may be lost
     int64_t lost = 0;
     std::string failure;
-    bool misplaced = false;  ///< file was removed, renamed or cut
+    bool misplaced = false;  ///< the file was removed, renamed or cut
   };
   Progress progress() const;
 
-  /// Waits up to 2 s for the disk, then drops the rest.
+  /// Waits up to 2 s for the disk. Drops the rest.
   void finish();
 
  private:

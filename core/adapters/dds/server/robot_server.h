@@ -13,9 +13,9 @@
 
 namespace glovebench {
 
-// A message passes RobotServer::receive, read_joints or read_pose, and CommandStream. If it is `accepted`, it is
-// its topic's goal until the next one. A tick moves towards the goal as far as CommandGuard and MotionLog allow.
-// The tick's RobotState goes to the joints (dds_server.cpp).
+// RobotServer::receive checks a message with read_joints or read_pose, then with CommandStream. An `accepted`
+// message is its topic's goal until the next one. A tick moves towards the goals as far as CommandGuard and
+// MotionLog allow.
 
 /// `pose`: of the wrist.
 enum class RobotTopic { fingers, wrist, pose };
@@ -28,7 +28,7 @@ struct ServedRobot {
 
   GuardedPart part() const;
   std::string name() const;  ///< "hand", "arm" or "hand and arm"
-  /// All joints: the hand's (ShadowJoint), then the arm's.
+  /// The hand's joints (ShadowJoint), then the arm's.
   std::vector<std::string> names() const;
   std::vector<double> at_rest() const;  ///< rad: open hand, kArmAtRest
   std::vector<JointMotion> motions(const CommandLimits& limits) const;
@@ -40,17 +40,17 @@ struct StartPlace {
   double tolerance = radians_from_degrees(1e-6);  ///< rad: twice the log's rounding
 };
 
-/// Serves hand, arm or both, without middleware or clock. Topics without a current message (CommandStream) move
+/// Serves hand, arm or both. Knows no middleware or clock. A topic without a current message (CommandStream) moves
 /// nothing. The coupling splits the sum of J1 and J2.
 class RobotServer {
  public:
-  /// Moves joints that exceed a limit by at most the start's tolerance onto it.
+  /// Moves joints onto a limit that they exceed by at most the start's tolerance.
   /// Throws: Error if the start is farther outside, or the limits have problems.
   RobotServer(const CommandLimits& limits, const ServedRobot& robot, const StartPlace& start);
 
   Receipt receive(RobotTopic topic, const ros::JointTrajectory& message, const Arrival& arrival);
   Receipt receive(RobotTopic topic, const ros::PoseStamped& message, const Arrival& arrival);
-  /// Time must have advanced. `may_move` = false holds the joints.
+  /// Time must have advanced. Without `may_move` the joints hold.
   RobotState tick(const ServerTime& now, bool may_move = true);
   /// Units: rad.
   const std::vector<double>& positions() const { return last_.position; }

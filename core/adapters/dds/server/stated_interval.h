@@ -18,23 +18,23 @@ struct JointInterval {
   bool operator==(const JointInterval&) const = default;
 };
 
-/// True if each joint can cross its interval in `seconds`. Adds 1e-5 degrees for rounding.
+/// Whether each joint can cross its interval in `seconds`, up to 1e-5 degrees.
 bool is_one_step(const JointInterval& interval, const std::vector<JointMotion>& joints, double seconds);
 
-/// Decides which intervals a log states in advance. Joints stay inside every statement that may be last after a
-/// crash: durable, pending or failed.
+/// Decides which intervals a log states in advance. Joints stay inside each interval that may be the log's last
+/// after a crash (durable, pending or failed).
 class StatedInterval {
  public:
   explicit StatedInterval(std::vector<JointMotion> joints) : joints_(std::move(joints)) {}
 
-  /// The interval to state now, if any: the reach of 0.5 s, or the place at rest. Repeats every second, and in
-  /// motion before the reach falls below 0.25 s.
+  /// The interval to state now, if any: what the joints reach in 0.5 s, or at rest their positions. Due every
+  /// second, and in motion when less than 0.25 s of it remains.
   std::optional<JointInterval> next(const std::vector<double>& positions, bool at_rest, int64_t now_us);
-  /// `line`: its number in the log; 0 if lost.
+  /// `line`: number in the log; 0 if lost.
   void stated(JointInterval interval, uint64_t line, int64_t now_us);
   /// As in LogWriter::Progress.
   void update(uint64_t done, uint64_t durable, uint64_t failed);
-  /// True if the joints may move freely for `seconds`.
+  /// Whether the joints may move freely for `seconds`.
   bool allows(const std::vector<double>& positions, double seconds) const;
 
  private:
