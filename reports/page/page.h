@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct PageMaterial {
   std::vector<std::string> scripts;
   std::vector<FrameSheet> sheets;  ///< of Figures 5 and 6
   std::vector<Picture> worst_frames;
+  std::vector<std::string> warnings = {};  ///< of the run, a sentence each
+  std::set<std::string> from_files = {};   ///< truths (truth_name) and databases that `explain` needs files of
 };
 
 /// index.html in one file: Figures 4 to 9 as far as run, beside the paper's numbers. Tables and keyframes need no
@@ -49,8 +52,10 @@ struct WorstFrame {
 /// lost.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
-/// Shows every stage of the frame, from the run's folder.
-std::string explain_command(const WorstFrame& worst, const std::string& folder = ".");
+/// Shows every stage of the frame of the run in `folder`. `from_files` as in PageMaterial: PATH stands for the
+/// folder of such a file.
+std::string explain_command(const WorstFrame& worst, const std::set<std::string>& from_files = {},
+                            const std::string& folder = ".");
 /// Experiment, frame, errors.
 std::string caption(const WorstFrame& worst);
 
