@@ -75,6 +75,11 @@ TEST_F(CommandLine, MissingOrUnknownWords) {
   EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_open_power"}), HasSubstr("--output"));
 }
 
+TEST_F(CommandLine, EndsLikeOtherProgramsIfNobodyReadsOn) {
+  constexpr int kBySigpipe = 128 + 13;  // as a shell counts
+  EXPECT_EQ(run_glovebench({"list", "metrics"}, {.unheard = true}).exit_code, kBySigpipe);
+}
+
 TEST_F(CommandLine, FlagsOutOfRange) {
   const std::string trajectory = good_trajectory();
   EXPECT_THAT(refusal(run_of(trajectory, {"--seed", "-1"})), HasSubstr("--seed"));
@@ -155,10 +160,17 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(refusal(run_of("Tr9")), Not(HasSubstr("share/glovebench"))) << "the installation's path says nothing";
   EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_20_posture", "-o", output_}),
               HasSubstr("posture sets: name: found \"DB_20_posture\", expected one of DB_20_postures, DB_open"));
+  EXPECT_THAT(refusal(run_of("Tr9")),
+              AllOf(HasSubstr("a movement of a family as side_3 (`glovebench list families`)"),
+                    HasSubstr("or a file (*.json)")));
+  EXPECT_THAT(refusal(run_of("sied_3")), HasSubstr("; did you mean side_3?"));
   EXPECT_THAT(refusal({"run", "fig10", "-o", output_}), HasSubstr("expected one of fig7"));
+  EXPECT_EQ(refusal({"run", "fig8", "--dry-run"}), "glovebench: run fig8: --dry-run does not go with a study\n");
   EXPECT_THAT(refusal({"run", "--suite", "quik", "-o", output_}), HasSubstr("; did you mean quick?"));
   EXPECT_THAT(refusal({"explain", path("nothing"), "3"}), HasSubstr("nothing"));
-  EXPECT_THAT(refusal({"explain", folder_, "3"}), HasSubstr("results.json"));
+  EXPECT_THAT(refusal({"explain", folder_, "3"}), HasSubstr("found a folder of runs, expected one of " + output_));
+  fs::create_directory(path("empty"));
+  EXPECT_THAT(refusal({"explain", path("empty"), "3"}), HasSubstr("results.json"));
   EXPECT_THAT(refusal({"db", "info", path("none.glovedb")}), HasSubstr("none.glovedb"));
   EXPECT_THAT(refusal({"db", "build", "--postures", path("none.csv"), "-o", path("x.glovedb")}),
               HasSubstr("none.csv"));
@@ -176,6 +188,9 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(
       refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x.cvs")}),
       HasSubstr("--output: file name: found"));
+  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o",
+                       path("x.jsonl"), "--page", path("x.pdf")}),
+              HasSubstr("--page: file name: found"));
   EXPECT_THAT(refusal({"record", "--trajectory", good_trajectory(), "-o", path("x.json")}),
               HasSubstr("--database"));
   EXPECT_THAT(refusal({"record", "--trajectory", "Tr4", "--database", "DB_open_power", "-o", path("x")}),

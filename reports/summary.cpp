@@ -157,12 +157,14 @@ std::string quick_note(const RunResult& result) {
          "numbers, and no claim is judged.";
 }
 
-std::string summary_markdown(const RunResult& result, const PaperNumbers& paper) {
+std::string summary_markdown(const RunResult& result, const PaperNumbers& paper,
+                             const std::vector<std::string>& warnings) {
   const NoiseSetting noise = headline_noise(result);
   const std::string note = quick_note(result);
   std::string text = fmt::format("# glovebench results\n\nglovebench {}, commit {}, protocol {}, run {}.\n\n{}",
                                  result.program_version, result.commit, result.protocol.id(), run_name(result),
                                  note.empty() ? "" : note + "\n\n");
+  for (const std::string& warning : warnings) text += "**Warning:** " + escape_markdown(warning) + "\n\n";
   text += claims_markdown(judge(claims(), all_measures(result)));
   if (is_figure4(result))
     text +=

@@ -124,6 +124,22 @@ RunResult own_result() {
   return result;
 }
 
+TEST(Metrics, HaveATableWithTheirKeys) {
+  const RunResult result = small_result();
+  const std::vector<std::string> lines = lines_of_table(metrics_csv(result));
+  ASSERT_EQ(lines.size(), 1 + result.experiments.size());
+  const Table shown = detail_summary(result);
+  for (size_t c = static_cast<size_t>(shown.name_columns) + 1; c < shown.columns.size(); ++c)
+    EXPECT_THAT(lines[0], HasSubstr("," + shown.columns[c].key)) << "every column of More metrics";
+  EXPECT_EQ(std::ranges::count(lines[1], ','), std::ranges::count(lines[0], ','));
+  EXPECT_THAT(lines[1], HasSubstr(fmt::format(",{}", rounded(*result.experiments[0].sequence.jitter_position_mm))));
+}
+
+TEST(Summary, BeginsWithTheWarnings) {
+  const std::string summary = summary_markdown(small_result(), paper_numbers(), {"wave: no hand * in view"});
+  EXPECT_LT(summary.find("**Warning:** wave: no hand \\* in view\n"), summary.find("## "));
+}
+
 TEST(Errors, OfOnesOwnRunHaveNoNumbersOfThePaper) {
   EXPECT_TRUE(is_figure4(small_result()));
   EXPECT_FALSE(is_figure4(own_result()));

@@ -13,6 +13,7 @@ namespace glovebench {
 namespace {
 
 constexpr size_t kLongest = 60;
+constexpr size_t kShortestBeginning = 4;
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -80,6 +81,11 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     nearest = edits < fewest ? &name : nullptr;
     fewest = edits;
   }
+  const auto begins_with_word = [&](const std::string& name) {
+    return word.size() >= kShortestBeginning && lower_case(name).starts_with(lower_case(word));
+  };
+  if (nearest == nullptr)
+    if (const auto whole = std::ranges::find_if(names, begins_with_word); whole != names.end()) nearest = &*whole;
   return nearest == nullptr ? "" : fmt::format("; did you mean {}?", *nearest);
 }
 

@@ -34,7 +34,7 @@ struct Reproduce {
     options.study.seeds = common.seeds(seed_count);
     if (all_gains) options.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
     plan_reproduction(options);  // checks the names of parts, too
-    if (!dry_run) common.check_output_folder();
+    if (!dry_run) common.check_report_folder();
 
     Workbench workbench = common.workbench();
     if (dry_run) {
@@ -115,7 +115,7 @@ void add_reproduce(Command program) {
   state->common.add_machine(command);
   command
       .option("--trajectory", state->options.trajectories,
-              "Figure 4 alone, with only these, e.g. Tr4; with --only also the parts named there")
+              "Figure 4 with only these, e.g. Tr4, and no other parts than those of --only")
       .one_of(trajectories::ground_truth_names());
   command.option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed").in(1, 1000);
   command
