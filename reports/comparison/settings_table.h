@@ -21,6 +21,8 @@ struct SettingsTable {
   bool is_paper = false;                    ///< reference has the paper's configuration
   std::string experiments;                  ///< whose frames are compared
   std::map<std::string, std::string> runs;  ///< `run_name` by setting
+  CompareConfig config;                     ///< of all comparisons together
+  std::vector<std::string> preselected;     ///< metrics chosen before; empty: all
   Table table;                              ///< quantity, setting, mean, difference with its interval, verdict
   Table changes;                            ///< fields that differ from the reference
   std::vector<std::string> enough;          ///< one line per undecided row: how much data would decide
@@ -40,7 +42,7 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
 std::string settings_text(const SettingsTable& settings, size_t columns);
 std::string settings_markdown(const SettingsTable& settings);
 std::string settings_html(const SettingsTable& settings);
-/// CSV and LaTeX name experiments and runs.
+/// CSV and LaTeX name experiments, runs, confidence and chosen metrics.
 std::string settings_csv(const SettingsTable& settings);
 std::string settings_latex(const SettingsTable& settings);
 
