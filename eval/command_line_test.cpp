@@ -344,7 +344,7 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
   EXPECT_THAT(said({"run", "--suite", "quick", "--list", "--seeds", "3"}), HasSubstr("80 frames x 3 seeds"));
   EXPECT_THAT(said({"run", "--suite", "quick", "--dry-run", "--seed", "7"}), HasSubstr("seeds 7, 8:"));
   EXPECT_EQ(said({"run", "--trajectory", "Tr4", "--database", "DB_open_power", "--list"}),
-            "Tr4_DB_open_power_source_subject1_gradient_1   117 frames x 1 seeds\n");
+            "Tr4_DB_open_power_source_subject1_gradient_1   117 frames x 1 seed\n");
   const std::string text = said({"run", "--suite", "quick", "--filter", "Exit*", "--dry-run", "--cache",
                                  path("cache"), "--output", path("nothing")});
   EXPECT_THAT(text, AllOf(HasSubstr("seeds 1, 2: 160 frames to track"), HasSubstr("DB_open_power: to be built"),

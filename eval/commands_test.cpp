@@ -246,7 +246,8 @@ TEST_F(CommandsLong, SettingsAreComparedInATable) {
   };
   const ProgramRun several = run({"--cascade", "8:200,32:3", "--cascade", "16:500,64:1"});
   expect_fine(several);
-  EXPECT_THAT(several.out, AllOf(HasSubstr("16-500_64-1"), HasSubstr("lookup.cascade"), HasSubstr("Recommended: "),
+  EXPECT_THAT(several.out, AllOf(HasSubstr("16-500_64-1"), HasSubstr("lookup.cascade"),
+                                 HasSubstr("No recommendation: not enough data"),
                                  HasSubstr("Differences are from paper, the paper's")));
   for (const std::string name : {"paper", "8-200_32-3", "16-500_64-1"}) {
     const json timings = json::parse(read_file(path("out/" + name + "/timings.json")));
@@ -272,7 +273,9 @@ TEST_F(CommandsLong, SettingsAreComparedInATable) {
   EXPECT_THAT(several.out, StartsWith(again.out));
   EXPECT_EQ(table({"--format", "csv"}).out, read_file(path("out/table.csv")));
   EXPECT_EQ(table({"--format", "html"}).out, read_file(path("out/index.html")));
+  EXPECT_THAT(again.out, StartsWith(table({"-q"}).out + "\n"));
   EXPECT_THAT(table({"--metrics", "joint_error_mm"}).err, HasSubstr("--metrics"));
+  EXPECT_THAT(table({"--metrics", "posture"}).err, HasSubstr("did you mean posture_rms_deg?"));
 
   EXPECT_THAT(refusal(run({"--cascade", "8:9", "--cascade", "8:8", "--method", "a", "--method", "b"})),
               HasSubstr("--cascade: values: found several, as of --method, expected one"));

@@ -21,8 +21,8 @@ std::string quoted_excerpt(std::string_view text);
 std::string excerpt(const nlohmann::json& value);
 
 /// "; did you mean NAME?" for the nearest name by edits (a character inserted, removed, replaced, or swapped with
-/// its neighbor; case is ignored) if they are at most a third of the characters and no other name is as near, else
-/// the first name that begins with the word, if that has 4 characters or more. Empty without either.
+/// its neighbor; case is ignored), else the shortest that begins with the word. Empty if the edits exceed a third
+/// of the characters and the word has fewer than four, or two names are equally near or short.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// "one of horn, robust", with `did_you_mean`.

@@ -139,17 +139,6 @@ bool may_join(const std::vector<WorstFrame>& chosen, const WorstFrame& candidate
   return of_experiment < kPerExperiment;
 }
 
-/// Quoted for the shell: names from a user's file may contain anything.
-std::string shell_quoted(const std::string& text) {
-  const bool is_plain = std::ranges::all_of(text, [](unsigned char c) {
-    return std::isalnum(c) || std::string_view("_-.+/").find(c) != std::string::npos;
-  });
-  if (is_plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace
 
 std::string data_note(const std::string& table) {
