@@ -138,7 +138,7 @@ FinishedRun load_finished_run(const std::string& folder_or_file) {
   const std::string folder = folder_of(folder_or_file);
   require_finished(folder);
   const FileSet files(folder);
-  if (!files.has(kResults)) refuse_several(folder);
+  if (folder == folder_or_file && !files.has(kResults)) refuse_several(folder);
   if (folder == folder_or_file) return {files, results_of(files)};
   const std::string name = fs::path(folder_or_file).filename().string();
   if (name == kResults && files.has(name)) return {files, results_of(files)};
