@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -69,6 +70,15 @@ struct BenchData {
 /// Throws: Error.
 void prepare(const Settings& settings);
 const BenchData& data();
+
+/// What `compute` returned when it was first called under this name. A benchmark's repetitions each call its
+/// function anew, but its answer is checked once.
+template <typename Compute>
+auto once(const std::string& name, const Compute& compute) {
+  static std::map<std::string, decltype(compute())> results;
+  const auto found = results.find(name);
+  return found != results.end() ? found->second : results.emplace(name, compute()).first->second;
+}
 
 /// For a library that the build lacks.
 inline constexpr const char* kMissing = "missing";

@@ -1,5 +1,7 @@
 // Both alignments, plain and fast, and PCL's.
 
+#include <fmt/format.h>
+
 #include "bench/bench_data.h"
 #include "bench/peers/peers.h"
 #include "core/base/math.h"
@@ -60,23 +62,30 @@ std::vector<const BenchFrame*> some_frames() {
   return frames;
 }
 
-void icp(benchmark::State& state, const char* algorithm, Implementation implementation, int max_points) {
-  const IcpConfig config = config_of(algorithm, implementation, max_points);
-  const IcpConfig plain = config_of(algorithm, Implementation::plain, max_points);
-  const std::vector<const BenchFrame*> frames = some_frames();
+/// Of all frames; none if an alignment differs from the plain one.
+std::optional<int> iterations_like_plain(const std::vector<const BenchFrame*>& frames, const IcpConfig& config) {
+  IcpConfig plain = config;
+  plain.implementation = Implementation::plain;
   int iterations = 0;
   for (const BenchFrame* frame : frames) {
     const Alignment alignment = align_frame(*frame, config);
-    if (alignment.T_camera_hand.matrix() != align_frame(*frame, plain).T_camera_hand.matrix()) {
-      return state.SkipWithError("the alignment differs from the plain one");
-    }
+    if (alignment.T_camera_hand.matrix() != align_frame(*frame, plain).T_camera_hand.matrix()) return {};
     iterations += alignment.iterations;
   }
+  return iterations;
+}
+
+void icp(benchmark::State& state, const char* algorithm, Implementation implementation, int max_points) {
+  const IcpConfig config = config_of(algorithm, implementation, max_points);
+  const std::vector<const BenchFrame*> frames = some_frames();
+  const std::string name = fmt::format("{} {} {}", algorithm, static_cast<int>(implementation), max_points);
+  const auto iterations = once(name, [&] { return iterations_like_plain(frames, config); });
+  if (!iterations) return state.SkipWithError("the alignment differs from the plain one");
   for (auto _ : state) {
     for (const BenchFrame* frame : frames) benchmark::DoNotOptimize(align_frame(*frame, config));
   }
   set_time_each(state, "frame", frames.size());
-  set_time_each(state, "iteration", iterations);
+  set_time_each(state, "iteration", static_cast<size_t>(*iterations));
   if (implementation == Implementation::fast)
     set_errors(state, mean_errors([&](const BenchFrame& frame) { return align_frame(frame, config); }));
 }

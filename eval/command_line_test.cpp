@@ -75,6 +75,11 @@ TEST_F(CommandLine, MissingOrUnknownWords) {
   EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_open_power"}), HasSubstr("--output"));
 }
 
+TEST_F(CommandLine, EndsLikeOtherProgramsIfNobodyReadsOn) {
+  constexpr int kBySigpipe = 128 + 13;  // as a shell counts
+  EXPECT_EQ(run_glovebench({"list", "metrics"}, {.unheard = true}).exit_code, kBySigpipe);
+}
+
 TEST_F(CommandLine, FlagsOutOfRange) {
   const std::string trajectory = good_trajectory();
   EXPECT_THAT(refusal(run_of(trajectory, {"--seed", "-1"})), HasSubstr("--seed"));
@@ -155,10 +160,17 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(refusal(run_of("Tr9")), Not(HasSubstr("share/glovebench"))) << "the installation's path says nothing";
   EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_20_posture", "-o", output_}),
               HasSubstr("posture sets: name: found \"DB_20_posture\", expected one of DB_20_postures, DB_open"));
+  EXPECT_THAT(refusal(run_of("Tr9")),
+              AllOf(HasSubstr("a movement of a family as side_3 (`glovebench list families`)"),
+                    HasSubstr("or a file (*.json)")));
+  EXPECT_THAT(refusal(run_of("sied_3")), HasSubstr("; did you mean side_3?"));
   EXPECT_THAT(refusal({"run", "fig10", "-o", output_}), HasSubstr("expected one of fig7"));
+  EXPECT_EQ(refusal({"run", "fig8", "--dry-run"}), "glovebench: run fig8: --dry-run does not go with a study\n");
   EXPECT_THAT(refusal({"run", "--suite", "quik", "-o", output_}), HasSubstr("; did you mean quick?"));
   EXPECT_THAT(refusal({"explain", path("nothing"), "3"}), HasSubstr("nothing"));
-  EXPECT_THAT(refusal({"explain", folder_, "3"}), HasSubstr("results.json"));
+  EXPECT_THAT(refusal({"explain", folder_, "3"}), HasSubstr("found a folder of runs, expected one of " + output_));
+  fs::create_directory(path("empty"));
+  EXPECT_THAT(refusal({"explain", path("empty"), "3"}), HasSubstr("results.json"));
   EXPECT_THAT(refusal({"db", "info", path("none.glovedb")}), HasSubstr("none.glovedb"));
   EXPECT_THAT(refusal({"db", "build", "--postures", path("none.csv"), "-o", path("x.glovedb")}),
               HasSubstr("none.csv"));
@@ -176,6 +188,9 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(
       refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o", path("x.cvs")}),
       HasSubstr("--output: file name: found"));
+  EXPECT_THAT(refusal({"track", "--source", "fakenect:" + folder_, "--database", "DB_open_power", "-o",
+                       path("x.jsonl"), "--page", path("x.pdf")}),
+              HasSubstr("--page: file name: found"));
   EXPECT_THAT(refusal({"record", "--trajectory", good_trajectory(), "-o", path("x.json")}),
               HasSubstr("--database"));
   EXPECT_THAT(refusal({"record", "--trajectory", "Tr4", "--database", "DB_open_power", "-o", path("x")}),
@@ -329,7 +344,7 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
   EXPECT_THAT(said({"run", "--suite", "quick", "--list", "--seeds", "3"}), HasSubstr("80 frames x 3 seeds"));
   EXPECT_THAT(said({"run", "--suite", "quick", "--dry-run", "--seed", "7"}), HasSubstr("seeds 7, 8:"));
   EXPECT_EQ(said({"run", "--trajectory", "Tr4", "--database", "DB_open_power", "--list"}),
-            "Tr4_DB_open_power_source_subject1_gradient_1   117 frames x 1 seeds\n");
+            "Tr4_DB_open_power_source_subject1_gradient_1   117 frames x 1 seed\n");
   const std::string text = said({"run", "--suite", "quick", "--filter", "Exit*", "--dry-run", "--cache",
                                  path("cache"), "--output", path("nothing")});
   EXPECT_THAT(text, AllOf(HasSubstr("seeds 1, 2: 160 frames to track"), HasSubstr("DB_open_power: to be built"),
@@ -339,6 +354,14 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
                     HasSubstr("databases to be built: DB_open_pinch, "), HasSubstr("report: " + path("nothing"))));
   EXPECT_FALSE(fs::exists(path("cache")));
   EXPECT_FALSE(fs::exists(path("nothing")));
+}
+
+TEST_F(CommandLine, ListsFitATerminalOf80Columns) {
+  for (const char* list : {"trajectories", "families", "databases", "suites", "studies", "methods", "alignments",
+                           "look-ups", "noises", "formats", "metrics", "subjects", "angles", "mapping"}) {
+    std::istringstream text(run_glovebench({"list", list}).out);
+    for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << list << ": " << line;
+  }
 }
 
 TEST_F(CommandLine, ListsWhatItKnows) {

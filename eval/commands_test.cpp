@@ -68,7 +68,13 @@ TEST_F(CommandsLong, WrongUnitsAreNoticed) {
   EXPECT_THAT(in_meters.err,
               HasSubstr("warning: meters_DB_open_power_source_subject1_gradient_1: none of 4 frames"));
   EXPECT_THAT(in_meters.out, HasSubstr("meters            -"));
-  EXPECT_EQ(run("meters.json", {"--quiet"}).err, "");
+  const ProgramRun quiet = run("meters.json", {"--quiet"});
+  EXPECT_EQ(quiet.err, in_meters.err);
+  EXPECT_EQ(quiet.out, "");
+  for (const char* file : {"out/summary.md", "out/index.html"})
+    EXPECT_THAT(read_file(path(file)),
+                AllOf(HasSubstr("the positions look like meters"), HasSubstr("none of 4 frames was tracked"),
+                      HasSubstr("glovebench explain . 0 "), HasSubstr("--trajectory PATH/meters.json")));
   EXPECT_THAT(run("radians.json", {"--dry-run"}).err, HasSubstr("warning: radians: no angle exceeds 0.95 degrees"));
   expect_fine(run("good.json", {"--dry-run"}));
 }
@@ -149,13 +155,15 @@ TEST_F(CommandsLong, ExplainsAFrame) {
   EXPECT_THAT(read_file(path("frame.png")), StartsWith("\x89PNG"));
   expect_fine(explain("2"));
   EXPECT_TRUE(fs::exists(path("out/explain_good_DB_open_power_source_subject1_gradient_1_2.png")));
-  EXPECT_THAT(refusal(explain("4")), HasSubstr("0 to 3"));
+  EXPECT_THAT(refusal(explain("2", {"-o", path("frame.jpg")})), HasSubstr("expected the ending .png"));
+  EXPECT_THAT(refusal(explain("4")), HasSubstr("frame: found 4, expected one of the run's, 0 to 3"));
   EXPECT_THAT(refusal(explain("-1")), HasSubstr("0 to 3"));
   EXPECT_THAT(refusal(explain("2", {"--experiment", "other"})), HasSubstr("good_DB_open_power"));
   expect_fine(explain("2", {"--seed", "1"}));
   expect_fine(explain("2", {"--experiment", "good_*_source_*"}));
   EXPECT_THAT(refusal(explain("two")), HasSubstr("expected a number, worst or worst:METRIC"));
-  EXPECT_THAT(refusal(explain("worst:fingertip_eror_mm")), HasSubstr("did you mean fingertip_error_mm?"));
+  for (const char* metric : {"worst:fingertip_eror_mm", "worst:fingertip"})
+    EXPECT_THAT(refusal(explain(metric)), HasSubstr("did you mean fingertip_error_mm?"));
   EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2", "--trajectory", "Tr4"})),
               HasSubstr("none of Tr4"));
   EXPECT_THAT(refusal(explain("2", {"--seed", "7"})), HasSubstr("one of 1"));
@@ -163,6 +171,52 @@ TEST_F(CommandsLong, ExplainsAFrame) {
               HasSubstr("hash"))
       << "not the truth of that run";
   EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2"})), HasSubstr("--trajectory"));
+}
+
+TEST_F(CommandsLong, ExplainsFramesOfTheRunAlone) {
+  write_file(path("some.json"), json{{"format", "glovebench-suite"},
+                                     {"version", 1},
+                                     {"name", "some"},
+                                     {"description", "frames 10 to 12"},
+                                     {"seeds", {1}},
+                                     {"experiments",
+                                      {{{"trajectory", "Tr4"},
+                                        {"truth", "source"},
+                                        {"databases", {"DB_open_power"}},
+                                        {"frames", {{"first", 10}, {"count", 3}}}}}}}
+                                    .dump());
+  expect_fine(run_glovebench({"run", "--suite", path("some.json"), "-o", path("out")}));
+  expect_fine(run_glovebench({"explain", path("out"), "12"}));
+  for (const char* number : {"9", "13"})
+    EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), number})), HasSubstr("one of the run's, 10 to 12"));
+}
+
+TEST_F(CommandsLong, AMovementOfOnesOwnMayHaveTheNameOfABuiltInOne) {
+  write_file(path("any_2.json"), make_trajectory_json("any_2", kFrames).dump());
+  run_trajectory("any_2.json", "out");
+  EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "2"})), HasSubstr("give its file by --trajectory"));
+  expect_fine(run_glovebench({"explain", path("out"), "2", "--trajectory", path("any_2.json")}));
+  EXPECT_THAT(read_file(path("out/index.html")), HasSubstr(" --trajectory PATH/any_2.json"));
+  expect_fine(run_glovebench(
+      {"run", "--trajectory", "any_2", "--database", "DB_open_power", "--filter", "any*", "-o", path("named")}));
+  EXPECT_THAT(read_file(path("named/index.html")), testing::Not(HasSubstr("--trajectory PATH")));
+}
+
+TEST_F(CommandsLong, AReportReplacesNothingElse) {
+  for (const char* name : {"config.json", "index.html", "summary.md"}) {
+    const std::string folder = path(std::string("keep_") + name);
+    write_file(folder + "/" + name, "mine");
+    EXPECT_THAT(refusal(run_glovebench(
+                    {"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o", folder})),
+                HasSubstr(std::string(name) + ", which no run wrote, expected another folder"));
+    EXPECT_EQ(read_folder(folder).size(), 1U);
+  }
+  run_trajectory("good.json", "out");
+  run_trajectory("good.json", "out");
+  expect_fine(run_glovebench({"compare", path("out"), path("out"), "-o", path("compared")}));
+  EXPECT_THAT(refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
+                                      path("compared")})),
+              HasSubstr("index.html, which no run wrote"));
 }
 
 TEST_F(CommandsLong, ExplainsTheWorstFrame) {
@@ -192,7 +246,8 @@ TEST_F(CommandsLong, SettingsAreComparedInATable) {
   };
   const ProgramRun several = run({"--cascade", "8:200,32:3", "--cascade", "16:500,64:1"});
   expect_fine(several);
-  EXPECT_THAT(several.out, AllOf(HasSubstr("16-500_64-1"), HasSubstr("lookup.cascade"), HasSubstr("Recommended: "),
+  EXPECT_THAT(several.out, AllOf(HasSubstr("16-500_64-1"), HasSubstr("lookup.cascade"),
+                                 HasSubstr("No recommendation: not enough data"),
                                  HasSubstr("Differences are from paper, the paper's")));
   for (const std::string name : {"paper", "8-200_32-3", "16-500_64-1"}) {
     const json timings = json::parse(read_file(path("out/" + name + "/timings.json")));
@@ -202,6 +257,9 @@ TEST_F(CommandsLong, SettingsAreComparedInATable) {
   run_trajectory("good.json", "alone", {"--cascade", "8:200,32:3"});
   EXPECT_EQ(read_file(path("out/8-200_32-3/results.json")), read_file(path("alone/results.json")))
       << "as if it ran alone";
+
+  EXPECT_THAT(refusal(run_glovebench({"explain", path("out"), "worst"})),
+              HasSubstr("found a folder of runs, expected one of " + path("out/16-500_64-1") + ", "));
 
   const std::vector<std::string> folders = {path("out/paper"), path("out/8-200_32-3/"), path("out/16-500_64-1")};
   const auto table = [&](const std::vector<std::string>& more) {
@@ -215,7 +273,9 @@ TEST_F(CommandsLong, SettingsAreComparedInATable) {
   EXPECT_THAT(several.out, StartsWith(again.out));
   EXPECT_EQ(table({"--format", "csv"}).out, read_file(path("out/table.csv")));
   EXPECT_EQ(table({"--format", "html"}).out, read_file(path("out/index.html")));
+  EXPECT_THAT(again.out, StartsWith(table({"-q"}).out + "\n"));
   EXPECT_THAT(table({"--metrics", "joint_error_mm"}).err, HasSubstr("--metrics"));
+  EXPECT_THAT(table({"--metrics", "posture"}).err, HasSubstr("did you mean posture_rms_deg?"));
 
   EXPECT_THAT(refusal(run({"--cascade", "8:9", "--cascade", "8:8", "--method", "a", "--method", "b"})),
               HasSubstr("--cascade: values: found several, as of --method, expected one"));

@@ -120,7 +120,8 @@ TEST_F(FamilyReportLong, StandsInTheReportOfGeneratedMovements) {
                                     .dump());
   const ProgramRun run = run_glovebench({"run", "--suite", path("mine.json"), "-o", path("out")});
   expect_fine(run);
-  EXPECT_THAT(run.out, HasSubstr("| above | DB_open_power | source | gradient x 1 | 5 | 10 | 5 |"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("All: database DB_open_power, truth source, noise gradient x 1.\n"),
+                             HasSubstr("\nabove           5      10         5 ")));
   EXPECT_THAT(read_file(path("out/tables/families.csv")), HasSubstr("position_error_mm,position_error_mm_low"));
   for (const char* file : {"out/summary.md", "out/index.html"})
     EXPECT_THAT(read_file(path(file)), HasSubstr("Movements by family")) << file;

@@ -45,6 +45,18 @@ TEST_F(GenerateCommand, GivesTrajectoriesThatRunTakes) {
   EXPECT_EQ(results.at("experiments").at(0).at("trajectory"), "above_1");
 }
 
+TEST_F(GenerateCommand, AllFilesOfItsFolderMayBeGivenToRun) {
+  expect_fine(generate({"--family", "above", "--count", "2", "-o", path("gen")}));
+  const ProgramRun run =
+      run_glovebench({"run", "--trajectory", path("gen/above_1.json"), "--trajectory", path("gen/above_2.json"),
+                      "--trajectory", path("gen/manifest.json"), "--database", "DB_open_power", "--list"});
+  expect_fine(run);
+  EXPECT_EQ(std::count(run.out.begin(), run.out.end(), '\n'), 2) << run.out;
+  EXPECT_THAT(refusal(run_glovebench(
+                  {"run", "--trajectory", path("gen/manifest.json"), "--database", "DB_open_power", "--list"})),
+              HasSubstr("manifest.json"));
+}
+
 TEST_F(GenerateCommand, IsDescribedByTheListOfFamilies) {
   const ProgramRun list = run_glovebench({"list", "families"});
   expect_fine(list);

@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kUsageError = 2;
 constexpr int kIncomparable = 3;
+constexpr int kNoReader = 128 + SIGPIPE;  // as if the signal had ended the program
 
 void add_commands(const glovebench::eval::Command& program) {
   using namespace glovebench::eval;
@@ -55,6 +56,8 @@ int main(int argc, char** argv) {
     glovebench::eval::say("glovebench: {}\n", e.what());
     return kUsageError;
   } catch (const std::exception& e) {
+    const auto* const failure = dynamic_cast<const std::system_error*>(&e);
+    if (failure && failure->code() == std::errc::broken_pipe && std::ferror(stdout) != 0) return kNoReader;
     const char* const kind = std::ferror(stdout) != 0 ? "stdout" : "internal error";
     glovebench::eval::say("glovebench: {}: {}\n", kind, e.what());
     return kUsageError;

@@ -8,11 +8,13 @@
 #include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "eval/program.h"
+#include "eval/run_warnings.h"
 #include "render/label_renderer.h"
 #include "render/pictures.h"
 #include "render/rgbd_renderer.h"
 #include "reports/metrics/measure_frame.h"
 #include "reports/page/page.h"
+#include "reports/text.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -59,12 +61,13 @@ std::vector<reports::FrameSheet> make_sheets(Workbench& workbench, const Plan& p
 }
 
 std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const Plan& plan,
-                                                   const reports::RunResult& result) {
+                                                   const reports::RunResult& result,
+                                                   const std::set<std::string>& from_files) {
   std::vector<reports::Picture> pictures;
   for (const reports::WorstFrame& worst : reports::worst_frames(result)) {
     const RunSpec& spec = find_spec(plan, worst.key, worst.seed);
-    const ColorImage picture = explain_frame(workbench, spec, worst.frame.frame);
-    pictures.push_back({caption(worst), encode_jpeg(picture, kJpegQuality), complete_command(worst)});
+    const ColorImage picture = explain_frame(workbench, spec, worst.frame);
+    pictures.push_back({caption(worst), encode_jpeg(picture, kJpegQuality), explain_command(worst, from_files)});
   }
   return pictures;
 }
@@ -101,25 +104,42 @@ ColorImage overlay(const HandModel& model, const TrackResult& result, const Eige
       kEstimatedOutline);
 }
 
-/// Explains the outlines and E, and lists the errors of a tracked frame.
-ColorImage legend(const std::optional<reports::FrameErrors>& errors) {
+std::vector<render::TextLine> errors_alone(const reports::FrameErrors& errors) {
+  const reports::FrameRecord& record = errors.record;
+  std::vector<std::string> tips;
+  for (const int tip : fingertip_joints()) tips.push_back(fmt::format("{:.0f}", errors.joint_errors_mm[tip]));
+  return {{"Errors of this frame alone, without the filter:"},
+          {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
+                       *record["rotation_error_deg"])},
+          {fmt::format("posture {:.1f} deg (RMS of 22 angles)", *record["posture_rms_deg"])},
+          {fmt::format("fingertips {:.1f} mm", *record["fingertip_error_mm"])},
+          {fmt::format("  thumb to little: {} mm", fmt::join(tips, ", "))}};
+}
+
+std::vector<render::TextLine> errors_in_run(const reports::FrameRecord& record) {
+  if (record.status != TrackStatus::tracked)
+    return {{fmt::format("In the run: lost, {}", to_string(record.status))}};
+  return {{"In the run, with the filter:"},
+          {fmt::format("position {} mm, rotation {} deg", reports::fixed(record["position_error_mm"], 1),
+                       reports::fixed(record["rotation_error_deg"], 1))},
+          {fmt::format("posture {} deg, fingertips {} mm", reports::fixed(record["posture_rms_deg"], 1),
+                       reports::fixed(record["fingertip_error_mm"], 1))}};
+}
+
+/// Explains the outlines and E, and lists the errors. `alone`: empty if the frame is lost.
+ColorImage legend(const std::optional<reports::FrameErrors>& alone, const reports::FrameRecord& in_run) {
   std::vector<render::TextLine> lines = {{"white: the true hand", kTrueOutline},
                                          {"orange: the tracker's hand", kEstimatedOutline},
                                          {""},
                                          {"E: mean distance from a glove pixel of the tiny"},
                                          {"image to the entry's nearest pixel of its color,"},
                                          {"in pixels; 0 is equal (equation 2)"}};
-  if (!errors) return render::picture_of_text(lines, kCellWidth, kCellHeight);
-  const reports::FrameRecord& record = errors->record;
-  std::vector<std::string> tips;
-  for (const int tip : fingertip_joints()) tips.push_back(fmt::format("{:.0f}", errors->joint_errors_mm[tip]));
-  lines.insert(lines.end(), {{""},
-                             {"Errors of this frame alone, without the filter:"},
-                             {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
-                                          *record["rotation_error_deg"])},
-                             {fmt::format("posture {:.1f} deg (RMS of 22 angles)", *record["posture_rms_deg"])},
-                             {fmt::format("fingertips {:.1f} mm", *record["fingertip_error_mm"])},
-                             {fmt::format("  thumb to little: {} mm", fmt::join(tips, ", "))}});
+  const auto append = [&](const std::vector<render::TextLine>& more) {
+    lines.insert(lines.end(), more.begin(), more.end());
+  };
+  lines.push_back({""});
+  if (alone) append(errors_alone(*alone));
+  append(errors_in_run(in_run));
   return render::picture_of_text(lines, kCellWidth, kCellHeight);
 }
 
@@ -182,15 +202,8 @@ class TilePainter {
 
 }  // namespace
 
-std::string complete_command(const reports::WorstFrame& worst, const std::string& folder) {
-  std::string command = explain_command(worst, folder);
-  if (!find_truth(worst.key)) command += " --trajectory FILE_OF_THE_TRUTH";
-  const std::vector<std::string>& known = trajectories::posture_set_names();
-  if (std::ranges::find(known, worst.key.database) == known.end()) command += " --database FILE_OF_THE_DATABASE";
-  return command;
-}
-
-ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
+ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run) {
+  const int frame = in_run.frame;
   const int count = static_cast<int>(spec.trajectory->frames.size());
   if (frame < 0 || frame >= count) {
     throw Error(spec.trajectory->name, "frame", std::to_string(frame), fmt::format("0 to {}", count - 1));
@@ -235,15 +248,19 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame) {
   } else {
     panels.push_back({"lost: " + std::string(to_string(result.status)), {}});
   }
-  panels.push_back({"legend", legend(errors)});
+  panels.push_back({"legend", legend(errors, in_run)});
   return render::montage(panels, kPanelColumns, kCellWidth, kCellHeight);
 }
 
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates) {
   reports::PageMaterial material{page_scripts(), make_sheets(workbench, plan, result, estimates), {}};
+  material.from_files = inputs_from_files(plan);
   // Only the paper's method can show its stages.
-  if (plan.tracker.method == kPaperMethod) material.worst_frames = picture_worst_frames(workbench, plan, result);
+  if (plan.tracker.method == kPaperMethod)
+    material.worst_frames = picture_worst_frames(workbench, plan, result, material.from_files);
+  material.warnings = unit_warnings(plan);
+  for (const std::string& warning : lost_hand_warnings(plan, result, ".")) material.warnings.push_back(warning);
   return material;
 }
 

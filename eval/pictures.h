@@ -11,17 +11,14 @@
 
 namespace glovebench::eval {
 
-/// Chart scripts, sheets of Figures 5 and 6, and the worst frames (paper's method only).
+/// Chart scripts, sheets of Figures 5 and 6 if run, the worst frames (paper's method only), and warnings.
 /// Throws: Error without the program's data.
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// The command that explains the frame of the run in `folder`, with flags for the user's own files.
-std::string complete_command(const reports::WorstFrame& worst, const std::string& folder = ".");
-
-/// All tracker stages of a frame, and its errors. Tracks it alone, without the filter.
-/// Throws: Error if the frame does not exist or the method is not the paper's.
-ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, int frame);
+/// All tracker stages of one frame, and its errors. The frame is tracked alone, without the filter; `in_run` is
+/// what the run measured for it. Throws: Error if the trajectory lacks the frame or the method is not the paper's.
+ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run);
 
 /// The IR camera, cropped and scaled to a tile (px) that shows every frame's glove. Needs a frame.
 PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,

@@ -59,8 +59,8 @@ std::string list_experiments(const Plan& plan) {
   const size_t width = std::ranges::max(experiments, {}, [](const auto& e) { return e.name.size(); }).name.size();
   std::string text;
   for (const PlannedExperiment& experiment : experiments) {
-    text += fmt::format("{:<{}}  {:>4} frames x {} seeds\n", experiment.name, width, experiment.frames,
-                        experiment.seeds);
+    text += fmt::format("{:<{}}  {:>4} frames x {} seed{}\n", experiment.name, width, experiment.frames,
+                        experiment.seeds, experiment.seeds == 1 ? "" : "s");
   }
   return text;
 }

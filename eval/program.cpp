@@ -2,8 +2,10 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/text.h"
 #include "core/hand/hand_model.h"
 #include "eval/commit.h"
 #include "trajectories/catalog.h"
@@ -49,6 +52,22 @@ std::optional<trajectories::Trajectory> make_movement(const std::string& name) {
   static const trajectories::MovementMaterial material =
       trajectories::load_movement_material(trajectory_folder(), HandModel::load(hand_mesh_path()).skeleton());
   return generate_movement(*movement->family, movement->seed, material);
+}
+
+/// Throws: Error unless the program has a trajectory of this name.
+void require_known(const std::string& name) {
+  std::vector<std::string> known;
+  for (const trajectories::TrajectoryListing& listing : trajectories::list_trajectories(trajectory_folder()))
+    if (std::ranges::find(known, listing.name) == known.end()) known.push_back(listing.name);
+  if (std::ranges::find(known, name) != known.end()) return;
+  const std::string names = fmt::format("{}", fmt::join(known, ", "));
+  const size_t end = std::min(name.rfind('_'), name.size());
+  for (const std::string& family : trajectories::movement_family_names())
+    known.push_back(family + (end < name.size() ? name.substr(end) : "_1"));
+  throw Error("trajectory", "name", quoted_excerpt(name),
+              fmt::format("one of {}, a movement of a family as side_3 (`glovebench list families`), or a file "
+                          "(*.json){}",
+                          names, did_you_mean(name, known)));
 }
 
 }  // namespace
@@ -127,6 +146,7 @@ trajectories::Trajectory load_truth(const std::string& name_or_file, std::option
     if (truth == reports::TruthKind::source) return *std::move(movement);
     throw Error(name_or_file, "truth", "recorded", "source: nothing tracked this movement to record it");
   }
+  require_known(name_or_file);
   return truth == reports::TruthKind::recorded
              ? trajectories::recorded_trajectory(trajectory_folder(), name_or_file)
              : trajectories::source_trajectory(trajectory_folder(), name_or_file);

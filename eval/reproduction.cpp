@@ -33,7 +33,8 @@ std::string about(double seconds) {
 }
 
 bool is_wanted(const ReproductionOptions& options, std::string_view part) {
-  if (options.only.empty()) return options.trajectories.empty() || part == kFigure4;
+  if (part == kFigure4 && !options.trajectories.empty()) return true;
+  if (options.only.empty()) return options.trajectories.empty();
   return std::ranges::find(options.only, part) != options.only.end();
 }
 
@@ -49,7 +50,7 @@ void refuse_unknown_parts(const std::vector<std::string>& only) {
   }
 }
 
-/// The single experiment of Figure 5 or 6.
+/// The single experiment of Figure 5 or 6, unless it is planned as one of Figure 4's.
 void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve& curve) {
   const auto truth = std::make_shared<const trajectories::Trajectory>(
       trajectories::recorded_trajectory(trajectory_folder(), curve.trajectory));
@@ -58,6 +59,7 @@ void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve&
   spec.database = curve.database;
   spec.frames = frames_of(options.study);
   spec.tracker = options.study.tracker;
+  if (std::ranges::find(plan.specs, key_of(spec), key_of) != plan.specs.end()) return;
   for (const uint64_t seed : options.study.seeds) {
     spec.seed = seed;
     plan.specs.push_back(spec);
@@ -114,12 +116,10 @@ int exit_code_of(const reports::RequiredClaims& required, const ReproductionOpti
 Plan plan_reproduction(const ReproductionOptions& options) {
   refuse_unknown_parts(options.only);
   Plan plan{options.study.tracker, {}, {}, options.study.quick};
-  if (is_wanted(options, kFigure4)) {
+  if (is_wanted(options, kFigure4))
     plan.specs = plan_figure4(options.study.tracker,
                               {options.trajectories, options.study.seeds, options.noises, frames_of(options.study)})
                      .specs;
-    return plan;
-  }
   if (is_wanted(options, kFigure5)) add_curve(plan, options, reports::paper_numbers().figure_5);
   if (is_wanted(options, kFigure6)) add_curve(plan, options, reports::paper_numbers().figure_6);
   return plan;

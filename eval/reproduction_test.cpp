@@ -99,7 +99,9 @@ TEST(Reproduction, TrajectoriesAloneMeanFigure4) {
               AllOf(HasSubstr("9 runs, 1053 frames"), testing::Not(HasSubstr("fig7"))));
   options.only = {"fig7"};
   EXPECT_THAT(describe_reproduction(workbench, options),
-              AllOf(HasSubstr("fig7 "), testing::Not(HasSubstr("runs"))));
+              AllOf(HasSubstr("fig7 "), HasSubstr("9 runs, 1053 frames")));
+  options.only = {"fig5", "fig6"};
+  EXPECT_EQ(plan_reproduction(options).specs.size(), 10U) << "Figure 5 is of Tr4, Figure 6 is not";
 }
 
 TEST(Reproduction, ExitCodes) {

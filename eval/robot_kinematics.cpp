@@ -27,23 +27,27 @@ void add_posture(MappingErrors& errors, const Fingertips& human, const Fingertip
   }
 }
 
-std::string row(const std::string& name, const char* mapping, const MappingErrors& errors) {
-  std::string text = fmt::format("{:<20} {:<9} {:>5}", name, mapping, errors.postures);
-  for (int f = 0; f < 5; ++f)
-    text += fmt::format(" {:>5.1f} {:>5.1f}", 1000 * errors.tip_mean[f], 1000 * errors.tip_max[f]);
-  text += errors.pinches > 0 ? fmt::format(" {:>5} {:>5.1f} {:>5.1f}", errors.pinches, 1000 * errors.gap_mean,
-                                           1000 * errors.gap_max)
-                             : fmt::format(" {:>5} {:>5} {:>5}", 0, "-", "-");
-  return text + fmt::format(" {:>5.1f}\n", degrees_from_radians(errors.largest_step));
+reports::Row row(const std::string& name, const char* mapping, const MappingErrors& errors) {
+  reports::Row row = {name, mapping, int64_t{errors.postures}};
+  for (int f = 0; f < 5; ++f) {
+    row.emplace_back(1000 * errors.tip_mean[f]);
+    row.emplace_back(1000 * errors.tip_max[f]);
+  }
+  const auto of_pinches = [&](double gap) {
+    return errors.pinches > 0 ? reports::Cell(1000 * gap) : reports::Cell();
+  };
+  row.insert(row.end(), {int64_t{errors.pinches}, of_pinches(errors.gap_mean), of_pinches(errors.gap_max),
+                         degrees_from_radians(errors.largest_step)});
+  return row;
 }
 
-std::string rows(const std::string& name, const Skeleton& skeleton, const std::vector<Posture>& postures,
-                 ShadowCoupling coupling) {
+void add_rows(reports::Table& table, const std::string& name, const Skeleton& skeleton,
+              const std::vector<Posture>& postures, ShadowCoupling coupling) {
   FingertipMapping fingertips(skeleton, coupling);
   const Mapping direct = [&](const Posture& posture) { return map_to_shadow_hand(posture, coupling); };
-  return row(name, "direct", mapping_errors(skeleton, postures, direct)) +
-         row(name, "fingertip",
-             mapping_errors(skeleton, postures, [&](const Posture& posture) { return fingertips.map(posture); }));
+  const Mapping mapped = [&](const Posture& posture) { return fingertips.map(posture); };
+  table.rows.push_back(row(name, "direct", mapping_errors(skeleton, postures, direct)));
+  table.rows.push_back(row(name, "fingertip", mapping_errors(skeleton, postures, mapped)));
 }
 
 }  // namespace
@@ -64,25 +68,35 @@ MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture
   return errors;
 }
 
-std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling) {
-  std::string table = fmt::format(
-      "Fingertips of the robot against the hand's, mean and largest distance; gap: of fingertips that the hand has "
-      "within\n"
-      "{:.0f} mm of the thumb's, how much nearer or farther the robot's are. Step: the largest of a joint between "
-      "frames.\nJ1 and J2 of the robot's fingers: {}.\n\n{:<36}{:>12}{:>12}{:>12}{:>12}{:>12}{:>18} step\n{:<20} "
-      "{:<9} {:>5}",
-      1000 * kPinch, to_string(coupling), "", "thumb mm", "index mm", "middle mm", "ring mm", "little mm", "gap mm",
-      "", "mapping", "count");
-  for (int f = 0; f < 5; ++f) table += "  mean   max";
-  table += " pairs  mean   max   deg\n";
+reports::Table mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling) {
+  reports::Table table = reports::table_of({"postures of", "mapping"}, 2);
+  table.explanation = fmt::format(
+      "Fingertips of the robot against the hand's: mean and largest distance in mm. Of pairs that the hand has "
+      "within "
+      "{:.0f} mm (thumb and another): how much nearer or farther apart the robot's are, in mm. Step: the largest "
+      "of a "
+      "joint between frames. J1 and J2 of the robot's fingers: {}.",
+      1000 * kPinch, to_string(coupling));
+  const auto add_column = [&](const std::string& heading, int digits) {
+    table.columns.push_back({"", heading, digits});
+  };
+  add_column("count", 0);
+  for (const char* finger : {"thumb", "index", "middle", "ring", "little"}) {
+    add_column(finger, 1);
+    add_column(fmt::format("{} max", finger), 1);
+  }
+  add_column("pairs", 0);
+  add_column("gap", 1);
+  add_column("gap max", 1);
+  add_column("step deg", 1);
   for (const std::string& name : trajectories::posture_set_names())
-    table += rows(name, skeleton, trajectories::posture_set(data_folder, name).postures, coupling);
-  table += rows("gestures", skeleton, trajectories::load_gestures(data_folder).postures, coupling);
+    add_rows(table, name, skeleton, trajectories::posture_set(data_folder, name).postures, coupling);
+  add_rows(table, "gestures", skeleton, trajectories::load_gestures(data_folder).postures, coupling);
   for (const std::string& name : trajectories::script_names(data_folder)) {
     std::vector<Posture> postures;
     for (const auto& frame : trajectories::source_trajectory(data_folder, name).frames)
       postures.push_back(frame.posture);
-    table += rows(name, skeleton, postures, coupling);
+    add_rows(table, name, skeleton, postures, coupling);
   }
   return table;
 }

@@ -5,6 +5,7 @@
 
 #include "core/hand/skeleton.h"
 #include "core/robot/shadow_kinematics.h"
+#include "reports/table.h"
 
 namespace glovebench::eval {
 
@@ -24,6 +25,6 @@ using Mapping = std::function<ShadowHandTargets(const Posture&)>;
 MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture>& postures, const Mapping& map);
 
 /// For `glovebench list mapping`: both mappings on all posture sets and source trajectories.
-std::string mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling);
+reports::Table mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling);
 
 }  // namespace glovebench::eval

@@ -73,7 +73,7 @@ Progress::Progress(std::string title, bool quiet)
     : title_(std::move(title)), quiet_(quiet), has_bar_(is_terminal()) {}
 
 Progress::~Progress() {
-  if (last_percent_ >= 0) say("\r\x1b[K");
+  erase_bar();
 }
 
 void Progress::show(double share) {
@@ -85,8 +85,14 @@ void Progress::show(double share) {
     say("{}: {:.0f}%, {:.0f} s left\n", title_, 100 * share, seconds_left(share, elapsed.count()));
 }
 
+void Progress::erase_bar() {
+  if (last_percent_ >= 0) say("\r\x1b[K");
+  last_percent_ = -1;
+}
+
 void Progress::show_bar(double share, double elapsed) {
   const int percent = static_cast<int>(100 * share);
+  if (percent >= 100) return erase_bar();
   if (elapsed < kBarDelay || percent <= last_percent_) return;
   last_percent_ = percent;
   const int filled = kBarWidth * percent / 100;

@@ -43,6 +43,7 @@ class Progress {
   void show(double share);
 
  private:
+  void erase_bar();
   void show_bar(double share, double elapsed);
 
   std::string title_;

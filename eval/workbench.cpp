@@ -86,7 +86,7 @@ std::string Workbench::add_database(const std::string& name_or_file) {
     }
   } else {
     postures = trajectories::load_posture_set(name_or_file);
-    if (const std::string doubt = trajectories::angle_doubt(postures.postures); !config_.quiet && !doubt.empty())
+    if (const std::string doubt = trajectories::angle_doubt(postures.postures); !doubt.empty())
       say("glovebench: warning: {}: {}\n", name_or_file, doubt);
   }
   const auto& known = trajectories::posture_set_names();

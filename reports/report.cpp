@@ -34,6 +34,7 @@ std::vector<NamedFile> other_files(const RunResult& result) {
   for (const auto& [name, csv] : tables.items()) files.push_back({"tables/" + name + ".csv", csv});
   for (const ExperimentResult& experiment : result.experiments)
     files.push_back({"tables/frames_" + to_string(experiment.key) + ".csv", frames_csv(run, experiment)});
+  if (!result.experiments.empty()) files.push_back({"tables/metrics.csv", metrics_csv(result)});
   if (has_commands(result)) files.push_back({"tables/commands.csv", commands_csv(result)});
   const std::vector<ClaimVerdict> verdicts = judge(claims(), all_measures(result));
   if (any_was_run(verdicts)) {
@@ -88,7 +89,7 @@ std::vector<std::string> write_report(const std::string& folder, const RunResult
   for (const auto& [name, entry] : Manifest(files.manifest()))
     if (is_of_some_reports(name)) files.remove(name);
   files.add("config.json", format_json(result.configuration));
-  files.add("summary.md", summary_markdown(result, paper));
+  files.add("summary.md", summary_markdown(result, paper, material.warnings));
   files.add("index.html", html_page(result, paper, timings, material));
   files.add("timings.json", timings_json(timings, result.studies));
   for (const NamedFile& table : other_files(result)) files.add(table.name, table.content);

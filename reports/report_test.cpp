@@ -63,6 +63,7 @@ TEST(Report, WritesEveryFile) {
       "Tr4_DB_open_power_recorded_subject1_gradient_1", "Tr4_DB_open_power_source_subject2_gradient_1",
       "Tr1_DB_20_postures_source_subject1_gradient_1", "Tr4_DB_open_power_recorded_subject1_kinect_0.5"};
   for (const std::string& name : experiments) expected.push_back("tables/frames_" + name + ".csv");
+  expected.push_back("tables/metrics.csv");
   expected.push_back("tables/commands.csv");
   expected.push_back("claims.json");
   expected.push_back("tables/claims.csv");

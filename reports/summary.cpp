@@ -4,11 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 #include "reports/claims/claims_report.h"
 #include "reports/command_tables.h"
+#include "reports/terminal_table.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -18,20 +18,6 @@ std::string mean_with_interval(const ExperimentResult& experiment, std::string_v
   const auto& interval = experiment.interval_of(metric);
   const std::string mean = fixed(experiment.aggregate_of(metric).mean, 2);
   return interval ? fmt::format("{} [{:.2f}, {:.2f}]", mean, interval->low, interval->high) : mean;
-}
-
-/// Removes the columns of names in which all rows agree, but keeps one; returns what was removed.
-std::vector<std::string> remove_common_names(Table& table) {
-  std::vector<std::string> common;
-  for (auto c = static_cast<size_t>(table.name_columns); c-- > 0 && table.name_columns > 1;) {
-    if (table.rows.empty() ||
-        std::ranges::any_of(table.rows, [&](const Row& row) { return row[c] != table.rows.front()[c]; }))
-      continue;
-    common.insert(common.begin(),
-                  table.columns[c].heading + " " + cell_text(table.rows.front()[c], table.columns[c]));
-    erase_column(table, c);
-  }
-  return common;
 }
 
 /// Makes one column of all names.
@@ -140,13 +126,8 @@ std::string study_text(const StudyResult& study, size_t columns) {
   std::string text = study.title + "\n\n";
   for (const Table& table : study.tables) {
     if (table.title != study.title) text += wrapped(table.title, columns) + "\n";
-    const std::string whole = to_text(without_long_names(table), false, std::numeric_limits<int>::max());
-    const bool fits = text_width(whole.substr(0, whole.find('\n'))) <= columns;
-    text += fits ? wrapped(table.explanation, columns) + "\n" + whole + "\n"
-                 : wrapped(fmt::format("{} columns, too wide for this terminal: tables/{}.csv, summary.md",
-                                       table.columns.size(), table.name),
-                           columns) +
-                       "\n";
+    if (!table.explanation.empty()) text += wrapped(table.explanation, columns) + "\n";
+    text += to_terminal(without_long_names(table), columns) + "\n";
   }
   return text;
 }
@@ -176,12 +157,14 @@ std::string quick_note(const RunResult& result) {
          "numbers, and no claim is judged.";
 }
 
-std::string summary_markdown(const RunResult& result, const PaperNumbers& paper) {
+std::string summary_markdown(const RunResult& result, const PaperNumbers& paper,
+                             const std::vector<std::string>& warnings) {
   const NoiseSetting noise = headline_noise(result);
   const std::string note = quick_note(result);
   std::string text = fmt::format("# glovebench results\n\nglovebench {}, commit {}, protocol {}, run {}.\n\n{}",
                                  result.program_version, result.commit, result.protocol.id(), run_name(result),
                                  note.empty() ? "" : note + "\n\n");
+  for (const std::string& warning : warnings) text += "**Warning:** " + escape_markdown(warning) + "\n\n";
   text += claims_markdown(judge(claims(), all_measures(result)));
   if (is_figure4(result))
     text +=

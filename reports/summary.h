@@ -30,9 +30,10 @@ std::string figure5_note(const RunResult& result, const PaperNumbers& paper);
 /// Plain text; empty unless the run was quick.
 std::string quick_note(const RunResult& result);
 
-std::string summary_markdown(const RunResult& result, const PaperNumbers& paper);
+std::string summary_markdown(const RunResult& result, const PaperNumbers& paper,
+                             const std::vector<std::string>& warnings = {});
 std::string study_markdown(const StudyResult& study);
-/// The same for a terminal; of tables that are wider it names the file.
+/// The same for a terminal. A table that is wider stands there in parts, without the ends of intervals.
 std::string study_text(const StudyResult& study, size_t columns);
 /// What the tables hold, in plain text.
 std::string summary_explanation();

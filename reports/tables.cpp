@@ -273,6 +273,24 @@ std::string errors_csv(const RunResult& result) {
   return csv;
 }
 
+std::string metrics_csv(const RunResult& result) {
+  const std::string run = run_name(result);
+  std::vector<const Metric*> shown;
+  Json heading = experiment_columns();
+  for (const Metric& metric : metrics()) {
+    if (metric.heading.empty()) continue;
+    shown.push_back(&metric);
+    heading.push_back(metric.key);
+  }
+  std::string csv = csv_line(heading);
+  for (const ExperimentResult& experiment : result.experiments) {
+    Json cells = experiment_cells(run, experiment.key);
+    for (const Metric* metric : shown) cells.push_back(rounded_or_null(value_of(*metric, experiment)));
+    csv += csv_line(cells);
+  }
+  return csv;
+}
+
 std::optional<double> covered_percent(const ExperimentResult& experiment) {
   std::optional<double> percent = experiment.coverage.share();
   if (percent) *percent *= 100;

@@ -48,6 +48,8 @@ std::string figure4_latex(const RunResult& result, const PaperNumbers& paper, co
 std::string figure4_csv(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 /// As `figure4_csv`, for all experiments, without the paper's numbers.
 std::string errors_csv(const RunResult& result);
+/// The means of `detail_summary`, one line per experiment.
+std::string metrics_csv(const RunResult& result);
 
 /// Percent of all frames.
 std::optional<double> covered_percent(const ExperimentResult& experiment);

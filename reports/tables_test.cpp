@@ -50,16 +50,27 @@ TEST(Figure4Table, BreaksIntoBlocksOnANarrowTerminal) {
     EXPECT_THAT(table, HasSubstr(title));
 }
 
-TEST(StudyText, NamesTheFileOfATableThatIsTooWide) {
-  Table narrow = table_of({"a", "b"}), wide = narrow;
-  narrow.title = wide.title = "S";
+TEST(StudyText, PutsATableThatIsTooWideIntoParts) {
+  Table narrow = table_of({"a", "b"});
+  narrow.title = "S";
   narrow.explanation = "Both columns.";
-  narrow.rows = wide.rows = {{"c", "d"}};
-  wide.name = "wide";
-  wide.columns[1].heading = std::string(80, 'b');
+  narrow.rows = {{"c", "d"}};
+  Table wide = table_of({"family", "truth"}, 2);
+  wide.title = "S";
+  const std::string heading(30, 'h');
+  wide.columns.push_back({"first", heading});
+  wide.columns.push_back({"first_low", "low"});
+  wide.columns.push_back({"first_high", "high"});
+  wide.columns.push_back({"second", heading});
+  wide.columns.push_back({"third", heading});
+  wide.rows = {{"side", "source", 1.0, 0.5, 1.5, 2.0, 3.0}, {"fast", "source", 4.0, 3.5, 4.5, 5.0, 6.0}};
+  const std::string space(26, ' ');
   EXPECT_EQ(study_text({"s", "S", {narrow, wide}, {}}, 80),
-            "S\n\nBoth columns.\n\na  b\nc  d\n\n2 columns, too wide for this terminal: tables/wide.csv, "
-            "summary.md\n\n");
+            "S\n\nBoth columns.\n\na  b\nc  d\n\nAll: truth source.\n\n"
+            "family  " +
+                heading + "  " + heading + "\nside    " + space + "1.00  " + space + "2.00\nfast    " + space +
+                "4.00  " + space + "5.00\n\nfamily  " + heading + "\nside    " + space + "3.00\nfast    " + space +
+                "6.00\n\n");
 }
 
 TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
@@ -111,6 +122,22 @@ RunResult own_result() {
   RunResult result = small_result();
   result.experiments.front().key.trajectory = "wave";
   return result;
+}
+
+TEST(Metrics, HaveATableWithTheirKeys) {
+  const RunResult result = small_result();
+  const std::vector<std::string> lines = lines_of_table(metrics_csv(result));
+  ASSERT_EQ(lines.size(), 1 + result.experiments.size());
+  const Table shown = detail_summary(result);
+  for (size_t c = static_cast<size_t>(shown.name_columns) + 1; c < shown.columns.size(); ++c)
+    EXPECT_THAT(lines[0], HasSubstr("," + shown.columns[c].key)) << "every column of More metrics";
+  EXPECT_EQ(std::ranges::count(lines[1], ','), std::ranges::count(lines[0], ','));
+  EXPECT_THAT(lines[1], HasSubstr(fmt::format(",{}", rounded(*result.experiments[0].sequence.jitter_position_mm))));
+}
+
+TEST(Summary, BeginsWithTheWarnings) {
+  const std::string summary = summary_markdown(small_result(), paper_numbers(), {"wave: no hand * in view"});
+  EXPECT_LT(summary.find("**Warning:** wave: no hand \\* in view\n"), summary.find("## "));
 }
 
 TEST(Errors, OfOnesOwnRunHaveNoNumbersOfThePaper) {

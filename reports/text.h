@@ -14,6 +14,8 @@ std::string escape_xml(const std::string& text);
 std::string escape_markdown(const std::string& text);
 std::string escape_latex(const std::string& text);
 std::string latex_comment(const std::string& text);
+/// Names from a user's file may contain anything.
+std::string shell_quoted(const std::string& text);
 
 /// "-" without value.
 std::string fixed(const std::optional<double>& value, int digits);

@@ -151,6 +151,7 @@ json parse_json(std::string_view text, const std::string& where) {
   // The library would take a zero byte for the end.
   if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
     throw Error(where, place_of(text, zero + 1), "a zero byte", "JSON");
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw Error(where, "content", "nothing", "JSON");
   StrictDocument document(text, where, kJsonBytesPerByte);
   json::sax_parse(text, &document);
   return document.take();

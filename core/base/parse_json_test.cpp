@@ -25,7 +25,8 @@ TEST(ParseJson, ReadsJson) {
 }
 
 TEST(ParseJson, NamesThePlaceOfWhatIsNone) {
-  EXPECT_EQ(refusal(""), "x.json: column 1: found the end of the text, expected JSON");
+  for (const char* empty : {"", " \n\t\r\n"})
+    EXPECT_EQ(refusal(empty), "x.json: content: found nothing, expected JSON");
   EXPECT_EQ(refusal("{\"a\": 1"), "x.json: column 8: found the end of the text, expected JSON");
   EXPECT_EQ(refusal("[1, ]"), "x.json: column 5: found invalid syntax, expected JSON");
   EXPECT_EQ(refusal("{\n  \"a\": 1,\n  \"b\": ?\n}"),

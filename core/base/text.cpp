@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -44,6 +45,20 @@ bool is_part_of_path(std::string_view part) {
   return !part.empty() && part.front() != '.' && std::ranges::none_of(part, is_control);
 }
 
+/// For a name's first word, such as posture of posture_rms_deg. Null if there is none or several are equally short.
+const std::string* shortest_that_begins_with(std::string_view word, const std::vector<std::string>& names) {
+  constexpr size_t kFewest = 4;  // characters that say something
+  if (word.size() < kFewest) return nullptr;
+  const std::string* shortest = nullptr;
+  size_t length = std::numeric_limits<size_t>::max();
+  for (const std::string& name : names) {
+    if (name.size() > length || !lower_case(name).starts_with(lower_case(word))) continue;
+    shortest = name.size() < length ? &name : nullptr;
+    length = name.size();
+  }
+  return shortest;
+}
+
 }  // namespace
 
 std::string printable(std::string_view text) {
@@ -80,6 +95,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
     nearest = edits < fewest ? &name : nullptr;
     fewest = edits;
   }
+  if (nearest == nullptr) nearest = shortest_that_begins_with(word, names);
   return nearest == nullptr ? "" : fmt::format("; did you mean {}?", *nearest);
 }
 

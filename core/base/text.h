@@ -20,8 +20,9 @@ std::string quoted_excerpt(std::string_view text);
 /// An excerpt of a value. Of an array or object: only its kind.
 std::string excerpt(const nlohmann::json& value);
 
-/// "; did you mean NAME?" for the name with the fewest edits (insert, remove, replace, or swap neighbors; case is
-/// ignored). Empty above one edit per three characters, or if two names are equally near.
+/// "; did you mean NAME?" for the nearest name by edits (a character inserted, removed, replaced, or swapped with
+/// its neighbor; case is ignored), else the shortest that begins with the word. Empty if the edits exceed a third
+/// of the characters and the word has fewer than four, or two names are equally near or short.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// "one of horn, robust", with `did_you_mean`.

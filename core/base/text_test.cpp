@@ -23,15 +23,21 @@ TEST(DidYouMean, names_the_nearest) {
   EXPECT_EQ(did_you_mean("trajectory", names), "; did you mean trajectories?");
   EXPECT_EQ(did_you_mean("db_OPEN_pwoer", names), "; did you mean DB_open_power?");
   EXPECT_EQ(did_you_mean("rus", {"rust", "run", "rus"}), "; did you mean rus?");
+  EXPECT_EQ(did_you_mean("Fingertip", {"tip_mm", "fingertip_mm", "fingertip_deg"}), "; did you mean fingertip_mm?")
+      << "the shortest that begins with it";
+  EXPECT_EQ(did_you_mean("Posture", {"posture_rms_unfiltered_deg", "posture_rms_deg", "position_error_mm"}),
+            "; did you mean posture_rms_deg?");
 }
 
 TEST(DidYouMean, guesses_nothing_far_or_ambiguous) {
   EXPECT_EQ(did_you_mean("", {"run"}), "");
   EXPECT_EQ(did_you_mean("track", {}), "");
   EXPECT_EQ(did_you_mean("tr", {"track"}), "");
+  EXPECT_EQ(did_you_mean("posture", {"posture_a_mean", "posture_b_mean"}), "") << "equally short";
   EXPECT_EQ(did_you_mean("rxx", {"run"}), "") << "2 of 3 characters";
   EXPECT_EQ(did_you_mean("Tr9", {"Tr1", "Tr2", "Tr3"}), "") << "all equally near";
   EXPECT_EQ(did_you_mean("Tr9", {"Tr1", "Tr2", "Tr9b"}), "");
+  EXPECT_EQ(did_you_mean("tra", {"track_all_frames"}), "") << "three characters begin too many names";
   EXPECT_EQ(did_you_mean(std::string(1 << 20, 'x'), {"run"}), "") << "compared with nothing of another length";
 }
 

@@ -61,7 +61,7 @@ TEST(ColorSeeds, of_a_list_are_its_chroma) {
 }
 
 TEST(ColorSeeds, refuse_a_damaged_list_in_one_line) {
-  EXPECT_THAT(refusal(""), HasSubstr("glove.json: column 1: found the end of the text, expected JSON"));
+  EXPECT_THAT(refusal(""), HasSubstr("glove.json: content: found nothing, expected JSON"));
   EXPECT_THAT(refusal("[]"), HasSubstr("content: found an array of 0"));
   EXPECT_THAT(refusal_of("/format", "other"), HasSubstr("format: found \"other\""));
   EXPECT_THAT(refusal_of("/format", nlohmann::json::parse(std::string(100, '[') + std::string(100, ']'))),

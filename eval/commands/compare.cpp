@@ -19,6 +19,7 @@ struct Compare {
   ComparisonFlags flags;
   std::vector<std::string> across;
   bool all_rows = false;
+  bool quiet = false;
 
   void run() const {
     if (!output.empty()) reports::require_own_folder(output);
@@ -39,6 +40,7 @@ struct Compare {
       report.scripts = page_scripts();
       reports::write_comparison(output, report);
     }
+    if (quiet && !output.empty()) return;
     fmt::print("{}", reports::comparison_table(report, all_rows, terminal_columns()));
     if (!output.empty()) fmt::print("Report: {}/index.html\n", output);
   }
@@ -80,6 +82,7 @@ void add_compare(Command program) {
   state->flags.add(command, "all that `glovebench list metrics` marks");
   command.option("--partial", state->pairing.partial, "compare the experiments that both have");
   command.option("--all-rows", state->all_rows, "print also what is the same");
+  command.option("-q,--quiet", state->quiet, "print only errors, and results that go to no file");
   command.runs([state] { state->run(); });
 }
 

@@ -23,7 +23,7 @@ struct Build {
     const bool is_file = trajectories::is_posture_file(postures);
     const PostureSet set = is_file ? trajectories::load_posture_set(postures)
                                    : trajectories::posture_set(trajectory_folder(), postures);
-    if (const std::string doubt = trajectories::angle_doubt(set.postures); !common.quiet && !doubt.empty())
+    if (const std::string doubt = trajectories::angle_doubt(set.postures); !doubt.empty())
       say("glovebench: warning: {}: {}\n", postures, doubt);
     Workbench workbench = common.workbench();
     Progress progress("building " + set.name, common.quiet);

@@ -33,6 +33,7 @@ struct Explain {
   std::optional<uint64_t> seed;
 
   void run() {
+    require_writable_files({{"--output", common.output, ".png"}});
     const std::string results_path = run_folder + "/results.json";
     const reports::RunResult results = load_finished_run(run_folder).results.result;
     const reports::WorstFrame chosen = chosen_frame(results, results_path);
@@ -55,25 +56,35 @@ struct Explain {
     const std::string path = common.output.empty()
                                  ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(chosen.key), number)
                                  : common.output;
-    render::write_png(path, explain_frame(workbench, spec, number));
+    render::write_png(path, explain_frame(workbench, spec, chosen.frame));
     if (common.quiet) return;
-    if (!chosen.metric.empty())
-      fmt::print("{}: frame {}, seed {}, {} {:.1f} in the run\n", to_string(chosen.key), number, chosen.seed,
-                 chosen.metric, *chosen.frame[chosen.metric]);
-    fmt::print("{}\n", path);
+    const std::optional<double> error = chosen.frame[chosen.metric];
+    fmt::print("{}: frame {}, seed {}, {} in the run\n{}\n", to_string(chosen.key), number, chosen.seed,
+               error ? fmt::format("{} {:.1f}", chosen.metric, *error) : "lost", path);
   }
 
-  /// A numbered frame is of the first experiment and seed that were asked for; its record is empty.
+  /// A numbered frame is of the first experiment and seed that were asked for.
   reports::WorstFrame chosen_frame(const reports::RunResult& results, const std::string& path) const {
     const std::vector<const ExperimentResult*> experiments = find(results, path);
     if (frame == "worst") return worst(experiments, kWorstBy, path);
     const std::string prefix = "worst:";
     if (frame.starts_with(prefix)) return worst(experiments, checked_metric(frame.substr(prefix.size())), path);
-    reports::FrameRecord record;
-    const auto read = std::from_chars(frame.data(), frame.data() + frame.size(), record.frame);
+    const reports::SeedRun& run = *seeds_of(*experiments.front(), path).front();
+    return {experiments.front()->key, run.seed, numbered_frame(run.frames, path), kWorstBy};
+  }
+
+  reports::FrameRecord numbered_frame(const std::vector<reports::FrameRecord>& frames,
+                                      const std::string& path) const {
+    int number = 0;
+    const auto read = std::from_chars(frame.data(), frame.data() + frame.size(), number);
     if (read.ec != std::errc() || read.ptr != frame.data() + frame.size())
       throw Error("explain", "frame", quoted_excerpt(frame), "a number, worst or worst:METRIC");
-    return {experiments.front()->key, seeds_of(*experiments.front(), path).front()->seed, record, ""};
+    const auto found = std::ranges::find(frames, number, &reports::FrameRecord::frame);
+    if (found != frames.end()) return *found;
+    throw Error(path, "frame", frame,
+                frames.empty()
+                    ? "worst: the run has none"
+                    : fmt::format("one of the run's, {} to {}", frames.front().frame, frames.back().frame));
   }
 
   static std::string checked_metric(const std::string& metric) {
@@ -139,21 +150,26 @@ struct Explain {
                 "the one of " + key.trajectory + ", which the run was given as a file");
   }
 
-  static void check_truth(const reports::RunResult& results, const reports::ExperimentKey& key,
-                          const Trajectory& truth, const std::string& path) {
+  void check_truth(const reports::RunResult& results, const reports::ExperimentKey& key, const Trajectory& truth,
+                   const std::string& path) const {
     const std::string name = truth_name(key);
     const auto it = results.inputs.truths.find(name);
     const std::string expected = it == results.inputs.truths.end() ? "nothing" : it->second;
     const std::string found = trajectories::hash(truth);
-    if (found != expected) throw Error(path, "hash of " + name, found, expected + " (the truth of the run)");
+    const bool is_file = trajectories::is_trajectory_file(trajectory);
+    if (found != expected)
+      throw Error(
+          path, "hash of " + name, found,
+          expected + (is_file ? " (the truth of the run)" : ", that of the run: give its file by --trajectory"));
   }
-  static void check_database(const reports::RunResult& results, const reports::ExperimentKey& key,
-                             const Database& database, const std::string& path) {
+  void check_database(const reports::RunResult& results, const reports::ExperimentKey& key,
+                      const Database& database, const std::string& path) const {
     const auto it = results.inputs.databases.find(key.database);
     const std::string expected = it == results.inputs.databases.end() ? "nothing" : it->second;
     if (database.content_hash() != expected)
       throw Error(path, "hash of " + key.database, database.content_hash(),
-                  expected + " (the database of the run)");
+                  expected + (database_file.empty() ? ", that of the run: give its file by --database"
+                                                    : " (the database of the run)"));
   }
 };
 

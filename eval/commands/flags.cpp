@@ -9,6 +9,7 @@
 
 #include "core/adapters/kdl/make_arm_solver.h"
 #include "core/base/error.h"
+#include "core/base/file_set.h"
 #include "core/base/input_file.h"
 #include "core/base/parse_json.h"
 #include "core/base/whole_file.h"
@@ -57,7 +58,7 @@ void CommonFlags::add_machine(Command command) {
               "databases that take a ninth of the memory and make their distance fields when these are asked for; "
               "results do not depend on it")
       .rare();
-  command.option("-q,--quiet", quiet, "print only errors, and results that go to no file");
+  command.option("-q,--quiet", quiet, "print only errors, warnings, and results that go to no file");
 }
 
 TrackerConfig CommonFlags::tracker_config() const {
@@ -86,7 +87,6 @@ Workbench CommonFlags::workbench() const {
 }
 
 void CommonFlags::warn_of_units(const trajectories::Trajectory& trajectory) const {
-  if (quiet) return;
   for (const std::string& doubt : trajectories::unit_doubts(trajectory, tracker_config().volume))
     say("glovebench: warning: {}: {}\n", trajectory.name, doubt);
 }
@@ -251,6 +251,17 @@ void CommonFlags::check_output_folder() const {
   if (std::filesystem::exists(output + "/provenance.json"))
     throw Error("--output", "folder", output + ", which holds a baseline", "another: both have a results.json");
   const WholeFile probe(output + "/results.json");  // tests that files can be written; never committed
+}
+
+void CommonFlags::check_report_folder() const {
+  check_output_folder();
+  const std::optional<Manifest> manifest = read_manifest(output);
+  for (const std::string name : {"config.json", "index.html", "summary.md"}) {
+    const std::string path = output + "/" + name;
+    if (!std::filesystem::exists(path)) continue;
+    if (!manifest || !manifest->contains(name) || !manifest->contains("results.json"))
+      throw Error("--output", "folder", path + ", which no run wrote", "another folder");
+  }
 }
 
 }  // namespace glovebench::eval

@@ -54,6 +54,9 @@ struct CommonFlags {
   /// Makes the folder.
   /// Throws: Error if it cannot be written.
   void check_output_folder() const;
+  /// The same for a run's report.
+  /// Throws: Error also if it would replace a file that no run wrote.
+  void check_report_folder() const;
 };
 
 struct NamedTracker {

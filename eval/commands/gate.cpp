@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/base/error.h"
@@ -25,6 +26,7 @@ struct Gate {
   std::string output;
   reports::PairingOptions pairing;
   bool update = false;
+  bool quiet = false;
 
   /// Returns what `make` returns. Also writes its error in place of a report.
   template <typename Make>
@@ -48,29 +50,29 @@ struct Gate {
     return or_refusal([&] { return update ? replace(folder, candidate) : judge(folder, candidate); });
   }
 
-  /// The rows that would have stopped the change, printed; none without an older baseline to compare with.
+  /// The rows that would have stopped the change; none without an older baseline to compare with.
   std::vector<std::string> accepted_rows(const std::string& folder, const FinishedRun& candidate) const {
     if (!std::filesystem::exists(folder + "/results.json")) return {};
     try {
       const Baseline old = load_baseline(folder);
-      const std::vector<std::string> accepted = report(old, folder, candidate, compare(old, candidate)).failures;
-      for (const std::string& failure : accepted) fmt::print("ACCEPTED: {}\n", failure);
-      return accepted;
+      return report(old, folder, candidate, compare(old, candidate)).failures;
     } catch (const reports::Incomparable& e) {
       fmt::print("Not compared with the older baseline: {}\n", e.what());
       return {};
     }
   }
 
-  /// Says what the new baseline changes before making it the baseline.
+  /// Makes the candidate the baseline and says what that accepts.
   int replace(const std::string& folder, const FinishedRun& candidate) const {
-    const std::vector<std::string> accepted = accepted_rows(folder, candidate);
     const reports::NamedResult& run = candidate.results;
-    update_baseline(folder, run, suite_of(run, suite), measured_speed(), load_stage_times(candidate.files),
-                    accepted);
+    const Suite whole = suite_of(run, suite);
+    const std::vector<std::string> accepted = accepted_rows(folder, candidate);
+    update_baseline(folder, run, whole, measured_speed(), load_stage_times(candidate.files), accepted);
     if (run.result.commit.ends_with("-dirty")) {
       fmt::print("warning: built from a tree with changes: nobody else has this program\n");
     }
+    if (quiet) return 0;
+    for (const std::string& row : accepted) fmt::print("ACCEPTED: {}\n", row);
     fmt::print("{} is the baseline of suite {} now, in {}\n", run.result.commit, run.result.suite, folder);
     return 0;
   }
@@ -81,18 +83,20 @@ struct Gate {
     require_baseline_for_all(made.comparison, folder);
     const reports::GateDecision decision = report(baseline, folder, candidate, made);
     for (const std::string& failure : decision.failures) fmt::print("FAILED: {}\n", failure);
+    if (quiet) return decision.passed() ? 0 : kGateFailed;
     const std::string page = output.empty() ? "" : fmt::format(". Report: {}/index.html", output);
     if (decision.passed()) {
       fmt::print("Gate passed against {}{}\n", folder, page);
       return 0;
     }
-    explain_failure(decision, folder, baseline.noise_floor.has_value());
+    explain_failure(decision, baseline.noise_floor.has_value());
+    print_acceptance(folder, candidate.results.result.suite);
     fmt::print("Gate failed against {}{}\n", folder, page);
     return kGateFailed;
   }
 
-  /// What the failures mean, and how to accept them.
-  void explain_failure(const reports::GateDecision& decision, const std::string& folder, bool has_floor) const {
+  /// What the failures mean.
+  void explain_failure(const reports::GateDecision& decision, bool has_floor) const {
     const size_t count = decision.failures.size();
     std::string text = fmt::format("{} {} this change. ", count, count == 1 ? "row stops" : "rows stop");
     if (decision.has_places)
@@ -101,11 +105,25 @@ struct Gate {
           "but "
           "on these same frames it is at least twice (a share of frames: once) {}. ",
           has_floor ? "what other noise seeds cause" : "the default minimum effect");
-    text += fmt::format(
-        "To accept it, e.g. for what became better, run `glovebench gate {} --baseline {} --update`{} and commit "
-        "that folder: its provenance.json records the accepted rows and the replaced baseline.",
-        candidate_path, folder, suite.empty() ? " (with --suite FILE for a suite of your own)" : "");
     fmt::print("{}", reports::wrapped(text, terminal_columns()));
+  }
+
+  /// The command that makes the candidate the baseline, in one line to copy.
+  void print_acceptance(const std::string& folder, const std::string& suite_of_run) const {
+    const std::vector<std::string> built_in = suite_names();
+    const bool is_built_in = std::ranges::find(built_in, suite_of_run) != built_in.end();
+    std::string flags = " --update";
+    if (!is_built_in) flags += " --suite " + (suite.empty() ? "FILE" : reports::shell_quoted(suite));
+    if (!speed_path.empty()) flags += " --speed " + reports::shell_quoted(speed_path);
+    if (pairing.other_seeds) flags += " --other-seeds";
+    fmt::print("To accept it, e.g. for what became better:\n  glovebench gate {} --baseline {}{}\n",
+               reports::shell_quoted(candidate_path), reports::shell_quoted(folder), flags);
+    const std::string file =
+        is_built_in || !suite.empty() ? "" : fmt::format("FILE is that of suite {}. ", suite_of_run);
+    fmt::print("{}",
+               reports::wrapped(file + "Commit the baseline's folder: its provenance.json records the accepted "
+                                       "rows and the replaced baseline.",
+                                terminal_columns()));
   }
 
   reports::ComparisonReport compare(const Baseline& baseline, const FinishedRun& candidate) const {
@@ -131,7 +149,7 @@ struct Gate {
       if (!output.empty()) reports::write_comparison(output, made);
     }
     const reports::GateDecision decision = decide(made.comparison, made.speed);
-    fmt::print("{}", reports::comparison_table(made, false, terminal_columns()));
+    if (!quiet) fmt::print("{}", reports::comparison_table(made, false, terminal_columns()));
     if (speed_path.empty() && !baseline.speed.empty())
       fmt::print("warning: no --speed: only the accuracy is gated\n");
     for (const std::string& warning : decision.warnings) fmt::print("warning: {}\n", warning);
@@ -185,6 +203,7 @@ void add_gate(Command program) {
                  "the run has other noise seeds, as many: pair them in their order");
   command.option("--update", state->update,
                  "make this run the baseline; the noise floor stays, truths are not touched");
+  command.option("-q,--quiet", state->quiet, "print only warnings and what stops the change");
   command.runs([state] { return state->run(); });
 }
 

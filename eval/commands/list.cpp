@@ -19,6 +19,7 @@
 #include "render/noise/noise_model.h"
 #include "render/subjects/subject.h"
 #include "reports/metrics/glossary.h"
+#include "reports/terminal_table.h"
 #include "reports/text.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
@@ -27,37 +28,45 @@
 namespace glovebench::eval {
 namespace {
 
+/// What has its own columns, and beside it what it means, broken to fit.
+void print_entry(const std::string& columns, std::string_view meaning) {
+  fmt::print("{}{}", columns, reports::wrapped(std::string(meaning), terminal_columns(), columns.size()));
+}
+
 void list_trajectories() {
+  constexpr size_t kHashIndent = 28;
   for (const auto& listing : trajectories::list_trajectories(trajectory_folder())) {
     const trajectories::Trajectory t = trajectories::load_trajectory(listing.path);
-    fmt::print("{:<5}{:<10}{:>4} frames  {}  {}\n", t.name, to_string(t.kind), t.frames.size(),
-               trajectories::hash(t), t.description);
+    print_entry(fmt::format("{:<5}{:<10}{:>4} frames  ", t.name, to_string(t.kind), t.frames.size()),
+                t.description);
+    print_entry(std::string(kHashIndent, ' '), "hash " + trajectories::hash(t));
   }
 }
 
 void list_databases() {
   for (const std::string& name : trajectories::posture_set_names()) {
     const PostureSet set = trajectories::posture_set(trajectory_folder(), name);
-    fmt::print("{}: {}\n", name, fmt::join(set.posture_names, ", "));
+    print_entry(fmt::format("{:<21}", name), fmt::format("{}", fmt::join(set.posture_names, ", ")));
   }
 }
 
 void list_suites() {
-  for (const std::string& name : suite_names()) fmt::print("{:<8} {}\n", name, load_suite(name).description);
+  for (const std::string& name : suite_names())
+    print_entry(fmt::format("{:<9}", name), load_suite(name).description);
 }
 
 void list_studies() {
-  for (const Study& study : studies()) fmt::print("{:<14}{}\n", study.name, study.title);
+  for (const Study& study : studies()) print_entry(fmt::format("{:<14}", study.name), study.title);
 }
 
 template <typename Entry, std::span<const Entry> (*entries)()>
 void list_entries() {
-  for (const Entry& entry : entries()) fmt::print("{:<16} {}\n", entry.name, entry.description);
+  for (const Entry& entry : entries()) print_entry(fmt::format("{:<17}", entry.name), entry.description);
 }
 
 void list_formats() {
   for (const trajectories::Format& format : trajectories::formats())
-    fmt::print("{:<16} {:<10} {}\n", format.name, format.ending, format.description);
+    print_entry(fmt::format("{:<16} {:<10} ", format.name, format.ending), format.description);
 }
 
 void list_metrics() {
@@ -80,7 +89,10 @@ void list_angles() {
 }
 
 void list_mapping(ShadowCoupling coupling) {
-  fmt::print("{}", mapping_table(HandModel::load(hand_mesh_path()).skeleton(), trajectory_folder(), coupling));
+  const reports::Table table =
+      mapping_table(HandModel::load(hand_mesh_path()).skeleton(), trajectory_folder(), coupling);
+  fmt::print("{}\n{}", reports::wrapped(table.explanation, terminal_columns()),
+             reports::to_terminal(table, terminal_columns()));
 }
 
 /// Whether `word` stands in the text, in any case, with no letter or digit beside it.

@@ -93,13 +93,21 @@ std::vector<std::string> words_of(const std::string& type) {
   return CLI::detail::split(type.substr(begin + 2, end - begin - 2), ',');
 }
 
+/// CLI11 says "..." of any option that takes several values.
+std::string with_how_often(std::string value, const CLI::Option& option) {
+  const size_t several = value.find(" ...");
+  if (several == std::string::npos || option.get_positional()) return value;
+  if (option.get_delimiter() == ',') return value.replace(several, 4, "[,...]");
+  return option.get_allow_extra_args() ? value : value.replace(several, 4, " (repeatable)");
+}
+
 OptionText text_of(const CLI::Option& option) {
   OptionText text;
   for (const std::string& name : option.get_snames()) text.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) text.names.push_back("--" + name);
   if (text.names.empty()) text.names.push_back(option.get_name());
   text.takes_value = option.get_type_size() > 0;
-  text.value = CLI::detail::trim_copy(CLI::Formatter().make_option_opts(&option));
+  text.value = with_how_often(CLI::detail::trim_copy(CLI::Formatter().make_option_opts(&option)), option);
   text.help = option.get_description();
   text.words = words_of(option.get_type_name());
   text.is_rare = option.get_group().ends_with(kRare);

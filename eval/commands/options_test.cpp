@@ -84,7 +84,7 @@ TEST_F(Options, HelpShowsDefaultsUnlessEmptyOrRequired) {
                          HasSubstr("--seed UINT:NONNEGATIVE=1 "), HasSubstr("--speed FLOAT:[0 - 1]=0.5 "),
                          HasSubstr("--gait TEXT:{slow,fast}=slow ")));
   EXPECT_THAT(out, AllOf(HasSubstr("--shoes TEXT Needs: --gait "), HasSubstr("--limit INT "),
-                         HasSubstr("--stops TEXT ... "), HasSubstr("--offset FLOAT=[1,2] x 2"),
+                         HasSubstr("--stops TEXT[,...] "), HasSubstr("--offset FLOAT=[1,2] x 2"),
                          HasSubstr("--pose FLOAT x 7 "), HasSubstr("--back ")));
 }
 

@@ -34,7 +34,7 @@ struct Reproduce {
     options.study.seeds = common.seeds(seed_count);
     if (all_gains) options.noises = {{"gradient", 1}, {"gradient", 0.5}, {"gradient", 2}, {"kinect", 1}};
     plan_reproduction(options);  // checks the names of parts, too
-    if (!dry_run) common.check_output_folder();
+    if (!dry_run) common.check_report_folder();
 
     Workbench workbench = common.workbench();
     if (dry_run) {
@@ -53,8 +53,9 @@ struct Reproduce {
   void print_end(const Outcome& outcome, const std::vector<reports::ClaimVerdict>& verdicts, bool judged) const {
     if (reports::any_was_run(verdicts)) fmt::print("{}\n", reports::claims_table(verdicts));
     if (!options.study.quick && !judged)
-      fmt::print("No claim is judged: they are about the paper's configuration, and this is another one.\n\n");
-    if (options.study.quick) fmt::print("{}\n", reports::quick_note(outcome.result));
+      fmt::print("No claim is judged: they are about the paper's configuration; this is another.\n\n");
+    if (options.study.quick)
+      fmt::print("{}\n", reports::wrapped(reports::quick_note(outcome.result), terminal_columns()));
     if (!outcome.result.experiments.empty()) fmt::print("Figures 4 to 6: {}/tables/figure*.csv\n", common.output);
     for (const reports::StudyResult& study : outcome.result.studies)
       fmt::print("{}: {}/summary.md\n", study.title, common.output);
@@ -114,7 +115,7 @@ void add_reproduce(Command program) {
   state->common.add_machine(command);
   command
       .option("--trajectory", state->options.trajectories,
-              "Figure 4 alone, with only these, e.g. Tr4; with --only also the parts named there")
+              "Figure 4 with only these, e.g. Tr4, and no other parts than those of --only")
       .one_of(trajectories::ground_truth_names());
   command.option("--seeds", state->seed_count, "noise seeds an experiment, counted up from --seed").in(1, 1000);
   command

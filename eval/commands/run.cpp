@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
-#include <set>
+#include <filesystem>
 
 #include "core/base/error.h"
+#include "core/base/file_set.h"
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
-#include "eval/pictures.h"
 #include "eval/reproduction.h"
+#include "eval/run_warnings.h"
 #include "eval/settings_run.h"
 #include "eval/settings_table.h"
 #include "eval/suite.h"
@@ -48,24 +49,27 @@ struct RunCommand {
     common.left = side_of(suite) == Side::left;
     Workbench workbench = common.workbench();
     const Plan plan = plan_suite(workbench, common.tracker_config(), suite, filter);
-    std::set<std::shared_ptr<const trajectories::Trajectory>> movements;
-    for (const RunSpec& spec : plan.specs)
-      if (movements.insert(spec.trajectory).second) common.warn_of_units(*spec.trajectory);
+    warn(unit_warnings(plan));
     const std::vector<NamedTracker> settings =
         choices.are_several() ? choices.trackers(common) : std::vector<NamedTracker>{};
     if (list) return print_list(plan, settings);
     if (dry_run) return print_dry_run(workbench, plan, settings);
     require_output();
-    common.check_output_folder();
     settings.empty() ? run_plan(workbench, plan) : compare_settings(workbench, plan, settings);
   }
 
+  static void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) say("glovebench: warning: {}\n", warning);
+  }
+
   void run_plan(Workbench& workbench, const Plan& plan) {
+    common.check_report_folder();
     const auto [result, timings] = carry_out(workbench, plan, robot.output_of(workbench), common.output);
+    warn(lost_hand_warnings(plan, result, common.output));
     if (common.quiet) return;
-    warn_of_lost_hands(common.output, result, plan.tracker.volume);
     if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
-    for (const reports::StudyResult& families : result.studies) fmt::print("{}\n", study_markdown(families));
+    for (const reports::StudyResult& study : result.studies)
+      fmt::print("{}", study_text(study, terminal_columns()));
     fmt::print("All metrics, with intervals: {}/summary.md\n", common.output);
     print_end(timings);
   }
@@ -73,6 +77,7 @@ struct RunCommand {
   /// Writes a report of each setting into a folder of its own, and the table of all beside them.
   void compare_settings(Workbench& workbench, const Plan& plan, const std::vector<NamedTracker>& settings) {
     if (!robot.output.empty()) throw Error("--robot-out", "settings", "several", "one");
+    common.check_output_folder();
     reports::require_own_folder(common.output);
     const RobotOutput robot_output = robot.output_of(workbench);
     std::vector<TrackerConfig> trackers;
@@ -86,7 +91,7 @@ struct RunCommand {
       const Plan planned = with_tracker(plan, trackers[s]);
       const Outcome outcome =
           report_runs(workbench, planned, runs[s], {kOneJob, start, false}, robot_output, folders.back());
-      warn_of_lost_hands(folders.back(), outcome.result, planned.tracker.volume);
+      warn(lost_hand_warnings(planned, outcome.result, folders.back()));
     }
     const reports::SettingsTable table = settings_table(folders);
     write_settings_table(common.output, table);
@@ -96,26 +101,11 @@ struct RunCommand {
                settings_text(table, terminal_columns()), common.output, fmt::join(folders, " "), common.output);
   }
 
-  void warn_of_lost_hands(const std::string& folder, const reports::RunResult& result,
-                          const WorkingVolume& volume) const {
-    if (common.quiet) return;
-    for (const reports::ExperimentResult& experiment : result.experiments) {
-      const reports::Coverage& coverage = experiment.coverage;
-      if (coverage.frames == 0 || coverage.lost < coverage.frames) continue;
-      const reports::SeedRun& run = experiment.runs.front();
-      say("glovebench: warning: {}: none of {} frames was tracked. Likely causes: the hand is outside of the image "
-          "or of the working volume ({:g} to {:g} mm), or the database lacks its postures. To see: {}\n",
-          to_string(experiment.key), coverage.frames, 1000 * volume.z_min, 1000 * volume.z_max,
-          complete_command({experiment.key, run.seed, run.frames.front(), ""}, folder));
-    }
-  }
-
   /// Runs one part of the reproduction. A cascade on the command line replaces the four of Figure 8.
   void run_study() {
     for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
                              "--noise", "--gain", "--subject", "--hand"})
-      if (command.given(flag))
-        throw Error(study_name, "flags", flag, "none of those that say what a study says itself");
+      if (command.given(flag)) throw Error(fmt::format("run {}: {} does not go with a study", study_name, flag));
     const Study& chosen = study(study_name);
     if (choices.are_several() && choices.cascades.size() < 2)
       throw Error(study_name, "flags", "several settings", "several --cascade alone");
@@ -124,7 +114,7 @@ struct RunCommand {
     options.seeds = common.seeds(seed_count);
     Workbench workbench = common.workbench();
     if (common.output.empty()) return print_study(chosen.run({workbench, options}));
-    common.check_output_folder();
+    common.check_report_folder();
     const Outcome outcome =
         reproduce(workbench, {options, {}, {{}}, {study_name}}, robot.output_of(workbench), common.output);
     if (common.quiet) return;
@@ -136,8 +126,7 @@ struct RunCommand {
   }
   void print_study(const reports::StudyResult& result) const {
     if (quick) fmt::print("A quick run: nothing can be concluded from its numbers.\n\n");
-    fmt::print("{}", common.output.empty() ? reports::study_markdown(result)
-                                           : reports::study_text(result, terminal_columns()));
+    fmt::print("{}", reports::study_text(result, terminal_columns()));
   }
 
   /// The suite by name, or an unnamed suite from the flags.
@@ -151,9 +140,17 @@ struct RunCommand {
     return suite;
   }
 
+  /// A shell's `gen/*.json` names the manifest that `generate` wrote beside the movements.
+  static std::vector<std::string> without_manifests(const std::vector<std::string>& names) {
+    std::vector<std::string> movements;
+    for (const std::string& name : names)
+      if (std::filesystem::path(name).filename() != kManifest) movements.push_back(name);
+    return movements.empty() ? names : movements;
+  }
+
   Suite suite_of_flags() const {
     Suite suite;
-    for (const std::string& trajectory : trajectories) {
+    for (const std::string& trajectory : without_manifests(trajectories)) {
       SuiteEntry entry{trajectory, {}, databases, subject, {noise, gain}, {}};
       if (!trajectories::is_trajectory_file(trajectory)) {
         entry.truth = from_name<reports::TruthKind>(truth);
@@ -169,7 +166,7 @@ struct RunCommand {
     }
     for (const char* flag : {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject"}) {
       if (!suite_name.empty() && command.given(flag)) {
-        throw Error("--suite", "flags", flag, "none of those that say what a suite says itself");
+        throw Error(fmt::format("run: {} does not go with --suite, whose file says it", flag));
       }
     }
   }

@@ -15,6 +15,7 @@ struct TableCommand {
   ComparisonFlags flags;
   bool other_seeds = false;
   bool partial = false;
+  bool quiet = false;
 
   void run() const {
     reports::PairingOptions pairing{other_seeds, partial, {}, flags.metrics};
@@ -23,7 +24,8 @@ struct TableCommand {
     if (format == "csv") return fmt::print("{}", settings_csv(table));
     if (format == "latex") return fmt::print("{}", settings_latex(table));
     if (format == "html") return fmt::print("{}", settings_html(table));
-    fmt::print("{}", settings_text(table, terminal_columns()));
+    fmt::print("{}",
+               quiet ? to_text(table.table, true, terminal_columns()) : settings_text(table, terminal_columns()));
   }
 };
 
@@ -42,6 +44,7 @@ void add_table(Command program) {
   command.option("--other-seeds", state->other_seeds,
                  "the runs have other noise seeds, as many: pair them in their order");
   command.option("--partial", state->partial, "compare the experiments that the reference shares with each");
+  command.option("-q,--quiet", state->quiet, "print only the table, without explanations");
   command.runs([state] { state->run(); });
 }
 

@@ -90,7 +90,7 @@ struct Track {
   void run() {
     require_different_files({{"--output", common.output}, {"--robot-out", robot.output}, {"--page", page}});
     const bool writes_csv = is_csv();
-    if (!page.empty()) const WholeFile probe(page);  // never committed: nothing stays
+    require_writable_files({{"--page", page, ".html"}});
     const std::shared_ptr<const ColorTable> own_colors =
         colors.empty() ? nullptr : std::make_shared<ColorTable>(ColorTable::load(colors));
     CommandGuard guard(robot.limits.limits());
@@ -126,10 +126,8 @@ struct Track {
     if (frames == unusable) refuse();
     finish(output, outputs, pictures ? &*pictures : nullptr);
     if (!page.empty()) write_file(page, reports::track_page(from.source, for_page, page_scripts()));
-    if (!common.quiet) {
-      warn(config.volume);
-      print_summary(source, spent.count());
-    }
+    warn(config.volume);
+    if (!common.quiet) print_summary(source, spent.count());
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
   }

@@ -80,6 +80,19 @@ std::string folder_of(const std::string& folder_or_file) {
   return fs::is_directory(folder_or_file, error) ? folder_or_file : folder_above(folder_or_file);
 }
 
+/// Throws: Error for the folder of `run` with several settings, each of which is a run.
+void refuse_several(const std::string& folder) {
+  std::vector<std::string> runs;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (const std::string name = entry.path().filename().string();
+        !name.starts_with(".") && fs::exists(entry.path() / kResults, ignored))
+      runs.push_back(entry.path().string());
+  std::ranges::sort(runs);
+  if (!runs.empty())
+    throw Error(folder, "run", "a folder of runs", fmt::format("one of {}", fmt::join(runs, ", ")));
+}
+
 reports::NamedResult results_of(const FileSet& files) {
   return {files.path(kResults), reports::parse_results(read_of(files, kResults), files.path(kResults))};
 }
@@ -125,6 +138,7 @@ FinishedRun load_finished_run(const std::string& folder_or_file) {
   const std::string folder = folder_of(folder_or_file);
   require_finished(folder);
   const FileSet files(folder);
+  if (folder == folder_or_file && !files.has(kResults)) refuse_several(folder);
   if (folder == folder_or_file) return {files, results_of(files)};
   const std::string name = fs::path(folder_or_file).filename().string();
   if (name == kResults && files.has(name)) return {files, results_of(files)};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,8 @@ using nlohmann::json;
 using reports::RunResult;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 constexpr int kGatedFrames = 33;  // two blocks
 
@@ -88,11 +91,12 @@ TEST_F(RegressionLong, EqualRunsAreTheSame) {
   ProgramRun run = run_glovebench({"compare", path("run"), path("same"), "-o", path("report")});
   std::ranges::replace(run.out, '\n', ' ');
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, AllOf(HasSubstr("0 worse, 0 better, 33 same, 0 not enough data"),
+  EXPECT_THAT(run.out, AllOf(HasSubstr("0 worse, 0 better, 33 same, 0 not enough data; equal in every frame"),
                              HasSubstr("For these trajectories"), HasSubstr("(a default:")));
   for (const char* file :
        {"comparison.json", "comparison.md", "comparison.csv", "comparison.tex", "junit.xml", "index.html"})
     EXPECT_TRUE(fs::exists(path("report/") + file)) << file;
+  EXPECT_EQ(run_glovebench({"compare", path("run"), path("same"), "-q", "-o", path("report")}).out, "");
 }
 
 TEST_F(RegressionLong, WithoutABaselineNothingPasses) {
@@ -121,14 +125,36 @@ TEST_F(RegressionLong, GatePassesWhatIsTheSameAndStopsWhatIsWorse) {
   const ProgramRun stopped = gate(worse, {"-o", path("stopped")});
   EXPECT_EQ(stopped.exit_code, 1);
   EXPECT_THAT(stopped.out, AllOf(HasSubstr("FAILED: all, position_error_mm: worse by 1.00 mm"),
-                                 HasSubstr("\n3 rows stop this change. To accept it"), HasSubstr("--update")));
+                                 HasSubstr("\n3 rows stop this change.\nTo accept it"), HasSubstr("--update")));
   EXPECT_THAT(read_file(path("stopped/junit.xml")), HasSubstr("<failure"));
+  EXPECT_THAT(gate(worse, {"-q"}).out, AllOf(StartsWith("warning: no noise floor"), HasSubstr("\nFAILED: all, "),
+                                             Not(HasSubstr("To accept it"))));
 
   const ProgramRun better = run_glovebench({"compare", worse, path("run")});
   EXPECT_EQ(better.exit_code, 0);
   EXPECT_THAT(better.out, HasSubstr("0 worse, 3 better"));
   const std::string slightly = write_changed("slightly", [](RunResult& r) { add_position_error(r, 0.19); });
   EXPECT_EQ(gate(slightly).exit_code, 0) << "below the minimum effect";
+}
+
+TEST_F(RegressionLong, ThePrintedWayToAcceptWorks) {
+  const std::string baseline = path("base line"), suite = path("mine.json");
+  const std::string worse = write_changed("worse 'now'", [](RunResult& r) { add_position_error(r, 1); });
+  const auto gate_there = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"gate", worse, "--baseline", baseline};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_glovebench(arguments);
+  };
+  ASSERT_EQ(run_glovebench({"gate", path("run"), "--baseline", baseline, "--update", "--suite", suite}).exit_code,
+            0);
+  EXPECT_THAT(gate_there({}).out,
+              AllOf(HasSubstr(" --update --suite FILE\n"), HasSubstr("FILE is that of suite mine.")));
+  const std::string out = gate_there({"--suite", suite}).out, begin = "\n  glovebench ";
+  const size_t at = out.find(begin);
+  ASSERT_NE(at, std::string::npos) << out;
+  const std::string arguments = out.substr(at + begin.size(), out.find('\n', at + 1) - at - begin.size());
+  EXPECT_EQ(std::system((build_paths::program("glovebench") + " " + arguments + " -q").c_str()), 0) << arguments;
+  EXPECT_EQ(gate_there({}).exit_code, 0) << "accepted";
 }
 
 TEST_F(RegressionLong, AMetricOfOneVersionAloneDecidesNothing) {
@@ -273,6 +299,9 @@ TEST_F(RegressionLong, OnlyAWholeSuiteOnTheSameTruthBecomesTheBaseline) {
     const ProgramRun fine = update(path("run"));
     EXPECT_EQ(fine.exit_code, 0) << fine.err;
   }
+  const ProgramRun nameless = run_glovebench({"gate", path("run"), "--baseline", baseline, "--update"});
+  EXPECT_EQ(nameless.exit_code, 2);
+  EXPECT_EQ(nameless.out, "") << "nothing is accepted before the suite is known";
   EXPECT_EQ(read_file(baseline + "/results.json"), read_file(path("run/results.json")));
   const nlohmann::json provenance = nlohmann::json::parse(read_file(baseline + "/provenance.json"));
   EXPECT_EQ(provenance.at("replaced").at("results_hash"), provenance.at("results_hash"));

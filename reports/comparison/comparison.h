@@ -13,7 +13,7 @@ namespace glovebench::reports {
 enum class Verdict {
   better,           ///< significant, and at least the minimum effect
   worse,            ///< likewise
-  same,             ///< the interval lies within the minimum effect
+  same,             ///< the interval lies within the minimum effect, or all frames are equal
   not_enough_data,  ///< none of these
 };
 constexpr auto names_of(Verdict) {
@@ -31,6 +31,8 @@ struct CompareConfig {
   int block_frames = 16;       ///< least frames of a block, >= 16
   int resamples = 4000;        ///< >= 100
   uint64_t seed = 1;
+
+  double confidence_percent() const { return 100 * (1 - family_error); }
 };
 
 struct ComparisonRow {
@@ -42,12 +44,14 @@ struct ComparisonRow {
   std::optional<double> candidate;
   std::optional<double> difference;  ///< candidate - baseline; positive is worse
   std::optional<double> low, high;   ///< simultaneous interval
-  int blocks = 0;                    ///< resampled blocks of frames
+  int blocks = 0;                    ///< resampled, of frames
+  int movement_frames = 0;           ///< of the longest movement, with a pair in any seed
   int trajectories = 1;
   /// Frames of all seeds that would decide, if further movements vary like these.
   int enough_frames = 0;  ///< 0: decided or unknown
   double minimum_effect = 0;
-  bool is_measured = false;  ///< from a noise floor; else a default
+  bool is_measured = false;  ///< by a noise floor; else a default
+  bool is_equal = false;     ///< in every frame; with pairs
   Verdict verdict = Verdict::not_enough_data;
 };
 

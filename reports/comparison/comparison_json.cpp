@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "reports/comparison/comparison_report.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/text.h"
@@ -26,6 +29,7 @@ Json method_json(const Comparison& comparison) {
 }
 
 Json row_json(const ComparisonRow& row) {
+  const bool is_readable = has_interval(row);
   return {{"experiment", row.experiment},
           {"quantity", row.metric->key},
           {"unit", row.metric->unit},
@@ -37,8 +41,8 @@ Json row_json(const ComparisonRow& row) {
           {"baseline", rounded_or_null(row.baseline)},
           {"candidate", rounded_or_null(row.candidate)},
           {"difference", rounded_or_null(row.difference)},
-          {"low", rounded_or_null(row.low)},
-          {"high", rounded_or_null(row.high)},
+          {"low", is_readable ? rounded_or_null(row.low) : Json()},
+          {"high", is_readable ? rounded_or_null(row.high) : Json()},
           {"minimum_effect", rounded(row.minimum_effect)},
           {"enough_frames", row.enough_frames > 0 ? Json(row.enough_frames) : Json()}};
 }
@@ -114,12 +118,14 @@ std::string comparison_json(const ComparisonReport& report) {
 std::string comparison_csv(const ComparisonReport& report) {
   std::string csv =
       "baseline_run,candidate_run,experiment,quantity,unit,verdict,stops,pairs,frames,blocks,baseline,candidate,"
-      "difference,low,high,"
-      "minimum_effect,enough_frames\n";
+      "difference,low,high,minimum_effect,enough_frames,confidence_percent,preselected_metrics\n";
+  const double confidence = rounded(report.comparison.config.confidence_percent());
+  const std::string metrics = fmt::format("{}", fmt::join(report.comparison.preselected, " "));
   for (const ComparisonRow& row : report.comparison.rows) {
     const Json json = row_json(row);
     Json cells = {report.comparison.baseline.run, report.comparison.candidate.run};
     for (const auto& [key, value] : json.items()) cells.push_back(value);
+    cells.insert(cells.end(), {confidence, metrics});
     csv += csv_line(cells);
   }
   return csv;

@@ -47,7 +47,7 @@ std::string comparison_table(const ComparisonReport& report, bool all_rows, size
                      wrapped("candidate " + result_sentence(comparison.candidate), columns) + "\n";
   if (!shown.empty()) text += rows_text(shown, columns) + "\n";
   for (const Table& table : comparison_tables(report))
-    text += to_text(table, false, columns) +
+    text += to_text(table, table.columns.front().heading == "experiment", columns) +
             (table.explanation.empty() ? "" : wrapped(table.explanation, columns)) + "\n";
   return text + wrapped(comparison_explanation(comparison), columns) + wrapped(outcome_line(report), columns);
 }
@@ -66,7 +66,8 @@ std::string comparison_markdown(const ComparisonReport& report) {
                 ? "\n" + to_markdown(table)
                 : folded(table.title, fmt::format("{}\n{}\n", to_markdown(table), table.explanation));
   if (!rest.empty())
-    text += folded(fmt::format("{} rows without a change", rest.size()), to_markdown(rows_table(rest)));
+    text += folded(fmt::format("{} row{} without a change", rest.size(), rest.size() == 1 ? "" : "s"),
+                   to_markdown(rows_table(rest)));
   return text + "\n" + escape_markdown(comparison_explanation(comparison)) + "\n";
 }
 
@@ -80,6 +81,7 @@ std::string comparison_latex(const ComparisonReport& report) {
     return latex_comment(fmt::format("{} {}, run {}", side, result_sentence(result), result.run));
   };
   return named("baseline", comparison.baseline) + named("candidate", comparison.candidate) +
+         latex_comment(method_sentence(comparison.config, comparison.preselected)) +
          to_latex(verdict_first(rows_table(comparison.rows)));
 }
 

@@ -132,6 +132,21 @@ TEST(ComparisonTable, FitsTheTerminal) {
       EXPECT_LE(line.size(), columns) << line;
 }
 
+TEST(ComparisonTable, WhatWouldBeEnoughIsNotCutOff) {
+  ComparisonReport report = full_comparison();
+  report.times = {true, {{"align", 3, 2}}};
+  for (ComparisonRow& row : report.comparison.rows) {
+    if (row.metric->key != "posture_rms_unfiltered_deg") continue;
+    row.difference = 0.1;
+    row.verdict = Verdict::not_enough_data;
+    row.enough_frames = 23000;
+  }
+  EXPECT_THAT(comparison_table(report, false, 80),
+              AllOf(HasSubstr("\nTr4 open_power, source\n"
+                              "  posture_rms_unfiltered_deg  23000 frames of all seeds, or 99 movements\n"),
+                    HasSubstr("\nProcessor times of the same")));
+}
+
 TEST(ComparisonTable, NothingToCompareIsStillATable) {
   EXPECT_THAT(comparison_table({}, false), HasSubstr("0 worse, 0 better, 0 same, 0 not enough data\n"));
 }
@@ -145,7 +160,7 @@ TEST(ComparisonMarkdown, OutcomeFirstThenWhatIsWorthReading) {
   EXPECT_THAT(markdown, HasSubstr("| segmentation.extra | - | \"a\\|b\" |\n"));
   EXPECT_THAT(markdown, HasSubstr("commit 82ad045"));
   EXPECT_THAT(markdown, HasSubstr("| align | 4.00 | 1.50 | 1.90 | 2.00 | **slower** |\n"));
-  const size_t details = markdown.find("<details><summary>1 rows without a change");
+  const size_t details = markdown.find("<details><summary>1 row without a change");
   ASSERT_NE(details, std::string::npos);
   EXPECT_LT(markdown.find("**worse in places**"), details);
   EXPECT_GT(markdown.find("posture_rms_deg"), details);
@@ -178,6 +193,22 @@ TEST(ComparisonJson, HoldsEveryRow) {
             nlohmann::json::parse("[0.5, null, -0.25]"));
 }
 
+TEST(ComparisonJson, AnIntervalOfTooFewFramesIsInNoFile) {
+  ComparisonReport report = small_comparison();
+  report.comparison.config.family_error = 0.05;
+  report.comparison.preselected = {"position_error_mm", "uncovered_percent"};
+  report.comparison.rows.back().blocks = 2;
+  const nlohmann::json row = nlohmann::json::parse(comparison_json(report))["rows"].back();
+  EXPECT_TRUE(row["low"].is_null() && row["high"].is_null());
+  EXPECT_EQ(row["difference"], 2);
+  EXPECT_THAT(comparison_csv(report),
+              testing::EndsWith(",2,1.0,3.0,2.0,,,1.0,,95.0,position_error_mm uncovered_percent\n"));
+  EXPECT_THAT(
+      comparison_latex(report),
+      AllOf(HasSubstr("& too few frames &"),
+            HasSubstr("% intervals hold together with 95%; metrics chosen before: position_error_mm, unc")));
+}
+
 TEST(ComparisonJson, WhatIsNotANumberIsRefused) {
   ComparisonReport report = small_comparison();
   report.comparison.rows[0].difference = std::numeric_limits<double>::quiet_NaN();
@@ -194,23 +225,25 @@ TEST(ComparisonCsv, OneLineARow) {
   ASSERT_EQ(lines.size(), 7u);
   EXPECT_EQ(lines[1],
             "105ec9a-01234567,82ad045-89abcdef,all,position_error_mm,mm,worse,true,234,234,14,3.0,3.25,0.25,0.125,"
-            "0.375,0.1,");
+            "0.375,0.1,,99.0,");
   EXPECT_EQ(lines[5],
             "105ec9a-01234567,82ad045-89abcdef,Tr4_DB_open_power_source_subject1_gradient_1,posture_rms_unfiltered_"
             "deg,deg,not enough data,false,0,234,"
-            "0,,,,,,0.0,");
-  EXPECT_EQ(std::ranges::count(lines[0], ','), 16);
+            "0,,,,,,0.0,,99.0,");
+  EXPECT_EQ(std::ranges::count(lines[0], ','), 18);
   EXPECT_THAT(comparison_csv(hostile_comparison()), HasSubstr("89abcdef,\"a<b>&\"\"',|`"));
 }
 
 TEST(ComparisonLatex, Tabular) {
-  EXPECT_THAT(comparison_latex(small_comparison()),
-              AllOf(StartsWith("% baseline ci/baselines/quick: suite quick, glovebench 0.1.0, commit 105ec9a, run "
-                               "105ec9a-01234567\n% candidate out: "),
-                    HasSubstr("\n\\begin{tabular}{lllrrrrr}\n\\toprule\n"),
-                    HasSubstr("Tr4 open\\_power, source & rotation\\_error\\_deg & better & 4.000 & 3.500 & "
-                              "$-$0.500 & {[}-0.750, -0.250{]} & 0.100 \\\\\n"),
-                    HasSubstr("not enough data & -- & -- & -- & -- & 0.000 \\\\\n")));
+  EXPECT_THAT(
+      comparison_latex(small_comparison()),
+      AllOf(
+          StartsWith("% baseline ci/baselines/quick: suite quick, glovebench 0.1.0, commit 105ec9a, run "
+                     "105ec9a-01234567\n% candidate out: "),
+          HasSubstr("\n% intervals hold together with 99%; metrics: all\n\\begin{tabular}{lllrrrrr}\n\\toprule\n"),
+          HasSubstr("Tr4 open\\_power, source & rotation\\_error\\_deg & better & 4.000 & 3.500 & "
+                    "$-$0.500 & {[}-0.750, -0.250{]} & 0.100 \\\\\n"),
+          HasSubstr("not enough data & -- & -- & -- & -- & 0.000 \\\\\n")));
 }
 
 TEST(ComparisonJunit, FailuresSkippedAndPassed) {

@@ -55,6 +55,14 @@ void judge(ComparisonRow& row, double tail_error) {
     row.enough_frames = frames_that_decide(row, tail_error);
 }
 
+/// Frames that have a pair in any seed.
+int frames_with_pairs(const PairedDifferences& differences) {
+  int count = 0;
+  for (size_t f = 0; !differences.by_seed.empty() && f < differences.by_seed.front().size(); ++f)
+    count += std::ranges::any_of(differences.by_seed, [f](const auto& row) { return row[f].has_value(); });
+  return count;
+}
+
 ResampledRow experiment_row(const Metric& metric, const ExperimentResult& baseline,
                             const ExperimentResult& candidate, const CompareConfig& config, Draws& draws) {
   const PairedDifferences differences = paired_differences(metric, baseline.runs, candidate.runs);
@@ -67,6 +75,8 @@ ResampledRow experiment_row(const Metric& metric, const ExperimentResult& baseli
   row.baseline = differences.baseline_mean;
   row.candidate = differences.candidate_mean;
   row.difference = differences.mean;
+  row.movement_frames = frames_with_pairs(differences);
+  row.is_equal = differences.is_equal && differences.pairs > 0;
   const BlockSums sums = block_sums(differences, config.block_frames);
   row.blocks = static_cast<int>(sums.sums.rows());
   if (row.blocks >= 2) result.means = resampled_means(sums, result.trajectory, draws);
@@ -108,6 +118,7 @@ ComparisonRow all_row(const Metric& metric, const std::vector<ResampledRow>& exp
   for (const ResampledRow* member : members) {
     row.pairs += member->row.pairs;
     row.frames += member->row.frames;
+    row.movement_frames = std::max(row.movement_frames, member->row.movement_frames);
     baseline += *member->row.baseline;
     candidate += *member->row.candidate;
     difference += *member->row.difference;
@@ -116,6 +127,7 @@ ComparisonRow all_row(const Metric& metric, const std::vector<ResampledRow>& exp
   row.baseline = baseline / count;
   row.candidate = candidate / count;
   row.difference = difference / count;
+  row.is_equal = std::ranges::all_of(experiments, [](const auto& each) { return each.row.is_equal; });
   row.trajectories = 0;
   for (const auto& [trajectory, blocks] : blocks_by_trajectory(members)) {
     row.blocks += blocks;

@@ -175,12 +175,40 @@ TEST(Comparison, EnoughFramesAreEnough) {
 TEST(Comparison, FewBlocksAreSaidInWords) {
   const Comparison comparison =
       compare_results(of_positions(positions({2, 2})), of_positions(positions({3, 5})), nullptr);
-  EXPECT_EQ(interval_text(row_of(comparison, 0, kPosition)), "too few blocks");
-  EXPECT_EQ(enough_text(row_of(comparison, 0, kPosition)), "");  // worse in places: decided
+  EXPECT_EQ(interval_text(row_of(comparison, 0, kPosition)), "too few frames");
+  EXPECT_EQ(enough_text(row_of(comparison, 0, kPosition), {}), "");  // worse in places: decided
   EXPECT_EQ(interval_text(row_of(comparison, 0, kRotation)), "[+0.000, +0.000]") << "decided: the same";
   const Comparison small =
       compare_results(of_positions(positions({2, 2})), of_positions(positions({2, 2.3})), nullptr);
-  EXPECT_EQ(enough_text(row_of(small, 0, kPosition)), "5 blocks of frames; 2 now");
+  EXPECT_EQ(enough_text(row_of(small, 0, kPosition), {}), "at least 80 frames of a movement; 32 now");
+  std::vector<std::optional<double>> nearly_lost(96);
+  nearly_lost[3] = 2.1;
+  const Comparison lost =
+      compare_results(of_positions(positions({2, 2, 2, 2, 2, 2})), of_positions(nearly_lost), nullptr);
+  EXPECT_EQ(enough_text(row_of(lost, 0, kPosition), {}), "at least 80 frames with a value; 1 now");
+}
+
+TEST(Comparison, EqualFramesAreTheSameHoweverFew) {
+  const auto of_one_block = [](double last) {
+    return compare_results(of_positions({3.0, std::nullopt, 3.0}), of_positions({3.0, std::nullopt, last}),
+                           nullptr);
+  };
+  const auto outcome_of = [](const Comparison& comparison) {
+    ComparisonReport report;
+    report.comparison = comparison;
+    return outcome_line(report);
+  };
+  const Comparison equal = of_one_block(3);
+  for (const int e : {-1, 0}) {
+    EXPECT_EQ(row_of(equal, e, kPosition).verdict, Verdict::same);
+    EXPECT_EQ(interval_text(row_of(equal, e, kPosition)), "equal");
+  }
+  EXPECT_THAT(outcome_of(equal), HasSubstr(" 0 not enough data; equal in every frame"));
+  const Comparison other = of_one_block(3.1);
+  EXPECT_EQ(row_of(other, 0, kPosition).verdict, Verdict::not_enough_data);
+  EXPECT_THAT(outcome_of(other), testing::Not(HasSubstr("equal")));
+  const Comparison found = compare_results(of_positions({3.0, std::nullopt}), of_positions({3.0, 3.0}), nullptr);
+  EXPECT_EQ(row_of(found, 0, kPosition).verdict, Verdict::not_enough_data) << "found in one alone";
 }
 
 TEST(Comparison, ChosenMetricsMakeASmallerFamily) {

@@ -1,6 +1,7 @@
 #include "reports/comparison/comparison_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,15 +37,15 @@ std::string formatted_signed(double value) {
 }
 
 /// Of rows that are worth reading.
-Table enough_table(const std::vector<ComparisonRow>& rows) {
-  Table table = table_of({"experiment", "quantity", "frames", "enough would be"}, 2);
+Table enough_table(const Comparison& comparison) {
+  Table table = table_of({"experiment", "quantity", "enough would be"}, 3);
   table.title = "Not enough data";
   table.explanation =
-      "Frames, of all noise seeds, that would be enough for a verdict if further movements vary as these do. More "
-      "seeds of the same movements do not replace them.";
-  for (const ComparisonRow& row : rows)
-    if (const std::string enough = enough_text(row); !enough.empty() && is_worth_reading(row))
-      table.rows.push_back({readable_experiment(row.experiment), std::string(row.metric->key), row.frames, enough});
+      "What would be enough for a verdict if further movements vary as these do. More seeds of the same movements "
+      "do not replace them.";
+  for (const ComparisonRow& row : comparison.rows)
+    if (const std::string enough = enough_text(row, comparison.config); !enough.empty() && is_worth_reading(row))
+      table.rows.push_back({readable_experiment(row.experiment), std::string(row.metric->key), enough});
   return table;
 }
 
@@ -81,8 +82,8 @@ Table times_table(const StageTimeChanges& times) {
   table.title = "Times";
   table.explanation =
       times.same_machine
-          ? "Wall times of the same processor and number of threads, for information: other work slows them."
-          : "Wall times of different processors or numbers of threads, for information only.";
+          ? "Processor times of the same processor and number of threads, for information: other work slows them."
+          : "Processor times of different processors or numbers of threads, for information only.";
   for (const StageTimeChange& stage : times.stages)
     table.rows.push_back({stage.stage, stage.baseline_ms, stage.candidate_ms});
   return table;
@@ -107,6 +108,8 @@ std::string outcome_line(const ComparisonReport& report) {
   std::string line;
   for (const OutcomeCount& part : outcome_counts(report.comparison))
     line += fmt::format("{}{} {}", line.empty() ? "" : ", ", part.count, part.verdict);
+  const std::vector<ComparisonRow>& rows = report.comparison.rows;
+  if (!rows.empty() && std::ranges::all_of(rows, &ComparisonRow::is_equal)) line += "; equal in every frame";
   if (!report.speed.empty())
     line += fmt::format("; {} of {} speed ratios slower", std::ranges::count(report.speed, true, &SpeedRow::slower),
                         report.speed.size());
@@ -147,19 +150,20 @@ std::string readable_experiment(const std::string& experiment) {
 
 std::string interval_text(const ComparisonRow& row) {
   if (row.verdict == Verdict::not_enough_data && row.difference && row.blocks < kFewestBlocks)
-    return "too few blocks";
-  if (!has_interval(row)) return "-";
+    return "too few frames";
+  if (!has_interval(row)) return row.is_equal ? "equal" : "-";
   return fmt::format("[{}, {}]", formatted_signed(*row.low), formatted_signed(*row.high));
 }
 
-std::string enough_text(const ComparisonRow& row) {
+std::string enough_text(const ComparisonRow& row, const CompareConfig& config) {
   if (row.verdict != Verdict::not_enough_data || !row.difference || is_worse_in_places(row)) return "";
   // An interval of fewer blocks says too little about how movements vary to reckon with it.
-  if (row.blocks < kFewestBlocks) return fmt::format("{} blocks of frames; {} now", kFewestBlocks, row.blocks);
+  if (row.blocks < kFewestBlocks)
+    return fmt::format("at least {} frames {}; {} now", kFewestBlocks * config.block_frames,
+                       row.pairs < row.frames ? "with a value" : "of a movement", row.movement_frames);
   if (row.enough_frames == 0) return "";
   const double movements = std::ceil(1.0 * row.enough_frames / row.frames * row.trajectories);
-  return fmt::format("{} frames, or {:.0f} movements like {}", row.enough_frames, movements,
-                     row.trajectories == 1 ? "this" : "these");
+  return fmt::format("{} frames of all seeds, or {:.0f} movements", row.enough_frames, movements);
 }
 
 std::string number_text(const std::optional<double>& value) {
@@ -191,6 +195,12 @@ std::string result_sentence(const ComparedResult& result) {
                      result.commit);
 }
 
+std::string method_sentence(const CompareConfig& config, const std::vector<std::string>& preselected) {
+  return fmt::format(
+      "intervals hold together with {:g}%; metrics{}", config.confidence_percent(),
+      preselected.empty() ? ": all" : fmt::format(" chosen before: {}", fmt::join(preselected, ", ")));
+}
+
 Tone tone_of(const ComparisonRow& row) {
   if (stops(row)) return Tone::worse;
   if (row.verdict == Verdict::better) return Tone::better;
@@ -210,7 +220,7 @@ Table rows_table(std::span<const ComparisonRow> rows) {
 }
 
 std::vector<Table> comparison_tables(const ComparisonReport& report) {
-  std::vector<Table> tables = {enough_table(report.comparison.rows), speed_table(report.speed),
+  std::vector<Table> tables = {enough_table(report.comparison), speed_table(report.speed),
                                configuration_table(report.comparison.configuration),
                                uncompared_table(report.comparison), times_table(report.times)};
   std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });

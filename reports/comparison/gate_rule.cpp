@@ -69,6 +69,7 @@ bool has_interval(const ComparisonRow& row) {
 }
 
 Verdict verdict_of(const ComparisonRow& row) {
+  if (row.is_equal) return Verdict::same;  // also with one block, which has no interval
   if (!row.difference || !row.low || !row.high) return Verdict::not_enough_data;
   if (*row.low > kNegligible && reaches(*row.difference, row.minimum_effect)) return Verdict::worse;
   if (*row.high < -kNegligible && reaches(-*row.difference, row.minimum_effect)) return Verdict::better;

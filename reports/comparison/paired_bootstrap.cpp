@@ -22,6 +22,7 @@ PairedDifferences paired_differences(const Metric& metric, const std::vector<See
       const std::optional<double> before = value_of(metric, baseline[s].frames[f]);
       const std::optional<double> after = value_of(metric, candidate[s].frames[f]);
       row.emplace_back();
+      differences.is_equal &= before == after;
       if (!before || !after) continue;
       row.back() = *after - *before;
       ++differences.pairs;

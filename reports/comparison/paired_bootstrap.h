@@ -14,6 +14,7 @@ namespace glovebench::reports {
 /// Candidate minus baseline: [run][frame], empty where either has no value.
 struct PairedDifferences {
   std::vector<std::vector<std::optional<double>>> by_seed;
+  bool is_equal = true;  ///< each value, or its absence
   int pairs = 0;
   int frames = 0;  ///< of all seeds
   std::optional<double> baseline_mean;

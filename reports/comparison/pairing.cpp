@@ -75,7 +75,8 @@ void check_seeds(const std::string& where, const ExperimentResult& found, const 
   const std::string field = to_string(expected.key) + ".seeds";
   if (!other_seeds) check_equal(where, field, seeds_of(found), seeds_of(expected));
   if (found.runs.size() != expected.runs.size())
-    throw Incomparable(where, field, seeds_of(found), fmt::format("{} seeds", expected.runs.size()));
+    throw Incomparable(where, field, seeds_of(found),
+                       fmt::format("{} seed{}", expected.runs.size(), expected.runs.size() == 1 ? "" : "s"));
 }
 
 /// Index in the longer list where the shorter one stops following it.
@@ -121,6 +122,32 @@ const ExperimentResult* find_partner(const RunResult& result, const ExperimentKe
     return paired_by(experiment.key, options) == paired_by(key, options);
   });
   return found == result.experiments.end() ? nullptr : &*found;
+}
+
+/// How the baseline's experiment could be compared if the candidate has it with a noise or subject of its own; else
+/// empty.
+std::string across_hint(const ExperimentKey& missing, const RunResult& baseline, const RunResult& candidate) {
+  const ExperimentResult* other = find_partner(candidate, missing, {.across = {Across::noise, Across::subject}});
+  if (other && find_experiment(baseline, other->key)) return "";  // has a partner of its own
+  std::vector<std::string_view> differing;
+  if (other && other->key.noise != missing.noise) differing.push_back(to_string(Across::noise));
+  if (other && other->key.subject != missing.subject) differing.push_back(to_string(Across::subject));
+  if (differing.empty()) return "";
+  return fmt::format(" (they differ in {}: `glovebench compare --across {}`)", fmt::join(differing, " and "),
+                     fmt::join(differing, ","));
+}
+
+/// The first of the baseline that the candidate lacks.
+[[noreturn]] void refuse_missing(const NamedResult& baseline, const NamedResult& candidate,
+                                 const Pairing& pairing) {
+  const std::vector<ExperimentResult>& all = baseline.result.experiments;
+  const std::string& name = pairing.only_in_baseline.front();
+  const auto missing =
+      std::ranges::find(all, name, [](const ExperimentResult& experiment) { return to_string(experiment.key); });
+  throw Incomparable(
+      candidate.name, "experiments", "no " + name,
+      (all.size() == 1 ? "it, as in the baseline" : fmt::format("all {} of the baseline's", all.size())) +
+          across_hint(missing->key, baseline.result, candidate.result));
 }
 
 Pairing pair_experiments(const RunResult& baseline, const RunResult& candidate, const PairingOptions& options) {
@@ -240,9 +267,7 @@ Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, 
   pairing.across = across_changes(pairing);
   if (options.is_across(Across::frames)) cut_to_shared_frames(pairing, candidate.name);
   for (const auto& [expected, found] : pairing.experiments) check_runs(candidate.name, *found, *expected);
-  if (!options.partial && !pairing.only_in_baseline.empty())
-    throw Incomparable(candidate.name, "experiments", fmt::format("no {}", pairing.only_in_baseline.front()),
-                       fmt::format("all {} of the baseline's", baseline.result.experiments.size()));
+  if (!options.partial && !pairing.only_in_baseline.empty()) refuse_missing(baseline, candidate, pairing);
   if (pairing.experiments.empty())
     throw Incomparable(candidate.name, "experiments", "none that the baseline has", "at least one");
   return pairing;

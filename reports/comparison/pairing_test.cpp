@@ -188,8 +188,20 @@ TEST(Pairing, AcrossNoiseAndSubjectNamesWhatDiffers) {
     experiment.key.noise = {"kinect", 0.5};
     experiment.key.subject = 3;
   }
-  EXPECT_THAT(refusal(a, b), HasSubstr("experiments: found no Tr1_"));
-  EXPECT_THAT(refusal(a, b, {.across = {Across::noise}}), HasSubstr("experiments: found no Tr1_"));
+  const std::string both = "(they differ in noise and subject: `glovebench compare --across noise,subject`)";
+  EXPECT_EQ(refusal(a, b),
+            "b: experiments: found no Tr1_DB_open_power_source_subject1_gradient_1, expected all 2 of the "
+            "baseline's " +
+                both);
+  EXPECT_THAT(refusal(a, b, {.across = {Across::noise}}), testing::EndsWith(both));
+  NamedResult one = two_experiments("one"), noisier = two_experiments("noisier");
+  for (NamedResult* named : {&one, &noisier}) named->result.experiments.resize(1);
+  noisier.result.experiments[0].key.noise.factor = 2;
+  EXPECT_THAT(refusal(one, noisier), testing::EndsWith("expected it, as in the baseline (they differ in noise: "
+                                                       "`glovebench compare --across noise`)"));
+  one.result.experiments.insert(one.result.experiments.begin(), noisier.result.experiments[0]);
+  EXPECT_THAT(refusal(one, noisier), testing::EndsWith("expected all 2 of the baseline's"))
+      << "nothing else differs";
   const Pairing pairing = pair_results(a, b, {.across = {Across::noise, Across::subject}});
   EXPECT_EQ(pairing.experiments.size(), 2U);
   ASSERT_EQ(pairing.across.size(), 2U) << "each once";

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -17,7 +17,7 @@
 namespace glovebench::reports {
 namespace {
 
-/// Times that differ by less are not told apart.
+/// A time that is less by a smaller share is not worth a word.
 constexpr double kTimeShare = 0.1;
 constexpr const char* kTimeKey = "time_ms";
 
@@ -96,12 +96,6 @@ Cell verdict_cell(const ComparisonRow& row) {
   return Judgment{verdict_text(row), tone_of(row)};
 }
 
-Cell time_cell(double time_ms, double reference_ms) {
-  if (time_ms < (1 - kTimeShare) * reference_ms) return Judgment{"faster", Tone::better};
-  if (time_ms > (1 + kTimeShare) * reference_ms) return Judgment{"slower", Tone::worse};
-  return Judgment{"same", Tone::same};
-}
-
 Table empty_table() {
   constexpr int kDigits = 3;
   Table table = {"settings",
@@ -149,8 +143,8 @@ Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
   for (const Compared& each : all) {
     const std::optional<double> ms = each.setting->time_ms;
     const bool differs = &each != &reference && ms && reference_ms;
-    table.rows.push_back({kTimeKey, each.name(), cell(ms), differs ? Cell(*ms - *reference_ms) : Cell(), Cell(),
-                          Cell(), differs ? time_cell(*ms, *reference_ms) : none});
+    table.rows.push_back(
+        {kTimeKey, each.name(), cell(ms), differs ? Cell(*ms - *reference_ms) : Cell(), Cell(), Cell(), none});
   }
   return table;
 }
@@ -169,7 +163,7 @@ std::vector<std::string> enough_lines(const std::vector<Compared>& all) {
   std::vector<std::string> lines;
   for (const Compared& each : all)
     for (const ComparisonRow& row : each.rows)
-      if (const std::string enough = enough_text(row); !enough.empty())
+      if (const std::string enough = enough_text(row, each.comparison->config); !enough.empty())
         lines.push_back(fmt::format("{}, {}: {}", each.name(), row.metric->key, enough));
   return lines;
 }
@@ -191,10 +185,12 @@ double gain_of(const Compared& compared) {
   return gain;
 }
 
-/// Null unless both times are known and differ enough.
+/// The share of time that a setting saved. Null unless both times are known and differ enough; also for equal
+/// configurations, whose times differ by chance.
 std::optional<double> speed_gain(const Compared& compared, const Compared& reference) {
   const auto mine = compared.setting->time_ms, its = reference.setting->time_ms;
-  if (!mine || !its || *mine >= (1 - kTimeShare) * *its) return std::nullopt;
+  const bool differs = compared.comparison && !compared.comparison->configuration.empty();
+  if (!differs || !mine || !its || *mine >= (1 - kTimeShare) * *its) return std::nullopt;
   return 1 - *mine / *its;
 }
 
@@ -206,28 +202,41 @@ const Compared* best_of(const std::vector<Compared>& all) {
   return best;
 }
 
-/// The same in every quantity and faster; among several the fastest.
-const Compared* fastest_of(const std::vector<Compared>& all, const Compared& reference) {
-  const Compared* fastest = nullptr;
-  for (const Compared& each : all) {
-    const bool is_same = !each.rows.empty() && std::ranges::count(each.rows, Verdict::same,
-                                                                  &ComparisonRow::verdict) == std::ssize(each.rows);
-    if (!is_same || !speed_gain(each, reference)) continue;
-    if (!fastest || *each.setting->time_ms < *fastest->setting->time_ms) fastest = &each;
-  }
-  return fastest;
+bool is_undecided(const Compared& compared) {
+  return compared.has(Verdict::not_enough_data) && !compared.is_worse();
 }
 
-/// What a setting that is not recommended would trade.
-std::string trade_text(const Compared& each, const Compared& reference) {
+/// What would decide every quantity of a setting: the most that one of them needs. Empty: unknown.
+std::string need_of(const Compared& compared) {
+  std::string most;
+  int frames = 0;
+  for (const ComparisonRow& row : compared.rows) {
+    const std::string enough = enough_text(row, compared.comparison->config);
+    if (enough.empty()) continue;
+    const int needed = row.blocks < kFewestBlocks ? std::numeric_limits<int>::max() : row.enough_frames;
+    if (needed <= frames) continue;
+    frames = needed;
+    most = enough;
+  }
+  return most;
+}
+
+/// What speaks for a setting that is not recommended.
+std::string case_for(const Compared& each, const Compared& reference) {
+  std::string text;
   if (each.has(Verdict::better) && each.is_worse())
-    return fmt::format(" {} is better in {}, but worse in other quantities: a choice.", each.name(),
-                       quantities_with(each, Verdict::better));
+    text += fmt::format(" {} is better in {}, but worse in other quantities: a choice.", each.name(),
+                        quantities_with(each, Verdict::better));
+  if (is_undecided(each)) {
+    text += fmt::format(" {} is undecided in {}", each.name(), quantities_with(each, Verdict::not_enough_data));
+    const std::string need = need_of(each);
+    text += need.empty() ? "." : fmt::format(". It needs {}.", need);
+  }
   const std::optional<double> gain = speed_gain(each, reference);
-  if (gain && !each.is_worse() && each.has(Verdict::not_enough_data))
-    return fmt::format(" {} takes {:.0f}% less time, but is undecided in {}.", each.name(), 100 * *gain,
-                       quantities_with(each, Verdict::not_enough_data));
-  return "";
+  if (gain && !each.is_worse())
+    text += fmt::format(" {} took {:.0f}% less time, measured once: repeat that before you choose by time.",
+                        each.name(), 100 * *gain);
+  return text;
 }
 
 std::string basis_of(const SettingRun& reference, size_t metrics, const std::set<std::string>& left_out) {
@@ -257,42 +266,39 @@ std::string experiments_of(const SettingRun& reference, const std::set<std::stri
 }
 
 std::string recommendation_of(const std::vector<Compared>& all, const Compared& reference, size_t metrics) {
-  const Compared *best = best_of(all), *fastest = fastest_of(all, reference);
+  const Compared* best = best_of(all);
   std::string text;
   if (best) {
     text = fmt::format("Recommended: {}. It is better than {} in {} and worse in none.", best->name(),
                        reference.name(), quantities_with(*best, Verdict::better));
     if (best->has(Verdict::not_enough_data))
       text += fmt::format(" Undecided: {}.", quantities_with(*best, Verdict::not_enough_data));
-  } else if (fastest) {
-    text =
-        fmt::format("Recommended: {}. Its errors are those of {} within the minimum effects, in {:.0f}% less time.",
-                    fastest->name(), reference.name(), 100 * *speed_gain(*fastest, reference));
+  } else if (std::ranges::any_of(all, is_undecided)) {
+    text = "No recommendation: not enough data.";
   } else {
-    text = fmt::format(
-        "Recommended: {}. No other setting is better in one quantity and worse in none, or equal and "
-        "faster.",
-        reference.name());
+    text = fmt::format("Recommended: {}. No other setting is better in one quantity and worse in none.",
+                       reference.name());
   }
   for (const Compared& each : all)
-    if (&each != best) text += trade_text(each, reference);
+    if (&each != best) text += case_for(each, reference);
   return text + basis_of(*reference.setting, metrics, unshared(all));
 }
 
-std::string explanation_of(const SettingsTable& settings, const CompareConfig& config, bool has_times) {
+std::string explanation_of(const SettingsTable& settings, bool has_times) {
   return fmt::format(
       "Means are over the frames that have a value, then over the experiments that all runs have. "
       "Differences are from {}{}, frame by frame over the frames that both have; above zero is worse. The "
       "intervals "
       "low to high are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold together with "
       "{:g}%. Verdicts as in `glovebench compare`. {}",
-      settings.reference, settings.is_paper ? ", the paper's settings" : ", the first run", config.block_frames,
-      100 * (1 - config.family_error),
-      has_times ? fmt::format("time_ms: medians of the stages of a frame, added up, processor time of one thread "
-                              "while no other job of the command ran; under {:.0f}% is no difference.",
-                              100 * kTimeShare)
-                : "No times: none of these runs was timed alone (several settings in one `glovebench run`, or "
-                  "--threads 1).");
+      settings.reference, settings.is_paper ? ", the paper's settings" : ", the first run",
+      settings.config.block_frames, settings.config.confidence_percent(),
+      has_times
+          ? "time_ms: medians of the stages of a frame, added up, processor time of one thread while no other "
+            "job of the command ran. Times have no verdict: they were measured once, and those of equal "
+            "settings differ, too."
+          : "No times: none of these runs was timed alone (several settings in one `glovebench run`, or "
+            "--threads 1).");
 }
 
 }  // namespace
@@ -315,6 +321,8 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
     for (const ComparisonRow& row : each.rows)
       if (std::ranges::count(metrics, row.metric) == 0) metrics.push_back(row.metric);
   const Compared& first = all[static_cast<size_t>(reference - runs.begin())];
+  settings.config = config;
+  settings.preselected = pairing.metrics;
   settings.experiments = experiments_of(*reference, unshared(all));
   for (const SettingRun& each : runs) settings.runs[each.run.name] = run_name(each.run.result);
   settings.table = table_of_all(all, first, metrics);
@@ -322,7 +330,7 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
   settings.enough = enough_lines(all);
   settings.recommendation = recommendation_of(all, first, metrics.size());
   const bool has_times = std::ranges::any_of(runs, [](const SettingRun& each) { return each.time_ms.has_value(); });
-  settings.explanation = explanation_of(settings, config, has_times);
+  settings.explanation = explanation_of(settings, has_times);
   return settings;
 }
 
@@ -361,15 +369,20 @@ std::string settings_csv(const SettingsTable& settings) {
   Table table = settings.table;
   table.columns.insert(table.columns.begin() + kSetting + 1, {"run", "run"});
   ++table.name_columns;
-  for (Row& row : table.rows)
+  for (const char* key : {"confidence_percent", "preselected_metrics"}) table.columns.push_back({key, key});
+  for (Row& row : table.rows) {
     row.insert(row.begin() + kSetting + 1, settings.runs.at(std::get<std::string>(row[kSetting])));
+    row.emplace_back(settings.config.confidence_percent());
+    row.emplace_back(fmt::format("{}", fmt::join(settings.preselected, " ")));
+  }
   return to_csv(table, {{"experiments", settings.experiments}});
 }
 
 std::string settings_latex(const SettingsTable& settings) {
   std::string names = latex_comment(settings.experiments);
   for (const auto& [setting, run] : settings.runs) names += latex_comment(fmt::format("{}: run {}", setting, run));
-  return names + latex_comment(settings.recommendation) + to_latex(settings.table);
+  return names + latex_comment(method_sentence(settings.config, settings.preselected)) +
+         latex_comment(settings.recommendation) + to_latex(settings.table);
 }
 
 }  // namespace glovebench::reports

@@ -21,7 +21,9 @@ struct SettingsTable {
   bool is_paper = false;                    ///< reference has the paper's configuration
   std::string experiments;                  ///< names of the compared experiments
   std::map<std::string, std::string> runs;  ///< `run_name` by setting
-  Table table;                              ///< quantity, setting, mean, difference, interval, verdict
+  CompareConfig config;                     ///< of all comparisons together
+  std::vector<std::string> preselected;     ///< metrics chosen before; empty: all
+  Table table;                              ///< quantity, setting, mean, difference with its interval, verdict
   Table changes;                            ///< fields that differ from the reference
   std::vector<std::string> enough;          ///< a line per undecided row: data that would decide
   std::string recommendation;
@@ -39,7 +41,7 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
 std::string settings_text(const SettingsTable& settings, size_t columns);
 std::string settings_markdown(const SettingsTable& settings);
 std::string settings_html(const SettingsTable& settings);
-/// CSV and LaTeX name experiments and runs.
+/// CSV and LaTeX name experiments, runs, confidence and chosen metrics.
 std::string settings_csv(const SettingsTable& settings);
 std::string settings_latex(const SettingsTable& settings);
 

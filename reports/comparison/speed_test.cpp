@@ -108,7 +108,7 @@ TEST(SpeedRatios, need_three_repetitions_of_both) {
 }
 
 TEST(SpeedRatios, refuse_what_is_no_benchmark_file) {
-  EXPECT_THAT(speed_error(""), HasSubstr("bench.json: column"));
+  EXPECT_THAT(speed_error(""), HasSubstr("bench.json: content: found nothing"));
   EXPECT_THAT(speed_error("[]"), HasSubstr("expected an object"));
   EXPECT_THAT(speed_error("{}"), HasSubstr("benchmarks: found nothing"));
   EXPECT_THAT(speed_error("{\"benchmarks\": []}"), HasSubstr("found no pair"));

@@ -47,7 +47,7 @@ std::string curve_plot(const SeedRun& run, const std::string& metric, double lar
 }
 
 /// A foldable part whose id is "frames-" and the experiment's name.
-std::string frames_html(const ExperimentResult& experiment) {
+std::string frames_html(const ExperimentResult& experiment, const std::set<std::string>& from_files) {
   Table table = table_of({"error", "mean", "largest", "in frame", "noise seed"});
   std::vector<std::string> plots, commands;
   for (const Column& error : kErrors) {
@@ -57,7 +57,7 @@ std::string frames_html(const ExperimentResult& experiment) {
     table.rows.push_back({error.heading, fixed(experiment.aggregate_of(error.key).mean, 2), fixed(largest, 2),
                           worst->frame.frame, static_cast<int64_t>(worst->seed)});
     plots.push_back(curve_plot(experiment.runs.front(), error.key, largest));
-    if (const std::string command = explain_command(*worst); std::ranges::count(commands, command) == 0)
+    if (const std::string command = explain_command(*worst, from_files); std::ranges::count(commands, command) == 0)
       commands.push_back(command);
   }
   std::vector<std::string> names;
@@ -74,11 +74,13 @@ std::string frames_html(const ExperimentResult& experiment) {
 
 }  // namespace
 
-Section frames_section(const RunResult& result) {
+Section frames_section(const RunResult& result, const std::set<std::string>& from_files) {
   std::string html =
       "<p>Curves go from 0 to the largest error; gaps are lost frames; of several noise seeds they show the first. "
-      "The commands show every stage of the worst frames; run them in this folder.</p>\n";
-  for (const ExperimentResult& experiment : result.experiments) html += frames_html(experiment);
+      "The commands show every stage of the worst frames; run them in this folder.";
+  if (!from_files.empty()) html += " PATH stands for the folder of a file that the run was given.";
+  html += "</p>\n";
+  for (const ExperimentResult& experiment : result.experiments) html += frames_html(experiment, from_files);
   return {"frames", "Frame by frame", html};
 }
 

@@ -18,7 +18,7 @@ Section metrics_section(const RunResult& result) {
   return {"metrics", "More metrics",
           "<p>Intervals are over blocks of frames and, where there are several, noise seeds; not over movements or "
           "hands.</p>\n" +
-              to_html_with_links(detail_summary(result))};
+              to_html_with_links(detail_summary(result)) + data_note("metrics")};
 }
 
 Section glossary_section() {
@@ -86,7 +86,7 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
   if (any_was_run(verdicts) || !quick_note(result).empty())
     sections.push_back({"claims", "Claims", claims_section(verdicts)});
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));
-  if (!result.experiments.empty()) sections.push_back(frames_section(result));
+  if (!result.experiments.empty()) sections.push_back(frames_section(result, material.from_files));
   if (!result.experiments.empty()) sections.push_back(metrics_section(result));
   if (has_commands(result)) sections.push_back(command_section(result, timings));
   if (!material.worst_frames.empty()) sections.push_back(gallery_section(material.worst_frames));
@@ -139,17 +139,6 @@ bool may_join(const std::vector<WorstFrame>& chosen, const WorstFrame& candidate
   return of_experiment < kPerExperiment;
 }
 
-/// Quoted for the shell: names from a user's file may contain anything.
-std::string shell_quoted(const std::string& text) {
-  const bool is_plain = std::ranges::all_of(text, [](unsigned char c) {
-    return std::isalnum(c) || std::string_view("_-.+/").find(c) != std::string::npos;
-  });
-  if (is_plain) return text;
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 }  // namespace
 
 std::string data_note(const std::string& table) {
@@ -166,7 +155,10 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
                   escape_html(result.program_version), escape_html(result.commit), result.protocol.id(),
                   escape_html(run_name(result))) +
       "<noscript><p>The charts are drawn by scripts; the tables hold all of their numbers.</p></noscript>\n" +
-      (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n") + contents_list(sections);
+      (note.empty() ? "" : "<p><strong>" + escape_html(note) + "</strong></p>\n");
+  for (const std::string& warning : material.warnings)
+    body += "<p><strong>Warning:</strong> " + escape_html(warning) + "</p>\n";
+  body += contents_list(sections);
   for (const Section& section : sections) body += section_html(section);
   body += "<p class=\"provenance\">The paper: " + escape_html(paper.source) + ".</p>\n";
   return html_document("glovebench results", body, sheet_style(material.sheets),
@@ -191,9 +183,16 @@ std::vector<WorstFrame> worst_frames(const RunResult& result, int count) {
   return chosen;
 }
 
-std::string explain_command(const WorstFrame& worst, const std::string& folder) {
-  return fmt::format("glovebench explain {} {} --experiment {} --seed {}", shell_quoted(folder), worst.frame.frame,
-                     shell_quoted(to_string(worst.key)), worst.seed);
+std::string explain_command(const WorstFrame& worst, const std::set<std::string>& from_files,
+                            const std::string& folder) {
+  std::string command = fmt::format("glovebench explain {} {} --experiment {} --seed {}", shell_quoted(folder),
+                                    worst.frame.frame, shell_quoted(to_string(worst.key)), worst.seed);
+  const auto add_file = [&](const std::string& input, const std::string& flag, const std::string& name) {
+    if (from_files.contains(input)) command += fmt::format(" {} {}", flag, shell_quoted("PATH/" + name));
+  };
+  add_file(truth_name(worst.key), "--trajectory", worst.key.trajectory + ".json");
+  add_file(worst.key.database, "--database", worst.key.database);
+  return command;
 }
 
 std::string caption(const WorstFrame& worst) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct PageMaterial {
   std::vector<std::string> scripts;
   std::vector<FrameSheet> sheets;  ///< of Figures 5 and 6
   std::vector<Picture> worst_frames;
+  std::vector<std::string> warnings = {};  ///< of the run, a sentence each
+  std::set<std::string> from_files = {};   ///< truths (truth_name) and databases that `explain` needs files of
 };
 
 /// index.html in one file (reports/README.md). Tables and keyframes need no JavaScript. `timings`: for robot
@@ -49,9 +52,11 @@ struct WorstFrame {
 /// repeated.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
-/// The command that explains the frame, called in the run's folder.
-std::string explain_command(const WorstFrame& worst, const std::string& folder = ".");
-/// Names experiment, frame and errors.
+/// Shows every stage of the frame of the run in `folder`. `from_files` as in PageMaterial: PATH stands for the
+/// folder of such a file.
+std::string explain_command(const WorstFrame& worst, const std::set<std::string>& from_files = {},
+                            const std::string& folder = ".");
+/// Experiment, frame, errors.
 std::string caption(const WorstFrame& worst);
 
 }  // namespace glovebench::reports

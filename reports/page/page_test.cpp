@@ -94,6 +94,17 @@ TEST(Page, ShowsTheWorstFramesWithTheirCommands) {
   EXPECT_THAT(page, HasSubstr("glovebench explain . 60 --seed 1</code>"));
 }
 
+TEST(Page, WarnsAndNamesTheFilesThatExplainNeeds) {
+  PageMaterial material;
+  const std::string plain = html_page(small_result(), paper_numbers(), {}, material);
+  EXPECT_THAT(plain, Not(AnyOf(HasSubstr("Warning"), HasSubstr("PATH"))));
+  material.warnings = {"wave: <no> hand"};
+  material.from_files = {truth_name(small_result().experiments[0].key)};
+  const std::string page = html_page(small_result(), paper_numbers(), {}, material);
+  EXPECT_LT(page.find("Warning:</strong> wave: &lt;no&gt; hand"), page.find("<nav"));
+  EXPECT_THAT(page, AllOf(HasSubstr(" --trajectory PATH/Tr4.json"), HasSubstr("PATH stands for")));
+}
+
 TEST(Keyframes, AreWindowsOnTheSheet) {
   // 11 frames in 3 columns: 4 pairs of rows, 8 rows of tiles.
   const FrameSheet sheet{"figure5", "\xff\xd8\xff", 3, 40, 30, 100, 11};
@@ -155,6 +166,11 @@ TEST(Gallery, CommandNamesExperimentAndSeedForTheShell) {
   WorstFrame worst{{"Tr4", "DB_open_power", TruthKind::source, 1, {}}, 3, example_frame(12, 4, 5, 6), ""};
   EXPECT_EQ(explain_command(worst),
             "glovebench explain . 12 --experiment Tr4_DB_open_power_source_subject1_gradient_1 --seed 3");
+  EXPECT_THAT(
+      explain_command(worst, {"recorded/Tr4", "DB_other"}, "out"),
+      testing::EndsWith("explain out 12 --experiment Tr4_DB_open_power_source_subject1_gradient_1 --seed 3"));
+  EXPECT_THAT(explain_command(worst, {"source/Tr4", "DB_open_power"}),
+              testing::EndsWith(" --trajectory PATH/Tr4.json --database PATH/DB_open_power"));
   worst.key.trajectory = "it's";
   EXPECT_THAT(explain_command(worst), testing::HasSubstr("--experiment 'it'\\''s_DB_open_power"));
   EXPECT_EQ(caption(worst),

@@ -20,8 +20,8 @@ std::string data_note(const std::string& table);
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
 std::vector<Section> study_sections(const RunResult& result);
-/// Curves and worst frames of each experiment. A click on its bar leads here.
-Section frames_section(const RunResult& result);
+/// Curves and worst frames of each experiment, where a click on its bar leads. `from_files` as in PageMaterial.
+Section frames_section(const RunResult& result, const std::set<std::string>& from_files);
 
 /// Keyframes of a curve, with one frame's place and slider for data/page_frames.js.
 std::string keyframes_html(const FrameSheet& sheet);

@@ -111,7 +111,7 @@ class FormatsTest(unittest.TestCase):
 
     def test_csv(self):
         for name in ("comparison/comparison.csv", "tables/figure4.csv", "tables/figure7.csv", "tables/figure8.csv",
-                     "tables/claims.csv", "tables/figure5.csv", "tables/commands.csv", "own/tables/errors.csv"):
+                     "tables/claims.csv", "tables/metrics.csv", "tables/figure5.csv", "tables/commands.csv", "own/tables/errors.csv"):
             with (self.folder / name).open(newline="") as file:
                 rows = list(csv.reader(file, strict=True))
             self.assertGreater(len(rows), 1)

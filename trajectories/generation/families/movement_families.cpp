@@ -105,6 +105,10 @@ constexpr std::array kMovementFamilies = {
     captured_family(),
 };
 
+std::string range_text(const Range& range, int digits) {
+  return fmt::format("{:.{}f}-{:.{}f}", range.low, digits, range.high, digits);
+}
+
 std::string bends_text(const MovementFamily& family) {
   if (family.captured) return "as captured";
   const auto& [first, second] = family.bends;
@@ -131,20 +135,22 @@ std::string movement_families_text() {
   std::string text;
   for (const MovementFamily& family : kMovementFamilies)
     text += fmt::format("{:<9} {}\n", family.name, family.description);
-  text += "\nRanges    tilt,     depth, m   off axis,  peaks, m/s  peaks,     fingers,       wrist,\n";
-  text += "          deg                 %                      rad/s      % bent         %\n";
+  const auto add = [&text](const auto&... cells) {
+    text += fmt::format("{:<10}{:<8}{:<10}{:<8}{:<10}{:<9}{:<13}{}\n", cells...);
+  };
+  text += "\n";
+  add("Ranges", "tilt,", "depth,", "off", "peaks,", "peaks,", "fingers,", "wrist,");
+  add("", "deg", "m", "axis, %", "m/s", "rad/s", "% bent", "%");
   for (const MovementFamily& family : kMovementFamilies) {
-    text +=
-        fmt::format("{:<9} {:<9} {:.2f}-{:.2f}  0-{:<8.0f} {:.2f}-{:.2f}   {:<10} {:<14} {}\n", family.name,
-                    fmt::format("{:.0f}-{:.0f}", family.tilt_deg.low, family.tilt_deg.high), family.depth.low,
-                    family.depth.high, 100 * family.off_axis, family.speed.low, family.speed.high,
-                    fmt::format("{:.1f}-{:.1f}", family.turn_rate.low, family.turn_rate.high), bends_text(family),
-                    family.captured ? "as captured" : fmt::format("0-{:.0f}", 100 * family.wrist));
+    add(family.name, range_text(family.tilt_deg, 0), range_text(family.depth, 2),
+        fmt::format("0-{:.0f}", 100 * family.off_axis), range_text(family.speed, 2),
+        range_text(family.turn_rate, 1), bends_text(family),
+        family.captured ? "as captured" : fmt::format("0-{:.0f}", 100 * family.wrist));
   }
   return text + fmt::format(
-                    "\nRandom postures: DIP {} to {} of PIP; flexions of neighboring fingers drawn with\n"
-                    "a correlation of {}; fingers at least {} deg RMS from each gesture; no parts\n"
-                    "that overlap by more than {:.0f} mm.\n",
+                    "\nRandom postures: DIP {} to {} of PIP; flexions of neighboring fingers drawn\n"
+                    "with a correlation of {}; fingers at least {} deg RMS from each gesture; no\n"
+                    "parts that overlap by more than {:.0f} mm.\n",
                     kDipShare.low, kDipShare.high, kNeighborCorrelation, kGestureDistanceDeg, 1000 * kMostOverlap);
 }
 

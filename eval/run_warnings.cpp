@@ -1,0 +1,70 @@
+#include "eval/run_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "eval/program.h"
+#include "reports/page/page.h"
+#include "trajectories/catalog.h"
+#include "trajectories/trajectory_properties.h"
+
+namespace glovebench::eval {
+namespace {
+
+using reports::ExperimentKey;
+using trajectories::Trajectory;
+
+std::map<std::string, RunSpec> specs_by_truth(const Plan& plan) {
+  std::map<std::string, RunSpec> specs;
+  for (const RunSpec& spec : plan.specs) specs.try_emplace(truth_name(key_of(spec)), spec);
+  return specs;
+}
+
+bool is_from_file(const RunSpec& spec) {
+  if (!spec.setting.empty()) return false;  // a family's
+  const std::shared_ptr<const Trajectory> known = find_truth(key_of(spec));
+  return !known || hash(*known) != hash(*spec.trajectory);
+}
+
+}  // namespace
+
+std::vector<std::string> unit_warnings(const Plan& plan) {
+  std::vector<std::string> warnings;
+  for (const auto& [name, spec] : specs_by_truth(plan))
+    for (const std::string& doubt : trajectories::unit_doubts(*spec.trajectory, plan.tracker.volume))
+      warnings.push_back(fmt::format("{}: {}", spec.trajectory->name, doubt));
+  return warnings;
+}
+
+std::vector<std::string> lost_hand_warnings(const Plan& plan, const reports::RunResult& result,
+                                            const std::string& folder) {
+  const std::set<std::string> from_files = inputs_from_files(plan);
+  std::vector<std::string> warnings;
+  for (const reports::ExperimentResult& experiment : result.experiments) {
+    const reports::Coverage& coverage = experiment.coverage;
+    if (coverage.frames == 0 || coverage.lost < coverage.frames) continue;
+    const reports::SeedRun& run = experiment.runs.front();
+    warnings.push_back(fmt::format(
+        "{}: none of {} frames was tracked. Likely causes: the hand is outside of the image or of the working "
+        "volume ({:g} to {:g} mm), or the database lacks its postures. To see: {}",
+        to_string(experiment.key), coverage.frames, 1000 * plan.tracker.volume.z_min,
+        1000 * plan.tracker.volume.z_max,
+        reports::explain_command({experiment.key, run.seed, run.frames.front(), ""}, from_files, folder)));
+  }
+  return warnings;
+}
+
+std::set<std::string> inputs_from_files(const Plan& plan) {
+  std::set<std::string> names;
+  for (const auto& [name, spec] : specs_by_truth(plan))
+    if (is_from_file(spec)) names.insert(name);
+  const std::vector<std::string>& known = trajectories::posture_set_names();
+  for (const RunSpec& spec : plan.specs)
+    if (std::ranges::find(known, spec.database) == known.end()) names.insert(spec.database);
+  return names;
+}
+
+}  // namespace glovebench::eval
