@@ -1,9 +1,4 @@
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <span>
 
 #include "eval/studies/study.h"
 
@@ -15,15 +10,9 @@ using reports::Table;
 using reports::TruthKind;
 
 constexpr std::array<int, 7> kFactors = {1, 2, 4, 8, 16, 32, 64};
-/// Databases with movements whose grasp they hold.
-struct Sampled {
-  std::vector<std::string> databases, trajectories;
-};
-const std::vector<Sampled> kSampled = {
-    {{"DB_open_power", "DB_open_pinch_power", "DB_20_postures"}, {"Tr3", "Tr4", "Tr5"}},
-    {{"DB_open_pinch"}, {"Tr1", "Tr2"}}};
-/// The grasp-specific database of power grasps, as in Figure 5. The claims are about it.
-constexpr const char* kClaimedDatabase = "DB_open_power";
+/// The grasp-specific database of power grasps, as in Figure 5.
+constexpr const char* kSamplingDatabase = "DB_open_power";
+const std::vector<std::string> kTrajectories = {"Tr3", "Tr4", "Tr5"};
 
 std::vector<Setting> sampling_settings(const TrackerConfig& tracker) {
   std::vector<Setting> settings;
@@ -39,10 +28,9 @@ Table empty_sampling_errors_table() {
   return {"figure9",
           "Sub-sampling of the point cloud",
           "Every n-th point of the cloud goes into the alignment (n = factor). Means over the frames of Tr3, Tr4 "
-          "and Tr5 (DB_open_pinch: Tr1 and Tr2; a quick run: a stretch of Tr4) that the tracker answers, with 95% "
-          "intervals over blocks of frames. The paper's figure prints no numbers and names no database.",
+          "and Tr5 (a quick run: a stretch of Tr4) that the tracker answers, with DB_open_power and 95% "
+          "intervals over blocks of frames. The paper's figure prints no numbers.",
           {{"truth", "truth"},
-           {"database", "database"},
            {"factor", "factor", 0},
            {"icp_points", "points", 0},
            {"position_error_mm", "position mm"},
@@ -52,40 +40,35 @@ Table empty_sampling_errors_table() {
            {"rotation_error_deg_low", "low"},
            {"rotation_error_deg_high", "high"},
            {"covered_percent", "covered %", 1}},
-          3,
+          2,
           {}};
 }
 
 Table empty_times_table() {
-  return {
-      "figure9_times",
-      "Time with sub-sampling",
-      times_explanation() +
-          fmt::format(" A plain alignment takes about as long with any database: only with {} is it timed at every "
-                      "factor, otherwise at {} alone.",
-                      kClaimedDatabase, kFactors.back()),
-      {{"implementation", "implementation"},
-       {"database", "database"},
-       {"factor", "factor", 0},
-       {"frame_ms_p50", "frame ms", 2, true},
-       {"frame_ms_p95", "p95", 2, true},
-       {"align_ms_p50", "alignment ms", 2, true},
-       {"look_up_ms_p50", "look-up ms", 2, true}},
-      3,
-      {}};
+  return {"figure9_times",
+          "Time with sub-sampling",
+          times_explanation(),
+          {{"implementation", "implementation"},
+           {"factor", "factor", 0},
+           {"frame_ms_p50", "frame ms", 2, true},
+           {"frame_ms_p95", "p95", 2, true},
+           {"align_ms_p50", "alignment ms", 2, true},
+           {"look_up_ms_p50", "look-up ms", 2, true}},
+          2,
+          {}};
 }
 
-Selection of_factor(const Runs& runs, int factor, const std::string& database = kClaimedDatabase) {
-  return select(runs, std::to_string(factor), database);
+Selection of_factor(const Runs& runs, int factor) {
+  return select(runs, std::to_string(factor), kSamplingDatabase);
 }
 
-void add_errors(Table& table, TruthKind truth, const std::string& database, const Runs& runs) {
+void add_errors(Table& table, TruthKind truth, const Runs& runs) {
   for (const int factor : kFactors) {
-    const Selection selected = of_factor(runs, factor, database);
+    const Selection selected = of_factor(runs, factor);
     const auto points = mean(sample_of(selected, [](const MeasuredRun& each, size_t frame) {
       return std::optional<double>(each.run.answers[frame].icp_points);
     }));
-    std::vector<reports::Cell> row = {std::string(to_string(truth)), database, int64_t{factor}, cell(points)};
+    std::vector<reports::Cell> row = {std::string(to_string(truth)), int64_t{factor}, cell(points)};
     for (const char* metric : {"position_error_mm", "rotation_error_deg"})
       std::ranges::copy(cells(estimate_mean(sample_of(selected, metric))), std::back_inserter(row));
     row.push_back(cell(covered_percent(selected)));
@@ -97,12 +80,11 @@ std::optional<double> median(const std::vector<double>& values) {
   return reports::percentile(values, 0.5);
 }
 
-void add_times(Table& table, Implementation implementation, const std::string& database,
-               std::span<const int> factors, const Runs& runs) {
-  for (const int factor : factors) {
-    const Selection selected = of_factor(runs, factor, database);
+void add_times(Table& table, Implementation implementation, const Runs& runs) {
+  for (const int factor : kFactors) {
+    const Selection selected = of_factor(runs, factor);
     const std::vector<double> frames = times_ms(selected);
-    std::vector<reports::Cell> row = {std::string(to_string(implementation)), database, int64_t{factor}};
+    std::vector<reports::Cell> row = {std::string(to_string(implementation)), int64_t{factor}};
     for (const auto& value : {median(frames), reports::percentile(frames, 0.95),
                               median(times_ms(selected, "align")), median(times_ms(selected, "look_up"))})
       row.push_back(cell(value));
@@ -133,21 +115,6 @@ std::vector<Measure> sampling_error_measures(const Runs& runs) {
           {"figure9.position_rise_at_16_mm", "mm", at_16.value, at_16.interval}};
 }
 
-/// Times of one database. A plain alignment at a small factor takes up to a second a frame.
-void time_database(const StudyContext& context, const std::string& database,
-                   const std::vector<std::string>& trajectories, reports::StudyResult& result) {
-  const std::vector<Setting> settings = sampling_settings(context.options.tracker);
-  for (const Implementation implementation : {Implementation::plain, Implementation::fast}) {
-    const bool is_claimed = database == kClaimedDatabase, is_plain = implementation == Implementation::plain;
-    const size_t first = is_plain && !is_claimed ? kFactors.size() - 1 : 0;
-    const Runs timed = time_settings(context, {settings.begin() + first, settings.end()}, {database},
-                                     implementation, trajectories);
-    add_times(result.tables[1], implementation, database, std::span(kFactors).subspan(first), timed);
-    if (is_plain && is_claimed)
-      std::ranges::move(time_measures(of_factor(timed, kFactors.back())), std::back_inserter(result.measures));
-  }
-}
-
 }  // namespace
 
 reports::StudyResult run_figure9(const StudyContext& context) {
@@ -155,17 +122,17 @@ reports::StudyResult run_figure9(const StudyContext& context) {
       "fig9", "Figure 9: sub-sampling", {empty_sampling_errors_table(), empty_times_table()}, {}};
   // No claim uses the recorded truth.
   const TruthKind truth = TruthKind::source;
-  for (const auto& [databases, trajectories] : kSampled) {
-    const Runs runs =
-        run_settings(context, sampling_settings(context.options.tracker), databases, truth, trajectories);
-    for (const std::string& database : databases) {
-      add_errors(result.tables[0], truth, database, runs);
-      if (database == kClaimedDatabase)
-        std::ranges::move(sampling_error_measures(runs), std::back_inserter(result.measures));
-    }
+  const std::vector<Setting> settings = sampling_settings(context.options.tracker);
+
+  const Runs runs = run_settings(context, settings, {kSamplingDatabase}, truth, kTrajectories);
+  add_errors(result.tables[0], truth, runs);
+  result.measures = sampling_error_measures(runs);
+  for (const Implementation implementation : {Implementation::plain, Implementation::fast}) {
+    const Runs timed = time_settings(context, settings, {kSamplingDatabase}, implementation, kTrajectories);
+    add_times(result.tables[1], implementation, timed);
+    if (implementation == Implementation::plain)
+      std::ranges::move(time_measures(of_factor(timed, kFactors.back())), std::back_inserter(result.measures));
   }
-  for (const auto& [databases, trajectories] : kSampled)
-    for (const std::string& database : databases) time_database(context, database, trajectories, result);
   return result;
 }
 

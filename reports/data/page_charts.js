@@ -129,12 +129,12 @@ function curve(figure, metric, title, paperColumn, isLast) {
   };
 }
 
-// Lines with the intervals of their points, one color and shape a group (`only`: a column whose first value alone is
-// drawn). `floor` is the column of dashed lines, `groups` those that are drawn.
+// Lines with the intervals of their points, one color and shape a group (`only`: the first group alone). `floor` is
+// the column of dashed lines, `groups` those that are drawn.
 function lines(table, options) {
   return tables => {
     const {x, y, group, low, high, xTitle, yTitle, xBase, yLog, floor, floorTitle, only, xFormat = 'd'} = options;
-    const rows = tables[table].filter(row => isNumber(row[y]) && (!only || row[only] === tables[table][0][only]) &&
+    const rows = tables[table].filter(row => isNumber(row[y]) && (!only || row[group] === tables[table][0][group]) &&
                                              (!options.groups || options.groups.includes(row[group])));
     if (rows.length === 0) return null;
     const groups = distinct(rows, group);
@@ -148,9 +148,9 @@ function lines(table, options) {
       field: y, type: 'quantitative', title: yTitle, scale: yScale, axis: yLog ? logAxis : {}
     };
     const color = {
-      field: group, sort: groups, scale: {domain: groups, range: seriesColors}, legend: only === group ? null : {title: null}
+      field: group, sort: groups, scale: {domain: groups, range: seriesColors}, legend: only ? null : {title: null}
     };
-    const shape = {field: group, sort: groups, legend: only === group ? null : {title: null}};
+    const shape = {field: group, sort: groups, legend: only ? null : {title: null}};
     const tooltip = [{field: group}, {field: x}, {field: y, format: '.4~g', title: yTitle}];
     const layer = [
       {mark: {type: 'line', strokeWidth: 2}, encoding: {x: xEncoding, y: yEncoding, color}},
@@ -338,14 +338,14 @@ errors.forEach(([name, metric, title, paperColumn], i) => {
 const size = {x: 'size_px', group: 'implementation', xTitle: 'tiny image (pixels a side)', xBase: 2, yLog: true};
 charts['figure7-time'] = lines('figure7', {...size, y: 'distance_us', yTitle: 'time of one distance (µs)'});
 charts['figure7-rank'] = lines('figure7', {
-  ...size, only: 'implementation', y: 'mean_rank', low: 'mean_rank_low', high: 'mean_rank_high', yTitle: 'mean rank of the true neighbor'
+  ...size, only: true, y: 'mean_rank', low: 'mean_rank_low', high: 'mean_rank_high', yTitle: 'mean rank of the true neighbor'
 });
 charts['figure8'] = figure8;
 charts['differences'] = differences;
 charts['track-position'] = track(key => (key.match(/^position_(.)_mm$/) || [])[1], () => 'position', 'mm', 760);
 charts['track-angles'] = track(key => (key.match(/^([a-z]+)_.*_deg$/) || [])[1],
                                angleKind, 'deg', 760);
-const factor = {x: 'factor', group: 'database', xTitle: 'sub-sampling factor', xBase: 2, width: 260};
+const factor = {x: 'factor', group: 'truth', xTitle: 'sub-sampling factor', xBase: 2, width: 260};
 charts['figure9-position'] = lines('figure9', {
   ...factor, y: 'position_error_mm', low: 'position_error_mm_low', high: 'position_error_mm_high',
   yTitle: 'position error (mm)'
@@ -354,9 +354,8 @@ charts['figure9-rotation'] = lines('figure9', {
   ...factor, y: 'rotation_error_deg', low: 'rotation_error_deg_low', high: 'rotation_error_deg_high',
   yTitle: 'rotation error (deg)'
 });
-// Few plain times are measured with the other databases.
 charts['figure9-time'] = lines('figure9_times', {
-  ...factor, group: 'implementation', only: 'database', y: 'frame_ms_p50', yTitle: 'time of a frame, median (ms)', yLog: true,
+  ...factor, group: 'implementation', y: 'frame_ms_p50', yTitle: 'time of a frame, median (ms)', yLog: true,
   floor: 'look_up_ms_p50', floorTitle: 'look-up'
 });
 [['position', 'position_change_mm', 'position error (mm)'], ['posture', 'posture_change_deg', 'posture error (deg)'],
