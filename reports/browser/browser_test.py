@@ -98,7 +98,8 @@ def check_claims(browser, scheme):
         for (let details = row.querySelector('details'); details; details = details.parentElement.closest('details'))
             details.open = true;
         return row.querySelector('details').innerText;""")
-    for text in ["changed once", "d87120a", "81f65fc", "below 0.1", "within 0..0.1", "reproduced (a25e2d4"]:
+    for text in ["changed 2 times", "d87120a", "81f65fc", "below 0.1", "within 0..0.1", "within 0.01..0.1",
+                 "reproduced (a25e2d4"]:
         expect(text in shown, f"{scheme}: a claim's history does not show {text}: {shown}")
     without = browser.execute_script("return [...document.querySelectorAll('#claims tr[id]')].filter(row => "
                                      "!row.querySelector('details.history li')).map(row => row.id)")
