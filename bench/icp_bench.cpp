@@ -62,7 +62,7 @@ std::vector<const BenchFrame*> some_frames() {
   return frames;
 }
 
-/// Of all frames; none if an alignment differs from the plain one.
+/// Counts the iterations of all frames. Empty if an alignment differs from the plain one.
 std::optional<int> iterations_like_plain(const std::vector<const BenchFrame*>& frames, const IcpConfig& config) {
   IcpConfig plain = config;
   plain.implementation = Implementation::plain;

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <map>
-#include <set>
 
 #include "bench/bench_data.h"
 #include "bench/peers/peers.h"
@@ -52,7 +51,7 @@ double row_bytes(const std::vector<TinyImages>& queries, const Cascade& cascade)
          static_cast<double>(queries.size());
 }
 
-/// What is wrong with the matches; null: nothing.
+/// Returns the mistake in the matches, or null.
 const char* mistake_in_look_up(const std::vector<TinyImages>& queries, const Cascade& cascade,
                                std::string_view implementation) {
   const Database& database = *data().database;
@@ -109,26 +108,21 @@ const char* find_mistake(const AllMatches& found, const std::vector<LabelImage>&
   return nullptr;
 }
 
-/// A peer with its copy of the database, which may be of four times its size. It is kept, and checked once each
-/// way.
-struct PreparedPeer {
-  std::unique_ptr<LookUpPeer> look_up;
-  std::set<Batch> checked;
-};
-
-PreparedPeer& prepared(MakeLookUpPeer make, int size) {
-  static std::map<std::pair<MakeLookUpPeer, int>, PreparedPeer> peers;
-  PreparedPeer& peer = peers[{make, size}];
-  if (peer.look_up == nullptr) peer.look_up = make(*data().database, size);
-  return peer;
+/// A peer with its copy of the database, which may be four times as large. The copy is kept.
+LookUpPeer& prepared(MakeLookUpPeer make, int size) {
+  static std::map<std::pair<MakeLookUpPeer, int>, std::unique_ptr<LookUpPeer>> peers;
+  std::unique_ptr<LookUpPeer>& peer = peers[{make, size}];
+  if (peer == nullptr) peer = make(*data().database, size);
+  return *peer;
 }
 
 /// With a cascade of one stage.
-void run_look_up_peer(benchmark::State& state, const char* text, MakeLookUpPeer make, Batch batch) {
+void run_look_up_peer(benchmark::State& state, const std::string& name, const char* text, MakeLookUpPeer make,
+                      Batch batch) {
   if (make == nullptr) return state.SkipWithError(kMissing);
   const Cascade cascade = parse_cascade(text);
   const int keep = cascade[0].keep;
-  PreparedPeer& peer = prepared(make, cascade[0].size);
+  LookUpPeer& peer = prepared(make, cascade[0].size);
   // Brute force takes as long for every query; alone, some of them say as much in less time.
   const size_t step = batch == Batch::all ? 1 : 4;
   std::vector<LabelImage> queries;
@@ -137,15 +131,13 @@ void run_look_up_peer(benchmark::State& state, const char* text, MakeLookUpPeer 
     queries.push_back(make_tiny_image(frame.trace.cloud.labels, frame.square, cascade[0].size));
   }
   const auto find = [&] {
-    if (batch == Batch::all) return (*peer.look_up)(queries, keep);
+    if (batch == Batch::all) return peer(queries, keep);
     AllMatches found;
-    for (const LabelImage& query : queries) found.push_back((*peer.look_up)({&query, 1}, keep)[0]);
+    for (const LabelImage& query : queries) found.push_back(peer({&query, 1}, keep)[0]);
     return found;
   };
-  if (!peer.checked.contains(batch)) {
-    if (const char* mistake = find_mistake(find(), queries, cascade)) return state.SkipWithError(mistake);
-    peer.checked.insert(batch);
-  }
+  const char* mistake = once(name, [&] { return find_mistake(find(), queries, cascade); });
+  if (mistake != nullptr) return state.SkipWithError(mistake);
   for (auto _ : state) benchmark::DoNotOptimize(find());
   set_time_each(state, "frame", queries.size());
   state.counters["entries"] = data().database->entry_count();
@@ -163,7 +155,8 @@ const int look_up_registered = [] {
   }
   for (const char* cascade : {"16:3", "exact:3"}) {
     const auto add = [&](std::string_view engine, MakeLookUpPeer make, Batch batch) {
-      benchmark::RegisterBenchmark(name(cascade, engine).c_str(), run_look_up_peer, cascade, make, batch)
+      const std::string full = name(cascade, engine);
+      benchmark::RegisterBenchmark(full.c_str(), run_look_up_peer, full, cascade, make, batch)
           ->Unit(benchmark::kMillisecond);
     };
     add("faiss", kFaiss, Batch::single);

@@ -359,7 +359,10 @@ TEST_F(CommandLine, ListsAndRehearsesARun) {
 TEST_F(CommandLine, ListsFitATerminalOf80Columns) {
   for (const char* list : {"trajectories", "families", "databases", "suites", "studies", "methods", "alignments",
                            "look-ups", "noises", "formats", "metrics", "subjects", "angles", "mapping"}) {
-    std::istringstream text(run_glovebench({"list", list}).out);
+    const ProgramRun run = run_glovebench({"list", list});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    ASSERT_FALSE(run.out.empty()) << list;
+    std::istringstream text(run.out);
     for (std::string line; std::getline(text, line);) EXPECT_LE(line.size(), 80U) << list << ": " << line;
   }
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "eval/program.h"
+#include "reports/text.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -59,8 +60,8 @@ std::string list_experiments(const Plan& plan) {
   const size_t width = std::ranges::max(experiments, {}, [](const auto& e) { return e.name.size(); }).name.size();
   std::string text;
   for (const PlannedExperiment& experiment : experiments) {
-    text += fmt::format("{:<{}}  {:>4} frames x {} seed{}\n", experiment.name, width, experiment.frames,
-                        experiment.seeds, experiment.seeds == 1 ? "" : "s");
+    text += fmt::format("{:<{}}  {:>4} frames x {}\n", experiment.name, width, experiment.frames,
+                        reports::counted(static_cast<size_t>(experiment.seeds), "seed"));
   }
   return text;
 }

@@ -72,10 +72,8 @@ reports::Table mapping_table(const Skeleton& skeleton, const std::string& data_f
   reports::Table table = reports::table_of({"postures of", "mapping"}, 2);
   table.explanation = fmt::format(
       "Fingertips of the robot against the hand's: mean and largest distance in mm. Of pairs that the hand has "
-      "within "
-      "{:.0f} mm (thumb and another): how much nearer or farther apart the robot's are, in mm. Step: the largest "
-      "of a "
-      "joint between frames. J1 and J2 of the robot's fingers: {}.",
+      "within {:.0f} mm (thumb and another): how much nearer or farther apart the robot's are, in mm. Step: the "
+      "largest of a joint between frames. J1 and J2 of the robot's fingers: {}.",
       1000 * kPinch, to_string(coupling));
   const auto add_column = [&](const std::string& heading, int digits) {
     table.columns.push_back({"", heading, digits});

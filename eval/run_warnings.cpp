@@ -41,7 +41,6 @@ std::vector<std::string> unit_warnings(const Plan& plan) {
 
 std::vector<std::string> lost_hand_warnings(const Plan& plan, const reports::RunResult& result,
                                             const std::string& folder) {
-  const std::set<std::string> from_files = inputs_from_files(plan);
   std::vector<std::string> warnings;
   for (const reports::ExperimentResult& experiment : result.experiments) {
     const reports::Coverage& coverage = experiment.coverage;
@@ -52,7 +51,8 @@ std::vector<std::string> lost_hand_warnings(const Plan& plan, const reports::Run
         "volume ({:g} to {:g} mm), or the database lacks its postures. To see: {}",
         to_string(experiment.key), coverage.frames, 1000 * plan.tracker.volume.z_min,
         1000 * plan.tracker.volume.z_max,
-        reports::explain_command({experiment.key, run.seed, run.frames.front(), ""}, from_files, folder)));
+        reports::explain_command({experiment.key, run.seed, run.frames.front(), ""}, inputs_from_files(plan),
+                                 folder)));
   }
   return warnings;
 }

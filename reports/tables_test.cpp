@@ -73,6 +73,13 @@ TEST(StudyText, PutsATableThatIsTooWideIntoParts) {
                 "6.00\n\n");
 }
 
+TEST(StudyText, ShowsATableOfNamesAlone) {
+  Table names = table_of({"one", "two"}, 2);
+  names.rows = {{std::string(50, 'a'), std::string(50, 'b')}, {"c", "d"}};
+  EXPECT_THAT(study_text({"s", "S", {names}, {}}, 80),
+              AllOf(HasSubstr("one"), HasSubstr("\nc "), HasSubstr("d\n")));
+}
+
 TEST(Figure4Table, ShowsOtherNoiseOnRequest) {
   const std::string table = figure4_table(small_result(), paper_numbers(), {"kinect", 0.5});
   EXPECT_THAT(table, HasSubstr("Noise: kinect x 0.5"));

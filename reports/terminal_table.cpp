@@ -49,14 +49,15 @@ std::string to_terminal(Table table, size_t columns) {
   const std::vector<std::string> common = remove_common_names(table);
   std::string text;
   if (!common.empty()) text += wrapped(fmt::format("All: {}.", fmt::join(common, ", ")), columns) + "\n";
-  for (auto first = static_cast<size_t>(table.name_columns); first < table.columns.size();) {
+  auto first = static_cast<size_t>(table.name_columns);
+  while (true) {  // at least once: a table may have names alone
     size_t end = table.columns.size();
     while (end > first + 1 && !fits(part_of(table, first, end), columns)) --end;
-    text += (first > static_cast<size_t>(table.name_columns) ? "\n" : "") +
-            to_text(part_of(table, first, end), false, columns);
+    text += to_text(part_of(table, first, end), false, columns);
+    if (end == table.columns.size()) return text;
+    text += "\n";
     first = end;
   }
-  return text;
 }
 
 }  // namespace glovebench::reports

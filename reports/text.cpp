@@ -150,6 +150,10 @@ std::string shortened(const std::string& text, size_t columns) {
   return text.substr(0, left) + "..." + text.substr(right);
 }
 
+std::string counted(size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string wrapped(const std::string& text, size_t columns, size_t indent) {
   std::string lines;
   size_t column = indent;

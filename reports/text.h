@@ -27,6 +27,9 @@ size_t text_width(std::string_view text);
 std::string shortened(const std::string& text, size_t columns);
 /// Lines of at most `columns`, broken between words. Later lines begin with `indent` spaces; the first leaves room
 /// for them.
+/// "1 seed", "2 seeds".
+std::string counted(size_t count, std::string_view noun);
+
 std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
 
 /// One line per member; arrays of plain values in one line. Equal values give equal bytes. Numbers must be finite.

@@ -95,7 +95,7 @@ struct Gate {
     return kGateFailed;
   }
 
-  /// What the failures mean.
+  /// Prints what the failures mean.
   void explain_failure(const reports::GateDecision& decision, bool has_floor) const {
     const size_t count = decision.failures.size();
     std::string text = fmt::format("{} {} this change. ", count, count == 1 ? "row stops" : "rows stop");

@@ -28,7 +28,7 @@
 namespace glovebench::eval {
 namespace {
 
-/// What has its own columns, and beside it what it means, broken to fit.
+/// Prints the columns of an entry and its meaning beside them, broken to fit.
 void print_entry(const std::string& columns, std::string_view meaning) {
   fmt::print("{}{}", columns, reports::wrapped(std::string(meaning), terminal_columns(), columns.size()));
 }

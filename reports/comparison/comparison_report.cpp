@@ -66,8 +66,7 @@ std::string comparison_markdown(const ComparisonReport& report) {
                 ? "\n" + to_markdown(table)
                 : folded(table.title, fmt::format("{}\n{}\n", to_markdown(table), table.explanation));
   if (!rest.empty())
-    text += folded(fmt::format("{} row{} without a change", rest.size(), rest.size() == 1 ? "" : "s"),
-                   to_markdown(rows_table(rest)));
+    text += folded(counted(rest.size(), "row") + " without a change", to_markdown(rows_table(rest)));
   return text + "\n" + escape_markdown(comparison_explanation(comparison)) + "\n";
 }
 

@@ -75,8 +75,7 @@ void check_seeds(const std::string& where, const ExperimentResult& found, const 
   const std::string field = to_string(expected.key) + ".seeds";
   if (!other_seeds) check_equal(where, field, seeds_of(found), seeds_of(expected));
   if (found.runs.size() != expected.runs.size())
-    throw Incomparable(where, field, seeds_of(found),
-                       fmt::format("{} seed{}", expected.runs.size(), expected.runs.size() == 1 ? "" : "s"));
+    throw Incomparable(where, field, seeds_of(found), counted(expected.runs.size(), "seed"));
 }
 
 /// Index in the longer list where the shorter one stops following it.

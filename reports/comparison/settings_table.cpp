@@ -249,10 +249,9 @@ std::string basis_of(const SettingRun& reference, size_t metrics, const std::set
     seeds = std::max(seeds, experiment.runs.size());
   }
   return fmt::format(
-      " This rests on {} frames of {} movement{} with {} noise seed{}, in {} metric{}; it says nothing about other "
-      "movements or hands, and the settings were compared with the reference, not with each other.",
-      frames, movements.size(), movements.size() == 1 ? "" : "s", seeds, seeds == 1 ? "" : "s", metrics,
-      metrics == 1 ? "" : "s");
+      " This rests on {} frames of {} with {}, in {}; it says nothing about other movements or hands, and the "
+      "settings were compared with the reference, not with each other.",
+      frames, counted(movements.size(), "movement"), counted(seeds, "noise seed"), counted(metrics, "metric"));
 }
 
 /// By name; many by their number.
