@@ -95,9 +95,7 @@ std::unique_ptr<faiss::Index> flat(int d) {
 
 /// Bytes as they are, of the query, too: exact.
 std::unique_ptr<faiss::Index> bytes(int d) {
-  auto index = std::make_unique<faiss::IndexScalarQuantizer>(d, faiss::ScalarQuantizer::QT_8bit_direct, kProduct);
-  index->is_trained = true;
-  return index;
+  return std::make_unique<faiss::IndexScalarQuantizer>(d, faiss::ScalarQuantizer::QT_8bit_direct, kProduct);
 }
 
 /// Each dimension's range in 255 steps.
