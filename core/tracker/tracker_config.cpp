@@ -228,7 +228,11 @@ TrackerConfig profile(const std::string& name) {
   TrackerConfig config;
   config.profile = name;
   if (name == "paper-literal") config.smoothing.pose_keep = config.smoothing.posture_keep;
-  if (name == "recommended") config.method = "articulated";
+  if (name == "recommended") {
+    config.method = "articulated";
+    config.segmentation.surface_majority = true;
+    config.lookup.cascade = parse_cascade("exact:3");
+  }
   return config;
 }
 

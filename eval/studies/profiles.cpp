@@ -59,30 +59,30 @@ struct Comparison {
   std::vector<std::string_view> metrics;
 };
 
-/// "position mm" of "position_error_mm".
-std::string heading_of(std::string_view metric) {
-  const reports::Metric& described = reports::metric_of(metric);
-  const std::string_view name = metric.substr(0, metric.find('_'));
-  return fmt::format("{} {}", name, described.unit);
-}
-
 Table errors_table(const Comparison& comparison, const RunResult& paper, const RunResult& other) {
   Table table = {comparison.table,
                  comparison.title,
                  comparison.explanation,
-                 {{"trajectory", "trajectory"}, {"database", "database"}, {"truth", "truth"}, {"noise", "noise"}},
-                 4,
+                 {{"trajectory", "trajectory"},
+                  {"database", "database"},
+                  {"truth", "truth"},
+                  {"noise", "noise"},
+                  {"profile", "profile"}},
+                 5,
                  {}};
-  for (const std::string_view metric : comparison.metrics)
-    for (const std::string_view name : {kPaper, comparison.profile})
-      table.columns.push_back({fmt::format("{}_{}", name, metric), fmt::format("{} {}", name, heading_of(metric))});
+  for (const std::string_view metric : comparison.metrics) {
+    const std::string_view name = metric.substr(0, metric.find('_'));
+    table.columns.push_back({std::string(metric), fmt::format("{} {}", name, reports::metric_of(metric).unit)});
+  }
   for (const ExperimentResult& experiment : paper.experiments) {
     const ExperimentResult* same = find_experiment(other, experiment.key);
     check(same != nullptr, "both profiles run the same experiments");
-    Row& row = table.rows.emplace_back(reports::experiment_names(experiment.key));
-    for (const std::string_view metric : comparison.metrics)
-      for (const ExperimentResult* each : {&experiment, same})
-        row.push_back(reports::cell(value_of(reports::metric_of(metric), *each)));
+    for (const auto& [profile, result] : {std::pair{kPaper, &experiment}, {comparison.profile, same}}) {
+      Row& row = table.rows.emplace_back(reports::experiment_names(experiment.key));
+      row.emplace_back(std::string(profile));
+      for (const std::string_view metric : comparison.metrics)
+        row.push_back(reports::cell(value_of(reports::metric_of(metric), *result)));
+    }
   }
   return table;
 }
