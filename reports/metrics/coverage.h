@@ -26,7 +26,7 @@ std::map<std::string, double> coverage_rules();
 
 /// False for frames of older results.
 bool is_visible(const FrameRecord& frame);
-/// Whether the frame is tracked within the usable errors. Ignores errors that the result lacks.
+/// True if the frame is tracked within the usable errors. Ignores errors that the result lacks.
 bool is_usable(const FrameRecord& frame);
 
 }  // namespace glovebench::reports
