@@ -10,6 +10,8 @@
 #include "eval/measured_run.h"
 #include "eval/pictures.h"
 #include "eval/program.h"
+#include "eval/run_warnings.h"
+#include "eval/terminal.h"
 #include "reports/report.h"
 
 namespace glovebench::eval {
@@ -161,8 +163,12 @@ Outcome report_runs(Workbench& workbench, const Plan& plan, std::span<const Meas
   note_resources(outcome.timings, timed.start);
   std::vector<reports::ExperimentEstimates> estimates;
   for (const Experiment& experiment : experiments) estimates.push_back(estimates_of(experiment));
-  reports::write_report(folder, outcome.result, outcome.timings,
-                        page_material(workbench, plan, outcome.result, estimates), estimates);
+  reports::PageMaterial material = page_material(workbench, plan, outcome.result, estimates);
+  for (const std::string& warning : no_answer_warnings(no_answer_reasons(runs))) {
+    say("glovebench: warning: {}\n", warning);
+    material.warnings.push_back(warning);
+  }
+  reports::write_report(folder, outcome.result, outcome.timings, material, estimates);
   return outcome;
 }
 

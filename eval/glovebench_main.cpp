@@ -28,6 +28,7 @@ void add_commands(const glovebench::eval::Command& program) {
   add_import(program);
   add_generate(program);
   add_list(program);
+  add_method(program);
   add_compare(program);
   add_table(program);
   add_gate(program);

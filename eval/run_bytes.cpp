@@ -55,7 +55,8 @@ json row_of(const TrackResult& r) {
           r.icp_points,
           r.icp_iterations,
           r.icp_residual,
-          r.certainty ? json{row_of(r.certainty->deviation), r.certainty->hidden} : json()};
+          r.certainty ? json{row_of(r.certainty->deviation), r.certainty->hidden} : json(),
+          r.reason};
 }
 
 TrackStatus status_of(const json& value) {
@@ -82,6 +83,7 @@ TrackResult result_of(const json& row) {
   r.icp_residual = row.at(13);
   if (const json& certainty = row.at(14); !certainty.is_null())
     r.certainty = {posture_of(certainty.at(0)), certainty.at(1).get<uint32_t>()};
+  r.reason = row.at(15);
   return r;
 }
 

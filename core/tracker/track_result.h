@@ -26,13 +26,14 @@ enum class TrackStatus {
   no_shared_color,   ///< cloud and visible model share none
   poor_match,        ///< nearest entry's error above `max_matching_error`
   poor_alignment,    ///< final mean distance above `max_residual`
+  no_answer,         ///< from a tracker that is a program
 };
 constexpr auto names_of(TrackStatus) {
   return std::to_array<std::string_view>({"tracked", "no_hand", "outside_volume", "cut_by_border", "several_hands",
                                           "too_few_points", "degenerate_cloud", "no_shared_color", "poor_match",
-                                          "poor_alignment"});
+                                          "poor_alignment", "no_answer"});
 }
-static_assert(kCountOf<TrackStatus> == static_cast<int>(TrackStatus::poor_alignment) + 1, "each value has a name");
+static_assert(kCountOf<TrackStatus> == static_cast<int>(TrackStatus::no_answer) + 1, "each value has a name");
 
 struct AngleCertainty {
   Posture deviation = Posture::Zero();  ///< standard deviations, rad
@@ -44,6 +45,7 @@ struct AngleCertainty {
 struct TrackResult {
   int64_t timestamp_us = 0;  ///< of the depth image
   TrackStatus status = TrackStatus::no_hand;
+  std::string reason;  ///< of `no_answer`
 
   Posture posture = Posture::Zero();                                ///< smoothed, rad
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< smoothed, m
@@ -76,14 +78,15 @@ enum class Stage {
   placement,
   mask,
   fit,
-  smoothing
+  smoothing,
+  answer  ///< of a tracker that is a program: from the frame to its answer
 };
 /// As in timings.json.
 constexpr auto names_of(Stage) {
   return std::to_array<std::string_view>({"register", "segment", "cloud", "detect", "tiny_images", "look_up",
-                                          "align", "place", "mask", "fit", "smooth"});
+                                          "align", "place", "mask", "fit", "smooth", "answer"});
 }
-static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
+static_assert(kCountOf<Stage> == static_cast<int>(Stage::answer) + 1, "each value has a name");
 
 /// Called when a stage begins. A frame may enter a stage twice. Must not be empty.
 using StageObserver = std::function<void(Stage stage)>;

@@ -117,6 +117,7 @@ void add_db(Command program);
 void add_import(Command program);
 void add_generate(Command program);
 void add_list(Command program);
+void add_method(Command program);
 void add_compare(Command program);
 void add_table(Command program);
 void add_gate(Command program);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <map>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"
 #include "eval/program.h"
+#include "eval/run_warnings.h"
 #include "eval/terminal.h"
 #include "eval/track_overlay.h"
 #include "render/label_renderer.h"
@@ -83,6 +85,7 @@ struct Track {
   std::vector<double> latencies_ms;         ///< of frames that were tracked or lost
   std::vector<reports::Estimate> for_page;  ///< with `page`
   HandCheck hand_check;
+  std::map<std::string, size_t> no_answers;  ///< reasons, with their frames
   bool has_heading = false;      ///< of the CSV file
   std::optional<Error> failure;  ///< of the device, or of a command
   bool is_whole = true;          ///< all commands succeeded and all lines were written
@@ -100,10 +103,9 @@ struct Track {
     const std::string name = workbench.add_database(database);
     const TrackerConfig config = common.tracker_config();
     const std::unique_ptr<Method> method =
-        find_method(config.method)
-            .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
-                   own_colors ? own_colors : workbench.color_table(config.segmentation.color_space),
-                   render::label_renderer_factory()});
+        make_method({config, source.device->calibration(), workbench.model(), workbench.database(name),
+                     own_colors ? own_colors : workbench.color_table(config.segmentation.color_space),
+                     render::label_renderer_factory()});
     RobotSetup setup = robot.setup(workbench);
     std::optional<TrackOverlay> pictures;
     if (!overlay.empty()) pictures.emplace(overlay, workbench.model(), source.device->calibration());
@@ -144,7 +146,8 @@ struct Track {
   }
 
   void warn(const WorkingVolume& volume) const {
-    if (!failure && tracked == 0)
+    for (const std::string& warning : no_answer_warnings(no_answers)) say("glovebench: warning: {}\n", warning);
+    if (!failure && tracked == 0 && no_answers.empty())
       say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
           "colors other than those of --colors, or a hand outside of the working volume ({:g} to {:g} mm)\n",
           frames, 1000 * volume.z_min, 1000 * volume.z_max);
@@ -200,6 +203,7 @@ struct Track {
         if (results.size() == 2 * kept_results)  // not in each frame: an erasure moves the rest
           results.erase(results.begin(), results.begin() + static_cast<ptrdiff_t>(kept_results));
         latencies_ms.push_back(static_cast<double>(system_us() - arrived_us) / 1000);
+        if (!result.reason.empty()) ++no_answers[result.reason];
         use(number, *frame, result);
         tracked += result.status == TrackStatus::tracked;
         hand_check.add(result);
