@@ -107,7 +107,7 @@ ColorImage overlay(const HandModel& model, const TrackResult& result, const Eige
 std::vector<render::TextLine> errors_alone(const reports::FrameErrors& errors) {
   const reports::FrameRecord& record = errors.record;
   std::vector<std::string> tips;
-  for (const int tip : fingertip_joints()) tips.push_back(fmt::format("{:.0f}", errors.joint_errors_mm[tip]));
+  for (const int tip : fingertip_joints()) tips.push_back(reports::fixed(errors.joint_errors_mm[tip], 0));
   return {{"Errors of this frame alone, without the filter:"},
           {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
                        *record["rotation_error_deg"])},

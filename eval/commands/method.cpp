@@ -62,7 +62,7 @@ struct MethodTest {
   }
 
   void note(const TrackResult& result, const HandFrame& truth) {
-    if (result.status == TrackStatus::no_answer) faults.push_back(result.reason);
+    if (result.status == TrackStatus::missing) faults.push_back(result.reason);
     if (result.status != TrackStatus::tracked) return;
     HandFrame frame = truth;
     frame.posture = result.posture;

@@ -58,7 +58,7 @@ class ProcessMethod : public Method {
   /// The next frame starts the program again.
   void lose(TrackResult& result, const Error& why) {
     program_.reset();
-    result.status = TrackStatus::no_answer;
+    result.status = TrackStatus::missing;
     result.reason = why.what();
   }
 

@@ -15,8 +15,8 @@ struct ProcessLimits {
 };
 
 /// The tracker is the program of `inputs.config.method`, "exec:COMMAND". It starts with the first frame and gets
-/// calibration, hand and frames (eval/guides/tracker.md). A frame without a good answer is lost (`no_answer`, with
-/// a reason), and the next one starts the program again. Frames after the last restart are lost at once. The
+/// calibration, hand and frames (eval/guides/tracker.md). A frame without a good answer is lost (`missing`, with a
+/// reason), and the next one starts the program again. Frames after the last restart are lost at once. The
 /// configuration's other fields have no effect.
 /// Throws: Error for an empty command; later, from `track`, if the shell cannot start it.
 std::unique_ptr<Method> make_process_method(const MethodInputs& inputs, const ProcessLimits& limits = {});
