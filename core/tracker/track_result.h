@@ -108,8 +108,8 @@ using StageObserver = std::function<void(Stage stage)>;
 inline void unobserved(Stage) {}
 
 /// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
-/// icp_iterations, icp_residual_mm, ambiguous, converged; if known, angle_deviations_deg and hidden (names). A lost
-/// frame lacks posture and pose.
+/// icp_iterations, icp_residual_mm, ambiguous, converged; if known, joints_mm, angle_deviations_deg and hidden
+/// (names). Lacks what the result lacks; a lost frame also posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

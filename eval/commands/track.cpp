@@ -86,9 +86,9 @@ struct Track {
   std::vector<reports::Estimate> for_page;  ///< with `page`
   HandCheck hand_check;
   std::map<std::string, size_t> no_answers;  ///< reasons, with their frames
-  bool has_heading = false;      ///< of the CSV file
-  std::optional<Error> failure;  ///< of the device, or of a command
-  bool is_whole = true;          ///< all commands succeeded and all lines were written
+  bool has_heading = false;                  ///< of the CSV file
+  std::optional<Error> failure;              ///< of the device, or of a command
+  bool is_whole = true;                      ///< all commands succeeded and all lines were written
 
   void run() {
     require_different_files({{"--output", common.output}, {"--robot-out", robot.output}, {"--page", page}});
@@ -117,12 +117,13 @@ struct Track {
     const size_t kept_results = static_cast<size_t>(config.smoothing.forget_after);
     const auto start = std::chrono::steady_clock::now();
     track_all(source, *method, kept_results, [&](int number, const DeviceFrame& frame, const TrackResult& result) {
-      if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
+      const TrackResult hand = lost_without_hand(result);
+      if (outputs.any()) command(hand, commander, guard, source.arrived_us(), outputs);
       if_it_fails([&] {
-        append(output, writes_csv, number, result);
-        if (pictures) pictures->add(number, frame, result);
+        append(output, writes_csv, number, writes_csv ? hand : result);
+        if (pictures) pictures->add(number, frame, hand);
       });
-      if (!page.empty()) for_page.push_back(estimate_of(number, result));
+      if (!page.empty()) for_page.push_back(estimate_of(number, hand));
     });
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (frames == unusable) refuse();
@@ -132,6 +133,12 @@ struct Track {
     if (!common.quiet) print_summary(source, spent.count());
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
+  }
+
+  /// A robot, pictures, a page and CSV show posture and pose. A program may give less.
+  static TrackResult lost_without_hand(TrackResult result) {
+    if (!result.has.hand() && result.status == TrackStatus::tracked) result.status = TrackStatus::missing;
+    return result;
   }
 
   static reports::Estimate estimate_of(int number, const TrackResult& result) {

@@ -44,9 +44,9 @@ class ProcessMethod : public Method {
       result = parse_answer(answer, number_);
     } catch (const ProgramEnded& e) {
       refuse_if_unknown(e.exit_code);
-      lose(result, e);
+      lose(result, previous, e);
     } catch (const Error& e) {
-      lose(result, e);
+      lose(result, previous, e);
     }
     ++number_;
     result.timestamp_us = frame.depth_timestamp_us;
@@ -56,8 +56,10 @@ class ProcessMethod : public Method {
 
  private:
   /// The next frame starts the program again.
-  void lose(TrackResult& result, const Error& why) {
+  void lose(TrackResult& result, std::span<const TrackResult> previous, const Error& why) {
+    if (program_) program_->kill();
     program_.reset();
+    result.has = previous.empty() ? EstimateParts{.internals = false} : previous.back().has;
     result.status = TrackStatus::missing;
     result.reason = why.what();
   }
@@ -81,7 +83,7 @@ class ProcessMethod : public Method {
   }
 
   void start() {
-    if (starts_left_ == 0) throw Error(fmt::format("not started again after {} restarts", limits_.restarts));
+    if (starts_left_ == 0) throw Error("the program failed too often to be started again");
     --starts_left_;
     program_.emplace(command_);
   }

@@ -24,7 +24,7 @@ ordered_json joints_json(const HandModel& hand) {
   const JointPoses T_hand_joint = hand.skeleton().pose(Posture::Zero());
   const double x_sign = hand.side() == Side::left ? -1 : 1;
   ordered_json joints = ordered_json::array();
-  for (int j = 0; j < kJointCount; ++j) {
+  for (int j = 0; j < kForearmJoint; ++j) {
     const Eigen::Vector3d p = 1000 * T_hand_joint[j].translation();
     const int parent = joint_parents()[j];
     joints.push_back({{"name", joint_name(j)},
@@ -50,6 +50,14 @@ Eigen::Quaterniond rotation_from(const JsonCursor& wxyz) {
   if (std::abs(q.norm() - 1) > kLargestError)
     wxyz.fail(fmt::format("a norm of {:.3g}", q.norm()), "a unit quaternion w, x, y, z");
   return q.normalized();
+}
+
+RecycledVector<std::optional<Eigen::Vector3d>> joints_from(const JsonCursor& joints_mm) {
+  RecycledVector<std::optional<Eigen::Vector3d>> joints;
+  for (const JsonCursor& joint : joints_mm.items(kForearmJoint))
+    joints.push_back(joint.is_null() ? std::nullopt
+                                     : std::optional<Eigen::Vector3d>(joint.vector3(kMost_mm) / 1000));
+  return joints;
 }
 
 }  // namespace
@@ -92,15 +100,22 @@ TrackResult parse_answer(std::string_view line, int number) {
   const std::string where = "answer";
   const nlohmann::json document = parse_json(line, where);
   const JsonCursor answer(document, where);
-  answer.expect_keys({"frame"}, {"status", "angles_deg", "position_mm", "quaternion_wxyz"});
+  answer.expect_keys({"frame"}, {"status", "angles_deg", "position_mm", "quaternion_wxyz", "joints_mm"});
   if (answer["frame"].integer(0, std::numeric_limits<int>::max()) != number)
-    throw Error(fmt::format("an answer to another frame"));
+    throw Error("an answer to another frame");
   TrackResult result;
   result.status = answer.has("status") ? answer["status"].one_of<TrackStatus>() : TrackStatus::tracked;
   if (result.status != TrackStatus::tracked) return result;
-  result.posture_unfiltered = posture_from(answer["angles_deg"]);
-  result.T_camera_hand_unfiltered = Eigen::Translation3d(answer["position_mm"].vector3(kMost_mm) / 1000) *
-                                    rotation_from(answer["quaternion_wxyz"]);
+  result.has = {.posture = answer.has("angles_deg"),
+                .pose = answer.has("position_mm") || answer.has("quaternion_wxyz"),
+                .internals = false};
+  if (result.has.posture) result.posture_unfiltered = posture_from(answer["angles_deg"]);
+  if (result.has.pose)
+    result.T_camera_hand_unfiltered = Eigen::Translation3d(answer["position_mm"].vector3(kMost_mm) / 1000) *
+                                      rotation_from(answer["quaternion_wxyz"]);
+  if (answer.has("joints_mm")) result.joints = joints_from(answer["joints_mm"]);
+  if (!result.has.posture && !result.has.pose && result.joints.empty())
+    answer.fail("no estimate", "angles_deg, position_mm and quaternion_wxyz, or joints_mm");
   return result;
 }
 

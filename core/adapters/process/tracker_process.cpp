@@ -154,6 +154,7 @@ TrackerProcess::~TrackerProcess() {
 }
 
 int TrackerProcess::kill() {
+  if (guard_ < 0) return exit_code_;
   to_program_.close();
   from_program_.close();
   lifeline_.close();
@@ -161,7 +162,7 @@ int TrackerProcess::kill() {
   while (waitpid(guard_, &status, 0) < 0 && errno == EINTR) {
   }
   guard_ = -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : kKilled;
+  return exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : kKilled;
 }
 
 std::string TrackerProcess::exchange(std::span<const std::string_view> parts, Clock::time_point deadline) {

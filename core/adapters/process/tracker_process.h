@@ -55,13 +55,15 @@ class TrackerProcess {
   /// Throws: ProgramEnded; Error if the deadline passes or a line is too long. Nothing can be exchanged afterwards.
   std::string exchange(std::span<const std::string_view> parts, Clock::time_point deadline);
 
- private:
-  /// Kills the program and what it started. Returns its exit code.
+  /// Kills the program and what it started, unless that was done. Returns its exit code.
   int kill();
+
+ private:
   void send(std::string_view& bytes);
   void receive();
 
   pid_t guard_ = -1;
+  int exit_code_ = 0;  ///< after `kill`
   Descriptor to_program_, from_program_;
   Descriptor lifeline_;   ///< the guard kills when this closes
   std::string received_;  ///< not yet returned
