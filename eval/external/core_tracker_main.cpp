@@ -1,8 +1,6 @@
-// The paper's tracker as a program of its own, with glovebench's core library alone (eval/guides/tracker.md).
-//
-//     glovebench run --method exec:"core_tracker MESH DATABASE.glovedb COLORS" ...
+// The paper's tracker as a program of its own, with the core library alone (eval/guides/tracker.md):
+// exec:"core_tracker MESH DATABASE.glovedb COLORS"
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -11,13 +9,11 @@
 #include "core/kinect/disparity.h"
 #include "core/tracker/tracker.h"
 
-namespace {
-
 using namespace glovebench;
 using nlohmann::json;
 
 /// What glovebench sends after the line `header`.
-DeviceFrame read_frame(const json& header, const json& start, const RgbdCalibration& calibration) {
+static DeviceFrame read_frame(const json& header, const json& start, const RgbdCalibration& calibration) {
   DeviceFrame frame{{calibration.ir.width, calibration.ir.height},
                     {calibration.rgb.width, calibration.rgb.height},
                     header["depth_timestamp_us"],
@@ -30,7 +26,7 @@ DeviceFrame read_frame(const json& header, const json& start, const RgbdCalibrat
   return frame;
 }
 
-json answer_of(int number, const TrackResult& result) {
+static json answer_of(int number, const TrackResult& result) {
   json answer = {{"frame", number}, {"status", to_string(result.status)}};
   if (result.status != TrackStatus::tracked) return answer;
   for (const double angle : result.posture) answer["angles_deg"].push_back(degrees_from_radians(angle));
@@ -40,8 +36,6 @@ json answer_of(int number, const TrackResult& result) {
   answer["quaternion_wxyz"] = {q.w(), q.x(), q.y(), q.z()};
   return answer;
 }
-
-}  // namespace
 
 int main(int argc, char** argv) try {
   if (argc != 4) throw std::runtime_error("usage: core_tracker MESH DATABASE.glovedb COLORS");

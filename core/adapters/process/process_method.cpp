@@ -64,9 +64,9 @@ class ProcessMethod : public Method {
     result.reason = why.what();
   }
 
-  /// Throws: Error if the program that was started first is none.
+  /// Throws: Error if the shell did not find a program for the first frame.
   void refuse_if_unknown(int exit_code) const {
-    if (starts_left_ < limits_.restarts || (exit_code != kNotFound && exit_code != kNotExecutable)) return;
+    if (number_ > 0 || (exit_code != kNotFound && exit_code != kNotExecutable)) return;
     throw Error("--method", "command", fmt::format("{}: exit code {}", quoted_excerpt(command_), exit_code),
                 "a command that /bin/sh can start");
   }

@@ -10,7 +10,6 @@
 #include "core/base/json_cursor.h"
 #include "core/base/math.h"
 #include "core/base/parse_json.h"
-#include "core/kinect/disparity.h"
 
 namespace glovebench {
 namespace {

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/kinect/disparity.h"
 #include "core/methods/method.h"
 #include "core/tracker/track_result.h"
 
