@@ -139,18 +139,25 @@ std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs) {
 
 reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> runs, Workbench& workbench) {
   reports::RunResult result;
-  result.protocol = reports::make_protocol("by time stamp, exact");
+  result.protocol = reports::make_protocol(plan.association);
   for (const RunSpec& spec : plan.specs) {
     result.inputs.truths[truth_name(key_of(spec))] = trajectories::hash(*spec.trajectory);
-    result.inputs.databases[spec.database] = workbench.database(spec.database)->content_hash();
+    // Other programs' estimates are what is compared, so their hash may differ.
+    result.inputs.databases[spec.database] =
+        plan.score.is_null() ? workbench.database(spec.database)->content_hash() : "estimates";
   }
   result.inputs.hand_model = workbench.model()->hash();
-  const auto color_table = workbench.color_table(plan.tracker.segmentation.color_space);
-  result.inputs.color_table = hash_bytes(std::as_bytes(std::span(color_table->labels())));
+  if (plan.score.is_null()) {
+    const auto color_table = workbench.color_table(plan.tracker.segmentation.color_space);
+    result.inputs.color_table = hash_bytes(std::as_bytes(std::span(color_table->labels())));
+  }
   result.suite = plan.suite;
   result.program_version = program_info().version;
   result.commit = program_info().commit;
-  result.configuration = {{"tracker", to_json(plan.tracker)}};
+  if (plan.score.is_null())
+    result.configuration = {{"tracker", to_json(plan.tracker)}};
+  else
+    result.configuration = {{"score", plan.score}};
   if (plan.quick) result.configuration["quick"] = true;
   if (const auto cameras = to_json(workbench.calibration()); cameras != to_json(synthetic_calibration()))
     result.configuration["calibration"] = cameras;

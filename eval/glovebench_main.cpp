@@ -22,6 +22,7 @@ void add_commands(const glovebench::eval::Command& program) {
   add_record(program);
   add_render(program);
   add_track(program);
+  add_score(program);
   add_robot_server(program);
   add_explain(program);
   add_db(program);

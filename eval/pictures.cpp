@@ -255,11 +255,15 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const report
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates) {
   reports::PageMaterial material{page_scripts(), make_sheets(workbench, plan, result, estimates), {}};
+  material.warnings = unit_warnings(plan);
+  if (!plan.score.is_null()) {
+    for (const auto& warning : plan.score.at("warnings")) material.warnings.push_back(warning.get<std::string>());
+    return material;
+  }
   material.from_files = inputs_from_files(plan);
   // Only the paper's method can show its stages.
   if (plan.tracker.method == kPaperMethod)
     material.worst_frames = picture_worst_frames(workbench, plan, result, material.from_files);
-  material.warnings = unit_warnings(plan);
   for (const std::string& warning : lost_hand_warnings(plan, result, ".")) material.warnings.push_back(warning);
   return material;
 }

@@ -103,6 +103,17 @@ bool share_noise(const RunSpec& a, const RunSpec& b) {
   return a.noise == b.noise && a.seed == b.seed;
 }
 
+/// Of the frame that the device showed last.
+double visible_percent_of(const render::SyntheticKinect& kinect, const render::Subject& subject,
+                          const HandFrame& truth) {
+  return reports::visible_percent(kinect.true_hand(), subject.triangles(), truth.T_camera_hand,
+                                  kinect.calibration());
+}
+
+Sight sight_of(const render::RgbdImages& images, double visible_percent, const TrackerConfig& config) {
+  return {reports::count_patches(images.patch), is_trackable(images, config), visible_percent};
+}
+
 /// A run in progress, frame by frame.
 class Tracking {
  public:
@@ -124,8 +135,7 @@ class Tracking {
     timer_.begin_frame();
     run_.answers.push_back(method_->track(frame, run_.answers, [&](Stage stage) { timer_.begin(stage); }));
     timer_.end_frame();
-    run_.seen.push_back(
-        {reports::count_patches(images.patch), is_trackable(images, run_.spec.tracker), visible_percent});
+    run_.seen.push_back(sight_of(images, visible_percent, run_.spec.tracker));
   }
   Run take() {
     run_.stages = timer_.take_stages();
@@ -155,8 +165,7 @@ std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> s
   for (const HandFrame& truth : frames_of(first)) {
     std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
-    const double visible_percent = reports::visible_percent(kinect.true_hand(), subject.triangles(),
-                                                            truth.T_camera_hand, kinect.calibration());
+    const double visible_percent = visible_percent_of(kinect, subject, truth);
     const RunSpec* shown = &first;
     for (Tracking& tracking : trackings) {
       if (!share_noise(*shown, tracking.spec())) {
@@ -275,6 +284,17 @@ std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, c
                       runs.begin() + static_cast<std::ptrdiff_t>(begins[g]));
   });
   return runs;
+}
+
+std::vector<Sight> see(Workbench& workbench, const RunSpec& spec) {
+  const render::Subject subject = workbench.subject(spec.subject);
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);
+  std::vector<Sight> seen;
+  for (const HandFrame& truth : frames_of(spec)) {
+    check(kinect.next_frame().has_value(), "the device plays every frame of the trajectory");
+    seen.push_back(sight_of(kinect.truth(), visible_percent_of(kinect, subject, truth), spec.tracker));
+  }
+  return seen;
 }
 
 std::string run_key(Workbench& workbench, const RunSpec& spec) {

@@ -111,6 +111,7 @@ void add_run(Command program);
 void add_record(Command program);
 void add_render(Command program);
 void add_track(Command program);
+void add_score(Command program);
 void add_robot_server(Command program);
 void add_explain(Command program);
 void add_db(Command program);
