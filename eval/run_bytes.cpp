@@ -44,7 +44,7 @@ json row_of(const EstimateParts& has) {
 
 std::optional<Eigen::Vector3d> joint_of(const json& row) {
   if (row.is_null()) return std::nullopt;
-  return Eigen::Vector3d(row.at(0), row.at(1), row.at(2));
+  return Eigen::Vector3d(row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>());
 }
 
 json row_of(const TrackResult& r) {
@@ -95,7 +95,7 @@ TrackResult result_of(const json& row) {
   r.icp_residual = row.at(13);
   if (const json& certainty = row.at(14); !certainty.is_null())
     r.certainty = {posture_of(certainty.at(0)), certainty.at(1).get<uint32_t>()};
-  r.reason = row.at(15);
+  r.reason = row.at(15).get<std::string>();
   const json& has = row.at(16);
   r.has = {has.at(0), has.at(1), has.at(2), has.at(3), has.at(4)};
   for (const json& joint : row.at(17)) r.joints.push_back(joint_of(joint));

@@ -135,7 +135,7 @@ std::unique_ptr<Method> make_process_method(const MethodInputs& inputs, const Pr
 
 std::string program_hash(const std::string& method) {
   const std::vector<std::string> words = words_of(method.substr(kProgramPrefix.size()));
-  nlohmann::json content = {method};
+  nlohmann::json content = nlohmann::json::array({method});
   for (const std::string& word : words) {
     if (is_file(word)) content.push_back({word, hash_file(word)});
     const std::string program = word.find('/') == std::string::npos ? found_in_path(word) : "";
