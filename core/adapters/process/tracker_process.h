@@ -39,7 +39,8 @@ struct ProgramEnded : Error {
 inline constexpr size_t kLongestAnswer = size_t{64} << 10;  ///< bytes of a line
 
 /// A program that reads frames from stdin and answers on stdout in lines. /bin/sh -c runs the command. A guard, a
-/// process between the two, ends the program and all that it started when this object or glovebench ends. SIGPIPE must be ignored.
+/// process between the two, ends the program and all that it started when this object or glovebench ends. SIGPIPE
+/// must be ignored.
 class TrackerProcess {
  public:
   using Clock = std::chrono::steady_clock;
