@@ -16,7 +16,7 @@ std::vector<double> numbers_of(const reports::Estimate& estimate) {
 std::vector<EstimateSequence> read_run(std::string_view bytes, const EstimateFlags&, const std::string& where) {
   std::vector<EstimateSequence> sequences;
   for (const reports::Estimate& estimate : reports::parse_estimates(std::string(bytes), where)) {
-    if (sequences.empty() || sequences.back().seed != estimate.seed) sequences.push_back({.seed = estimate.seed});
+    if (sequences.empty() || sequences.back().seed != estimate.seed) sequences.emplace_back().seed = estimate.seed;
     sequences.back().add(estimate.timestamp_us, estimate.status, numbers_of(estimate), where,
                          "frame " + std::to_string(estimate.frame));
   }
