@@ -276,6 +276,7 @@ TEST_F(CommandsLong, SettingsAreComparedInATable) {
   EXPECT_THAT(again.out, StartsWith(table({"-q"}).out + "\n"));
   EXPECT_THAT(table({"--metrics", "joint_error_mm"}).err, HasSubstr("--metrics"));
   EXPECT_THAT(table({"--metrics", "posture"}).err, HasSubstr("did you mean posture_rms_deg?"));
+  EXPECT_THAT(table({"--metrics", "posture_rms_deg,posture_rms_deg"}).err, HasSubstr("found one of them twice"));
 
   EXPECT_THAT(refusal(run({"--cascade", "8:9", "--cascade", "8:8", "--method", "a", "--method", "b"})),
               HasSubstr("--cascade: values: found several, as of --method, expected one"));

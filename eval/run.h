@@ -59,7 +59,7 @@ std::span<const HandFrame> frames_of(const RunSpec& spec);
 /// The seed does not change it.
 reports::ExperimentKey key_of(const RunSpec& spec);
 render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec);
-/// Whether hand, frames, light and scene are the same.
+/// True if hand, frames, light and scene are the same.
 bool share_images(const RunSpec& a, const RunSpec& b);
 
 struct RunOptions {

@@ -12,7 +12,7 @@ namespace glovebench::eval {
 /// The entry that a look-up should find.
 struct TrueNeighbor {
   int entry = 0;
-  double distance = 0;  ///< mean of the vertices', m
+  double distance = 0;  ///< mean over equal vertices, m
 };
 
 /// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. A look-up

@@ -30,7 +30,7 @@ struct WorkbenchConfig {
 /// Throws: Error as the method.
 std::unique_ptr<Method> make_method(const MethodInputs& inputs);
 
-/// Shared by experiments. Makes or loads things on first use. Thread-safe.
+/// Models, databases and color tables that experiments share, each made or loaded on first use. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);
@@ -50,7 +50,7 @@ class Workbench {
   /// Opens a file once.
   /// Throws: Error for another hand, other views or a taken name.
   std::string add_database(const std::string& name_or_file);
-  /// Whether `database(name)` builds nothing.
+  /// True if `database(name)` builds nothing.
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);

@@ -28,7 +28,7 @@ bool is_name(const std::string& name, bool is_measure = false) {
   });
 }
 
-/// Whether a table's file would be another report's.
+/// True if a table's file would be another report's.
 bool is_taken(const std::string& name) {
   return name == "figure4" || name == "errors" || name == "figure5" || name == "figure6" || name == "claims" ||
          name == "commands" || name.starts_with("frames_");

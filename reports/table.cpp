@@ -58,7 +58,7 @@ std::string html_heading(const Column& column, const std::string& link) {
   return link.empty() ? text : fmt::format("<a href=\"{}\">{}</a>", escape_html(link), text);
 }
 
-/// Whether names of a column, which is not the first, are too long for a line.
+/// True if names of a column, which is not the first, are too long for a line.
 bool has_long_names(const Table& table, size_t column) {
   constexpr size_t kLong = 60;  // bytes
   return column > 0 && is_name_column(table, column) && std::ranges::any_of(table.rows, [&](const Row& row) {

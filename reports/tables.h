@@ -23,7 +23,7 @@ const std::array<Variant, 3>& figure4_variants();
 
 /// Databases for Tr1 to Tr5: the one for its grasp first, the largest last. Empty names for other trajectories.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
-/// Whether there are experiments, and all are Figure 4's (with any noise).
+/// True if there are experiments and all are Figure 4's (with any noise).
 bool is_figure4(const RunResult& result);
 
 /// Pointers are null where not run.

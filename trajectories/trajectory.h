@@ -10,7 +10,7 @@
 
 namespace glovebench::trajectories {
 
-/// `source`: a true movement. `recorded`: a tracker's output on a source.
+/// `source`: a movement as it was made. `recorded`: a tracker's output on a source.
 /// Paper: section IV.
 enum class TrajectoryKind { source, recorded };
 constexpr auto names_of(TrajectoryKind) {

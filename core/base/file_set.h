@@ -49,7 +49,7 @@ class FileSet {
 
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// Whether the manifest names the file or, without a manifest, the file exists.
+  /// True if the manifest names the file or, without a manifest, the file exists.
   bool has(const std::string& name) const;
   /// Throws: BrokenSet if it differs from the manifest, Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;

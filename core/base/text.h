@@ -28,7 +28,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 /// "one of horn, robust", with `did_you_mean`.
 std::string one_of(const std::vector<std::string>& names, std::string_view found);
 
-/// Whether the text is a safe part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces; begins with a
+/// True if the text is a safe part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces; begins with a
 /// letter or digit.
 bool is_name(std::string_view text);
 inline constexpr const char* kNameExpected =

@@ -21,7 +21,7 @@ class FrameError : public Error {
   using Error::Error;
 };
 
-/// A source of frames.
+/// A source of frames. Their depth and color are paired by time.
 class Device {
  public:
   virtual ~Device() = default;

@@ -17,7 +17,7 @@ inline constexpr int64_t kTicksPerMicrosecond = 60;
 class TickClock {
  public:
   TickClock() = default;
-  /// `first_us`: time of the first stamp, to half a wrap. Magnitude below 1.5e17.
+  /// `first_us`: time of the first stamp, wrong by less than half a wrap. Magnitude below 1.5e17.
   explicit TickClock(int64_t first_us) : first_us_(first_us) {}
 
   int64_t microseconds(uint32_t ticks) {

@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Of the right hand.
+/// Fingertips of the right hand, hand frame, m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
 /// Maps a pinch to a pinch (core/robot/README.md). Far from a pinch, equals the direct mapping. Starts at the last

@@ -12,8 +12,8 @@ struct ColorModel {
   double kept_share = 0.995;              ///< of a color's pixels; rarer shades get no label; (0, 1]
   double min_posterior = 0.7;             ///< of the label in its cell, [0, 1)
   int min_luma = 28;                      ///< darker cells get no label, 0..255
-  std::array<int, 3> pooled = {1, 1,
-                               1};  ///< cells of each channel that share a label, for coarser tables; 1, 2, 4...
+  /// For a coarser table: this many cells of each channel share a label; 1, 2, 4...
+  std::array<int, 3> pooled = {1, 1, 1};
 };
 
 /// Builds a color table from labeled views under several lightings.

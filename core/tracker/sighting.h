@@ -10,7 +10,7 @@
 
 namespace glovebench {
 
-/// Whether the glove touches the image border over too long a stretch.
+/// True if the glove touches the image border over too long a stretch.
 bool is_cut_by_border(const LabelImage& labels, size_t glove_pixels, const DetectionConfig& config);
 
 /// `tracked` if the cloud is one whole hand.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 #include <thread>
 
 #include "core/adapters/kdl/make_arm_solver.h"
@@ -224,6 +225,11 @@ std::string identity(const std::string& path) {
 }
 
 }  // namespace
+
+void refuse_twice(const std::string& flag, const std::vector<std::string>& names) {
+  if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
+    throw Error(flag, "names", "one of them twice", "each once");
+}
 
 void require_different_files(const std::vector<FileFlag>& files) {
   std::map<std::string, std::string> flags;  // by identity

@@ -84,6 +84,7 @@ struct ComparisonFlags {
   double confidence = 0.99;
 
   void add(Command command, const std::string& default_metrics);
+  /// Throws: Error for a metric that is named twice.
   reports::CompareConfig config() const;
 };
 
@@ -110,6 +111,9 @@ struct FileFlag {
   std::string path;         ///< empty: none
   std::string ending = {};  ///< required; empty: any
 };
+/// Throws: Error if a list names something twice.
+void refuse_twice(const std::string& flag, const std::vector<std::string>& names);
+
 /// Checks files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's partial file (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);

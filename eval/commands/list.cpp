@@ -101,7 +101,7 @@ void list_mapping(ShadowCoupling coupling) {
              reports::to_terminal(table, terminal_columns()));
 }
 
-/// Whether `word` stands in the text, in any case, with no letter or digit beside it.
+/// True if `word` stands in the text, in any case, with no letter or digit beside it.
 bool has_word(std::string text, std::string word) {
   const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
   std::ranges::transform(text, text.begin(), lower);

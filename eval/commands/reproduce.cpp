@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <set>
 
 #include "core/base/error.h"
 #include "eval/commands/flags.h"
@@ -61,11 +60,6 @@ struct Reproduce {
       fmt::print("{}: {}/summary.md\n", study.title, common.output);
     fmt::print("{:.0f} s, {} threads. Report: {}/index.html\n", outcome.timings.wall_s, outcome.timings.threads,
                common.output);
-  }
-
-  static void refuse_twice(const std::string& flag, const std::vector<std::string>& names) {
-    if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
-      throw Error(flag, "names", "one of them twice", "each once");
   }
 
   /// Shows Figure 4 first, then the newest study. If stdout has no reader, the work goes on and the summary fails.

@@ -128,6 +128,7 @@ void ComparisonFlags::add(Command command, const std::string& which_metrics) {
 }
 
 reports::CompareConfig ComparisonFlags::config() const {
+  refuse_twice("--metrics", metrics);
   constexpr double kSteps = 1e6;  // so that 1 - 0.99 is 0.01
   reports::CompareConfig config;
   config.family_error = std::round((1 - confidence) * kSteps) / kSteps;

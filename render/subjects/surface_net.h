@@ -15,7 +15,7 @@ struct SurfaceNet {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-/// Whether each edge has two triangles.
+/// True if each edge has two triangles.
 bool is_closed(std::span<const std::array<uint32_t, 3>> triangles);
 
 /// The field's zero surface (negative inside) as closed naive surface nets. `cell`: grid step, m; 5% finer while

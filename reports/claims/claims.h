@@ -24,7 +24,7 @@ constexpr auto names_of(Rule::Kind) {
   return std::to_array<std::string_view>({"below", "at_most", "above", "at_least", "within"});
 }
 bool holds(const Rule& rule, double value);
-/// Whether any value from low to high satisfies the rule.
+/// True if any value from low to high satisfies the rule.
 bool meets(const Rule& rule, double low, double high);
 /// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);

@@ -20,7 +20,7 @@ std::vector<OutcomeCount> outcome_counts(const Comparison& comparison);
 /// stages.
 std::string outcome_line(const ComparisonReport& report);
 
-/// Whether the row is changed, not judged, or stopping.
+/// True if the row is changed, not judged, or stopping.
 bool is_worth_reading(const ComparisonRow& row);
 
 std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison& comparison);

@@ -19,12 +19,12 @@ double least_effect(const Metric& metric, int frames);
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 
-/// Whether the row has enough blocks for an interval.
+/// True if the row has enough blocks for an interval.
 bool has_interval(const ComparisonRow& row);
 Verdict verdict_of(const ComparisonRow& row);
-/// Whether the row is `worse` or rose by its sure effect.
+/// True if the row is `worse` or rose by its sure effect.
 bool stops(const ComparisonRow& row);
-/// Whether the row stops the change without being `worse`.
+/// True if the row stops the change without being `worse`.
 bool is_worse_in_places(const ComparisonRow& row);
 /// The least that must be added to every candidate frame for the row to stop the change. It must have a difference.
 double missing_to_stop(const ComparisonRow& row);

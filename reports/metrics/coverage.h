@@ -26,7 +26,7 @@ std::map<std::string, double> coverage_rules();
 
 /// False for frames of older results.
 bool is_visible(const FrameRecord& frame);
-/// Whether the frame is tracked within the usable errors. Empty if the estimate lacks pose or fingertips. Ignores
+/// True if the frame is tracked within the usable errors. Empty if the estimate lacks pose or fingertips. Ignores
 /// other errors that the result lacks.
 std::optional<bool> is_usable(const FrameRecord& frame);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kOwnShare = 0.5;  ///< of the distance that counts for a marker's own point
 
-/// Whether every point lies near its marker, and no marker without one could be among the unlabeled.
+/// True if every point lies near its marker and no unlabeled point could be a marker that has none.
 bool is_plausible(const std::vector<Eigen::Vector3d>& predicted, const std::vector<Eigen::Vector3d>& labeled,
                   bool some_unlabeled) {
   for (size_t m = 0; m < labeled.size(); ++m) {

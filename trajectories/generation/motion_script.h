@@ -56,7 +56,7 @@ double minimum_jerk(double time);
 WristAngles mix(const WristAngles& a, const WristAngles& b, double share);
 Posture mix(const Posture& a, const Posture& b, double share);
 HandPose mix(const HandPose& a, const HandPose& b, double share);
-/// `keys`: in the order of frames. The last one lasts.
+/// `keys`: in the order of frames. After the last one its value stays.
 template <typename Value>
 Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
   size_t next = 1;

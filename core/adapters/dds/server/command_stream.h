@@ -32,12 +32,12 @@ class CommandStream {
   /// `topics`: number of topics.
   CommandStream(const CommandLimits& limits, int topics);
 
-  /// Whether another sender owns the topics. Counts the message if so.
+  /// True if another sender owns the topics. The message is then counted.
   bool ignores(uint64_t sender, int64_t now_us);
   /// Judges and counts a message. `found`: outcome of the content checks.
   Receipt receive(const Arrival& arrival, int topic, const ros::Time& stamp, Receipt found);
   void tick(const ServerTime& now);
-  /// Whether the last accepted message of a topic (or of any) is valid: at most `silence_s` old, without a gap or a
+  /// True if the last accepted message of a topic (or of any) is valid: at most `silence_s` old, without a gap or a
   /// new owner since.
   bool is_current(int topic, int64_t now_us) const;
   bool is_current(int64_t now_us) const;

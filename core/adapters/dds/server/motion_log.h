@@ -37,7 +37,7 @@ class MotionLog {
   /// Records that the joints stay in place.
   void finish(const RobotState& its, int64_t time_us);
 
-  /// Whether the joints may move freely for `seconds`.
+  /// True if the joints may move freely for `seconds`.
   bool may_move(const std::vector<double>& positions, double seconds);
   int64_t lost() const { return writer_ ? writer_->progress().lost : 0; }
   std::string failure() const { return writer_ ? writer_->progress().failure : ""; }

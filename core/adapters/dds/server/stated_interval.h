@@ -18,7 +18,7 @@ struct JointInterval {
   bool operator==(const JointInterval&) const = default;
 };
 
-/// Whether each joint can cross its interval in `seconds`, up to 1e-5 degrees.
+/// True if each joint can cross its interval in `seconds`, up to 1e-5 degrees.
 bool is_one_step(const JointInterval& interval, const std::vector<JointMotion>& joints, double seconds);
 
 /// Decides which intervals a log states in advance. Joints stay inside each interval that may be the log's last
@@ -34,7 +34,7 @@ class StatedInterval {
   void stated(JointInterval interval, uint64_t line, int64_t now_us);
   /// As in LogWriter::Progress.
   void update(uint64_t done, uint64_t durable, uint64_t failed);
-  /// Whether the joints may move freely for `seconds`.
+  /// True if the joints may move freely for `seconds`.
   bool allows(const std::vector<double>& positions, double seconds) const;
 
  private:
