@@ -320,14 +320,13 @@ TEST_F(ScoreLong, OfARunsEstimatesEqualsTheRun) {
   }());
 }
 
-TEST_F(ScoreLong, ScoresAreComparedAndGated) {
+TEST_F(ScoreLong, AreComparedAndNotExplained) {
   const auto truth = trajectories::parse_trajectory(read_file(path("good.json")), "good.json");
   write_file(path("a.csv"), run_text(truth.frames));
   for (const char* output : {"one", "two"})
     expect_fine(run_glovebench({"score", "--truth", path("good.json"), "--estimates", path("a.csv"), "--name",
                                 "theirs", "-o", path(output), "-q"}));
   EXPECT_EQ(run_glovebench({"compare", path("one"), path("two")}).exit_code, 0);
-  EXPECT_EQ(run_glovebench({"gate", path("one"), path("two")}).exit_code, 0);
   EXPECT_THAT(refusal(run_glovebench({"explain", path("one"), "0", "--trajectory", path("good.json")})),
               HasSubstr("a run of a tracker"));
 }

@@ -214,12 +214,12 @@ std::vector<Doubt> angle_unit_doubts(const PointComparison& comparison, std::spa
 
 /// The first of the likely ones that fit about as well as the best, since the simplest come first.
 std::optional<std::string> best_of(const std::vector<Doubt>& doubts, const char* unit) {
-  constexpr double kAboutAsWell = 0.05;  // of the distance before
   const auto ratio = [](const Doubt& doubt) { return doubt.is_likely() ? doubt.after / doubt.before : 1; };
   double best = 1;
   for (const Doubt& doubt : doubts) best = std::min(best, ratio(doubt));
   for (const Doubt& doubt : doubts) {
-    if (!doubt.is_likely() || ratio(doubt) > best + kAboutAsWell) continue;
+    const bool is_about_best = ratio(doubt) <= 1.2 * best + 0.002;
+    if (!doubt.is_likely() || !is_about_best) continue;
     return fmt::format("perhaps {}: the mean error would be {:.1f} {}, not {:.1f} {}", doubt.what, doubt.after,
                        unit, doubt.before, unit);
   }
