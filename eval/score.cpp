@@ -75,7 +75,7 @@ void add_run(const Scoring& scoring, const EstimateSequence& sequence, const std
   if (const auto doubt =
           estimate_doubt(scoring.comparison, truth, scoring.true_points, match.answers, sequence.order);
       doubt && score.plan.score["warnings"].empty())
-    score.plan.score["warnings"].push_back(fmt::format("{}: {}", request.estimates, *doubt));
+    score.plan.score["warnings"].push_back(*doubt);
   RunSpec spec = request.spec;
   spec.seed = sequence.seed;
   score.plan.specs.push_back(spec);

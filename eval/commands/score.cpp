@@ -39,7 +39,7 @@ struct ScoreCommand {
     common.check_report_folder();
     const Score scored = score(workbench, request);
     for (const auto& warning : scored.plan.score.at("warnings"))
-      say("glovebench: warning: {}\n", warning.get<std::string>());
+      say("glovebench: warning: {}: {}\n", request.estimates, warning.get<std::string>());
     const std::vector<MeasuredRun> runs = measure(workbench, scored.runs);
     const Outcome outcome = report_runs(workbench, scored.plan, runs, {workbench.config().threads, start, false},
                                         robot.output_of(workbench), common.output);
