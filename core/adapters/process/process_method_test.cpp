@@ -133,8 +133,9 @@ TEST_F(ProcessMethodTest, OnlyCalibrationHandAndFramesAreSent) {
       ->track(small_frame());
   const auto read_json = [&](const std::string& name) { return nlohmann::json::parse(read_file(folder_ + name)); };
   std::vector<std::string> keys;
-  for (const auto& [key, value] : read_json("/start").items()) keys.push_back(key);
-  for (const auto& [key, value] : read_json("/header").items()) keys.push_back(key);
+  const nlohmann::json start = read_json("/start"), header = read_json("/header");
+  for (const auto& [key, value] : start.items()) keys.push_back(key);
+  for (const auto& [key, value] : header.items()) keys.push_back(key);
   EXPECT_THAT(keys, ElementsAre("angles", "calibration", "depth_unit_mm", "hand", "protocol", "version",
                                 "color_timestamp_us", "depth_bytes", "depth_timestamp_us", "frame", "rgb_bytes"));
   const std::string images = read_file(folder_ + "/images");
