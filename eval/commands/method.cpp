@@ -97,8 +97,9 @@ struct MethodTest {
   std::vector<TrackResult> try_on(Workbench& workbench, const Trajectory& truth) const {
     const std::unique_ptr<Method> method =
         make_method({common.tracker_config(), workbench.calibration(), workbench.model(), nullptr, nullptr});
-    render::SyntheticKinect kinect =
-        make_kinect(workbench, {.trajectory = std::make_shared<const Trajectory>(truth)});
+    RunSpec spec;
+    spec.trajectory = std::make_shared<const Trajectory>(truth);
+    render::SyntheticKinect kinect = make_kinect(workbench, spec);
     std::vector<TrackResult> results;
     fmt::print("frame  status                time  answer\n");
     for (size_t f = 0; f < truth.frames.size(); ++f) {
