@@ -92,7 +92,7 @@ TEST_F(ProgramsLong, OurTrackerAsAProgramEqualsItself) {
         EXPECT_NEAR(found->second, value, 1e-4) << "frame " << f << " " << key;
     }
   }
-  EXPECT_THAT(missing, ElementsAre("icp_residual_mm", "posture_rms_unfiltered_deg"));
+  EXPECT_THAT(missing, ElementsAre("icp_residual_mm", "matching_error_px", "posture_rms_unfiltered_deg"));
 }
 
 TEST_F(ProgramsLong, MethodTestSaysWhatIsWrong) {
@@ -113,7 +113,8 @@ TEST_F(ProgramsLong, MethodTestSaysWhatIsWrong) {
   };
   expect_fault(changed("700", "0.7"), "look like meters");
   expect_fault(changed("[5] * 22", "[0.5] * 22"), "look like radians");
-  expect_fault(changed("[5] * 22", "[160] * 22"), "index_mcp_flexion");
+  expect_fault(changed("[5] * 22", "[160] * 22"), "wrist_flexion: found 160.0 to 160.0 degrees");
+  expect_fault(R"({"frame": frame["frame"], "joints_mm": [None] * 25})", "joints_mm: found only null");
   expect_fault(changed("[5] * 22", "[5] * 21"), "angles_deg: found");
   expect_fault(changed("[1, 0, 0, 0]", "[1, 1, 0, 0]"), "quaternion");
   expect_fault(changed("frame[\"frame\"]", "0"), "an answer to another frame");

@@ -50,8 +50,14 @@ double error_at_root_mm(const PointPairs& pairs, const Vector3d& root, const Vec
   return mean_distance_mm((scale * (pairs.estimated.colwise() - root)).colwise() + true_root, pairs.truth);
 }
 
-/// After the similarity transform with the least squared distances (Umeyama 1991); it does not mirror.
+constexpr double kNoLength = 1e-9;  ///< m
+
+/// After the similarity transform with the least squared distances (Umeyama 1991); it does not mirror. Points that
+/// are all one come to the middle of the true ones.
 double error_after_procrustes_mm(const PointPairs& pairs) {
+  const Vector3d middle = pairs.estimated.rowwise().mean(), true_middle = pairs.truth.rowwise().mean();
+  if ((pairs.estimated.colwise() - middle).norm() < kNoLength)
+    return 1000 * (pairs.truth.colwise() - true_middle).colwise().norm().mean();
   const Eigen::Matrix4d T = Eigen::umeyama(pairs.estimated, pairs.truth, true);
   return mean_distance_mm((T.topLeftCorner<3, 3>() * pairs.estimated).colwise() + T.col(3).head<3>(), pairs.truth);
 }
@@ -66,7 +72,8 @@ std::optional<double> mpjpe_scaled_mm(const MeasuredFrame& frame) {
   const auto &wrist = frame.joints[kWristJoint], &knuckle = frame.joints[kMiddleMcpJoint];
   if (!wrist || !knuckle) return {};
   const Vector3d& true_wrist = frame.true_joints[kWristJoint];
-  const double scale = (frame.true_joints[kMiddleMcpJoint] - true_wrist).norm() / (*knuckle - *wrist).norm();
+  const double length = (*knuckle - *wrist).norm();
+  const double scale = length < kNoLength ? 1 : (frame.true_joints[kMiddleMcpJoint] - true_wrist).norm() / length;
   return error_at_root_mm(joint_pairs(frame), *wrist, true_wrist, scale);
 }
 

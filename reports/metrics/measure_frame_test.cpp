@@ -256,7 +256,7 @@ TEST(MeasureFrame, APoseAloneIsNeitherUsableNorUnusable) {
   const FrameRecord record = measure(estimate);
   EXPECT_THAT(measured_metrics(record), testing::UnorderedElementsAre("position_error_mm", "rotation_error_deg"));
   EXPECT_TRUE(record.covered);
-  EXPECT_FALSE(is_usable(record));
+  EXPECT_EQ(is_usable(record), std::nullopt);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
+#include "core/hand/skeleton.h"
 #include "core/tracker/smoothing.h"
 
 namespace glovebench {
@@ -20,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMiddleMcpJoint = 11;
 constexpr int kNotExecutable = 126, kNotFound = 127;  // a shell's exit codes
 
 class ProcessMethod : public Method {
@@ -42,6 +45,7 @@ class ProcessMethod : public Method {
     try {
       const std::string answer = exchange(frame);
       result = parse_answer(answer, number_);
+      if (result.status == TrackStatus::tracked) refuse_other_parts(result);
     } catch (const ProgramEnded& e) {
       refuse_if_unknown(e.exit_code);
       lose(result, previous, e);
@@ -55,6 +59,15 @@ class ProcessMethod : public Method {
   }
 
  private:
+  /// Means over frames need the same metrics in each.
+  void refuse_other_parts(const TrackResult& result) {
+    const auto has = [&](int joint) { return !result.joints.empty() && result.joints[joint].has_value(); };
+    const std::array<bool, 5> parts = {result.has.posture, result.has.pose, !result.joints.empty(),
+                                       has(kWristJoint), has(kMiddleMcpJoint)};
+    if (!parts_) parts_ = parts;
+    if (parts != *parts_) throw Error("an answer with other parts than the first");
+  }
+
   /// The next frame starts the program again.
   void lose(TrackResult& result, std::span<const TrackResult> previous, const Error& why) {
     if (program_) program_->kill();
@@ -98,7 +111,8 @@ class ProcessMethod : public Method {
   OptionalLine disparity_;
   ProcessLimits limits_;
   int starts_left_;
-  int number_ = 0;  ///< of the next frame
+  int number_ = 0;                            ///< of the next frame
+  std::optional<std::array<bool, 5>> parts_;  ///< of the first answer
   std::optional<TrackerProcess> program_;
 };
 

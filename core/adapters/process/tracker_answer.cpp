@@ -56,6 +56,8 @@ RecycledVector<std::optional<Eigen::Vector3d>> joints_from(const JsonCursor& joi
   for (const JsonCursor& joint : joints_mm.items(kForearmJoint))
     joints.push_back(joint.is_null() ? std::nullopt
                                      : std::optional<Eigen::Vector3d>(joint.vector3(kMost_mm) / 1000));
+  if (std::ranges::none_of(joints, [](const auto& joint) { return joint.has_value(); }))
+    joints_mm.fail("only null", "a joint at least");
   return joints;
 }
 
