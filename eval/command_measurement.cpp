@@ -171,6 +171,7 @@ void add_commands(reports::RunResult& result, reports::Timings& timings, std::sp
   std::optional<WholeFiles> files;
   if (!robot.folder.empty()) files.emplace(robot.folder);
   for (size_t e = 0; e < experiments.size(); ++e) {
+    if (!has_hands(experiments[e])) continue;
     CommandMeasurement measurement;
     for (const MeasuredRun* each : experiments[e].runs) {
       const Run& run = each->run;

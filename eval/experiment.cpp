@@ -3,6 +3,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <numeric>
+#include <set>
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
@@ -10,6 +12,8 @@
 #include "eval/measured_run.h"
 #include "eval/pictures.h"
 #include "eval/program.h"
+#include "eval/run_warnings.h"
+#include "eval/terminal.h"
 #include "reports/report.h"
 
 namespace glovebench::eval {
@@ -37,25 +41,38 @@ reports::SequenceMetrics measure_sequences(const Experiment& experiment) {
   return {mean_present(position), mean_present(rotation), mean_present(latency)};
 }
 
-reports::ExperimentResult evaluate(const Experiment& experiment) {
-  std::vector<reports::SeedRun> runs;
-  std::vector<double> joints, fingertips;
-  size_t frames = 0;
+/// Of joints that no tracked frame has, nothing is known; they do not count.
+reports::PckCurve pck_of(const Experiment& experiment, std::span<const int> joints) {
+  std::vector<double> errors_mm;
+  std::set<int> given;
+  size_t frames = 0, tracked = 0;
   for (const MeasuredRun* each : experiment.runs) {
-    reports::SeedRun run{each->run.spec.seed, {}};
     for (const reports::FrameErrors& errors : each->errors) {
-      run.frames.push_back(errors.record);
       ++frames;
       if (errors.joint_errors_mm.empty()) continue;
-      joints.insert(joints.end(), errors.joint_errors_mm.begin(), errors.joint_errors_mm.end());
-      for (const int tip : fingertip_joints()) fingertips.push_back(errors.joint_errors_mm[tip]);
+      ++tracked;
+      for (const int joint : joints) {
+        const std::optional<double>& error = errors.joint_errors_mm[joint];
+        if (!error) continue;
+        errors_mm.push_back(*error);
+        given.insert(joint);
+      }
     }
-    runs.push_back(std::move(run));
   }
-  reports::ExperimentResult result =
-      reports::summarize(experiment.key, std::move(runs), reports::pck_curve(joints, frames * kForearmJoint),
-                         measure_sequences(experiment));
-  result.fingertip_pck = reports::pck_curve(fingertips, frames * fingertip_joints().size());
+  return reports::pck_curve(errors_mm, frames * (tracked > 0 ? given.size() : joints.size()));
+}
+
+reports::ExperimentResult evaluate(const Experiment& experiment) {
+  std::vector<reports::SeedRun> runs;
+  for (const MeasuredRun* each : experiment.runs) {
+    reports::SeedRun& run = runs.emplace_back(each->run.spec.seed);
+    for (const reports::FrameErrors& errors : each->errors) run.frames.push_back(errors.record);
+  }
+  std::array<int, kForearmJoint> joints;
+  std::iota(joints.begin(), joints.end(), 0);
+  reports::ExperimentResult result = reports::summarize(experiment.key, std::move(runs), pck_of(experiment, joints),
+                                                        measure_sequences(experiment));
+  result.fingertip_pck = pck_of(experiment, fingertip_joints());
   return result;
 }
 
@@ -101,6 +118,12 @@ void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_p
 
 }  // namespace
 
+bool has_hands(const Experiment& experiment) {
+  return std::ranges::all_of(experiment.runs, [](const MeasuredRun* each) {
+    return std::ranges::all_of(each->run.answers, [](const TrackResult& answer) { return answer.has.hand(); });
+  });
+}
+
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs) {
   std::vector<Experiment> experiments;
   for (const MeasuredRun& each : runs) {
@@ -116,18 +139,25 @@ std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs) {
 
 reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> runs, Workbench& workbench) {
   reports::RunResult result;
-  result.protocol = reports::make_protocol("by time stamp, exact");
+  result.protocol = reports::make_protocol(plan.association);
   for (const RunSpec& spec : plan.specs) {
     result.inputs.truths[truth_name(key_of(spec))] = trajectories::hash(*spec.trajectory);
-    result.inputs.databases[spec.database] = workbench.database(spec.database)->content_hash();
+    // Other programs' estimates are what is compared, so their hash may differ.
+    result.inputs.databases[spec.database] =
+        plan.score.is_null() ? workbench.database(spec.database)->content_hash() : "estimates";
   }
   result.inputs.hand_model = workbench.model()->hash();
-  const auto color_table = workbench.color_table(plan.tracker.segmentation.color_space);
-  result.inputs.color_table = hash_bytes(std::as_bytes(std::span(color_table->labels())));
+  if (plan.score.is_null()) {
+    const auto color_table = workbench.color_table(plan.tracker.segmentation.color_space);
+    result.inputs.color_table = hash_bytes(std::as_bytes(std::span(color_table->labels())));
+  }
   result.suite = plan.suite;
   result.program_version = program_info().version;
   result.commit = program_info().commit;
-  result.configuration = {{"tracker", to_json(plan.tracker)}};
+  if (plan.score.is_null())
+    result.configuration = {{"tracker", to_json(plan.tracker)}};
+  else
+    result.configuration = {{"score", plan.score}};
   if (plan.quick) result.configuration["quick"] = true;
   if (const auto cameras = to_json(workbench.calibration()); cameras != to_json(synthetic_calibration()))
     result.configuration["calibration"] = cameras;
@@ -160,9 +190,14 @@ Outcome report_runs(Workbench& workbench, const Plan& plan, std::span<const Meas
   add_studies(outcome.result);
   note_resources(outcome.timings, timed.start);
   std::vector<reports::ExperimentEstimates> estimates;
-  for (const Experiment& experiment : experiments) estimates.push_back(estimates_of(experiment));
-  reports::write_report(folder, outcome.result, outcome.timings,
-                        page_material(workbench, plan, outcome.result, estimates), estimates);
+  for (const Experiment& experiment : experiments)
+    if (has_hands(experiment)) estimates.push_back(estimates_of(experiment));
+  reports::PageMaterial material = page_material(workbench, plan, outcome.result, estimates);
+  for (const std::string& warning : no_answer_warnings(no_answer_reasons(runs))) {
+    say("glovebench: warning: {}\n", warning);
+    material.warnings.push_back(warning);
+  }
+  reports::write_report(folder, outcome.result, outcome.timings, material, estimates);
   return outcome;
 }
 

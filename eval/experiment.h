@@ -20,6 +20,8 @@ struct Experiment {
 };
 /// In order of appearance. `runs` must outlive the result. A seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
+/// Whether each answer has posture and pose.
+bool has_hands(const Experiment& experiment);
 
 /// Results without robot commands and studies.
 reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> runs, Workbench& workbench);

@@ -28,9 +28,11 @@ using Share = std::optional<bool>;
 constexpr std::array<FamilyColumn, 9> kFamilyColumns = {{
     {"visible_percent", "visible %", [](const FrameRecord& frame) -> Share { return reports::is_visible(frame); }},
     {"found_percent", "found %",
-     [](const FrameRecord& frame) { return reports::is_visible(frame) ? Share(frame.covered) : Share(); }},
+     [](const FrameRecord& frame) {
+       return reports::is_visible(frame) && frame.is_judged ? Share(frame.covered) : Share();
+     }},
     {"usable_percent", "usable %",
-     [](const FrameRecord& frame) { return reports::is_visible(frame) ? Share(is_usable(frame)) : Share(); }},
+     [](const FrameRecord& frame) { return reports::is_visible(frame) ? is_usable(frame) : Share(); }},
     {"lost_percent", "lost %",
      [](const FrameRecord& frame) -> Share { return frame.status != TrackStatus::tracked; }},
     {"false_lost_percent", "wrongly lost %", [](const FrameRecord& frame) -> Share { return frame.false_lost; }},

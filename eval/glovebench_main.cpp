@@ -22,12 +22,14 @@ void add_commands(const glovebench::eval::Command& program) {
   add_record(program);
   add_render(program);
   add_track(program);
+  add_score(program);
   add_robot_server(program);
   add_explain(program);
   add_db(program);
   add_import(program);
   add_generate(program);
   add_list(program);
+  add_method(program);
   add_compare(program);
   add_table(program);
   add_gate(program);

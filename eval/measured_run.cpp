@@ -19,23 +19,28 @@ bool at_rest(const HandFrame& a, const HandFrame& b) {
          turn < kRestAngle && posture_distance(a.posture, b.posture) < kRestAngle;
 }
 
+bool has_posture(const TrackResult& r) {
+  return r.status == TrackStatus::tracked && r.has.posture;
+}
+
+bool has_pose(const TrackResult& r) {
+  return r.status == TrackStatus::tracked && r.has.pose;
+}
+
 /// Sum over tracked frames of the distance between estimated posture and the truth `delay` frames earlier.
 double delayed_distance(std::span<const TrackResult> estimates, std::span<const HandFrame> truth, int delay) {
   double sum = 0;
   for (size_t i = kMaxLatency; i < truth.size(); ++i) {
-    if (estimates[i].status != TrackStatus::tracked) continue;  // a lost frame repeats an older posture
+    if (!has_posture(estimates[i])) continue;  // a lost frame repeats an older posture
     sum += posture_distance(estimates[i].posture, truth[i - delay].posture);
   }
   return sum;
 }
 
-int tracked_count(std::span<const TrackResult> estimates) {
-  return static_cast<int>(std::count_if(estimates.begin(), estimates.end(),
-                                        [](const TrackResult& r) { return r.status == TrackStatus::tracked; }));
-}
-
 std::optional<double> latency_frames(std::span<const TrackResult> estimates, std::span<const HandFrame> truth) {
-  if (truth.size() < 3 * kMaxLatency || tracked_count(estimates.subspan(kMaxLatency)) < kMaxLatency) return {};
+  if (truth.size() < 3 * kMaxLatency ||
+      std::ranges::count_if(estimates.subspan(kMaxLatency), has_posture) < kMaxLatency)
+    return {};
   double moved = 0;
   for (const auto& frame : truth) moved = std::max(moved, posture_distance(frame.posture, truth[0].posture));
   if (moved < kMovingPosture) return {};
@@ -82,9 +87,7 @@ reports::SequenceMetrics measure_sequence(std::span<const TrackResult> estimates
   int steps = 0;
   for (size_t i = 1; i < truth.size(); ++i) {
     const TrackResult &a = estimates[i - 1], &b = estimates[i];
-    if (a.status != TrackStatus::tracked || b.status != TrackStatus::tracked || !at_rest(truth[i - 1], truth[i])) {
-      continue;
-    }
+    if (!has_pose(a) || !has_pose(b) || !at_rest(truth[i - 1], truth[i])) continue;
     const Eigen::Isometry3d error_a = a.T_camera_hand * truth[i - 1].T_camera_hand.inverse();
     const Eigen::Isometry3d error_b = b.T_camera_hand * truth[i].T_camera_hand.inverse();
     const Eigen::Vector3d move = (b.T_camera_hand.translation() - truth[i].T_camera_hand.translation()) -

@@ -107,7 +107,7 @@ ColorImage overlay(const HandModel& model, const TrackResult& result, const Eige
 std::vector<render::TextLine> errors_alone(const reports::FrameErrors& errors) {
   const reports::FrameRecord& record = errors.record;
   std::vector<std::string> tips;
-  for (const int tip : fingertip_joints()) tips.push_back(fmt::format("{:.0f}", errors.joint_errors_mm[tip]));
+  for (const int tip : fingertip_joints()) tips.push_back(reports::fixed(errors.joint_errors_mm[tip], 0));
   return {{"Errors of this frame alone, without the filter:"},
           {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
                        *record["rotation_error_deg"])},
@@ -255,11 +255,15 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const report
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates) {
   reports::PageMaterial material{page_scripts(), make_sheets(workbench, plan, result, estimates), {}};
+  material.warnings = unit_warnings(plan);
+  if (!plan.score.is_null()) {
+    for (const auto& warning : plan.score.at("warnings")) material.warnings.push_back(warning.get<std::string>());
+    return material;
+  }
   material.from_files = inputs_from_files(plan);
   // Only the paper's method can show its stages.
   if (plan.tracker.method == kPaperMethod)
     material.worst_frames = picture_worst_frames(workbench, plan, result, material.from_files);
-  material.warnings = unit_warnings(plan);
   for (const std::string& warning : lost_hand_warnings(plan, result, ".")) material.warnings.push_back(warning);
   return material;
 }

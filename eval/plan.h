@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,11 @@ namespace glovebench::eval {
 
 struct Plan {
   TrackerConfig tracker;
-  std::vector<RunSpec> specs;  ///< runs of the same frames are successive
-  std::string suite = {};      ///< empty: none
-  bool quick = false;          ///< few frames; no conclusions
+  std::vector<RunSpec> specs;                        ///< runs of the same frames are successive
+  std::string suite = {};                            ///< empty: none
+  bool quick = false;                                ///< few frames; no conclusions
+  std::string association = "by time stamp, exact";  ///< of estimates to truths
+  nlohmann::json score = {};  ///< configuration of `score`: other programs' estimates instead of a tracker
 };
 
 struct Figure4Options {

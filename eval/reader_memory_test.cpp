@@ -18,6 +18,7 @@
 #include "core/kinect/recording_files.h"
 #include "core/robot/command_limits.h"
 #include "core/tracker/tracker_config.h"
+#include "eval/estimates/estimate_format.h"
 #include "eval/suite.h"
 #include "reports/comparison/noise_floor.h"
 #include "reports/comparison/speed.h"
@@ -149,6 +150,20 @@ constexpr const char* kColors =
     R"({"format": "glovebench-glove-colors", "version": 1, "colors_rgb": [[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3],
 [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3]]})";
 
+constexpr const char* kJoints =
+    R"({"format": "glovebench-joints", "version": 1, "order": "webxr", "frame": "camera",
+"frames": [{"time_s": 0, "joints_m": {"wrist": [0, 0, 1], "thumb-tip": [0, 1, 1], "index-finger-tip": [1, 1, 1],
+"ring-finger-tip": [1, 0, 1]}}]})";
+
+const eval::EstimateFormat& estimate_format(const std::string& name) {
+  return *std::ranges::find(eval::estimate_formats(), name, &eval::EstimateFormat::name);
+}
+
+/// Units, order, frame and time that files may leave unsaid.
+eval::EstimateFlags estimate_flags() {
+  return {eval::load_joint_order("mediapipe"), "mm", "camera", "s"};
+}
+
 std::vector<Reader> json_readers() {
   const std::string w = "x.json";
   reports::Timings timings;
@@ -172,6 +187,10 @@ std::vector<Reader> json_readers() {
       {"marker layout", [=](auto& text) { motion::parse_marker_layout(text, w); },
        R"({"format": "glovebench-marker-layout", "version": 1, "markers": {"a": "wrist"}})"},
       {"webxr", [=](auto& text) { motion::find_marker_format("webxr").markers(text, Side::right, w); }, kWebxr},
+      {"joints", [=](auto& text) { estimate_format("joints").read(text, {}, w); }, kJoints},
+      {"joint map", [=](auto& text) { eval::parse_joint_map(text, w); },
+       R"({"format": "glovebench-joint-map", "version": 1, "joints": ["wrist", "thumb-tip", "ring-finger-tip",
+"index-finger-tip"]})"},
       {"motion script", [=](auto& text) { motion::parse_motion_script(text, gestures(), w); }, kScript},
       {"suite", [=](auto& text) { eval::parse_suite(text, w); }, kSuite},
       {"results", [=](auto& text) { reports::parse_results(text, w); }, results_json(result)},
@@ -266,6 +285,9 @@ std::vector<Reader> text_readers() {
       {"recording index", [=](auto& text) { parse_recording_index(text, w); }, ""},
       {"server log", [=](auto& text) { last_state(text, {"a"}, w); }, ""},
       {"picture", [=](auto& text) { decode_gray(text, w); }, ""}};
+  for (const eval::EstimateFormat& format : eval::estimate_formats())
+    readers.push_back({fmt::format("{} estimates", format.name),
+                       [&format, w](auto& text) { format.read(text, estimate_flags(), w); }, ""});
   for (const motion::Format* format : motion::formats_with(&motion::Format::markers))
     readers.push_back(
         {fmt::format("{} capture", format->name), [=](auto& text) { format->markers(text, Side::right, w); }, ""});
@@ -318,6 +340,11 @@ TEST(ReaderMemory, of_long_texts_of_short_lines_is_bounded) {
                      return fmt::format("0,{0},{0},no_hand{1}", i,
                                         std::string(static_cast<size_t>(commas) - 3, ','));
                    }),
+        "");
+  check("tum estimates", lines_from("", [](int i) { return fmt::format("{} 0 0 0 0 0 0 1", i); }), "");
+  check("columns estimates",
+        lines_from("time,0_x,0_y,0_z,1_x,1_y,1_z,2_x,2_y,2_z,3_x,3_y,3_z\n",
+                   [](int i) { return fmt::format("{},,,,,,,,,,,,", i); }),
         "");
   std::string angles = reports::estimates_csv({});
   angles = "name" + angles.substr(angles.find("quaternion_z") + 12);

@@ -1,7 +1,7 @@
 # Read by ctest: gives the label realtime to the tests of processes, middleware and clocks, whose outcome a busy machine
 # could change (ci/busy). They wait more than they compute, so they start first and others run beside them.
 set(realtime
-  "^eval/(Dds|Robot(Server|Limits)|Soak|Freenect|Interruption|LiveStatus|Killed|Track|CommandLine|Commands|Outputs|RunStore)")
+  "^eval/(Dds|Robot(Server|Limits)|Soak|Freenect|Interruption|LiveStatus|Killed|Track|CommandLine|Commands|Programs|Outputs|RunStore)")
 foreach(test IN LISTS eval_tests_TESTS)
   if(test MATCHES "${realtime}")
     set_tests_properties(${test} PROPERTIES LABELS realtime COST 100)

@@ -33,6 +33,7 @@ trajectories::Trajectory record_truth(Workbench& workbench, const trajectories::
       throw Error(source.name, fmt::format("frame {}", f), std::string(to_string(result.status)),
                   "a tracked frame: a truth has no gaps");
     }
+    if (!result.has.hand()) throw Error(config.method, fmt::format("frame {}", f), "no posture or no pose", "both");
     recorded.frames[f].posture = result.posture;
     recorded.frames[f].T_camera_hand = result.T_camera_hand;
   }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "core/adapters/process/process_method.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "eval/run_bytes.h"
@@ -19,11 +20,14 @@
 namespace glovebench::eval {
 namespace {
 
-/// Processor times of frames and stages. Adds up a stage that begins twice in a frame.
+/// Times of frames and stages: the thread's processor time, or the time that passes while a program answers. Adds
+/// up a stage that begins twice in a frame.
 class StageTimer {
  public:
+  explicit StageTimer(bool waits) : now_ms_(waits ? wall_time_ms : thread_time_ms) {}
+
   void begin_frame() {
-    frame_start_ = thread_time_ms();
+    frame_start_ = now_ms_();
     current_.reset();
     in_this_frame_.fill(std::nullopt);
   }
@@ -50,7 +54,7 @@ class StageTimer {
 
  private:
   void end_stage() {
-    const double now = thread_time_ms();
+    const double now = now_ms_();
     if (current_) {
       std::optional<double>& time = in_this_frame_[static_cast<size_t>(*current_)];
       time = time.value_or(0) + now - start_;
@@ -58,6 +62,7 @@ class StageTimer {
     start_ = now;
   }
 
+  double (*now_ms_)();
   std::array<std::vector<double>, kCountOf<Stage>> stage_ms_;
   std::vector<double> frame_ms_;
   std::array<std::optional<double>, kCountOf<Stage>> in_this_frame_;  ///< ms
@@ -98,11 +103,24 @@ bool share_noise(const RunSpec& a, const RunSpec& b) {
   return a.noise == b.noise && a.seed == b.seed;
 }
 
+/// Of the frame that the device showed last.
+double visible_percent_of(const render::SyntheticKinect& kinect, const render::Subject& subject,
+                          const HandFrame& truth) {
+  return reports::visible_percent(kinect.true_hand(), subject.triangles(), truth.T_camera_hand,
+                                  kinect.calibration());
+}
+
+Sight sight_of(const render::RgbdImages& images, double visible_percent, const TrackerConfig& config) {
+  return {reports::count_patches(images.patch), is_trackable(images, config), visible_percent};
+}
+
 /// A run in progress, frame by frame.
 class Tracking {
  public:
   Tracking(Workbench& workbench, const RunSpec& spec)
-      : kinect_(kinect_config(spec)), method_(workbench.make_method(spec.tracker, spec.database)) {
+      : kinect_(kinect_config(spec)),
+        method_(workbench.make_method(spec.tracker, spec.database)),
+        timer_(is_program(spec.tracker.method)) {
     run_.spec = spec;
   }
 
@@ -117,8 +135,7 @@ class Tracking {
     timer_.begin_frame();
     run_.answers.push_back(method_->track(frame, run_.answers, [&](Stage stage) { timer_.begin(stage); }));
     timer_.end_frame();
-    run_.seen.push_back(
-        {reports::count_patches(images.patch), is_trackable(images, run_.spec.tracker), visible_percent});
+    run_.seen.push_back(sight_of(images, visible_percent, run_.spec.tracker));
   }
   Run take() {
     run_.stages = timer_.take_stages();
@@ -148,8 +165,7 @@ std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> s
   for (const HandFrame& truth : frames_of(first)) {
     std::optional<DeviceFrame> frame = kinect.next_frame();
     check(frame.has_value(), "the device plays every frame of the trajectory");
-    const double visible_percent = reports::visible_percent(kinect.true_hand(), subject.triangles(),
-                                                            truth.T_camera_hand, kinect.calibration());
+    const double visible_percent = visible_percent_of(kinect, subject, truth);
     const RunSpec* shown = &first;
     for (Tracking& tracking : trackings) {
       if (!share_noise(*shown, tracking.spec())) {
@@ -196,13 +212,14 @@ std::vector<Run> run_group(Workbench& workbench, std::span<const RunSpec> group,
 }
 
 /// Beginnings of groups of specs that are rendered once, and the end. Larger groups save rendering, but every
-/// thread needs some.
+/// thread needs some, and no two of a thread's runs start a program.
 std::vector<size_t> group_begins(std::span<const RunSpec> specs, int threads) {
   constexpr size_t kLargest = 24;  // each run of a group keeps a tracker in memory
   const size_t size = std::clamp<size_t>(specs.size() / (2 * static_cast<size_t>(threads)), 1, kLargest);
   std::vector<size_t> begins;
   for (size_t s = 0; s < specs.size(); ++s) {
-    const bool joins = !begins.empty() && s - begins.back() < size && share_images(specs[begins.back()], specs[s]);
+    const bool joins = !begins.empty() && s - begins.back() < size &&
+                       share_images(specs[begins.back()], specs[s]) && !is_program(specs[s].tracker.method);
     if (!joins) begins.push_back(s);
   }
   begins.push_back(specs.size());
@@ -269,10 +286,23 @@ std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, c
   return runs;
 }
 
+std::vector<Sight> see(Workbench& workbench, const RunSpec& spec) {
+  const render::Subject subject = workbench.subject(spec.subject);
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);
+  std::vector<Sight> seen;
+  for (const HandFrame& truth : frames_of(spec)) {
+    check(kinect.next_frame().has_value(), "the device plays every frame of the trajectory");
+    seen.push_back(sight_of(kinect.truth(), visible_percent_of(kinect, subject, truth), spec.tracker));
+  }
+  return seen;
+}
+
 std::string run_key(Workbench& workbench, const RunSpec& spec) {
   const auto color_table = workbench.color_table(spec.tracker.segmentation.color_space);
   const Eigen::Vector3d& light = spec.lighting.direction_to_light;
+  const std::string& method = spec.tracker.method;
   const nlohmann::json content = {
+      {"program", is_program(method) ? program_hash(method) : ""},
       {"configuration", to_json(spec.tracker)},
       {"truth", {spec.trajectory->name, trajectories::hash(*spec.trajectory)}},
       {"frames", {spec.frames.first, frames_of(spec).size()}},

@@ -71,6 +71,9 @@ struct RunOptions {
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
+/// By frame. Renders; the noise does not count.
+std::vector<Sight> see(Workbench& workbench, const RunSpec& spec);
+
 /// Hash of all inputs except the program.
 std::string run_key(Workbench& workbench, const RunSpec& spec);
 

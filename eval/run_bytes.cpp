@@ -38,9 +38,19 @@ Eigen::Isometry3d pose_of(const json& row) {
   return pose;
 }
 
+json row_of(const EstimateParts& has) {
+  return {has.posture, has.pose, has.place, has.scale, has.internals};
+}
+
+std::optional<Eigen::Vector3d> joint_of(const json& row) {
+  if (row.is_null()) return std::nullopt;
+  return Eigen::Vector3d(row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>());
+}
+
 json row_of(const TrackResult& r) {
-  json matches = json::array();
+  json matches = json::array(), joints = json::array();
   for (const Match& match : r.matches) matches.push_back({match.entry, match.error});
+  for (const auto& p : r.joints) joints.push_back(p ? json{p->x(), p->y(), p->z()} : json());
   return {r.timestamp_us,
           to_string(r.status),
           row_of(r.posture),
@@ -55,7 +65,10 @@ json row_of(const TrackResult& r) {
           r.icp_points,
           r.icp_iterations,
           r.icp_residual,
-          r.certainty ? json{row_of(r.certainty->deviation), r.certainty->hidden} : json()};
+          r.certainty ? json{row_of(r.certainty->deviation), r.certainty->hidden} : json(),
+          r.reason,
+          row_of(r.has),
+          std::move(joints)};
 }
 
 TrackStatus status_of(const json& value) {
@@ -82,6 +95,10 @@ TrackResult result_of(const json& row) {
   r.icp_residual = row.at(13);
   if (const json& certainty = row.at(14); !certainty.is_null())
     r.certainty = {posture_of(certainty.at(0)), certainty.at(1).get<uint32_t>()};
+  r.reason = row.at(15).get<std::string>();
+  const json& has = row.at(16);
+  r.has = {has.at(0), has.at(1), has.at(2), has.at(3), has.at(4)};
+  for (const json& joint : row.at(17)) r.joints.push_back(joint_of(joint));
   return r;
 }
 

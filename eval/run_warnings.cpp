@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 
 #include "eval/program.h"
 #include "reports/page/page.h"
+#include "reports/text.h"
 #include "trajectories/catalog.h"
 #include "trajectories/trajectory_properties.h"
 
@@ -42,6 +44,7 @@ std::vector<std::string> unit_warnings(const Plan& plan) {
 std::vector<std::string> lost_hand_warnings(const Plan& plan, const reports::RunResult& result,
                                             const std::string& folder) {
   std::vector<std::string> warnings;
+  if (is_program(plan.tracker.method)) return warnings;
   for (const reports::ExperimentResult& experiment : result.experiments) {
     const reports::Coverage& coverage = experiment.coverage;
     if (coverage.frames == 0 || coverage.lost < coverage.frames) continue;
@@ -55,6 +58,31 @@ std::vector<std::string> lost_hand_warnings(const Plan& plan, const reports::Run
                                  folder)));
   }
   return warnings;
+}
+
+std::vector<std::string> no_answer_warnings(const std::map<std::string, size_t>& reasons) {
+  constexpr size_t kMost = 5;
+  std::vector<std::pair<std::string, size_t>> sorted(reasons.begin(), reasons.end());
+  std::ranges::stable_sort(sorted, std::greater(), [](const auto& entry) { return entry.second; });
+  std::vector<std::string> warnings;
+  size_t others = 0;
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    const auto& [reason, frames] = sorted[i];
+    if (i >= kMost)
+      others += frames;
+    else
+      warnings.push_back(fmt::format("{} lost, no answer: {}", reports::counted(frames, "frame"), reason));
+  }
+  if (others > 0) warnings.push_back(fmt::format("{} lost for other reasons", reports::counted(others, "frame")));
+  return warnings;
+}
+
+std::map<std::string, size_t> no_answer_reasons(std::span<const MeasuredRun> runs) {
+  std::map<std::string, size_t> reasons;
+  for (const MeasuredRun& each : runs)
+    for (const TrackResult& answer : each.run.answers)
+      if (!answer.reason.empty()) ++reasons[answer.reason];
+  return reasons;
 }
 
 std::set<std::string> inputs_from_files(const Plan& plan) {

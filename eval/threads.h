@@ -22,10 +22,16 @@ void in_parallel(int threads, size_t count, const Work& work) {
   });
 }
 
-inline double thread_time_ms() {
+inline double time_ms(clockid_t clock) {
   timespec time{};
-  check(clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time) == 0, "a thread has a clock");
+  check(clock_gettime(clock, &time) == 0, "a thread has a clock");
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+inline double thread_time_ms() {
+  return time_ms(CLOCK_THREAD_CPUTIME_ID);
+}
+inline double wall_time_ms() {
+  return time_ms(CLOCK_MONOTONIC);
 }
 
 }  // namespace glovebench::eval

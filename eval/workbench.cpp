@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "core/adapters/process/process_method.h"
 #include "core/base/error.h"
 #include "eval/color_table_cache.h"
 #include "eval/program.h"
@@ -15,6 +16,11 @@
 #include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {
+
+std::unique_ptr<Method> make_method(const MethodInputs& inputs) {
+  const std::string& method = inputs.config.method;
+  return is_program(method) ? make_process_method(inputs) : find_method(method).make(inputs);
+}
 
 Workbench::Workbench(WorkbenchConfig config) : config_(std::move(config)) {}
 
@@ -124,9 +130,8 @@ PostureSet Workbench::postures_of(const std::string& name) const {
 }
 
 std::unique_ptr<Method> Workbench::make_method(const TrackerConfig& config, const std::string& database_name) {
-  return find_method(config.method)
-      .make({config, config_.calibration, model(), database(database_name),
-             color_table(config.segmentation.color_space), render::label_renderer_factory()});
+  return eval::make_method({config, config_.calibration, model(), database(database_name),
+                            color_table(config.segmentation.color_space), render::label_renderer_factory()});
 }
 
 Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {

@@ -26,6 +26,10 @@ struct WorkbenchConfig {
   RgbdCalibration calibration = synthetic_calibration();
 };
 
+/// `find_method` or, for "exec:COMMAND", a program.
+/// Throws: Error as the method.
+std::unique_ptr<Method> make_method(const MethodInputs& inputs);
+
 /// Models, databases and color tables that experiments share, each made or loaded on first use. Thread-safe.
 class Workbench {
  public:

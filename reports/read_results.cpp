@@ -102,8 +102,20 @@ JsonItems read_rows(const JsonCursor& json, const FileMetrics& metrics) {
   return rows;
 }
 
+/// By metric, whether some frame of an experiment has it. Estimates have it in all tracked frames or in none.
+using Given = std::vector<bool>;
+
+Given given_metrics(const JsonCursor& runs, const FileMetrics& metrics) {
+  Given given(metrics.size());
+  for (const JsonCursor& run : runs.items())
+    for (const JsonCursor& row : read_rows(run["frames"], metrics))
+      for (size_t m = 0; m < metrics.size(); ++m)
+        if (!row.value()[kFirstMetric + m].is_null()) given[m] = true;
+  return given;
+}
+
 /// A frame's flags follow from its errors, so dropped or changed errors are found.
-void check_errors(const JsonItems& row, const FileMetrics& metrics, const FrameRecord& frame) {
+void check_errors(const JsonItems& row, const FileMetrics& metrics, const FrameRecord& frame, const Given& given) {
   constexpr double kRounding = 1e-6;  // errors are rounded, so one at the bound may exceed it
   const bool is_tracked = frame.status == TrackStatus::tracked;
   for (size_t m = 0; m < metrics.size(); ++m) {
@@ -111,7 +123,7 @@ void check_errors(const JsonItems& row, const FileMetrics& metrics, const FrameR
     const Metric& metric = frame_metrics()[*metrics[m].index];
     const bool is_empty = !frame.values[*metrics[m].index];
     if (!metric.of_tracked) continue;
-    if (is_tracked && !metric.is_partial && is_empty)
+    if (is_tracked && given[m] && !metric.is_partial && is_empty)
       row[kFirstMetric + m].fail("a number, since the frame is tracked");
     if (!is_tracked && !is_empty) row[kFirstMetric + m].fail("null, since the frame is lost");
   }
@@ -121,21 +133,23 @@ void check_errors(const JsonItems& row, const FileMetrics& metrics, const FrameR
            frame["rotation_error_deg"].value_or(0) < kFoundRotation_deg + slack;
   };
   const bool has_both = frame["position_error_mm"] && frame["rotation_error_deg"];
-  if (frame.covered ? !is_covered(kRounding) : has_both && is_covered(-kRounding))
+  if (frame.is_judged && (frame.covered ? !is_covered(kRounding) : has_both && is_covered(-kRounding)))
     row[3].fail(fmt::format("{}, as the errors say", !frame.covered));
-  if (frame.false_tracked != (is_tracked && !frame.covered))
+  if (frame.is_judged && frame.false_tracked != (is_tracked && !frame.covered))
     row[4].fail(fmt::format("{}, as status and covered say", !frame.false_tracked));
+  if (!frame.is_judged && has_both) row[3].fail("true or false, since the frame has a pose");
   if (frame.false_lost && is_tracked) row[5].fail("false, since the frame is tracked");
 }
 
-FrameRecord read_frame(const JsonCursor& json, const FileMetrics& metrics) {
+FrameRecord read_frame(const JsonCursor& json, const FileMetrics& metrics, const Given& given) {
   const JsonItems row = json.items();
   FrameRecord frame;
   frame.frame = row[0].count();
   frame.timestamp_us = row[1].integer(std::numeric_limits<int64_t>::min(), std::numeric_limits<int64_t>::max());
   frame.status = row[2].one_of<TrackStatus>();
-  frame.covered = row[3].boolean();
-  frame.false_tracked = row[4].boolean();
+  frame.is_judged = !row[3].is_null() || !row[4].is_null();
+  frame.covered = frame.is_judged && row[3].boolean();
+  frame.false_tracked = frame.is_judged && row[4].boolean();
   frame.false_lost = row[5].boolean();
   frame.ambiguous = row[6].boolean();
   frame.converged = row[7].boolean();
@@ -144,7 +158,7 @@ FrameRecord read_frame(const JsonCursor& json, const FileMetrics& metrics) {
     const std::optional<double> value = read_value(row[kFirstMetric + m]);
     if (metrics[m].index) frame.values[*metrics[m].index] = value;
   }
-  check_errors(row, metrics, frame);
+  check_errors(row, metrics, frame, given);
   return frame;
 }
 
@@ -164,15 +178,16 @@ void check_frame(const JsonCursor& json, const std::vector<FrameRecord>& before,
 
 std::vector<SeedRun> read_runs(const JsonCursor& json, const FileMetrics& metrics) {
   std::vector<SeedRun> runs;
+  for (const JsonCursor& item : json.items()) item.expect_keys({"seed", "frames"});
+  const Given given = given_metrics(json, metrics);
   for (const JsonCursor& item : json.items()) {
-    item.expect_keys({"seed", "frames"});
     SeedRun run;
     run.seed = item["seed"].unsigned_integer();
     if (std::ranges::find(runs, run.seed, &SeedRun::seed) != runs.end()) item["seed"].fail("each seed once");
     const JsonItems rows = read_rows(item["frames"], metrics);
     run.frames.reserve(rows.size());
     for (const JsonCursor& row : rows) {
-      const FrameRecord frame = read_frame(row, metrics);
+      const FrameRecord frame = read_frame(row, metrics, given);
       check_frame(row, run.frames, frame, runs);
       run.frames.push_back(frame);
     }
@@ -183,6 +198,10 @@ std::vector<SeedRun> read_runs(const JsonCursor& json, const FileMetrics& metric
   return runs;
 }
 
+std::optional<int> count_or_null(const JsonCursor& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.count());
+}
+
 Coverage read_coverage(const JsonCursor& json) {
   constexpr auto kLevels =
       std::to_array<std::string_view>({"visible", "found", "usable", "found_share", "usable_share"});
@@ -190,12 +209,12 @@ Coverage read_coverage(const JsonCursor& json) {
       std::to_array<std::string_view>({"frames", "covered", "lost", "false_tracked", "false_lost", "share"}),
       kLevels);
   json["share"].number_or_null(0, 1);
-  Coverage coverage = {json["frames"].count(), json["covered"].count(), json["lost"].count(),
-                       json["false_tracked"].count(), json["false_lost"].count()};
+  Coverage coverage = {json["frames"].count(), count_or_null(json["covered"]), json["lost"].count(),
+                       count_or_null(json["false_tracked"]), json["false_lost"].count()};
   if (std::ranges::none_of(kLevels, [&](std::string_view key) { return json.has(key); })) return coverage;
   coverage.visible = json["visible"].count();
-  coverage.found = json["found"].count();
-  coverage.usable = json["usable"].count();
+  coverage.found = count_or_null(json["found"]);
+  coverage.usable = count_or_null(json["usable"]);
   json["found_share"].number_or_null(0, 1);
   json["usable_share"].number_or_null(0, 1);
   return coverage;

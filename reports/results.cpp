@@ -17,9 +17,15 @@ std::string to_string(const ExperimentKey& key) {
 
 namespace {
 
-std::optional<double> part_of(int part, int whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / whole;
+std::optional<double> part_of(std::optional<int> part, int whole) {
+  if (whole == 0 || !part) return std::nullopt;
+  return static_cast<double>(*part) / whole;
+}
+
+/// Counts one that is true. One unknown makes the count unknown.
+void count(std::optional<int>& counted, std::optional<bool> is_true) {
+  if (!is_true) counted.reset();
+  if (counted) *counted += *is_true;
 }
 
 }  // namespace
@@ -41,14 +47,15 @@ Coverage count_coverage(const std::vector<SeedRun>& runs) {
   for (const SeedRun& run : runs) {
     for (const FrameRecord& frame : run.frames) {
       ++coverage.frames;
-      coverage.covered += frame.covered;
+      const auto judged = [&](bool is_true) { return frame.is_judged ? std::optional(is_true) : std::nullopt; };
+      count(coverage.covered, judged(frame.covered));
       coverage.lost += frame.status != TrackStatus::tracked;
-      coverage.false_tracked += frame.false_tracked;
+      count(coverage.false_tracked, judged(frame.false_tracked));
       coverage.false_lost += frame.false_lost;
       if (!is_visible(frame)) continue;
       ++coverage.visible;
-      coverage.found += frame.covered;
-      coverage.usable += is_usable(frame);
+      count(coverage.found, judged(frame.covered));
+      count(coverage.usable, is_usable(frame));
     }
   }
   return coverage;

@@ -21,6 +21,7 @@ struct FrameRecord {
   int frame = 0;
   int64_t timestamp_us = 0;
   TrackStatus status = TrackStatus::no_hand;
+  bool is_judged = true;       ///< false: without a pose, nobody knows the next two
   bool covered = false;        ///< tracked within 50 mm and 30 degrees
   bool false_tracked = false;  ///< tracked, but not covered
   bool false_lost = false;     ///< lost, though trackable
@@ -72,13 +73,13 @@ struct SeedRun {
 /// Lost frames stay in the denominator. coverage.h defines visible, found and usable.
 struct Coverage {
   int frames = 0;
-  int covered = 0;
+  std::optional<int> covered = 0;  ///< empty, as others below, if estimates lack what they need
   int lost = 0;
-  int false_tracked = 0;
+  std::optional<int> false_tracked = 0;
   int false_lost = 0;
   int visible = 0;                             ///< 0 in older results
-  int found = 0;                               ///< visible and covered
-  int usable = 0;                              ///< visible and usable
+  std::optional<int> found = 0;                ///< visible and covered
+  std::optional<int> usable = 0;               ///< visible and usable
   std::optional<double> share() const;         ///< covered / frames
   std::optional<double> found_share() const;   ///< found / visible
   std::optional<double> usable_share() const;  ///< usable / visible

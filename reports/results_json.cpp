@@ -20,17 +20,21 @@ Json aggregates_json(const ExperimentResult& experiment, std::span<const std::st
   return json;
 }
 
+Json or_null(std::optional<int> count) {
+  return count ? Json(*count) : Json();
+}
+
 Json coverage_json(const Coverage& coverage, bool has_levels) {
   Json json = {{"frames", coverage.frames},
-               {"covered", coverage.covered},
+               {"covered", or_null(coverage.covered)},
                {"lost", coverage.lost},
-               {"false_tracked", coverage.false_tracked},
+               {"false_tracked", or_null(coverage.false_tracked)},
                {"false_lost", coverage.false_lost},
                {"share", rounded_or_null(coverage.share())}};
   if (!has_levels) return json;
   json["visible"] = coverage.visible;
-  json["found"] = coverage.found;
-  json["usable"] = coverage.usable;
+  json["found"] = or_null(coverage.found);
+  json["usable"] = or_null(coverage.usable);
   json["found_share"] = rounded_or_null(coverage.found_share());
   json["usable_share"] = rounded_or_null(coverage.usable_share());
   return json;
@@ -89,6 +93,7 @@ Json frame_row(const FrameRecord& frame, std::span<const std::string> metric_key
   Json row = {frame.frame,     frame.timestamp_us,  std::string(to_string(frame.status)),
               frame.covered,   frame.false_tracked, frame.false_lost,
               frame.ambiguous, frame.converged,     frame.icp_iterations};
+  if (!frame.is_judged) row[3] = row[4] = nullptr;
   for (const std::string& key : metric_keys) row.push_back(rounded_or_null(frame[key]));
   return row;
 }

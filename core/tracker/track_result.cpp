@@ -12,6 +12,10 @@ double rounded(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;
 }
 
+nlohmann::ordered_json written_mm(const Eigen::Vector3d& p) {
+  return {rounded(1000 * p.x()), rounded(1000 * p.y()), rounded(1000 * p.z())};
+}
+
 }  // namespace
 
 std::string estimate_line(int frame, const TrackResult& result) {
@@ -21,14 +25,17 @@ std::string estimate_line(int frame, const TrackResult& result) {
                                  {"cloud_points", result.cloud_points}};
   if (!result.matches.empty()) line["matching_error_px"] = rounded(result.matches.front().error);
   if (result.status != TrackStatus::tracked) return line.dump();
-  std::vector<double> angles;
-  for (const double angle : result.posture) angles.push_back(rounded(degrees_from_radians(angle)));
-  line["angles_deg"] = angles;
-  const Eigen::Vector3d p = 1000 * result.T_camera_hand.translation();
-  line["position_mm"] = {rounded(p.x()), rounded(p.y()), rounded(p.z())};
-  Eigen::Quaterniond q(result.T_camera_hand.linear());
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
-  line["quaternion_wxyz"] = {rounded(q.w()), rounded(q.x()), rounded(q.y()), rounded(q.z())};
+  if (result.has.posture)
+    for (const double angle : result.posture) line["angles_deg"].push_back(rounded(degrees_from_radians(angle)));
+  if (result.has.pose) {
+    line["position_mm"] = written_mm(result.T_camera_hand.translation());
+    Eigen::Quaterniond q(result.T_camera_hand.linear());
+    if (q.w() < 0) q.coeffs() = -q.coeffs();
+    line["quaternion_wxyz"] = {rounded(q.w()), rounded(q.x()), rounded(q.y()), rounded(q.z())};
+  }
+  for (const auto& joint : result.joints)
+    line["joints_mm"].push_back(joint ? written_mm(*joint) : nlohmann::ordered_json());
+  if (!result.has.internals) return line.dump();
   line["icp_iterations"] = result.icp_iterations;
   line["icp_residual_mm"] = rounded(1000 * result.icp_residual);
   line["ambiguous"] = result.ambiguous;

@@ -26,17 +26,29 @@ enum class TrackStatus {
   no_shared_color,   ///< cloud and visible model share none
   poor_match,        ///< nearest entry's error above `max_matching_error`
   poor_alignment,    ///< final mean distance above `max_residual`
+  missing,           ///< another program gave no estimate
 };
 constexpr auto names_of(TrackStatus) {
   return std::to_array<std::string_view>({"tracked", "no_hand", "outside_volume", "cut_by_border", "several_hands",
                                           "too_few_points", "degenerate_cloud", "no_shared_color", "poor_match",
-                                          "poor_alignment"});
+                                          "poor_alignment", "missing"});
 }
-static_assert(kCountOf<TrackStatus> == static_cast<int>(TrackStatus::poor_alignment) + 1, "each value has a name");
+static_assert(kCountOf<TrackStatus> == static_cast<int>(TrackStatus::missing) + 1, "each value has a name");
 
 struct AngleCertainty {
   Posture deviation = Posture::Zero();  ///< standard deviations, rad
   uint32_t hidden = 0;                  ///< bit a: angle a is hardly seen
+};
+
+/// What an estimate has. Ours have all, another program's may lack some.
+struct EstimateParts {
+  bool posture = true;
+  bool pose = true;
+  bool place = true;      ///< false: the joints have no place in the camera frame, only its axes
+  bool scale = true;      ///< false: the joints have no unit
+  bool internals = true;  ///< unfiltered posture, matches, alignment
+
+  bool hand() const { return posture && pose; }
 };
 
 /// The result for one frame, (theta, R, P).
@@ -44,6 +56,7 @@ struct AngleCertainty {
 struct TrackResult {
   int64_t timestamp_us = 0;  ///< of the depth image
   TrackStatus status = TrackStatus::no_hand;
+  std::string reason;  ///< of `missing` from a program that runs
 
   Posture posture = Posture::Zero();                                ///< smoothed, rad
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< smoothed, m
@@ -52,6 +65,10 @@ struct TrackResult {
   Eigen::Isometry3d T_camera_hand_unfiltered = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();
   RecycledVector<Match> matches;
+
+  EstimateParts has;
+  /// By joint without the forearm, camera axes, m. Empty: those of the tracker's hand in this posture and pose.
+  RecycledVector<std::optional<Eigen::Vector3d>> joints;
 
   bool ambiguous = false;  ///< rotations differ by more than 60 degrees
   bool converged = false;
@@ -76,22 +93,23 @@ enum class Stage {
   placement,
   mask,
   fit,
-  smoothing
+  smoothing,
+  answer  ///< of a tracker that is a program: from the frame to its answer
 };
 /// As in timings.json.
 constexpr auto names_of(Stage) {
   return std::to_array<std::string_view>({"register", "segment", "cloud", "detect", "tiny_images", "look_up",
-                                          "align", "place", "mask", "fit", "smooth"});
+                                          "align", "place", "mask", "fit", "smooth", "answer"});
 }
-static_assert(kCountOf<Stage> == static_cast<int>(Stage::smoothing) + 1, "each value has a name");
+static_assert(kCountOf<Stage> == static_cast<int>(Stage::answer) + 1, "each value has a name");
 
 /// Called when a stage begins. A frame may enter a stage twice. Must not be empty.
 using StageObserver = std::function<void(Stage stage)>;
 inline void unobserved(Stage) {}
 
 /// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
-/// icp_iterations, icp_residual_mm, ambiguous, converged; if known, angle_deviations_deg and hidden (names). A lost
-/// frame lacks posture and pose.
+/// icp_iterations, icp_residual_mm, ambiguous, converged; if known, joints_mm, angle_deviations_deg and hidden
+/// (names). Lacks what the result lacks; a lost frame also posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

@@ -203,7 +203,10 @@ std::vector<std::string> TrackerConfig::problems() const {
     check_range(fmt::format("{}.{}", section, key), value, range, problems);
   });
   const std::vector<std::string> methods(method_names().begin(), method_names().end());
-  if (std::ranges::find(methods, method) == methods.end())
+  if (is_program(method))
+    problems.push_back(
+        fmt::format("method: found {}, expected a name; only --method starts a program", quoted_excerpt(method)));
+  else if (std::ranges::find(methods, method) == methods.end())
     problems.push_back(
         fmt::format("method: found {}, expected {}", quoted_excerpt(method), one_of(methods, method)));
   if (volume.z_min >= volume.z_max) {

@@ -47,7 +47,7 @@ struct DetectionConfig {
 
 struct TrackerConfig {
   std::string profile = "paper";
-  std::string method{kPaperMethod};  ///< one of `method_names`
+  std::string method{kPaperMethod};  ///< one of `method_names`, or `is_program`
   RegistrationConfig registration;
   SegmentationConfig segmentation;
   WorkingVolume volume;

@@ -40,6 +40,8 @@ struct Explain {
     const auto truth = std::make_shared<const Trajectory>(load_truth(chosen.key));
     check_truth(results, chosen.key, *truth, results_path);
     common.left = truth->side == Side::left;
+    if (!results.configuration.contains("tracker"))
+      throw Error(results_path, "configuration", "no tracker", "a run of a tracker, whose stages can be shown");
     common.config_json = results.configuration.at("tracker");
     common.calibration_json = results.configuration.value("calibration", nlohmann::json());
     common.hand_json = results.configuration.value("hand", nlohmann::json());

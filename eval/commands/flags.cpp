@@ -67,7 +67,7 @@ TrackerConfig CommonFlags::tracker_config() const {
   if (!config_json.is_null()) config = config_from_json(config_json, config, "configuration of the run");
   if (!config_file.empty())
     config = config_from_json(parse_json(read_file(config_file, kLargestConfig), config_file), config, config_file);
-  if (!method.empty()) config.method = find_method(method).name;
+  if (!method.empty()) config.method = is_program(method) ? method : find_method(method).name;
   if (!cascade.empty()) config.lookup.cascade = parse_cascade(cascade);
   return config;
 }

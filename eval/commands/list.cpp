@@ -64,6 +64,12 @@ void list_entries() {
   for (const Entry& entry : entries()) print_entry(fmt::format("{:<17}", entry.name), entry.description);
 }
 
+void list_methods() {
+  list_entries<MethodEntry, methods>();
+  print_entry(fmt::format("{:<17}", "exec:COMMAND"),
+              "a program of yours, run by /bin/sh; `glovebench method test` tries it");
+}
+
 void list_formats() {
   for (const trajectories::Format& format : trajectories::formats())
     print_entry(fmt::format("{:<16} {:<10} ", format.name, format.ending), format.description);
@@ -153,7 +159,7 @@ void add_list(Command program) {
   list.subcommand("databases", "The posture databases.").runs(list_databases);
   list.subcommand("suites", "Experiments that belong together, for `glovebench run --suite`.").runs(list_suites);
   list.subcommand("studies", "Parts of `glovebench reproduce`, also for `glovebench run`.").runs(list_studies);
-  list.subcommand("methods", "Ways to track, for --method.").runs(list_entries<MethodEntry, methods>);
+  list.subcommand("methods", "Ways to track, for --method.").runs(list_methods);
   list.subcommand("alignments", "Ways to align the hand with the cloud, for `icp.algorithm` of a configuration.")
       .runs(list_entries<AlignmentEntry, alignments>);
   list.subcommand("look-ups", "Ways to search the database, for `lookup.implementation` of a configuration.")

@@ -79,7 +79,7 @@ struct Render {
   static void add_layers(WholeFiles& pictures, Workbench& workbench, const render::SyntheticKinect& kinect,
                          std::span<const TrackResult> results, const DeviceFrame& frame, int f) {
     render::FrameLayers layers{frame.color, kinect.truth().depth, kinect.truth().label, {}, {}};
-    if (!results.empty() && results.back().status == TrackStatus::tracked) {
+    if (!results.empty() && results.back().status == TrackStatus::tracked && results.back().has.hand()) {
       const TrackResult& result = results.back();
       const HandModel& model = *workbench.model();
       render::LabelRenderer renderer;

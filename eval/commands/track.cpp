@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <map>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "eval/commands/robot_outputs.h"
 #include "eval/commands/track_source.h"
 #include "eval/program.h"
+#include "eval/run_warnings.h"
 #include "eval/terminal.h"
 #include "eval/track_overlay.h"
 #include "render/label_renderer.h"
@@ -83,9 +85,10 @@ struct Track {
   std::vector<double> latencies_ms;         ///< of frames that were tracked or lost
   std::vector<reports::Estimate> for_page;  ///< with `page`
   HandCheck hand_check;
-  bool has_heading = false;      ///< of the CSV file
-  std::optional<Error> failure;  ///< of the device, or of a command
-  bool is_whole = true;          ///< all commands succeeded and all lines were written
+  std::map<std::string, size_t> no_answers;  ///< reasons, with their frames
+  bool has_heading = false;                  ///< of the CSV file
+  std::optional<Error> failure;              ///< of the device, or of a command
+  bool is_whole = true;                      ///< all commands succeeded and all lines were written
 
   void run() {
     require_different_files({{"--output", common.output}, {"--robot-out", robot.output}, {"--page", page}});
@@ -100,10 +103,9 @@ struct Track {
     const std::string name = workbench.add_database(database);
     const TrackerConfig config = common.tracker_config();
     const std::unique_ptr<Method> method =
-        find_method(config.method)
-            .make({config, source.device->calibration(), workbench.model(), workbench.database(name),
-                   own_colors ? own_colors : workbench.color_table(config.segmentation.color_space),
-                   render::label_renderer_factory()});
+        make_method({config, source.device->calibration(), workbench.model(), workbench.database(name),
+                     own_colors ? own_colors : workbench.color_table(config.segmentation.color_space),
+                     render::label_renderer_factory()});
     RobotSetup setup = robot.setup(workbench);
     std::optional<TrackOverlay> pictures;
     if (!overlay.empty()) pictures.emplace(overlay, workbench.model(), source.device->calibration());
@@ -115,12 +117,13 @@ struct Track {
     const size_t kept_results = static_cast<size_t>(config.smoothing.forget_after);
     const auto start = std::chrono::steady_clock::now();
     track_all(source, *method, kept_results, [&](int number, const DeviceFrame& frame, const TrackResult& result) {
-      if (outputs.any()) command(result, commander, guard, source.arrived_us(), outputs);
+      const TrackResult hand = lost_without_hand(result);
+      if (outputs.any()) command(hand, commander, guard, source.arrived_us(), outputs);
       if_it_fails([&] {
-        append(output, writes_csv, number, result);
-        if (pictures) pictures->add(number, frame, result);
+        append(output, writes_csv, number, writes_csv ? hand : result);
+        if (pictures) pictures->add(number, frame, hand);
       });
-      if (!page.empty()) for_page.push_back(estimate_of(number, result));
+      if (!page.empty()) for_page.push_back(estimate_of(number, hand));
     });
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (frames == unusable) refuse();
@@ -130,6 +133,12 @@ struct Track {
     if (!common.quiet) print_summary(source, spent.count());
     if (failure) throw *failure;
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
+  }
+
+  /// A robot, pictures, a page and CSV show posture and pose. A program may give less.
+  static TrackResult lost_without_hand(TrackResult result) {
+    if (!result.has.hand() && result.status == TrackStatus::tracked) result.status = TrackStatus::missing;
+    return result;
   }
 
   static reports::Estimate estimate_of(int number, const TrackResult& result) {
@@ -144,7 +153,8 @@ struct Track {
   }
 
   void warn(const WorkingVolume& volume) const {
-    if (!failure && tracked == 0)
+    for (const std::string& warning : no_answer_warnings(no_answers)) say("glovebench: warning: {}\n", warning);
+    if (!failure && tracked == 0 && no_answers.empty())
       say("glovebench: warning: none of {} frames was tracked. Likely causes: a left hand without --left, glove "
           "colors other than those of --colors, or a hand outside of the working volume ({:g} to {:g} mm)\n",
           frames, 1000 * volume.z_min, 1000 * volume.z_max);
@@ -200,6 +210,7 @@ struct Track {
         if (results.size() == 2 * kept_results)  // not in each frame: an erasure moves the rest
           results.erase(results.begin(), results.begin() + static_cast<ptrdiff_t>(kept_results));
         latencies_ms.push_back(static_cast<double>(system_us() - arrived_us) / 1000);
+        if (!result.reason.empty()) ++no_answers[result.reason];
         use(number, *frame, result);
         tracked += result.status == TrackStatus::tracked;
         hand_check.add(result);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -26,8 +27,9 @@ constexpr std::array<TrackerFlag, 4> kTrackerFlags = {{
     {"--profile", "named configuration of the tracker", &TrackerChoices::profiles, &CommonFlags::profile},
     {"--config", "JSON file with the fields to change; `glovebench list config` shows all",
      &TrackerChoices::configs, &CommonFlags::config_file},
-    {"--method", "how to track (`glovebench list methods`) [the configuration's]", &TrackerChoices::methods,
-     &CommonFlags::method},
+    {"--method",
+     "how to track (`glovebench list methods`), or exec:COMMAND, a program of yours [the configuration's]",
+     &TrackerChoices::methods, &CommonFlags::method},
     {"--cascade", "matching cascade, SIZE:KEEP[,SIZE:KEEP...], e.g. 16:500,64:3, or exact:KEEP",
      &TrackerChoices::cascades, &CommonFlags::cascade},
 }};
@@ -37,6 +39,11 @@ std::string setting_name(const TrackerFlag& flag, const std::string& value) {
   std::string name = flag.value == &CommonFlags::config_file ? std::filesystem::path(value).stem().string() : value;
   std::ranges::replace(name, ':', '-');
   std::ranges::replace(name, ',', '_');
+  if (is_program(value)) {
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return c != '.' && c != '_' && !std::isalnum(c); }, '-');
+    name.resize(std::min<size_t>(name.size(), 64));
+  }
   return checked_name(name, flag.name, "name of a setting");
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Runs the commands of a guide as a reader would: guide_test.py PROGRAM GUIDE.md
 
-The indented blocks of the page run one after the other in one shell, in an empty folder, with PROGRAM as `glovebench`.
+The indented blocks of the page run one after the other in one shell, in a folder that holds only `eval/external`, with
+PROGRAM as `glovebench`.
 Each must end with exit code 0. So must those of a GitHub workflow that the page links to, with the page's files; what
 it compares must have one configuration.
 """
@@ -37,6 +38,8 @@ def main():
     if not any(line.startswith("glovebench ") for line in commands):
         sys.exit(f"{page}: found no command, expected an indented line that begins with glovebench")
     with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "eval").mkdir()
+        (pathlib.Path(folder) / "eval/external").symlink_to(page.resolve().parent.parent / "external")
         search_path = f"{program.parent}{os.pathsep}{os.environ['PATH']}"
         shell = subprocess.Popen(["bash", "-e", "-o", "pipefail", "-c", "\n".join(commands + workflow_commands(page))],
                                  cwd=folder,

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/base/error.h"
+#include "eval/plan.h"
 
 namespace glovebench::eval {
 namespace {

@@ -68,10 +68,12 @@ std::vector<ClaimVerdict> judged_together(std::vector<ClaimVerdict> verdicts) {
   return verdicts;
 }
 
-/// Claims are about the paper's configuration. A run without a configuration counts as the paper's.
+/// Claims are about the paper's configuration, not about other programs' estimates. A run without a configuration
+/// counts as the paper's.
 bool is_of_the_paper(const nlohmann::json& configuration) {
   const auto tracker = configuration.find("tracker");
-  return tracker == configuration.end() || *tracker == to_json(profile("paper"));
+  return !configuration.contains("score") &&
+         (tracker == configuration.end() || *tracker == to_json(profile("paper")));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ void add_flat(const json& configuration, const std::string& prefix, std::map<std
   }
 }
 
-/// The tracker's configuration, and that of the cameras unless they are the program's own.
+/// The tracker's configuration (or what `score` did), and that of the cameras unless they are the program's own.
 std::map<std::string, std::string> flat_configuration(const RunResult& result) {
   std::map<std::string, std::string> fields;
   const auto add = [&](const char* part, const std::string& prefix) {
@@ -63,6 +63,7 @@ std::map<std::string, std::string> flat_configuration(const RunResult& result) {
   };
   add("tracker", "");
   add("calibration", "calibration.");
+  add("score", "score.");
   return fields;
 }
 

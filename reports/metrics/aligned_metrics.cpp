@@ -15,12 +15,6 @@ struct PointPairs {
   Matrix3Xd estimated, truth;
 };
 
-Matrix3Xd joints_in_camera(const Eigen::Isometry3d& T_camera_hand, const JointPoses& T_hand_joint) {
-  Matrix3Xd joints(3, kForearmJoint);
-  for (int j = 0; j < kForearmJoint; ++j) joints.col(j) = T_camera_hand * T_hand_joint[j].translation();
-  return joints;
-}
-
 Matrix3Xd vertices_in_camera(const Eigen::Isometry3d& T_camera_hand, const PosedHand& hand) {
   Matrix3Xd vertices(3, hand.vertices.size());
   for (size_t v = 0; v < hand.vertices.size(); ++v)
@@ -28,9 +22,18 @@ Matrix3Xd vertices_in_camera(const Eigen::Isometry3d& T_camera_hand, const Posed
   return vertices;
 }
 
+/// The joints that are estimated.
 PointPairs joint_pairs(const MeasuredFrame& frame) {
-  return {joints_in_camera(frame.estimate.T_camera_hand, frame.estimated_hand.T_hand_joint),
-          joints_in_camera(frame.truth.T_camera_hand, frame.truth.T_hand_joint)};
+  PointPairs pairs{Matrix3Xd(3, kForearmJoint), Matrix3Xd(3, kForearmJoint)};
+  Eigen::Index count = 0;
+  for (size_t j = 0; j < frame.joints.size(); ++j) {
+    if (!frame.joints[j]) continue;
+    pairs.estimated.col(count) = *frame.joints[j];
+    pairs.truth.col(count++) = frame.true_joints[j];
+  }
+  pairs.estimated.conservativeResize(3, count);
+  pairs.truth.conservativeResize(3, count);
+  return pairs;
 }
 
 PointPairs vertex_pairs(const MeasuredFrame& frame) {
@@ -47,23 +50,31 @@ double error_at_root_mm(const PointPairs& pairs, const Vector3d& root, const Vec
   return mean_distance_mm((scale * (pairs.estimated.colwise() - root)).colwise() + true_root, pairs.truth);
 }
 
-/// After the similarity transform with the least squared distances (Umeyama 1991); it does not mirror.
+constexpr double kNoLength = 1e-9;  ///< m
+
+/// After the similarity transform with the least squared distances (Umeyama 1991); it does not mirror. Points that
+/// are all one come to the middle of the true ones.
 double error_after_procrustes_mm(const PointPairs& pairs) {
+  const Vector3d middle = pairs.estimated.rowwise().mean(), true_middle = pairs.truth.rowwise().mean();
+  if ((pairs.estimated.colwise() - middle).norm() < kNoLength)
+    return 1000 * (pairs.truth.colwise() - true_middle).colwise().norm().mean();
   const Eigen::Matrix4d T = Eigen::umeyama(pairs.estimated, pairs.truth, true);
   return mean_distance_mm((T.topLeftCorner<3, 3>() * pairs.estimated).colwise() + T.col(3).head<3>(), pairs.truth);
 }
 
 std::optional<double> mpjpe_root_mm(const MeasuredFrame& frame) {
-  const PointPairs joints = joint_pairs(frame);
-  return error_at_root_mm(joints, joints.estimated.col(kWristJoint), joints.truth.col(kWristJoint), 1);
+  const std::optional<Vector3d>& wrist = frame.joints[kWristJoint];
+  if (!wrist) return {};
+  return error_at_root_mm(joint_pairs(frame), *wrist, frame.true_joints[kWristJoint], 1);
 }
 
 std::optional<double> mpjpe_scaled_mm(const MeasuredFrame& frame) {
-  const PointPairs joints = joint_pairs(frame);
-  const Vector3d wrist = joints.estimated.col(kWristJoint), true_wrist = joints.truth.col(kWristJoint);
-  const double scale = (joints.truth.col(kMiddleMcpJoint) - true_wrist).norm() /
-                       (joints.estimated.col(kMiddleMcpJoint) - wrist).norm();
-  return error_at_root_mm(joints, wrist, true_wrist, scale);
+  const auto &wrist = frame.joints[kWristJoint], &knuckle = frame.joints[kMiddleMcpJoint];
+  if (!wrist || !knuckle) return {};
+  const Vector3d& true_wrist = frame.true_joints[kWristJoint];
+  const double length = (*knuckle - *wrist).norm();
+  const double scale = length < kNoLength ? 1 : (frame.true_joints[kMiddleMcpJoint] - true_wrist).norm() / length;
+  return error_at_root_mm(joint_pairs(frame), *wrist, true_wrist, scale);
 }
 
 /// Both poses are of the tracker's hand, whose palm is rigid, so scaling by a bone of the palm would change
@@ -85,14 +96,16 @@ std::vector<Metric> aligned_metrics() {
            .formula = "sum over the joints of |(j'_i - w') - (j_i - w)| / 25, w the wrist",
            .heading = "MPJPE root mm",
            .place = 1030,
-           .of_tracked = mpjpe_root_mm},
+           .of_tracked = mpjpe_root_mm,
+           .needs = Needs::joints_to_scale},
           {.key = "mpjpe_scaled_mm",
            .unit = "mm",
            .description = "MPJPE, scaled: also after the bone from wrist to middle MCP has its true length",
            .formula = "as root-relative, with j'_i - w' times |m - w| / |m' - w'|, m the middle MCP",
            .heading = "MPJPE scaled mm",
            .place = 1040,
-           .of_tracked = mpjpe_scaled_mm},
+           .of_tracked = mpjpe_scaled_mm,
+           .needs = Needs::joints},
           {.key = "mpjpe_procrustes_mm",
            .unit = "mm",
            .description = "MPJPE, Procrustes: joint_error_mm after the best rotation, translation and scale",
@@ -101,7 +114,8 @@ std::vector<Metric> aligned_metrics() {
            .place = 1050,
            .of_tracked = [](const MeasuredFrame& frame) -> std::optional<double> {
              return error_after_procrustes_mm(joint_pairs(frame));
-           }},
+           },
+           .needs = Needs::joints},
           {.key = "mpvpe_root_mm",
            .unit = "mm",
            .description = "MPVPE, root-relative: vertex_error_mm after the wrist is moved to the true wrist",

@@ -31,6 +31,7 @@ std::vector<Metric> alignment_metrics() {
            .place = 140,
            .gate = Metric::Gate{0.1, 0.01},
            .of_tracked = icp_residual_mm,
+           .needs = Needs::internals,
            .is_partial = true}};
 }
 

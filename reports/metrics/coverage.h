@@ -26,7 +26,8 @@ std::map<std::string, double> coverage_rules();
 
 /// False for frames of older results.
 bool is_visible(const FrameRecord& frame);
-/// True if the frame is tracked within the usable errors. Ignores errors that the result lacks.
-bool is_usable(const FrameRecord& frame);
+/// True if the frame is tracked within the usable errors. Empty if the estimate lacks pose or fingertips. Ignores
+/// other errors that the result lacks.
+std::optional<bool> is_usable(const FrameRecord& frame);
 
 }  // namespace glovebench::reports

@@ -19,12 +19,14 @@ bool is_visible(const FrameRecord& frame) {
   return rounded(frame["visible_percent"].value_or(0)) >= kVisible_percent;
 }
 
-bool is_usable(const FrameRecord& frame) {
+std::optional<bool> is_usable(const FrameRecord& frame) {
+  if (!frame.is_judged) return {};
+  if (frame.status != TrackStatus::tracked) return false;
+  if (!frame["fingertip_error_mm"]) return {};
   const auto is_below = [&](std::string_view metric, double bound) {
     return rounded(frame[metric].value_or(0)) < bound;
   };
-  return frame.status == TrackStatus::tracked && is_below("position_error_mm", kUsablePosition_mm) &&
-         is_below("rotation_error_deg", kUsableRotation_deg) &&
+  return is_below("position_error_mm", kUsablePosition_mm) && is_below("rotation_error_deg", kUsableRotation_deg) &&
          is_below("fingertip_error_mm", kUsableFingertips_mm);
 }
 
@@ -40,14 +42,14 @@ std::vector<Metric> coverage_metrics() {
        .formula = "100 (frames - covered frames) / frames",
        .place = 112,
        .gate = kGate,
-       .of_record = [](Frame frame) -> Answer { return !frame.covered; }},
+       .of_record = [](Frame frame) { return frame.is_judged ? Answer(!frame.covered) : Answer(); }},
       {.key = "false_tracked_percent",
        .unit = "%",
        .description = "tracked frames that are 50 mm or 30 degrees off",
        .formula = "100 (tracked frames - covered frames) / frames",
        .place = 114,
        .gate = kGate,
-       .of_record = [](Frame frame) -> Answer { return frame.false_tracked; }},
+       .of_record = [](Frame frame) { return frame.is_judged ? Answer(frame.false_tracked) : Answer(); }},
       {.key = "false_lost_percent",
        .unit = "%",
        .description = "lost frames in which the hand could be tracked",
@@ -61,7 +63,10 @@ std::vector<Metric> coverage_metrics() {
        .formula = "100 (visible frames - usable frames) / visible frames",
        .place = 1010,
        .gate = kGate,
-       .of_record = [](Frame frame) { return is_visible(frame) ? Answer(!is_usable(frame)) : Answer(); },
+       .of_record = [](Frame frame) -> Answer {
+         const Answer usable = is_visible(frame) ? is_usable(frame) : Answer();
+         return usable ? Answer(!*usable) : usable;
+       },
        .of_column = "visible_percent"},
       {.key = "visible_percent",
        .unit = "%",

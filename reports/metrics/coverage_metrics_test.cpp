@@ -15,11 +15,11 @@ FrameRecord coverage_frame(double position_mm, double rotation_deg, double finge
 }
 
 TEST(CoverageLevels, UsableEndsAt10MillimetersAnd10DegreesAndFingertipsAt20Millimeters) {
-  EXPECT_TRUE(is_usable(coverage_frame(9.99, 9.99, 19.99, 100)));
-  EXPECT_FALSE(is_usable(coverage_frame(10, 0, 0, 100)));
-  EXPECT_FALSE(is_usable(coverage_frame(0, 10, 0, 100)));
-  EXPECT_FALSE(is_usable(coverage_frame(0, 0, 20, 100)));
-  EXPECT_FALSE(is_usable(example_lost_frame(0)));
+  EXPECT_EQ(is_usable(coverage_frame(9.99, 9.99, 19.99, 100)), true);
+  EXPECT_EQ(is_usable(coverage_frame(10, 0, 0, 100)), false);
+  EXPECT_EQ(is_usable(coverage_frame(0, 10, 0, 100)), false);
+  EXPECT_EQ(is_usable(coverage_frame(0, 0, 20, 100)), false);
+  EXPECT_EQ(is_usable(example_lost_frame(0)), false);
 }
 
 TEST(CoverageLevels, VisibleBeginsAt30Percent) {

@@ -119,7 +119,7 @@ inline nlohmann::ordered_json example_measured_json(const HandModel& tracker_han
   for (const FrameErrors& errors : measured) {
     run.frames.push_back(errors.record);
     if (errors.joint_errors_mm.empty()) continue;
-    for (const int tip : fingertip_joints()) tips_mm.push_back(errors.joint_errors_mm[tip]);
+    for (const int tip : fingertip_joints()) tips_mm.push_back(*errors.joint_errors_mm[tip]);
   }
   const Coverage coverage = count_coverage({run});
   json["visible"] = coverage.visible;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/image.h"
@@ -27,15 +29,20 @@ struct MeasuredFrame {
   const TrackResult& estimate;
   const FrameTruth& truth;
   PosedHand estimated_hand, true_hand;  ///< tracker's mesh in both postures
-  /// By joint, without the forearm. True joints are the rendered hand's.
-  std::vector<double> joint_errors_mm;
+  // By joint without the forearm, camera frame, m. True joints are the rendered hand's. Empty: not estimated.
+  std::vector<std::optional<Eigen::Vector3d>> joints;
+  std::vector<Eigen::Vector3d> true_joints;
+  std::vector<std::optional<double>> joint_errors_mm;
 };
 
 struct FrameErrors {
   FrameRecord record;
-  std::vector<double> joint_errors_mm;  ///< empty if lost
+  std::vector<std::optional<double>> joint_errors_mm;  ///< by joint; empty if lost
 };
-/// All metrics of a frame. A tracked frame must be finite.
+/// Mean over these joints. Empty if one is not estimated.
+std::optional<double> mean_error_mm(const MeasuredFrame& frame, std::span<const int> joints);
+
+/// The metrics of a frame that the estimate has what they need for. A tracked frame must be finite.
 FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth,
                           const HandModel& tracker_model);
 

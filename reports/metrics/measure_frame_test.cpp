@@ -82,7 +82,7 @@ TEST(MeasureFrame, RotationAboutTheHandsOriginMovesPointsByTheChord) {
   for (const int tip : fingertip_joints()) {
     const Eigen::Vector3d p = joints[tip].translation();
     const double chord_mm = 1000 * 2 * std::sin(angle / 2) * std::hypot(p.x(), p.z());
-    EXPECT_NEAR(errors.joint_errors_mm[tip], chord_mm, kRounding) << joint_name(tip);
+    EXPECT_NEAR(*errors.joint_errors_mm[tip], chord_mm, kRounding) << joint_name(tip);
     tips += chord_mm / 5;
   }
   EXPECT_NEAR(*errors.record["fingertip_error_mm"], tips, kRounding);
@@ -104,9 +104,9 @@ TEST(MeasureFrame, OneJointMovesOnlyWhatHangsOnIt) {
     const bool moved =
         joint == joint_index("index-finger-phalanx-distal") || joint == joint_index("index-finger-tip");
     if (moved) {
-      EXPECT_GT(errors.joint_errors_mm[joint], 5) << joint_name(joint);
+      EXPECT_GT(*errors.joint_errors_mm[joint], 5) << joint_name(joint);
     } else {
-      EXPECT_NEAR(errors.joint_errors_mm[joint], 0, kRounding) << joint_name(joint);
+      EXPECT_NEAR(*errors.joint_errors_mm[joint], 0, kRounding) << joint_name(joint);
     }
   }
 }
@@ -200,6 +200,63 @@ TEST(CountPatches, CountsFromPatchPlusOne) {
   EXPECT_EQ(counts[kCuff], 2);
   EXPECT_EQ(counts[kThumbDistal], 0);
   EXPECT_THAT(count_patches({}), testing::Each(0));
+}
+
+/// The true joints, as a tracker without our hand model gives them.
+TrackResult joints_alone() {
+  TrackResult estimate = make_estimate();
+  estimate.has = {.posture = false, .pose = false, .internals = false};
+  const FrameTruth truth = make_truth();
+  for (int j = 0; j < kForearmJoint; ++j)
+    estimate.joints.emplace_back(truth.T_camera_hand * truth.T_hand_joint[j].translation());
+  return estimate;
+}
+
+std::set<std::string_view> measured_metrics(const FrameRecord& record) {
+  std::set<std::string_view> keys;
+  for (const Metric& metric : frame_metrics())
+    if (metric.of_tracked && record[metric.key]) keys.insert(metric.key);
+  return keys;
+}
+
+TEST(MeasureFrame, JointsAloneHaveNeitherPostureNorPose) {
+  TrackResult estimate = joints_alone();
+  FrameRecord record = measure(estimate);
+  EXPECT_THAT(measured_metrics(record),
+              testing::UnorderedElementsAre("fingertip_error_mm", "joint_error_mm", "mpjpe_root_mm",
+                                            "mpjpe_scaled_mm", "mpjpe_procrustes_mm", "palm_error_mm"));
+  EXPECT_NEAR(*record["joint_error_mm"], 0, kRounding);
+  EXPECT_FALSE(record.is_judged || record.covered || record.false_tracked);
+  const Coverage coverage = count_coverage({{1, {record}}});
+  EXPECT_FALSE(coverage.share() || coverage.found_share() || coverage.usable_share());
+
+  estimate.joints[kWristJoint].reset();
+  record = measure(estimate);
+  EXPECT_THAT(measured_metrics(record),
+              testing::UnorderedElementsAre("fingertip_error_mm", "joint_error_mm", "mpjpe_procrustes_mm"))
+      << "without a wrist nothing is relative to it";
+}
+
+TEST(MeasureFrame, JointsWithoutPlaceOrScaleHaveFewerMetrics) {
+  TrackResult estimate = joints_alone();
+  for (auto& joint : estimate.joints) *joint = 2 * *joint + Eigen::Vector3d(1, 2, 3);
+  estimate.has.place = false;
+  EXPECT_THAT(measured_metrics(measure(estimate)),
+              testing::UnorderedElementsAre("mpjpe_root_mm", "mpjpe_scaled_mm", "mpjpe_procrustes_mm"));
+  estimate.has.scale = false;
+  const FrameRecord record = measure(estimate);
+  EXPECT_THAT(measured_metrics(record), testing::UnorderedElementsAre("mpjpe_scaled_mm", "mpjpe_procrustes_mm"));
+  EXPECT_NEAR(*record["mpjpe_scaled_mm"], 0, kRounding);
+  EXPECT_NEAR(*record["mpjpe_procrustes_mm"], 0, kRounding);
+}
+
+TEST(MeasureFrame, APoseAloneIsNeitherUsableNorUnusable) {
+  TrackResult estimate = make_estimate();
+  estimate.has.posture = estimate.has.internals = false;
+  const FrameRecord record = measure(estimate);
+  EXPECT_THAT(measured_metrics(record), testing::UnorderedElementsAre("position_error_mm", "rotation_error_deg"));
+  EXPECT_TRUE(record.covered);
+  EXPECT_EQ(is_usable(record), std::nullopt);
 }
 
 }  // namespace

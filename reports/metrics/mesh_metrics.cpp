@@ -18,9 +18,14 @@ std::optional<double> vertex_error_mm(const MeasuredFrame& frame) {
 }
 
 std::optional<double> fingertip_error_mm(const MeasuredFrame& frame) {
-  std::vector<double> tips;
-  for (const int tip : fingertip_joints()) tips.push_back(frame.joint_errors_mm[tip]);
-  return mean(tips);
+  return mean_error_mm(frame, fingertip_joints());
+}
+
+std::optional<double> joint_error_mm(const MeasuredFrame& frame) {
+  std::vector<double> errors;
+  for (const std::optional<double>& error : frame.joint_errors_mm)
+    if (error) errors.push_back(*error);
+  return mean(errors);
 }
 
 }  // namespace
@@ -42,14 +47,16 @@ std::vector<Metric> mesh_metrics() {
        .heading = "fingertips mm",
        .place = 110,
        .gate = Metric::Gate{0.2, 0.01},
-       .of_tracked = fingertip_error_mm},
+       .of_tracked = fingertip_error_mm,
+       .needs = Needs::joints_in_camera},
       {.key = "joint_error_mm",
        .unit = "mm",
        .description = "MPJPE, raw: mean distance of the 25 joints",
        .formula = "sum over the joints of |j'_i - j_i| / 25",
        .heading = "joints mm",
        .place = 120,
-       .of_tracked = [](const MeasuredFrame& frame) { return mean(frame.joint_errors_mm); }}};
+       .of_tracked = joint_error_mm,
+       .needs = Needs::joints_in_camera}};
 }
 
 }  // namespace glovebench::reports

@@ -15,6 +15,17 @@ struct FrameRecord;
 struct FrameTruth;
 struct MeasuredFrame;
 
+/// What an estimate must have for a metric of tracked frames.
+enum class Needs {
+  hand,  ///< posture and pose
+  posture,
+  pose,
+  joints,            ///< relative to each other, perhaps without scale
+  joints_to_scale,   ///< relative to each other
+  joints_in_camera,  ///< in their place
+  internals
+};
+
 /// A number per frame or experiment, from one of `of_tracked`, `of_any`, `of_record`, `of_experiment`; the others
 /// are null. With a gate, less is better. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
 struct Metric {
@@ -35,7 +46,8 @@ struct Metric {
   std::optional<Gate> gate = {};  ///< empty: not compared
 
   std::optional<double> (*of_tracked)(const MeasuredFrame&) = nullptr;  ///< column; not for lost frames
-  bool is_partial = false;                                              ///< empty in some tracked frames
+  Needs needs = Needs::hand;  ///< of a column of tracked frames, which is else empty
+  bool is_partial = false;    ///< empty in some tracked frames
   /// Column, also for lost frames.
   std::optional<double> (*of_any)(const TrackResult&, const FrameTruth&) = nullptr;
   /// Share of the frames that have a value; no column.

@@ -22,14 +22,16 @@ std::vector<Metric> pose_metrics() {
            .formula = "|p' - p|, p the origin of the hand",
            .place = 10,
            .gate = Metric::Gate{0.2, 0.01},
-           .of_tracked = position_error_mm},
+           .of_tracked = position_error_mm,
+           .needs = Needs::pose},
           {.key = "rotation_error_deg",
            .unit = "deg",
            .description = "geodesic angle between the hands",
            .formula = "angle of R'^T R",
            .place = 20,
            .gate = Metric::Gate{0.3, 0.01},
-           .of_tracked = rotation_error_deg}};
+           .of_tracked = rotation_error_deg,
+           .needs = Needs::pose}};
 }
 
 }  // namespace glovebench::reports

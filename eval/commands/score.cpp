@@ -1,0 +1,149 @@
+#include "eval/score.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/base/registry.h"
+#include "core/base/text.h"
+#include "eval/commands/flags.h"
+#include "eval/experiment.h"
+#include "eval/program.h"
+#include "eval/terminal.h"
+#include "reports/summary.h"
+#include "trajectories/formats/format.h"
+#include "trajectories/text_cells.h"
+
+namespace glovebench::eval {
+namespace {
+
+struct ScoreCommand {
+  explicit ScoreCommand(Command own_command) : command(own_command) {}
+
+  const Command command;
+  const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  CommonFlags common;
+  ScoreRequest request;
+  std::string truth, truth_kind = "source", name, joints, time_offset;
+  double tolerance_ms = 0;
+  int subject = 1;
+  reports::NoiseSetting noise;
+  RobotFlags robot;
+
+  void run() {
+    complete_request();
+    Workbench workbench = common.workbench();
+    common.check_report_folder();
+    const Score scored = score(workbench, request);
+    for (const auto& warning : scored.plan.score.at("warnings"))
+      say("glovebench: warning: {}: {}\n", request.estimates, warning.get<std::string>());
+    const std::vector<MeasuredRun> runs = measure(workbench, scored.runs);
+    const Outcome outcome = report_runs(workbench, scored.plan, runs, {workbench.config().threads, start, false},
+                                        robot.output_of(workbench), common.output);
+    if (common.quiet) return;
+    fmt::print("{}\n", reports::headline_text(outcome.result, terminal_columns()));
+    print_joint_errors(outcome.result);
+    for (const std::string& match : scored.matches) fmt::print("{}\n", match);
+    fmt::print("All metrics, with intervals: {0}/summary.md\nReport: {0}/index.html\n", common.output);
+  }
+
+  void complete_request() {
+    const bool is_file = trajectories::is_trajectory_file(truth);
+    const auto kind =
+        is_file && !command.given("--truth-kind") ? std::nullopt : from_name<reports::TruthKind>(truth_kind);
+    const auto movement = std::make_shared<const trajectories::Trajectory>(load_truth(truth, kind));
+    common.warn_of_units(*movement);
+    common.left = movement->side == Side::left;
+    if (name.empty()) name = std::filesystem::path(request.estimates).stem().string();
+    request.spec = {.trajectory = movement,
+                    .subject = subject,
+                    .noise = noise,
+                    .seed = common.seed,
+                    .database = checked_name(name, "--name", "name of the estimates"),
+                    .tracker = common.tracker_config()};
+    if (!joints.empty()) request.flags.order = load_joint_order(joints);
+    if (command.given("--tolerance")) request.tolerance_ms = tolerance_ms;
+    request.estimates_offset = time_offset == "estimate";
+    if (request.estimates_offset || time_offset.empty()) return;
+    const std::optional<double> offset = trajectories::number_in(time_offset);
+    constexpr double kLongest_ms = 1e13;
+    if (!offset || !(std::abs(*offset) <= kLongest_ms))
+      throw Error("--time-offset", "value", quoted_excerpt(time_offset), "milliseconds, or estimate");
+    request.offset_ms = *offset;
+  }
+
+  /// Of estimates that lack what the headline needs.
+  static void print_joint_errors(const reports::RunResult& result) {
+    const reports::ExperimentResult& experiment = result.experiments.front();
+    if (experiment.aggregate_of("vertex_error_mm").mean) return;
+    std::vector<std::string> errors;
+    for (const char* key : {"joint_error_mm", "mpjpe_root_mm", "mpjpe_scaled_mm", "mpjpe_procrustes_mm"}) {
+      const reports::Metric& metric = reports::metric_of(key);
+      if (const auto mean = value_of(metric, experiment))
+        errors.push_back(fmt::format("{} {:.2f}", metric.heading, *mean));
+    }
+    if (!errors.empty()) fmt::print("{}.\n", fmt::join(errors, ", "));
+  }
+};
+
+std::string names_of_orders() {
+  std::vector<std::string> names = names_in(joint_orders());
+  return fmt::format("{}, or a map (*.json)", fmt::join(names, ", "));
+}
+
+std::string formats_text() {
+  std::string text;
+  for (const EstimateFormat& format : estimate_formats())
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", format.name, format.description);
+  return text;
+}
+
+}  // namespace
+
+void add_score(Command program) {
+  const Command command =
+      program.subcommand("score",
+                         "Measure the estimates of any program against a truth and report the errors.\n"
+                         "Metrics that need what the estimates lack are empty.");
+  const auto state = std::make_shared<ScoreCommand>(command);
+  state->common.add_output(command, "folder of the report").required();
+  command.option("--truth", state->truth, "Tr1..Tr5, side_3 (`glovebench list families`) or a file (*.json)")
+      .required();
+  command.option("--truth-kind", state->truth_kind, "which truth of Tr1..Tr5").one_of({"source", "recorded"});
+  command.option("--estimates", state->request.estimates, "file").required().existing_file();
+  command.option("--name", state->name, "of the program, in tables [the file's]");
+  const Command file = command.group("What the file does not say");
+  file.option("--format", state->request.format, formats_text() + " [by ending and first line]")
+      .one_of(names_in(estimate_formats()));
+  file.option("--beside", state->request.beside, "file with the angles or joints of the same poses")
+      .existing_file();
+  file.option("--joints", state->joints, "their order: " + names_of_orders());
+  file.option("--units", state->request.flags.units, "of positions; none: without scale")
+      .one_of({"m", "cm", "mm", "none"});
+  file.option("--frame", state->request.flags.frame,
+              "of joints: camera, or wrist for joints relative to each other along the camera's axes")
+      .one_of({"camera", "wrist"});
+  file.option("--time-unit", state->request.flags.time, "of time stamps").one_of({"s", "ms", "us"});
+  const Command times = command.group("Times");
+  times
+      .option("--tolerance", state->tolerance_ms,
+              "ms between an estimate and its frame, at most [half the time between frames]")
+      .in(0, 1e6);
+  times.option("--time-offset", state->time_offset, "ms to add to the estimates' times, or estimate");
+  const Command camera = command.group("What the program saw");
+  camera.option("--subject", state->subject, "whose hand (`glovebench list subjects`)")
+      .in(1, render::kSubjectCount);
+  camera.option("--noise", state->noise.model, "depth noise").one_of(names_in(render::depth_noises()));
+  camera.option("--gain", state->noise.factor, "factor on the noise's gain").in(0, 100);
+  state->common.add_seed(camera);
+  state->common.add_cameras(camera);
+  state->robot.add(command, "folder for the robot commands").named_file();
+  state->common.add_hand(command);
+  state->common.add_machine(command);
+  command.runs([state] { state->run(); });
+}
+
+}  // namespace glovebench::eval

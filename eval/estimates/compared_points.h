@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/hand/hand_frame.h"
+#include "core/hand/hand_model.h"
+#include "core/tracker/track_result.h"
+#include "render/subjects/subject.h"
+
+namespace glovebench::eval {
+
+/// Columns are points (m, camera axes): joints, else the hand's origin and axes; without both, angles (rad) in one
+/// row.
+using Points = Eigen::MatrixXd;
+
+/// How estimates of one file are compared with the truth to find a time offset or a mistake.
+struct PointComparison {
+  EstimateParts has;
+  std::vector<int> joints;  ///< empty: all, if it has posture and pose
+  const HandModel* hand = nullptr;
+
+  bool has_joints() const { return has.hand() || !joints.empty(); }
+  bool has_points() const { return has_joints() || has.pose; }
+  /// Of a tracked answer.
+  Points of(const TrackResult& answer) const;
+  Points of(const HandFrame& truth, const render::Subject& subject) const;
+  /// Mean, mm or deg. Centers are moved together without place, and sizes made equal without scale.
+  double distance(const Points& estimated, const Points& truth) const;
+  const char* unit() const { return has_points() ? "mm" : "deg"; }
+};
+
+/// Of all frames.
+std::vector<Points> points_of(const PointComparison& comparison, std::span<const HandFrame> truth,
+                              const render::Subject& subject);
+
+}  // namespace glovebench::eval

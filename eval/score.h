@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/estimates/estimate_format.h"
+#include "eval/plan.h"
+#include "eval/run.h"
+
+namespace glovebench::eval {
+
+struct ScoreRequest {
+  RunSpec spec;           ///< without a tracker; its database is the name of the estimates
+  std::string estimates;  ///< file
+  std::string format;     ///< empty: by ending and first line
+  std::string beside;     ///< file with angles or joints of the same poses; empty: none
+  EstimateFlags flags;
+  std::optional<double> tolerance_ms;  ///< empty: half the time between frames
+  double offset_ms = 0;                ///< added to the estimates' times
+  bool estimates_offset = false;       ///< instead
+};
+
+/// Runs whose answers come from a file, to be measured like those of a tracker.
+struct Score {
+  Plan plan;
+  std::vector<Run> runs;             ///< one per seed of the file
+  std::vector<std::string> matches;  ///< sentences on times
+};
+/// Throws: Error.
+Score score(Workbench& workbench, const ScoreRequest& request);
+
+}  // namespace glovebench::eval
