@@ -54,7 +54,8 @@ const TrackerFlag* several_of(const TrackerChoices& choices) {
     if ((choices.*flag.values).size() < 2) continue;
     if (several)
       throw Error(flag.name, "values", fmt::format("several, as of {}", several->name),
-                  "one, if another has several");
+                  "one flag with several; to compare more, put each setting into a file: --config a.json --config "
+                  "b.json");
     several = &flag;
   }
   return several;
