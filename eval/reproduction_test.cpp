@@ -165,9 +165,7 @@ TEST(StoredStudy, EveryInputIsInItsKey) {
       key_of_options([](auto& options) { options.tracker.segmentation.color_space = ColorSpace::rgb; }),
       key_of_options([](auto& options) { options.seeds = {2}; }),
       key_of_options([](auto& options) { options.quick = false; }),
-      key_of_options([](auto& options) {
-        options.cascades = {parse_cascade("64:3")};
-      }),
+      key_of_options([](auto& options) { options.cascades = {parse_cascade("64:3")}; }),
       key_of_workbench([](auto& config) { config.side = Side::left; }),
       key_of_workbench([](auto& config) { config.hand = MeasuredHand{.shape = second_subject()}; }),
       key_of_workbench([](auto& config) { config.memory = DatabaseMemory::low; }),
