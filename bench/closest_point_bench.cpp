@@ -1,33 +1,47 @@
 // The closest points of a frame's points while an alignment moves them: plain, fast, and the peers.
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "bench/bench_data.h"
 #include "bench/peers/peers.h"
 #include "core/pose/closest_point.h"
 #include "core/pose/closest_point_search.h"
 #include "core/pose/icp.h"
+#include "core/pose/matcher.h"
 
 namespace glovebench::bench {
 namespace {
 
-/// One frame's points in the hand frame as an alignment sees them: at the coarse pose, then nearer the final one.
+/// One frame's points in the hand frame, wherever its alignment by Horn's method searches.
 struct PointSequence {
   Surface surface;
   std::vector<RecycledVector<LabeledPoint>> points_hand;
 };
 
-constexpr int kIterations = 10;
+/// The coarse pose and the one after each iteration.
+std::vector<Eigen::Isometry3d> searched_poses(const BenchFrame& frame, int max_points) {
+  IcpConfig config = data().config.icp;
+  config.algorithm = "horn";
+  config.max_points = max_points;
+  std::vector<Eigen::Isometry3d> poses = {frame.result.T_camera_hand_coarse};
+  const int most = std::exchange(config.max_iterations, 0);
+  bool is_done = false;
+  while (!is_done) {
+    ++config.max_iterations;
+    const Alignment alignment = align(*data().model, frame.posed, frame.trace.cloud.points, poses.front(), config);
+    poses.push_back(alignment.T_camera_hand);
+    is_done = alignment.status != AlignmentStatus::not_converged || config.max_iterations == most;
+  }
+  return poses;
+}
 
 PointSequence make_sequence(const BenchFrame& frame, int max_points) {
-  const Eigen::Isometry3d& coarse = frame.result.T_camera_hand_coarse;
-  const Eigen::Isometry3d& fine = frame.result.T_camera_hand_unfiltered;
-  const Eigen::Quaterniond q_coarse(coarse.linear()), q_fine(fine.linear());
-  PointSequence sequence{Surface(*data().model, frame.posed, coarse.inverse().translation().cast<float>()), {}};
+  PointSequence sequence{Surface(*data().model, frame.posed, viewpoint_hand(frame.result.T_camera_hand_coarse)),
+                         {}};
   const RecycledVector<LabeledPoint> cloud = subsample(frame.trace.cloud.points, max_points);
-  for (int i = 0; i < kIterations; ++i) {
-    const double share = 1 - std::pow(0.5, i);  // an alignment's steps shrink
-    Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
-    T_camera_hand.linear() = q_coarse.slerp(share, q_fine).toRotationMatrix();
-    T_camera_hand.translation() = (1 - share) * coarse.translation() + share * fine.translation();
+  for (const Eigen::Isometry3d& T_camera_hand : searched_poses(frame, max_points)) {
     RecycledVector<LabeledPoint> points = cloud;
     for (LabeledPoint& point : points) point.p = (T_camera_hand.inverse() * point.p.cast<double>()).cast<float>();
     sequence.points_hand.push_back(std::move(points));
@@ -37,33 +51,42 @@ PointSequence make_sequence(const BenchFrame& frame, int max_points) {
 
 /// Of every fourth frame: the plain search takes its time.
 std::vector<PointSequence> make_sequences(int max_points) {
-  std::vector<PointSequence> sequences;
-  for (size_t i = 0; i < data().frames.size(); i += 4)
-    sequences.push_back(make_sequence(data().frames[i], max_points));
-  return sequences;
+  return once(fmt::format("sequences of {} points", max_points), [&] {
+    std::vector<PointSequence> sequences;
+    for (size_t i = 0; i < data().frames.size(); i += 4)
+      sequences.push_back(make_sequence(data().frames[i], max_points));
+    return sequences;
+  });
 }
 
-// One entry an engine: it takes a sequence and returns what it found at each pose, to be compared.
-using Found = std::vector<RecycledVector<ClosestPoint>>;
+// Our own searches in the place of a peer.
+class PlainSearch : public ClosestPointPeer {
+ public:
+  explicit PlainSearch(const Surface& surface) : surface_(surface) {}
+  const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) override {
+    return closest_ = closest_points_plain(points_hand, surface_);
+  }
 
-Found find_plain(const PointSequence& sequence) {
-  Found found;
-  for (const auto& points : sequence.points_hand) found.push_back(closest_points_plain(points, sequence.surface));
-  return found;
-}
+ private:
+  const Surface& surface_;
+  RecycledVector<ClosestPoint> closest_;
+};
 
-/// What the search makes of the surface is part of its time.
-Found find_fast(const PointSequence& sequence) {
-  ClosestPointSearch search(sequence.surface);
-  Found found;
-  for (const auto& points : sequence.points_hand) found.push_back(search(points));
-  return found;
-}
+class FastSearch : public ClosestPointPeer {
+ public:
+  explicit FastSearch(const Surface& surface) : search_(surface) {}
+  const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand) override {
+    return search_(points_hand);
+  }
 
-/// What the fast search does for each of its groups of points at each pose.
-void set_work(benchmark::State& state, int max_points) {
+ private:
+  ClosestPointSearch search_;
+};
+
+/// Counts the work of a group of points, on average over its searches.
+void set_work(benchmark::State& state, const std::vector<PointSequence>& sequences) {
   SearchWork work;
-  for (const PointSequence& sequence : make_sequences(max_points)) {
+  for (const PointSequence& sequence : sequences) {
     ClosestPointSearch search(sequence.surface);
     for (const auto& points : sequence.points_hand) search(points);
     work.groups += search.work().groups;
@@ -78,13 +101,6 @@ void set_work(benchmark::State& state, int max_points) {
   state.counters["boxes"] = static_cast<double>(work.boxes) / groups;
 }
 
-Found find_peer(const PointSequence& sequence, MakeClosestPointPeer make) {
-  const std::unique_ptr<ClosestPointPeer> search = make(sequence.surface);
-  Found found;
-  for (const auto& points : sequence.points_hand) found.push_back((*search)(points));
-  return found;
-}
-
 bool equal(const ClosestPoint& a, const ClosestPoint& b) {
   return a.face == b.face && a.distance == b.distance && a.p_hand == b.p_hand;
 }
@@ -95,65 +111,76 @@ bool nearly_equal(const ClosestPoint& a, const ClosestPoint& b) {
   return (a.face < 0) == (b.face < 0) && std::abs(a.distance - b.distance) <= kRounding;
 }
 
-/// What the fast search touches at least: at each pose of each point its share of its group, the point and the
-/// answer. Faces serve many points.
-double least_bytes(double points) {
-  constexpr double kShareOfGroup = static_cast<double>(sizeof(PointGroup)) / PointGroup::kPoints;
-  return kIterations * points * (kShareOfGroup + sizeof(LabeledPoint) + sizeof(ClosestPoint));
-}
-
-template <typename Find, typename Equal>
-bool finds_what_plain_finds(const std::vector<PointSequence>& sequences, const Find& find, const Equal& is_equal) {
+/// Compares with the plain search at each pose.
+bool finds_what_plain_finds(const std::vector<PointSequence>& sequences, MakeClosestPointPeer make,
+                            bool (*is_equal)(const ClosestPoint&, const ClosestPoint&)) {
   return std::ranges::all_of(sequences, [&](const PointSequence& sequence) {
-    return std::ranges::equal(find(sequence), find_plain(sequence), [&](const auto& found, const auto& expected) {
-      return std::ranges::equal(found, expected, is_equal);
+    const std::unique_ptr<ClosestPointPeer> search = make(sequence.surface);
+    return std::ranges::all_of(sequence.points_hand, [&](const RecycledVector<LabeledPoint>& points) {
+      return std::ranges::equal((*search)(points), closest_points_plain(points, sequence.surface), is_equal);
     });
   });
 }
 
-/// Returns the mean number of points.
-template <typename Find, typename Equal>
-double run(benchmark::State& state, const std::string& name, const Find& find, const Equal& is_equal,
-           int max_points) {
+struct Engine {
+  const char* name;
+  MakeClosestPointPeer make;
+  bool (*is_equal)(const ClosestPoint&, const ClosestPoint&) = nearly_equal;
+};
+
+/// What an engine makes of a frame's surface.
+void run_build(benchmark::State& state, const Engine& engine, int max_points) {
+  if (engine.make == nullptr) return state.SkipWithError(kMissing);
   const std::vector<PointSequence> sequences = make_sequences(max_points);
-  if (!once(name, [&] { return finds_what_plain_finds(sequences, find, is_equal); })) {
-    state.SkipWithError("the search differs from the plain one");
-    return 0;
-  }
-  double points = 0;
-  for (const PointSequence& sequence : sequences)
-    points += static_cast<double>(sequence.points_hand.front().size());
-  for (auto _ : state) {
-    for (const PointSequence& sequence : sequences) benchmark::DoNotOptimize(find(sequence));
-  }
-  points /= static_cast<double>(sequences.size());
-  state.counters["points"] = points;
+  for (auto _ : state)
+    for (const PointSequence& sequence : sequences) benchmark::DoNotOptimize(engine.make(sequence.surface));
   set_time_each(state, "frame", sequences.size());
-  return points;
 }
 
-void run_search_peer(benchmark::State& state, const std::string& name, MakeClosestPointPeer make, int max_points) {
-  if (make == nullptr) return state.SkipWithError(kMissing);
-  run(
-      state, name, [make](const PointSequence& sequence) { return find_peer(sequence, make); }, nearly_equal,
-      max_points);
+/// All searches of an alignment, in a new structure.
+void run_query(benchmark::State& state, const Engine& engine, int max_points) {
+  if (engine.make == nullptr) return state.SkipWithError(kMissing);
+  const std::vector<PointSequence> sequences = make_sequences(max_points);
+  if (!once(fmt::format("{} {}", engine.name, max_points),
+            [&] { return finds_what_plain_finds(sequences, engine.make, engine.is_equal); }))
+    return state.SkipWithError("the search differs from the plain one");
+  std::vector<std::unique_ptr<ClosestPointPeer>> searches;
+  for (auto _ : state) {
+    state.PauseTiming();
+    searches.clear();
+    for (const PointSequence& sequence : sequences) searches.push_back(engine.make(sequence.surface));
+    state.ResumeTiming();
+    for (size_t i = 0; i < sequences.size(); ++i)
+      for (const auto& points : sequences[i].points_hand) benchmark::DoNotOptimize((*searches[i])(points).data());
+  }
+  set_time_each(state, "frame", sequences.size());
+  double poses = 0, points = 0;
+  for (const PointSequence& sequence : sequences) {
+    poses += static_cast<double>(sequence.points_hand.size());
+    points += static_cast<double>(sequence.points_hand.size() * sequence.points_hand.front().size());
+  }
+  state.counters["poses"] = poses / static_cast<double>(sequences.size());
+  state.counters["points"] = points / poses;
+  if (engine.make != make_search<FastSearch>) return;
+  // What the fast search touches at least: at each pose of each point its share of its group, the point and the
+  // answer. Faces serve many points.
+  constexpr double kBytes =
+      static_cast<double>(sizeof(PointGroup)) / PointGroup::kPoints + sizeof(LabeledPoint) + sizeof(ClosestPoint);
+  set_bytes_touched(state, {.near = kBytes * points / static_cast<double>(sequences.size())});
+  set_work(state, sequences);
 }
 
 void register_engines(const std::string& name, int max_points) {
-  const auto add = [&](const std::string& engine, const auto& function) {
-    const std::string full = name + "/" + engine;
-    benchmark::RegisterBenchmark(full.c_str(), function, full)->Unit(benchmark::kMillisecond);
+  const auto add = [&](const std::string& part, const Engine& engine, const auto& run) {
+    benchmark::RegisterBenchmark((name + part + engine.name).c_str(), run, engine, max_points)
+        ->Unit(benchmark::kMillisecond);
   };
-  add("plain",
-      [=](benchmark::State& state, const std::string& full) { run(state, full, find_plain, equal, max_points); });
-  add("fast", [=](benchmark::State& state, const std::string& full) {
-    set_bytes_touched(state, {.near = least_bytes(run(state, full, find_fast, equal, max_points))});
-    set_work(state, max_points);
-  });
-  add("embree",
-      [=](benchmark::State& state, const std::string& full) { run_search_peer(state, full, kEmbree, max_points); });
-  add("cgal",
-      [=](benchmark::State& state, const std::string& full) { run_search_peer(state, full, kCgal, max_points); });
+  add("/query/", {"plain", make_search<PlainSearch>, equal}, run_query);
+  for (const Engine& engine :
+       {Engine{"fast", make_search<FastSearch>, equal}, Engine{"embree", kEmbree}, Engine{"cgal", kCgal}}) {
+    add("/build/", engine, run_build);
+    add("/query/", engine, run_query);
+  }
 }
 
 // The paper profile's number of points, and about as many as the hand has at 0.7 m.

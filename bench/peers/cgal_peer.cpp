@@ -8,7 +8,7 @@
 namespace glovebench::bench {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
+using Kernel = CGAL::Simple_cartesian<float>;
 using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
@@ -17,7 +17,7 @@ Kernel::Point_3 to_cgal(const Eigen::Vector3f& p) {
   return {p.x(), p.y(), p.z()};
 }
 Eigen::Vector3f from_cgal(const Kernel::Point_3& p) {
-  return Eigen::Vector3d(p.x(), p.y(), p.z()).cast<float>();
+  return {p.x(), p.y(), p.z()};
 }
 
 struct ColorTree {
@@ -67,12 +67,8 @@ class CgalSearch : public ClosestPointPeer {
   RecycledVector<ClosestPoint> closest_;
 };
 
-std::unique_ptr<ClosestPointPeer> make(const Surface& surface) {
-  return std::make_unique<CgalSearch>(surface);
-}
-
 }  // namespace
 
-const MakeClosestPointPeer kCgal = make;
+const MakeClosestPointPeer kCgal = make_search<CgalSearch>;
 
 }  // namespace glovebench::bench

@@ -5,7 +5,8 @@
 namespace glovebench::bench {
 
 #ifndef GLOVEBENCH_HAS_FAISS
-const MakeLookUpPeer kFaiss = nullptr;
+const MakeLookUpPeer kFaiss = nullptr, kFaissBytes = nullptr, kFaiss8Bit = nullptr, kFaissPq = nullptr,
+                     kFaissHnsw = nullptr;
 #endif
 #ifndef GLOVEBENCH_HAS_EMBREE
 const MakeClosestPointPeer kEmbree = nullptr;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include "core/cloud/labeled_cloud.h"
 #include "core/database/look_up.h"
+#include "core/database/look_up_parts.h"
 #include "core/pose/closest_point.h"
 #include "core/pose/icp.h"
 
@@ -15,18 +17,41 @@
 
 namespace glovebench::bench {
 
-/// Brute force over one size's fields as inner products.
+/// A search of one size's fields, alone.
 class LookUpPeer {
  public:
   virtual ~LookUpPeer() = default;
-  /// The `keep` nearest entries of each query, best first, ties in any order. Each query must have glove pixels.
-  virtual std::vector<RecycledVector<Match>> operator()(std::span<const LabelImage> queries, int keep) = 0;
+  /// The `keep` nearest entries, best first, ties in any order. The query must have glove pixels.
+  virtual RecycledVector<Match> look_up(const LabelImage& query, int keep) = 0;
+  virtual std::vector<RecycledVector<Match>> look_up_all(std::span<const LabelImage> queries, int keep) {
+    std::vector<RecycledVector<Match>> matches;
+    for (const LabelImage& query : queries) matches.push_back(look_up(query, keep));
+    return matches;
+  }
+  /// Numbers that the last call added or multiplied, for each query.
+  double work() const { return work_; }
+
+ protected:
+  static RecycledVector<Match> nearest(RecycledVector<Candidate> candidates, int keep, size_t glove_pixels) {
+    std::partial_sort(candidates.begin(), candidates.begin() + keep, candidates.end());
+    candidates.resize(keep);
+    return matches_of(candidates, glove_pixels);
+  }
+
+  double work_ = 0;
 };
 /// `database` must outlive the peer.
 using MakeLookUpPeer = std::unique_ptr<LookUpPeer> (*)(const Database& database, int size);
-extern const MakeLookUpPeer kFaiss, kOpenCv;
+template <typename Peer>
+std::unique_ptr<LookUpPeer> make_look_up(const Database& database, int size) {
+  return std::make_unique<Peer>(database, size);
+}
+/// These find the nearest.
+extern const MakeLookUpPeer kFaiss, kFaissBytes, kOpenCv, kSparse, kSparseRows;
+/// These find near ones.
+extern const MakeLookUpPeer kFaiss8Bit, kFaissPq, kFaissHnsw;
 
-/// One tree per color, queried point by point.
+/// A structure over a surface, and its queries.
 class ClosestPointPeer {
  public:
   virtual ~ClosestPointPeer() = default;
@@ -36,6 +61,10 @@ class ClosestPointPeer {
 };
 /// `surface` must outlive the peer.
 using MakeClosestPointPeer = std::unique_ptr<ClosestPointPeer> (*)(const Surface& surface);
+template <typename Peer>
+std::unique_ptr<ClosestPointPeer> make_search(const Surface& surface) {
+  return std::make_unique<Peer>(surface);
+}
 extern const MakeClosestPointPeer kEmbree, kCgal;
 
 /// Uses centers of faces seen at the start, without colors.
