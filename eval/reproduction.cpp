@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -66,31 +68,20 @@ void add_curve(Plan& plan, const ReproductionOptions& options, const PaperCurve&
   }
 }
 
-/// Hash of all inputs of a study except the program.
-std::string study_key(Workbench& workbench, const Study& study, const StudyOptions& options) {
-  nlohmann::json inputs;
+/// Hashes of all files of the data folder, by path.
+std::map<std::string, std::string> data_hashes() {
   const std::string folder = trajectory_folder();
-  for (const std::string& name : trajectories::ground_truth_names()) {
-    inputs.push_back(trajectories::hash(trajectories::source_trajectory(folder, name)));
-    inputs.push_back(trajectories::hash(trajectories::recorded_trajectory(folder, name)));
-  }
-  for (const std::string& name : trajectories::posture_set_names())
-    inputs.push_back(Database::input_hash(trajectories::posture_set(folder, name), *workbench.model(),
-                                          workbench.config().views));
-  inputs.push_back(workbench.subject(2).hash());
-  inputs.push_back(hash_bytes(
-      std::as_bytes(std::span(workbench.color_table(options.tracker.segmentation.color_space)->labels()))));
-  std::vector<std::string> cascades;
-  for (const Cascade& cascade : options.cascades) cascades.push_back(to_string(cascade));
-  const nlohmann::json content = {{"study", study.name},    {"configuration", to_json(options.tracker)},
-                                  {"seeds", options.seeds}, {"quick", options.quick},
-                                  {"cascades", cascades},   {"host", host_timings(1).host},
-                                  {"inputs", inputs}};
-  return hash_text(content.dump());
+  std::error_code error;
+  const std::filesystem::recursive_directory_iterator files(folder, error);
+  if (error) throw Error(folder, "data folder", error.message(), "the program's data");
+  std::map<std::string, std::string> hashes;
+  for (const auto& entry : files)
+    if (entry.is_regular_file()) hashes[entry.path().lexically_relative(folder)] = hash_file(entry.path());
+  return hashes;
 }
 
 reports::StudyResult run_or_load(const StudyContext& context, const Study& study) {
-  const std::string key = study_key(context.workbench, study, context.options);
+  const std::string key = study_key(context.workbench, study.name, context.options);
   if (const auto stored = context.store->load(key))
     if (auto result = study_from_bytes(*stored)) return *std::move(result);
   reports::StudyResult result = study.run(context);
@@ -99,6 +90,25 @@ reports::StudyResult run_or_load(const StudyContext& context, const Study& study
 }
 
 }  // namespace
+
+std::string study_key(Workbench& workbench, std::string_view name, const StudyOptions& options) {
+  std::vector<std::string> cascades;
+  for (const Cascade& cascade : options.cascades) cascades.push_back(to_string(cascade));
+  const nlohmann::json content = {
+      {"study", name},
+      {"configuration", to_json(options.tracker)},
+      {"seeds", options.seeds},
+      {"quick", options.quick},
+      {"cascades", cascades},
+      {"data", data_hashes()},
+      {"package_hand", workbench.package_hand()->hash()},  // subjects and color tables are made from it
+      {"hand_and_views", Database::input_hash({}, *workbench.model(), workbench.config().views)},
+      {"memory", to_string(workbench.config().memory)},
+      {"calibration", to_json(workbench.calibration())},
+      {"host", host_timings(1).host},  // a study holds times
+  };
+  return hash_text(content.dump());
+}
 
 std::vector<std::string> part_names() {
   std::vector<std::string> names = {kFigure4, kFigure5, kFigure6};

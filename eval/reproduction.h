@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "eval/experiment.h"
@@ -16,6 +17,9 @@ struct ReproductionOptions {
   std::vector<reports::NoiseSetting> noises = {{}};
   std::vector<std::string> only;  ///< of part_names; empty: all, or with `trajectories` Figure 4
 };
+
+/// Hash of all inputs of a study except the program, as `run_key` of a run.
+std::string study_key(Workbench& workbench, std::string_view name, const StudyOptions& options);
 
 /// "fig4", "fig5", "fig6" and the studies.
 std::vector<std::string> part_names();

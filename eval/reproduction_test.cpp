@@ -4,7 +4,10 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <set>
 #include <thread>
 
 #include "core/base/error.h"
@@ -136,6 +139,51 @@ TEST(StoredStudy, ComesBackToTheLastBit) {
   const auto read = study_from_bytes(to_bytes(example_study()));
   ASSERT_TRUE(read.has_value());
   EXPECT_TRUE(*read == example_study());
+}
+
+TEST(StoredStudy, EveryInputIsInItsKey) {
+  const auto key_of_options = [](const std::function<void(StudyOptions&)>& change) {
+    Workbench workbench(test_workbench());
+    StudyOptions options = quick_options();
+    change(options);
+    return study_key(workbench, "fig7", options);
+  };
+  const auto key_of_workbench = [](const std::function<void(WorkbenchConfig&)>& change) {
+    WorkbenchConfig config = test_workbench();
+    change(config);
+    Workbench workbench(config);
+    return study_key(workbench, "fig7", quick_options());
+  };
+  Workbench workbench(test_workbench());
+  const std::string key = study_key(workbench, "fig7", quick_options());
+  EXPECT_EQ(key_of_workbench([](auto& config) { config.threads = 1; }), key) << "threads change nothing";
+  std::set<std::string> keys = {
+      key,
+      study_key(workbench, "fig8", quick_options()),
+      key_of_options([](auto& options) { options.tracker.icp.max_points = 500; }),
+      key_of_options([](auto& options) { options.tracker.segmentation.color_space = ColorSpace::rgb; }),
+      key_of_options([](auto& options) { options.seeds = {2}; }),
+      key_of_options([](auto& options) { options.quick = false; }),
+      key_of_options([](auto& options) { options.cascades = {parse_cascade("64:3")}; }),
+      key_of_workbench([](auto& config) { config.side = Side::left; }),
+      key_of_workbench([](auto& config) { config.hand = MeasuredHand{.shape = second_subject()}; }),
+      key_of_workbench([](auto& config) { config.memory = DatabaseMemory::low; }),
+      key_of_workbench([](auto& config) { config.views.distance += 0.01; }),
+      key_of_workbench([](auto& config) { config.calibration = nominal_kinect_calibration(); }),
+      key_of_workbench([](auto& config) { config.calibration.T_rgb_ir.translation().x() += 0.001; }),
+  };
+  EXPECT_EQ(keys.size(), 13U);
+
+  const std::string share = test_folder() + "/share";
+  fs::copy(share_folder(), share, fs::copy_options::recursive);
+  setenv("GLOVEBENCH_SHARE", share.c_str(), 1);
+  EXPECT_EQ(key_of_options([](auto&) {}), key) << "the same data elsewhere";
+  for (const char* file : {"recorded/Tr1.json", "sources/Tr5.json", "gestures.csv"}) {
+    write_file(share + "/trajectories/data/" + file, read_file(share + "/trajectories/data/" + file) + "\n");
+    keys.insert(key_of_options([](auto&) {}));
+  }
+  unsetenv("GLOVEBENCH_SHARE");
+  EXPECT_EQ(keys.size(), 16U);
 }
 
 TEST(StoredStudy, HalfOfOneIsNone) {
