@@ -124,7 +124,7 @@ reports::StudyResult run_figure9(const StudyContext& context) {
   const TruthKind truth = TruthKind::source;
   const std::vector<Setting> settings = sampling_settings(context.options.tracker);
 
-  const Runs runs = run_settings(context, settings, {kSamplingDatabase}, truth, kTrajectories);
+  const Runs runs = run_study_settings(context, settings, {kSamplingDatabase}, truth, kTrajectories);
   add_errors(result.tables[0], truth, runs);
   result.measures = sampling_error_measures(runs);
   for (const Implementation implementation : {Implementation::plain, Implementation::fast}) {
