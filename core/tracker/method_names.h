@@ -6,7 +6,7 @@
 namespace glovebench {
 
 inline constexpr std::string_view kPaperMethod = "schroeder2012";
-/// Sorted: the X of this folder's X_method.cpp.
+/// Sorted: the X of each core/methods/X_method.cpp.
 std::span<const std::string_view> method_names();
 
 }  // namespace glovebench
