@@ -29,7 +29,7 @@ Json method_json(const Comparison& comparison) {
 }
 
 Json row_json(const ComparisonRow& row) {
-  const bool is_readable = has_interval(row);
+  const bool is_readable = shows_interval(row);
   return {{"experiment", row.experiment},
           {"quantity", row.metric->key},
           {"unit", row.metric->unit},

@@ -12,7 +12,7 @@ namespace {
 
 /// The interval as a bar over a band of the minimum effect; zero is in the middle, better is left.
 std::string interval_plot(const ComparisonRow& row) {
-  if (!row.difference || !has_interval(row)) return "";
+  if (!row.difference || !shows_interval(row)) return "";
   constexpr double kHalf = 60;
   const double reach = 1.1 * std::max({std::abs(*row.low), std::abs(*row.high), std::abs(*row.difference),
                                        row.minimum_effect, 1e-9});

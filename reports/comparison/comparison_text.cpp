@@ -151,7 +151,7 @@ std::string readable_experiment(const std::string& experiment) {
 std::string interval_text(const ComparisonRow& row) {
   if (row.verdict == Verdict::not_enough_data && row.difference && row.blocks < kFewestBlocks)
     return "too few frames";
-  if (!has_interval(row)) return row.is_equal ? "equal" : "-";
+  if (!shows_interval(row)) return row.is_equal ? "equal" : "-";
   return fmt::format("[{}, {}]", formatted_signed(*row.low), formatted_signed(*row.high));
 }
 

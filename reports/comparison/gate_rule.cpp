@@ -28,7 +28,7 @@ std::string number(const std::optional<double>& value) {
 /// "0.52 mm [0.31, 0.73] (2.98 -> 3.50), minimum effect 0.12"
 std::string numbers(const ComparisonRow& row) {
   const std::string interval =
-      has_interval(row) ? fmt::format("[{:.2f}, {:.2f}]", *row.low, *row.high) : "without an interval";
+      shows_interval(row) ? fmt::format("[{:.2f}, {:.2f}]", *row.low, *row.high) : "without an interval";
   return fmt::format("{:.2f} {} {} ({} -> {}), minimum effect {:.2f}", *row.difference, row.metric->unit, interval,
                      number(row.baseline), number(row.candidate), row.minimum_effect);
 }
@@ -63,7 +63,7 @@ double minimum_effect(const Metric& metric, std::string_view experiment, int fra
   return std::max(effect, least_effect(metric, frames));
 }
 
-bool has_interval(const ComparisonRow& row) {
+bool shows_interval(const ComparisonRow& row) {
   const bool is_too_wide = row.verdict == Verdict::not_enough_data && row.blocks < kFewestBlocks;
   return row.low && row.high && !is_too_wide;
 }

@@ -7,8 +7,9 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/speed.h"
 
-// The rule that stops a change (ci/README.md, "When a change counts"). The sure effect is two minimum effects; for
-// a share of frames, one.
+// A change stops if any compared metric, in an experiment or over all, rises by its minimum effect with an interval
+// above zero, or by twice that (a share of frames: once) whatever the interval, or if a fast path is slower than
+// its limit (speed.h).
 
 namespace glovebench::reports {
 
@@ -19,10 +20,10 @@ double least_effect(const Metric& metric, int frames);
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 
-/// True if the row has enough blocks for an interval.
-bool has_interval(const ComparisonRow& row);
+/// False without an interval, or if it does not decide and has fewer than kFewestBlocks.
+bool shows_interval(const ComparisonRow& row);
 Verdict verdict_of(const ComparisonRow& row);
-/// True if the row is `worse` or rose by its sure effect.
+/// The rule above, for a row.
 bool stops(const ComparisonRow& row);
 /// True if the row stops the change without being `worse`.
 bool is_worse_in_places(const ComparisonRow& row);

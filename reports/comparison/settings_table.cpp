@@ -132,7 +132,7 @@ Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
         continue;
       }
       const ComparisonRow& compared = *found;
-      const bool readable = has_interval(compared);
+      const bool readable = shows_interval(compared);
       row.insert(row.end(), {cell(compared.difference), readable ? cell(compared.low) : Cell(),
                              readable ? cell(compared.high) : Cell(), verdict_cell(compared)});
     }
