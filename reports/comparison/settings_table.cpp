@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/tracker/tracker_config.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/comparison/gate_rule.h"
-#include "reports/page/page_frame.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -92,12 +92,35 @@ std::vector<Compared> compared_with(const std::vector<SettingRun>& runs, const S
   return all;
 }
 
-Cell verdict_cell(const ComparisonRow& row) {
-  return Judgment{verdict_text(row), tone_of(row)};
+using Cells = std::map<std::string, Cell>;  // by the column's key
+
+/// Columns without a cell stay empty.
+void add_setting_row(Table& table, const std::string& quantity, const Compared& compared, Cells cells) {
+  cells.insert({{"quantity", quantity}, {"setting", compared.name()}, {"verdict", Judgment{"", Tone::same}}});
+  Row& row = table.rows.emplace_back(table.columns.size());
+  for (const auto& [key, value] : cells) row[column_index(table, key)] = value;
 }
 
-Table empty_table() {
-  constexpr int kDigits = 3;
+Cells error_cells(const Compared& compared, const Metric* metric, const std::set<std::string>& left_out) {
+  Cells cells = {{"mean", cell(mean_of(compared.setting->run.result, *metric, left_out))}};
+  const auto row = std::ranges::find(compared.rows, metric, &ComparisonRow::metric);
+  if (row == compared.rows.end()) return cells;  // the reference, or an older run, which lacks the metric
+  cells["difference"] = cell(row->difference);
+  if (shows_interval(*row)) cells.insert({{"low", cell(row->low)}, {"high", cell(row->high)}});
+  cells["verdict"] = Judgment{verdict_text(*row), tone_of(*row)};
+  return cells;
+}
+
+Cells time_cells(const Compared& compared, const Compared& reference) {
+  const std::optional<double> ms = compared.setting->time_ms, reference_ms = reference.setting->time_ms;
+  Cells cells = {{"mean", cell(ms)}};
+  if (&compared != &reference && ms && reference_ms) cells["difference"] = *ms - *reference_ms;
+  return cells;
+}
+
+Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
+                   const std::vector<const Metric*>& metrics, bool has_times) {
+  constexpr int kDigits = 3, kNames = 2;
   Table table = {"settings",
                  "Settings",
                  "",
@@ -108,44 +131,14 @@ Table empty_table() {
                   {"low", "low", kDigits},
                   {"high", "high", kDigits},
                   {"verdict", "verdict"}},
-                 2,
+                 kNames,
                  {}};
-  return table;
-}
-
-Table table_of_all(const std::vector<Compared>& all, const Compared& reference,
-                   const std::vector<const Metric*>& metrics) {
-  Table table = empty_table();
   const std::set<std::string> left_out = unshared(all);
-  const Cell none = Judgment{"", Tone::same};
-  for (size_t m = 0; m < metrics.size(); ++m) {
-    for (const Compared& each : all) {
-      Row& row = table.rows.emplace_back(Row{std::string(metrics[m]->key), each.name()});
-      row.push_back(cell(mean_of(each.setting->run.result, *metrics[m], left_out)));
-      if (&each == &reference) {
-        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
-        continue;
-      }
-      const auto found = std::ranges::find(each.rows, metrics[m], &ComparisonRow::metric);
-      if (found == each.rows.end()) {  // of an older run, which lacks the metric
-        row.insert(row.end(), {Cell(), Cell(), Cell(), none});
-        continue;
-      }
-      const ComparisonRow& compared = *found;
-      const bool readable = shows_interval(compared);
-      row.insert(row.end(), {cell(compared.difference), readable ? cell(compared.low) : Cell(),
-                             readable ? cell(compared.high) : Cell(), verdict_cell(compared)});
-    }
-  }
-  const auto has_time = [](const Compared& each) { return each.setting->time_ms.has_value(); };
-  if (std::ranges::none_of(all, has_time)) return table;
-  const std::optional<double> reference_ms = reference.setting->time_ms;
-  for (const Compared& each : all) {
-    const std::optional<double> ms = each.setting->time_ms;
-    const bool differs = &each != &reference && ms && reference_ms;
-    table.rows.push_back(
-        {kTimeKey, each.name(), cell(ms), differs ? Cell(*ms - *reference_ms) : Cell(), Cell(), Cell(), none});
-  }
+  for (const Metric* metric : metrics)
+    for (const Compared& each : all)
+      add_setting_row(table, std::string(metric->key), each, error_cells(each, metric, left_out));
+  for (const Compared& each : all)
+    if (has_times) add_setting_row(table, kTimeKey, each, time_cells(each, reference));
   return table;
 }
 
@@ -287,8 +280,8 @@ std::string explanation_of(const SettingsTable& settings, bool has_times) {
   return fmt::format(
       "Means are over the frames that have a value, then over the experiments that all runs have. "
       "Differences are from {}{}, frame by frame over the frames that both have; above zero is worse. The "
-      "intervals "
-      "low to high are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold together with "
+      "intervals low to high are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold "
+      "together with "
       "{:g}%. Verdicts as in `glovebench compare`. {}",
       settings.reference, settings.is_paper ? ", the paper's settings" : ", the first run",
       settings.config.block_frames, settings.config.confidence_percent(),
@@ -324,64 +317,13 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
   settings.preselected = pairing.metrics;
   settings.experiments = experiments_of(*reference, unshared(all));
   for (const SettingRun& each : runs) settings.runs[each.run.name] = run_name(each.run.result);
-  settings.table = table_of_all(all, first, metrics);
+  const bool has_times = std::ranges::any_of(runs, [](const SettingRun& each) { return each.time_ms.has_value(); });
+  settings.table = table_of_all(all, first, metrics, has_times);
   settings.changes = changes_of(all);
   settings.enough = enough_lines(all);
   settings.recommendation = recommendation_of(all, first, metrics.size());
-  const bool has_times = std::ranges::any_of(runs, [](const SettingRun& each) { return each.time_ms.has_value(); });
   settings.explanation = explanation_of(settings, has_times);
   return settings;
-}
-
-std::string settings_text(const SettingsTable& settings, size_t columns) {
-  std::string text = to_text(settings.table, true, columns) + "\n";
-  if (!settings.changes.rows.empty()) text += to_text(settings.changes, true, columns) + "\n";
-  if (!settings.enough.empty())
-    text += "Not enough data. Enough would be, if further movements vary as these do:\n";
-  for (const std::string& line : settings.enough) text += "  " + wrapped(line, columns, 2);
-  if (!settings.enough.empty()) text += "\n";
-  return text + wrapped(settings.recommendation, columns) + "\n" + wrapped(settings.explanation, columns);
-}
-
-std::string settings_markdown(const SettingsTable& settings) {
-  std::string text = escape_markdown(settings.recommendation) + "\n\n" + to_markdown(settings.table);
-  if (!settings.changes.rows.empty()) text += "\n" + to_markdown(settings.changes);
-  if (!settings.enough.empty()) text += "\nEnough data would be, if further movements vary as these do:\n\n";
-  for (const std::string& line : settings.enough) text += "- " + escape_markdown(line) + "\n";
-  return text + "\n" + escape_markdown(settings.explanation) + "\n";
-}
-
-std::string settings_html(const SettingsTable& settings) {
-  std::string body =
-      "<p>" + escape_html(settings.recommendation) + "</p>\n<h2>Errors and times</h2>\n" + to_html(settings.table);
-  if (!settings.changes.rows.empty())
-    body += "<h2>Differences from the reference</h2>\n" + to_html(settings.changes);
-  if (!settings.enough.empty())
-    body += "<p>Enough data would be, if further movements vary as these do:</p>\n<ul>\n";
-  for (const std::string& line : settings.enough) body += "<li>" + escape_html(line) + "</li>\n";
-  if (!settings.enough.empty()) body += "</ul>\n";
-  return html_document("glovebench settings", body + "<p>" + escape_html(settings.explanation) + "</p>\n");
-}
-
-std::string settings_csv(const SettingsTable& settings) {
-  constexpr int kSetting = 1;  // its column
-  Table table = settings.table;
-  table.columns.insert(table.columns.begin() + kSetting + 1, {"run", "run"});
-  ++table.name_columns;
-  for (const char* key : {"confidence_percent", "preselected_metrics"}) table.columns.push_back({key, key});
-  for (Row& row : table.rows) {
-    row.insert(row.begin() + kSetting + 1, settings.runs.at(std::get<std::string>(row[kSetting])));
-    row.emplace_back(settings.config.confidence_percent());
-    row.emplace_back(fmt::format("{}", fmt::join(settings.preselected, " ")));
-  }
-  return to_csv(table, {{"experiments", settings.experiments}});
-}
-
-std::string settings_latex(const SettingsTable& settings) {
-  std::string names = latex_comment(settings.experiments);
-  for (const auto& [setting, run] : settings.runs) names += latex_comment(fmt::format("{}: run {}", setting, run));
-  return names + latex_comment(method_sentence(settings.config, settings.preselected)) +
-         latex_comment(settings.recommendation) + to_latex(settings.table);
 }
 
 }  // namespace glovebench::reports
