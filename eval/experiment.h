@@ -33,7 +33,7 @@ struct Outcome {
 struct TimedWith {
   int threads = 1;
   std::chrono::steady_clock::time_point start;
-  bool commands = true;  ///< false: leave out command times, which had other threads
+  bool commands = true;  ///< false: omit times of robot commands, measured with other `threads`
 };
 /// Writes the report of measured runs, with robot commands, the table of families and `add_studies`.
 /// Throws: Error if the folder cannot be written.

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/methods/method_names.h"
+#include "core/tracker/method_names.h"
 #include "core/tracker/tracker.h"
 
 namespace glovebench {

@@ -17,8 +17,8 @@ struct HandObservation {
   const PinholeCamera& camera;
 };
 
-/// Gauss-Newton steps. Pairs are first and last values. Widths and weights change by equal ratios, shares by equal
-/// steps.
+/// Gauss-Newton steps. Pairs are values of the first and last step. Between them `tukey_mm` and `start_weight`
+/// change geometrically, `tangential` linearly.
 struct FitStage {
   int steps;                ///< >= 1
   int rigid_steps;          ///< steps at the start that move only the pose

@@ -50,7 +50,9 @@ RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points, bool center_visible_surface = true);
 
-/// X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`.
+/// X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`. `align` sets all fields of the
+/// result, obeys `max_iterations` and `cull_each_iteration`, and matches by `Matcher`, which obeys `implementation`
+/// and `color_sensitive`.
 struct AlignmentEntry {
   std::string_view name;
   std::string_view description;

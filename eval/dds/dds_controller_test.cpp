@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "ci/build_paths.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/dds_sink.h"
 #include "core/adapters/dds/measured_robot.h"
-#include "core/adapters/dds/server/command_messages.h"
 #include "core/adapters/system_time.h"
 #include "core/base/math.h"
 #include "core/robot/arm.h"

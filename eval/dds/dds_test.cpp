@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ci/build_paths.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/dds_sink.h"
-#include "core/adapters/dds/server/command_messages.h"
 #include "core/base/math.h"
 #include "core/robot/test_commands.h"
 #include "eval/command_test.h"

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "ci/build_paths.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/dds_access.h"
 #include "core/adapters/dds/dds_entity.h"
-#include "core/adapters/dds/server/command_messages.h"
 #include "core/adapters/system_time.h"
 #include "core/base/input_file.h"
 #include "core/base/math.h"

@@ -143,7 +143,7 @@ Runs run_rows(const StudyContext& context, const std::vector<Ablation>& wanted) 
     // Runs of the same images become neighbors, to be rendered once.
     std::ranges::stable_sort(
         settings, {}, [](const Setting& setting) { return std::pair(setting.subject, setting.clutter_in_volume); });
-    std::ranges::move(run_settings(context, settings, {database}, TruthKind::source, movements_for(database)),
+    std::ranges::move(run_study_settings(context, settings, {database}, TruthKind::source, movements_for(database)),
                       std::back_inserter(runs));
   }
   return runs;

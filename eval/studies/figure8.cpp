@@ -215,7 +215,7 @@ reports::StudyResult run_figure8(const StudyContext& context) {
     timed[i] = time_settings(context, settings, kDatabases, kImplementations[i]);
   const bool judged = has_all_of_the_paper(cascades);
   for (const TruthKind truth : {TruthKind::recorded, TruthKind::source}) {
-    const Runs runs = run_settings(context, settings, kDatabases, truth);
+    const Runs runs = run_study_settings(context, settings, kDatabases, truth);
     add_rows(result, truth, cascades, runs, measure_survival(context, kDatabases, cascades, truth), timed);
     if (judged && truth == TruthKind::source) result.measures = cascade_error_measures(runs);
   }

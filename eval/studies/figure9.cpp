@@ -135,7 +135,7 @@ reports::StudyResult run_figure9(const StudyContext& context) {
   const TruthKind truth = TruthKind::source;
   const std::vector<Setting> settings = sampling_settings(context.options.tracker);
   for (const auto& [databases, trajectories] : kSampled) {
-    const Runs runs = run_settings(context, settings, databases, truth, trajectories);
+    const Runs runs = run_study_settings(context, settings, databases, truth, trajectories);
     for (const std::string& database : databases) {
       add_errors(result.tables[0], truth, database, runs);
       if (database == kClaimedDatabase)

@@ -130,7 +130,7 @@ Table tracking_table(const StudyContext& context) {
     }
   }
   const char* database = "DB_open_pinch_power";
-  const Runs runs = run_settings(context, settings, {database}, reports::TruthKind::source, {"Tr4"});
+  const Runs runs = run_study_settings(context, settings, {database}, reports::TruthKind::source, {"Tr4"});
   Table table = empty_tracking_table();
   for (const ColorSpace space : kSpaces) {
     for (const Setting& setting : settings) {

@@ -89,7 +89,7 @@ std::vector<Cell> row_of(const Setting& setting, const std::string& database, co
 
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases) {
   const std::vector<Setting> settings = monocular_settings(context.options.tracker);
-  const Runs runs = run_settings(context, settings, databases, TruthKind::source);
+  const Runs runs = run_study_settings(context, settings, databases, TruthKind::source);
   Table table = empty_monocular_table();
   for (const Setting& setting : settings)
     for (const std::string& database : databases)

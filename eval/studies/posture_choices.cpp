@@ -68,7 +68,7 @@ Runs run_posture_choices(const StudyContext& context, const std::vector<PostureS
     workbench.database(set);
     const StudyContext own{workbench, context.options, context.store};
     const Setting setting{.name = kDefaultSetting, .tracker = context.options.tracker};
-    std::ranges::move(run_settings(own, {setting}, {set.name}, reports::TruthKind::source),
+    std::ranges::move(run_study_settings(own, {setting}, {set.name}, reports::TruthKind::source),
                       std::back_inserter(runs));
   }
   return runs;

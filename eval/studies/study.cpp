@@ -101,9 +101,9 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
   return specs;
 }
 
-Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
-                  const std::vector<std::string>& databases, reports::TruthKind truth,
-                  const std::vector<std::string>& trajectories) {
+Runs run_study_settings(const StudyContext& context, const std::vector<Setting>& settings,
+                        const std::vector<std::string>& databases, reports::TruthKind truth,
+                        const std::vector<std::string>& trajectories) {
   const std::vector<RunSpec> specs = study_specs(context, settings, databases, truth, trajectories);
   const RunOptions options = {context.workbench.config().threads, context.store};
   return measure(context.workbench, execute(context.workbench, specs, options));

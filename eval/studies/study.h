@@ -56,9 +56,9 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
 
 using Runs = std::vector<MeasuredRun>;
 /// Runs `study_specs`. Use errors only: runs share the machine.
-Runs run_settings(const StudyContext& context, const std::vector<Setting>& settings,
-                  const std::vector<std::string>& databases, reports::TruthKind truth,
-                  const std::vector<std::string>& trajectories = {});
+Runs run_study_settings(const StudyContext& context, const std::vector<Setting>& settings,
+                        const std::vector<std::string>& databases, reports::TruthKind truth,
+                        const std::vector<std::string>& trajectories = {});
 /// Runs for times, one at a time, on a stretch of each source truth. Not stored.
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
                    const std::vector<std::string>& databases, Implementation implementation,

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <mutex>
 
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/dds_access.h"
 #include "core/adapters/dds/dds_sink.h"
-#include "core/adapters/dds/server/command_messages.h"
 #include "core/adapters/dds/test_peers.h"
 #include "core/adapters/system_time.h"
 #include "core/base/error.h"

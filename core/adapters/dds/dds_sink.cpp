@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 
 namespace glovebench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 
 namespace glovebench {
 

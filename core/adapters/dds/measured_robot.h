@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/dds_entity.h"
-#include "core/adapters/dds/server/command_messages.h"
 
 namespace glovebench {
 

@@ -20,7 +20,7 @@ struct RobotBusOptions {
   double longest_step_s = CommandLimits().longest_step_s;  ///< of the commands' guard
 };
 
-/// Sends commands over a middleware.
+/// Sends commands over DDS (dds_robot_bus.cpp). A receiver without DDS is a RobotCommandSink.
 /// Throws: Error from every function.
 class RobotBus {
  public:

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/robot/command_guard.h"
 
 namespace glovebench {
@@ -26,7 +26,15 @@ struct Arrival {
 };
 
 /// Selects the messages that a server follows (core/adapters/dds/README.md, "The server"): valid, fresh, in time
-/// order, from one owner. Reads no clock. A gap between ticks or a jump of the owner's clock releases the owner.
+/// order, from one owner. Reads no clock.
+///
+/// | state | messages are | until |
+/// | --- | --- | --- |
+/// | settling, after a gap or a jump of `system_us` | `stale` | 0.1 s passed |
+/// | starting, of a sender's topic | `starting` | 0.2 s passed by both clocks |
+/// | started, no owner | `accepted` if valid; the sender becomes owner | that |
+/// | owned, from the owner | `accepted` if valid | a gap, a jump of its clock, or its absence |
+/// | owned, from another | `foreign` | no message was accepted for `stop_after_s` |
 class CommandStream {
  public:
   /// `topics`: number of topics.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/server/command_stream.h"
 #include "core/adapters/dds/server/stated_interval.h"
 #include "core/base/math.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/server/stated_interval.h"
 
 namespace glovebench {

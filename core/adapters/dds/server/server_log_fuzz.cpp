@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/adapters/dds/server/server_log.h"
 #include "core/base/fuzz_target.h"
 

@@ -21,8 +21,8 @@ struct JointInterval {
 /// True if each joint can cross its interval in `seconds`, up to 1e-5 degrees.
 bool is_one_step(const JointInterval& interval, const std::vector<JointMotion>& joints, double seconds);
 
-/// Decides which intervals a log states in advance. Joints stay inside each interval that may be the log's last
-/// after a crash (durable, pending or failed).
+/// Decides which intervals of the joints a log states in advance. After a crash the log may end with the durable
+/// interval, a pending one or one whose writing failed. The joints stay inside all of them.
 class StatedInterval {
  public:
   explicit StatedInterval(std::vector<JointMotion> joints) : joints_(std::move(joints)) {}

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 #include "core/base/math.h"
 #include "core/robot/test_arm_solver.h"
 

@@ -1,4 +1,4 @@
-#include "core/adapters/dds/server/command_messages.h"
+#include "core/adapters/dds/command_messages.h"
 
 #include <gmock/gmock.h>
 

@@ -11,7 +11,7 @@ inline constexpr std::string_view kProgramPrefix = "exec:";
 inline bool is_program(std::string_view method) {
   return method.starts_with(kProgramPrefix);
 }
-/// Sorted: the X of this folder's X_method.cpp.
+/// Sorted: the X of each core/methods/X_method.cpp.
 std::span<const std::string_view> method_names();
 
 }  // namespace glovebench

@@ -1,4 +1,4 @@
-#include "eval/settings_table.h"
+#include "eval/settings_files.h"
 
 #include <filesystem>
 #include <set>
