@@ -12,55 +12,23 @@
 
 #include "ci/build_paths.h"
 #include "core/base/error.h"
-#include "core/base/math.h"
-#include "core/base/random.h"
 #include "core/database/database_cache.h"
 #include "core/segmentation/color_calibration.h"
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
-#include "trajectories/generation/motion_script.h"
+#include "trajectories/generation/families/movement.h"
 
 namespace glovebench::bench {
 namespace {
 
-using trajectories::MotionScript;
-
 constexpr size_t kFrameStep = 19;  // six to eight frames of each trajectory: open hand, grasp and between
-constexpr int kHeldOut = 10;
-/// A key every so many frames, and so many frames in all: 8.8 s.
-constexpr int kKeyStep = 12, kFrameCount = 11 * kKeyStep + 1;
+/// Of each family. The suite `families` judges on seeds 11 to 20.
+constexpr uint64_t kTuningSeeds[] = {101, 102}, kJudgingSeeds[] = {11, 12};
 
 Movement movement_of(const trajectories::Trajectory& trajectory) {
   Movement movement{trajectory.name, {}};
   for (size_t f = 0; f < trajectory.frames.size(); f += kFrameStep) movement.frames.push_back(trajectory.frames[f]);
   return movement;
-}
-
-double random_angle(RandomStream& random, double largest_deg) {
-  return radians_from_degrees(random.uniform(-largest_deg, largest_deg));
-}
-
-trajectories::HandPose random_pose(RandomStream& random) {
-  const double x = random.uniform(-0.12, 0.12), y = random.uniform(0, 0.06), z = random.uniform(0.65, 0.82);
-  const double yaw = random_angle(random, 45), pitch = random_angle(random, 25), roll = random_angle(random, 25);
-  return {{x, y, z}, trajectories::hand_rotation(yaw, pitch, roll)};
-}
-
-MotionScript random_script(const PostureSet& gestures, int number) {
-  RandomStream random(1, "held-out movement", number, "script");
-  MotionScript script;
-  script.name = fmt::format("HeldOut{}", number + 1);
-  script.seed = 100 + static_cast<uint64_t>(number);
-  script.frame_count = kFrameCount;
-  for (int frame = 0; frame < kFrameCount; frame += kKeyStep) {
-    const auto gesture = [&] { return gestures.postures[random.index(gestures.postures.size())]; };
-    const Posture a = gesture(), b = gesture();
-    const double share = random.uniform(0, 1);
-    script.postures.push_back({frame, share * a + (1 - share) * b});
-    script.wrist.push_back({frame, {random_angle(random, 14), random_angle(random, 8)}});
-    script.poses.push_back({frame, random_pose(random)});
-  }
-  return script;
 }
 
 const std::string kShareFolder = build_paths::share("");
@@ -69,6 +37,23 @@ const std::string kTrajectoryFolder = kShareFolder + "/trajectories/data";
 std::optional<BenchData>& storage() {
   static std::optional<BenchData> stored;
   return stored;
+}
+
+std::vector<Movement> generated_movements(std::span<const uint64_t> seeds, const Skeleton& skeleton) {
+  const auto material = trajectories::load_movement_material(kTrajectoryFolder, skeleton);
+  std::vector<Movement> movements;
+  for (const trajectories::MovementFamily& family : trajectories::movement_families())
+    for (const uint64_t seed : seeds) movements.push_back(movement_of(generate_movement(family, seed, material)));
+  return movements;
+}
+
+std::vector<Movement> movements_of(FrameSet set, const Skeleton& skeleton) {
+  if (set == FrameSet::tuning) return generated_movements(kTuningSeeds, skeleton);
+  if (set == FrameSet::judging) return generated_movements(kJudgingSeeds, skeleton);
+  std::vector<Movement> movements;
+  for (const std::string& name : trajectories::ground_truth_names())
+    movements.push_back(movement_of(trajectories::source_trajectory(kTrajectoryFolder, name)));
+  return movements;
 }
 
 /// A color table for the light of the benchmark's frames alone, from true labels.
@@ -87,14 +72,7 @@ ColorTable calibrate(const BenchData& data, const std::vector<Movement>& movemen
   return colors.build();
 }
 
-/// Which of two words an option has.
-bool is_first(const std::string& option, const std::string& found, const std::string& first,
-              const std::string& second) {
-  if (found != first && found != second)
-    throw Error("command line", option, found, fmt::format("{} or {}", first, second));
-  return found == first;
-}
-
+/// Generated frames that the tracker loses are left out.
 std::vector<BenchFrame> track_frames(const BenchData& data, const Movement& movement) {
   render::SyntheticKinectConfig config;
   config.sequence = movement.name;
@@ -110,7 +88,10 @@ std::vector<BenchFrame> track_frames(const BenchData& data, const Movement& move
     frame.result = tracker.track(frame.device, results);
     results.push_back(frame.result);
     frame.trace = tracker.inspect(frame.device);
-    check(frame.result.status == TrackStatus::tracked, "the tracker follows the benchmark's frames");
+    if (frame.result.status != TrackStatus::tracked) {
+      check(data.settings.frames != FrameSet::paper, "the tracker follows the paper's movements");
+      continue;
+    }
     frame.square = bounding_square(frame.trace.cloud.labels);
     frame.tiny = make_tiny_images(frame.trace.cloud.labels, frame.square, data.config.lookup.cascade);
     frame.posed = data.model->pose(frame.result.posture_unfiltered);
@@ -126,21 +107,6 @@ std::string environment(const char* name) {
 }
 
 }  // namespace
-
-std::vector<Movement> tuned_movements(const std::string& trajectory_folder) {
-  std::vector<Movement> movements;
-  for (const std::string& name : trajectories::ground_truth_names())
-    movements.push_back(movement_of(trajectories::source_trajectory(trajectory_folder, name)));
-  return movements;
-}
-
-std::vector<Movement> held_out_movements(const std::string& trajectory_folder) {
-  const PostureSet gestures = trajectories::load_gestures(trajectory_folder);
-  std::vector<Movement> movements;
-  for (int number = 0; number < kHeldOut; ++number)
-    movements.push_back(movement_of(perform(random_script(gestures, number))));
-  return movements;
-}
 
 std::string default_cache_folder() {
   if (const std::string chosen = environment("GLOVEBENCH_CACHE"); !chosen.empty()) return chosen;
@@ -174,13 +140,9 @@ void prepare(const Settings& settings) {
   data.postures = trajectories::posture_set(kTrajectoryFolder, settings.database);
   data.database =
       std::make_shared<Database>(data.cache().get(data.postures, *data.model, data.config.views, kTinySizes));
-  const bool tuned = is_first("--frames", settings.frames, "tuned", "held-out"),
-             same = is_first("--colors", settings.colors, "same", "other");
-  const auto movements = [](bool of_tuned) {
-    return of_tuned ? tuned_movements(kTrajectoryFolder) : held_out_movements(kTrajectoryFolder);
-  };
-  data.table = std::make_shared<ColorTable>(calibrate(data, movements(tuned == same)));
-  for (const Movement& movement : movements(tuned))
+  const Skeleton& skeleton = data.model->skeleton();
+  data.table = std::make_shared<ColorTable>(calibrate(data, movements_of(settings.colors, skeleton)));
+  for (const Movement& movement : movements_of(settings.frames, skeleton))
     std::ranges::move(track_frames(data, movement), std::back_inserter(data.frames));
   storage() = std::move(data);
 }

@@ -2,11 +2,14 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/base/enum_names.h"
 #include "core/database/database_cache.h"
 #include "core/hand/hand_frame.h"
 #include "core/hand/hand_model.h"
@@ -21,11 +24,15 @@ struct Movement {
   std::vector<HandFrame> frames;
 };
 
-/// Every 19th frame of the five source trajectories. The robust alignment's width was chosen on them.
-std::vector<Movement> tuned_movements(const std::string& trajectory_folder);
-
-/// 70 fixed frames of ten random movements, never used for tuning.
-std::vector<Movement> held_out_movements(const std::string& trajectory_folder);
+/// Every 19th frame of these movements.
+enum class FrameSet {
+  paper,    ///< the five source trajectories
+  tuning,   ///< generated: of each family two, to choose constants on
+  judging,  ///< generated: two others of each
+};
+constexpr auto names_of(FrameSet) {
+  return std::to_array<std::string_view>({"paper", "tuning", "judging"});
+}
 
 /// GLOVEBENCH_CACHE, the user's cache folder or a new temporary one.
 /// Throws: Error.
@@ -37,9 +44,8 @@ std::string new_temporary_folder();
 struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";
-  std::string frames = "tuned";  ///< or "held-out"
-  /// Frames whose labels make the color table: "same" or "other".
-  std::string colors = "same";
+  FrameSet frames = FrameSet::paper;
+  FrameSet colors = FrameSet::paper;  ///< whose labels make the color table
 };
 
 struct BenchFrame {

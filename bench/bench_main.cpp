@@ -1,4 +1,4 @@
-// glovebench_bench [--cache FOLDER] [--database NAME] [--frames tuned|held-out] [--colors same|other] [--simd NAME]
+// glovebench_bench [--cache FOLDER] [--database NAME] [--frames SET] [--colors SET] [--simd NAME]
 //   [--table FILE] [Google Benchmark's options]
 
 #include <fmt/format.h>
@@ -21,26 +21,33 @@ struct Options {
   std::string table;  ///< Markdown file with the ratios; empty: none
 };
 
+FrameSet frame_set(const std::string& option, const std::string& name) {
+  if (const std::optional<FrameSet> set = from_name<FrameSet>(name)) return *set;
+  throw Error("command line", option, name, known_names<FrameSet>());
+}
+
 /// Takes the options of this program; what is left is Google Benchmark's.
 Options parse(int argc, char** argv) {
   Options options;
+  std::string frames = "paper", colors = "paper";
   const std::map<std::string, std::string*> values = {{"--cache", &options.settings.cache_folder},
                                                       {"--database", &options.settings.database},
-                                                      {"--frames", &options.settings.frames},
-                                                      {"--colors", &options.settings.colors},
+                                                      {"--frames", &frames},
+                                                      {"--colors", &colors},
                                                       {"--simd", &options.simd},
                                                       {"--table", &options.table}};
   for (int i = 1; i < argc; i += 2) {
     const auto option = values.find(argv[i]);
     if (option == values.end()) {
-      throw Error(
-          "command line", argv[i], "an unknown option",
-          "--cache FOLDER, --database NAME, --frames tuned or held-out, --colors same or other, --simd NAME, "
-          "--table FILE or an option of Google Benchmark (--help)");
+      throw Error("command line", argv[i], "an unknown option",
+                  "--cache FOLDER, --database NAME, --frames SET, --colors SET, --simd NAME, --table FILE or an "
+                  "option of Google Benchmark (--help)");
     }
     if (i + 1 == argc) throw Error("command line", argv[i], "nothing after it", "a value");
     *option->second = argv[i + 1];
   }
+  options.settings.frames = frame_set("--frames", frames);
+  options.settings.colors = frame_set("--colors", colors);
   return options;
 }
 

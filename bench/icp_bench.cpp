@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/bench_data.h"
 #include "bench/peers/peers.h"
 #include "core/base/math.h"
@@ -132,15 +134,25 @@ void icp_peer(benchmark::State& state, AlignPeer peer, int max_points) {
 }
 BENCHMARK_CAPTURE(icp_peer, pcl, kPcl, 1000)->Name("icp/horn/pcl")->Unit(benchmark::kMillisecond);
 
-/// Errors alone: in the looked-up posture, and in the true one, from the looked-up pose.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Errors alone, in the looked-up posture. Medians, too: generated movements have frames whose start is far off.
 template <typename Align>
-void set_both_errors(benchmark::State& state, const Align& align_posed) {
+void set_error_statistics(benchmark::State& state, const Align& align_one) {
   for (auto _ : state) {
-    set_errors(state, mean_errors([&](const BenchFrame& frame) { return align_posed(frame, frame.posed); }));
-    const Errors of_true = mean_errors(
-        [&](const BenchFrame& frame) { return align_posed(frame, data().model->pose(frame.hand.posture)); });
-    state.counters["true_posture_position_mm"] = of_true.position_mm;
-    state.counters["true_posture_rotation_deg"] = of_true.rotation_deg;
+    set_errors(state, mean_errors(align_one));
+    std::vector<double> distances_mm, angles_deg;
+    for (const BenchFrame& frame : data().frames) {
+      const Eigen::Isometry3d T_camera_hand = align_one(frame).T_camera_hand;
+      distances_mm.push_back(distance_mm(T_camera_hand, frame.hand.T_camera_hand));
+      angles_deg.push_back(angle_deg(T_camera_hand, frame.hand.T_camera_hand));
+    }
+    state.counters["median_position_mm"] = median(std::move(distances_mm));
+    state.counters["median_rotation_deg"] = median(std::move(angles_deg));
   }
   state.counters["frames"] = static_cast<double>(data().frames.size());
 }
@@ -148,8 +160,8 @@ void set_both_errors(benchmark::State& state, const Align& align_posed) {
 /// Errors of the robust alignment; the argument is the width of its weights in percent of the textbook's.
 void robust_errors(benchmark::State& state) {
   const IcpConfig config = config_of("robust", Implementation::fast, 1000);
-  set_both_errors(state, [&](const BenchFrame& frame, const PosedHand& posed) {
-    return align_robust(*data().model, posed, subsample(frame.trace.cloud.points, config.max_points),
+  set_error_statistics(state, [&](const BenchFrame& frame) {
+    return align_robust(*data().model, frame.posed, subsample(frame.trace.cloud.points, config.max_points),
                         frame.result.T_camera_hand_coarse, config, 0.01 * static_cast<double>(state.range(0)));
   });
 }
@@ -167,9 +179,7 @@ BENCHMARK(robust_errors)
 
 void horn_errors(benchmark::State& state) {
   const IcpConfig config = config_of("horn", Implementation::fast, 1000);
-  set_both_errors(state, [&](const BenchFrame& frame, const PosedHand& posed) {
-    return align(*data().model, posed, frame.trace.cloud.points, frame.result.T_camera_hand_coarse, config);
-  });
+  set_error_statistics(state, [&](const BenchFrame& frame) { return align_frame(frame, config); });
 }
 BENCHMARK(horn_errors)->Name("icp/errors/horn")->Iterations(1)->Unit(benchmark::kMillisecond);
 

@@ -216,7 +216,7 @@ std::vector<std::string> TrackerConfig::problems() const {
 namespace {
 
 const std::vector<std::string>& profile_names() {
-  static const std::vector<std::string> names = {"paper", "paper-literal"};
+  static const std::vector<std::string> names = {"paper", "paper-literal", "recommended"};
   return names;
 }
 
@@ -228,6 +228,11 @@ TrackerConfig profile(const std::string& name) {
   TrackerConfig config;
   config.profile = name;
   if (name == "paper-literal") config.smoothing.pose_keep = config.smoothing.posture_keep;
+  if (name == "recommended") {
+    config.method = "articulated";
+    config.segmentation.surface_majority = true;
+    config.lookup.cascade = parse_cascade("exact:3");
+  }
   return config;
 }
 

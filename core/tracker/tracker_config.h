@@ -62,7 +62,7 @@ struct TrackerConfig {
   std::vector<std::string> problems() const;
 };
 
-/// "paper", or "paper-literal", which also filters the pose.
+/// "paper"; "paper-literal", which also filters the pose; "recommended", the most accurate.
 /// Throws: Error for other names.
 TrackerConfig profile(const std::string& name);
 /// Replaces fields of `base` by those of a JSON object.

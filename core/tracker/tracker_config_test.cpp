@@ -58,6 +58,14 @@ TEST(TrackerConfig, the_literal_profile_filters_the_pose_like_the_posture) {
   EXPECT_EQ(changed, to_json(profile("paper"))) << "and nothing else";
 }
 
+TEST(TrackerConfig, the_recommended_profile_fits_all_angles_to_cleaned_labels) {
+  const TrackerConfig recommended = profile("recommended");
+  EXPECT_THAT(recommended.problems(), IsEmpty());
+  EXPECT_EQ(recommended.method, "articulated");
+  EXPECT_TRUE(recommended.segmentation.surface_majority);
+  EXPECT_EQ(read(to_json(recommended)).profile, "recommended");
+}
+
 TEST(TrackerConfig, comes_back_from_json) {
   TrackerConfig config;
   config.volume.z_min = 0.123456789012345678;

@@ -58,6 +58,7 @@ const std::vector<Study>& studies() {
       {"monocular", "Without depth", run_monocular, 100},
       {"filter", "Which reading of the filter", run_filter, 20},
       {"paper-literal", "Figure 4 with the pose filtered, too", run_paper_literal, 360, true},
+      {"recommended", "Figure 4 with the recommended settings", run_recommended, 500, true},
       {"deviations", "Deviations from the paper, and its gaps", run_deviations, 900, true},
   };
   return all;

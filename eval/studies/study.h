@@ -98,6 +98,8 @@ reports::StudyResult run_filter(const StudyContext& context);
 reports::StudyResult run_deviations(const StudyContext& context);
 /// Figure 4 with profiles paper and paper-literal. No measures.
 reports::StudyResult run_paper_literal(const StudyContext& context);
+/// Figure 4 with profiles paper and recommended. No measures.
+reports::StudyResult run_recommended(const StudyContext& context);
 /// monocular.depth_error_cm: with the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);
 /// Tables "light" and "light_tracking" of the ablations, and measures light.*.

@@ -345,7 +345,7 @@ charts['differences'] = differences;
 charts['track-position'] = track(key => (key.match(/^position_(.)_mm$/) || [])[1], () => 'position', 'mm', 760);
 charts['track-angles'] = track(key => (key.match(/^([a-z]+)_.*_deg$/) || [])[1],
                                angleKind, 'deg', 760);
-const factor = {x: 'factor', group: 'truth', xTitle: 'sub-sampling factor', xBase: 2, width: 260};
+const factor = {x: 'factor', group: 'database', xTitle: 'sub-sampling factor', xBase: 2, width: 260};
 charts['figure9-position'] = lines('figure9', {
   ...factor, y: 'position_error_mm', low: 'position_error_mm_low', high: 'position_error_mm_high',
   yTitle: 'position error (mm)'

@@ -6,7 +6,7 @@
 namespace glovebench {
 
 /// Width of Tukey's weights relative to the textbook's (bench/README.md).
-inline constexpr double kRobustWidth = 0.6;
+inline constexpr double kRobustWidth = 0.5;
 
 /// Aligns by Horn's and point-to-plane steps (Chen and Medioni 1991) under Tukey's weights: 9 steps on a fifth of
 /// the points, 2 on all. Not in the paper. `points`: at least 3, camera frame. `width` > 0. `converged`: all steps
