@@ -289,13 +289,13 @@ TEST_F(CommandsLong, SettingsAreComparedInATable) {
 
 TEST_F(CommandsLong, RendersPicturesAndLayers) {
   expect_fine(run_glovebench({"render", "--trajectory", path("good.json"), "--format", "png", "-o", path("png")}));
-  EXPECT_EQ(read_folder(path("png")).size(), 2U * kFrames + 1) << "color and depth, and their manifest";
+  EXPECT_EQ(read_folder(path("png")).size(), 2U * kFrames + 2) << "color and depth, manifest and README";
   EXPECT_THAT(FileSet(path("png")).read("depth_0003.png"), StartsWith("\x89PNG"));
   EXPECT_THAT(read_file(path("png/color_0003.png")), StartsWith("\x89PNG"));
 
   expect_fine(run_glovebench({"render", "--trajectory", path("good.json"), "--format", "exr", "--database",
                               "DB_open_power", "-o", path("exr")}));
-  EXPECT_EQ(read_manifest(path("exr"))->size(), static_cast<size_t>(kFrames));
+  EXPECT_EQ(read_manifest(path("exr"))->size(), size_t{kFrames} + 1) << "with README.txt";
   const render::FrameLayers layers = render::read_exr(path("exr/frame_0003.exr"));
   EXPECT_EQ(layers.color.width(), 640);
   const auto glove = [](const LabelImage& labels) {

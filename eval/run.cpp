@@ -88,6 +88,7 @@ bool is_trackable(const render::RgbdImages& images, const TrackerConfig& config)
 render::SyntheticKinectConfig kinect_config(const RunSpec& spec) {
   render::SyntheticKinectConfig config;
   config.scene.shader = render::shader_of(spec.subject);
+  config.scene.appearance = spec.appearance;
   config.scene.clutter_in_volume = spec.clutter_in_volume;
   config.noise.depth = spec.noise.model;
   config.noise.gain_factor = spec.noise.factor;
@@ -253,8 +254,9 @@ std::span<const HandFrame> frames_of(const RunSpec& spec) {
 
 reports::ExperimentKey key_of(const RunSpec& spec) {
   const bool is_recorded = spec.trajectory->kind == trajectories::TrajectoryKind::recorded;
-  return {spec.trajectory->name, spec.database,
-          is_recorded ? reports::TruthKind::recorded : reports::TruthKind::source, spec.subject, spec.noise};
+  return {
+      spec.trajectory->name, spec.database, is_recorded ? reports::TruthKind::recorded : reports::TruthKind::source,
+      spec.subject,          spec.noise,    spec.appearance};
 }
 
 render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec) {
@@ -265,7 +267,7 @@ render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec) {
 
 bool share_images(const RunSpec& a, const RunSpec& b) {
   return a.trajectory == b.trajectory && a.subject == b.subject && a.frames == b.frames &&
-         a.lighting == b.lighting && a.clutter_in_volume == b.clutter_in_volume;
+         a.lighting == b.lighting && a.clutter_in_volume == b.clutter_in_volume && a.appearance == b.appearance;
 }
 
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options) {
@@ -312,6 +314,7 @@ std::string run_key(Workbench& workbench, const RunSpec& spec) {
        {spec.lighting.strength, spec.lighting.temperature_k, spec.lighting.ambient_share,
         std::vector<double>(light.begin(), light.end())}},
       {"clutter_in_volume", spec.clutter_in_volume},
+      {"appearance", to_string(spec.appearance)},
       {"subject", {spec.subject, workbench.subject(spec.subject).hash()}},
       {"hand_model", workbench.model()->hash()},
       {"database", {spec.database, workbench.database(spec.database)->content_hash()}},

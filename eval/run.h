@@ -35,6 +35,7 @@ struct RunSpec {
   TrackerConfig tracker = {};
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
+  Appearance appearance = Appearance::glove;
   std::string setting = {};  ///< a label: a study's setting or a movement's family
 };
 

@@ -177,6 +177,7 @@ std::vector<SameFrames> experiments_of(Workbench& workbench, const TrackerConfig
     RunSpec wanted{truths.at({entry.trajectory, entry.truth}), entry.frames, entry.subject, entry.noise,
                    suite.seeds.front()};
     wanted.tracker = tracker;
+    wanted.appearance = entry.appearance;
     if (const auto movement = trajectories::find_movement(entry.trajectory))
       wanted.setting = movement->family->name;
     frames_of(wanted);  // throws if the trajectory lacks them

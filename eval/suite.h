@@ -14,6 +14,7 @@ struct SuiteEntry {
       truth;                           ///< kind of a named trajectory, or required kind of a file; empty: either
   std::vector<std::string> databases;  ///< names or files
   int subject = 1;
+  Appearance appearance = Appearance::glove;  ///< of the command line alone
   reports::NoiseSetting noise;
   FrameRange frames;
 };

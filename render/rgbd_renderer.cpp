@@ -88,6 +88,7 @@ struct RgbdRenderer::State {
     Image<uint8_t> patch;
     DepthImage depth;
   };
+  enum class Drawn { surroundings, hand, all };
 
   State(Subject drawn_subject, const SceneConfig& config)
       : subject(std::move(drawn_subject)), scene(make_scene(config)), mesh(make_hand_mesh(subject.triangles())) {
@@ -116,17 +117,20 @@ struct RgbdRenderer::State {
     return finder.region();
   }
 
-  void draw_all(const gl::Program& program, const PinholeCamera& camera, const Eigen::Isometry3d& T_view_ir,
-                bool with_hand) {
+  void draw_meshes(const gl::Program& program, const PinholeCamera& camera, const Eigen::Isometry3d& T_view_ir,
+                   Drawn drawn) {
     const auto set_pose = [&program](const Eigen::Isometry3d& T_ir_object) {
       program.set("T_ir_object", Eigen::Matrix4f(T_ir_object.matrix().cast<float>()));
     };
     program.set("projection", gl::projection(camera));
     program.set("T_view_ir", Eigen::Matrix4f(T_view_ir.matrix().cast<float>()));
     // From near to far, so that hidden surfaces are not shaded.
-    if (with_hand) {
+    if (drawn != Drawn::surroundings) {
       set_pose(T_ir_hand);
       hand_vertices.draw();
+    }
+    if (drawn == Drawn::hand) return;
+    if (drawn == Drawn::all) {
       set_pose(T_ir_forearm);
       forearm.draw();
     }
@@ -135,7 +139,7 @@ struct RgbdRenderer::State {
   }
 
   void draw_truth(const PinholeCamera& camera, const Eigen::Isometry3d& T_view_ir, const Region& region,
-                  bool with_hand) {
+                  Drawn drawn) {
     gl::set_pass_state();
     truth_buffer.bind(camera.width, camera.height);
     gl::limit_to(region.left, region.top, region.width, region.height);
@@ -148,7 +152,7 @@ struct RgbdRenderer::State {
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     truth_program.use();
     truth_program.set("color_count", kColorCount);
-    draw_all(truth_program, camera, T_view_ir, with_hand);
+    draw_meshes(truth_program, camera, T_view_ir, drawn);
   }
 
   template <typename T>
@@ -160,7 +164,7 @@ struct RgbdRenderer::State {
 
   LabelImage draw_labels(const PinholeCamera& camera, const Eigen::Isometry3d& T_view_ir) {
     const Region region = find_region(camera, T_view_ir);
-    draw_truth(camera, T_view_ir, region, true);
+    draw_truth(camera, T_view_ir, region, Drawn::all);
     return pasted(LabelImage(camera.width, camera.height), region,
                   read_truth<uint8_t>(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, region));
   }
@@ -169,16 +173,33 @@ struct RgbdRenderer::State {
     const Eigen::Isometry3d T_view_ir = Eigen::Isometry3d::Identity();
     if (empty_depth.empty()) {
       const Region whole{0, 0, camera.width, camera.height};
-      draw_truth(camera, T_view_ir, whole, false);
+      draw_truth(camera, T_view_ir, whole, Drawn::surroundings);
       empty_depth =
           pasted(DepthImage(camera.width, camera.height), whole, read_truth<float>(2, GL_RED, GL_FLOAT, whole));
     }
     const Region region = find_region(camera, T_view_ir);
-    draw_truth(camera, T_view_ir, region, true);
+    draw_truth(camera, T_view_ir, region, Drawn::all);
     const LabelImage none(camera.width, camera.height);
     return {pasted(none, region, read_truth<uint8_t>(0, GL_RED_INTEGER, GL_UNSIGNED_BYTE, region)),
             pasted(none, region, read_truth<uint8_t>(1, GL_RED_INTEGER, GL_UNSIGNED_BYTE, region)),
             pasted(empty_depth, region, read_truth<float>(2, GL_RED, GL_FLOAT, region))};
+  }
+
+  TrueImages draw_color_truth(const PinholeCamera& camera, const Eigen::Isometry3d& T_view_ir) {
+    const Region whole{0, 0, camera.width, camera.height};
+    const LabelImage none(camera.width, camera.height);
+    const auto read_labels = [&](int attachment) {
+      return pasted(none, whole, read_truth<uint8_t>(attachment, GL_RED_INTEGER, GL_UNSIGNED_BYTE, whole));
+    };
+    draw_truth(camera, T_view_ir, whole, Drawn::all);
+    TrueImages truth{
+        pasted(DepthImage(camera.width, camera.height), whole, read_truth<float>(2, GL_RED, GL_FLOAT, whole)),
+        read_labels(0),
+        read_labels(1),
+        {}};
+    draw_truth(camera, T_view_ir, whole, Drawn::hand);
+    truth.whole_hand = read_labels(0);
+    return truth;
   }
 
   void set_light(const Lighting& lighting, const Eigen::Isometry3d& T_view_ir) {
@@ -201,16 +222,17 @@ struct RgbdRenderer::State {
     const PinholeCamera& rgb = calibration.rgb;
     if (empty_color.empty() || lighting != empty_color_lighting) {
       const Region whole{0, 0, rgb.width, rgb.height};
-      empty_color = pasted(ColorImage(rgb.width, rgb.height), whole, draw_lit(calibration, lighting, whole, false));
+      empty_color = pasted(ColorImage(rgb.width, rgb.height), whole,
+                           draw_lit(calibration, lighting, whole, Drawn::surroundings));
       empty_color_lighting = lighting;
     }
     const Region region = find_region(rgb, calibration.T_rgb_ir);
-    return pasted(empty_color, region, draw_lit(calibration, lighting, region, true));
+    return pasted(empty_color, region, draw_lit(calibration, lighting, region, Drawn::all));
   }
 
   /// The coded colors of a region's pixels.
   std::vector<Rgb> draw_lit(const RgbdCalibration& calibration, const Lighting& lighting, const Region& region,
-                            bool with_hand) {
+                            Drawn drawn) {
     const PinholeCamera samples = sample_camera(calibration.rgb);
     gl::set_pass_state();
     sample_buffer.bind(samples.width, samples.height);
@@ -222,7 +244,7 @@ struct RgbdRenderer::State {
     glClearBufferfv(GL_DEPTH, 0, &farthest);
     lit_program.use();
     set_light(lighting, calibration.T_rgb_ir);
-    draw_all(lit_program, samples, calibration.T_rgb_ir, with_hand);
+    draw_meshes(lit_program, samples, calibration.T_rgb_ir, drawn);
     return resolve(calibration.rgb, region);
   }
 
@@ -293,6 +315,12 @@ LabelImage RgbdRenderer::render_color_labels(const PosedHand& hand, const Eigen:
   const CurrentContext current(state_->context);
   state_->load(hand, T_camera_hand);
   return state_->draw_labels(calibration_.rgb, calibration_.T_rgb_ir);
+}
+
+TrueImages RgbdRenderer::render_color_truth(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand) {
+  const CurrentContext current(state_->context);
+  state_->load(hand, T_camera_hand);
+  return state_->draw_color_truth(calibration_.rgb, calibration_.T_rgb_ir);
 }
 
 }  // namespace glovebench::render

@@ -18,6 +18,14 @@ struct RgbdImages {
   Image<uint8_t> patch;  ///< IR camera; patch + 1, else 0
 };
 
+/// What a camera sees at its pixel centers, and where it would see the hand if nothing hid it.
+struct TrueImages {
+  DepthImage depth;       ///< z, m
+  LabelImage label;       ///< 1..kColorCount, else 0
+  Image<uint8_t> patch;   ///< patch + 1, else 0
+  LabelImage whole_hand;  ///< label of the hand alone
+};
+
 /// Draws a hand in a scene from a Kinect's two cameras, without shadows. Colors are means of 2x2 samples; depth and
 /// truth are single samples. For one thread at a time.
 class RgbdRenderer {
@@ -29,6 +37,8 @@ class RgbdRenderer {
   RgbdImages render(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand, const Lighting& lighting);
   /// True labels in RGB pixels.
   LabelImage render_color_labels(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
+  /// The truth in RGB pixels and in the RGB camera's frame.
+  TrueImages render_color_truth(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
   const RgbdCalibration& calibration() const { return calibration_; }
 
  private:

@@ -133,6 +133,60 @@ TEST(RgbdRenderer, ReusedBackgroundEqualsAFreshOne) {
   }
 }
 
+TEST(RgbdRenderer, ABareHandHasTheGlovesTruthAndOneColor) {
+  const PosedHand hand = test_hand().pose(Posture::Zero());
+  const auto draw = [&](Appearance appearance) {
+    RgbdRenderer renderer(synthetic_calibration(), shared_hand(), {.appearance = appearance});
+    return renderer.render(hand, test_pose({0, 0, 0.7}), {});
+  };
+  const RgbdImages glove = draw(Appearance::glove), skin = draw(Appearance::skin);
+  EXPECT_EQ(skin.depth, glove.depth);
+  EXPECT_EQ(skin.label, glove.label);
+  EXPECT_EQ(skin.patch, glove.patch);
+  int changed = 0, skin_colored = 0;
+  for (size_t i = 0; i < skin.color.size(); ++i) {
+    if (skin.color[i] == glove.color[i]) continue;
+    ++changed;
+    skin_colored += skin.color[i][0] > skin.color[i][1] && skin.color[i][1] > skin.color[i][2];
+  }
+  EXPECT_GT(changed, 5000);
+  EXPECT_GT(skin_colored, 0.97 * changed) << "but for pixels that the hand shares with the table";
+}
+
+TEST(RgbdRenderer, TheColorCamerasTruth) {
+  const RgbdCalibration calibration = synthetic_calibration();
+  RgbdRenderer renderer(calibration, shared_hand(), {});
+  const PosedHand hand = test_hand().pose(test_posture());
+  const Eigen::Isometry3d T_camera_hand = test_pose({0.02, 0.03, 0.7});
+  const TrueImages truth = renderer.render_color_truth(hand, T_camera_hand);
+  EXPECT_EQ(truth.label, renderer.render_color_labels(hand, T_camera_hand));
+  for (size_t i = 0; i < truth.label.size(); ++i) {
+    ASSERT_EQ(truth.label[i] != 0, truth.patch[i] != 0);
+    ASSERT_TRUE(truth.label[i] == 0 || truth.label[i] == truth.whole_hand[i]);
+  }
+  const RgbdImages ir = renderer.render(hand, T_camera_hand, {});
+  int glove = 0, equal = 0;
+  for (int v = 0; v < truth.label.height(); ++v) {
+    for (int u = 0; u < truth.label.width(); ++u) {
+      if (truth.label(u, v) == 0) continue;
+      const Eigen::Vector3d p_rgb = calibration.rgb.back_project(u, v, double{truth.depth(u, v)});
+      const Eigen::Vector3d p_ir = calibration.T_rgb_ir.inverse() * p_rgb;
+      const Eigen::Vector2d uv_px = calibration.ir.project(p_ir);
+      const float z = ir.depth(static_cast<int>(std::lround(uv_px.x())), static_cast<int>(std::lround(uv_px.y())));
+      ++glove;
+      equal += std::abs(double{z} - p_ir.z()) < 0.003;
+    }
+  }
+  EXPECT_GT(glove, 5000);
+  EXPECT_GT(equal, 0.9 * glove) << "but for what one camera sees behind an outline of the other";
+  // From behind, the forearm hides a part of a hand that points away from the camera.
+  const TrueImages away = renderer.render_color_truth(hand, test_pose({0, 0, 0.7}, {-1.4, 0, 0}));
+  const auto count = [](const LabelImage& labels) {
+    return static_cast<int>(labels.size()) - std::ranges::count(labels, uint8_t{0});
+  };
+  EXPECT_LT(count(away.label), count(away.whole_hand));
+}
+
 TEST(RgbdRenderer, ThreadsDrawBitForBitAsOne) {
   const PosedHand hand = test_hand().pose(test_posture());
   const auto draw = [&](int first, int step, std::vector<RgbdImages>* frames) {

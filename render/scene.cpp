@@ -74,7 +74,7 @@ void add_ball(SurfaceMesh& mesh, const Eigen::Vector2f& center, float radius, ui
   join_rings(mesh, first, kRings, kAround);
 }
 
-std::vector<Material> make_materials(Shader shader) {
+std::vector<Material> make_materials(Shader shader, Appearance appearance) {
   const bool second = shader == Shader::second_subject;
   std::vector<Material> materials(kMaterialCount);
   for (int label = 1; label <= kColorCount; ++label) {
@@ -85,6 +85,7 @@ std::vector<Material> make_materials(Shader shader) {
                         .pattern_size = 0.0012f};
   }
   materials[kSkin] = {.albedo = {0.40f, 0.23f, 0.15f}, .gloss = 0.03f, .pattern = 0.05f, .pattern_size = 0.008f};
+  if (appearance == Appearance::skin) std::fill_n(&materials[1], kColorCount, materials[kSkin]);
   materials[kTable] = {.albedo = {0.42f, 0.38f, 0.33f}, .pattern = 0.06f, .pattern_size = 0.02f};
   materials[kFloor] = {.albedo = {0.35f, 0.35f, 0.35f}, .pattern = 0.15f, .pattern_size = 0.05f};
   materials[kClutterRed] = {.albedo = {0.45f, 0.07f, 0.05f}, .gloss = 0.04f};
@@ -117,7 +118,7 @@ CuffEnd find_cuff_end(const PosedHand& hand) {
 }  // namespace
 
 Scene make_scene(const SceneConfig& config) {
-  Scene scene{.surroundings = {}, .materials = make_materials(config.shader)};
+  Scene scene{.surroundings = {}, .materials = make_materials(config.shader, config.appearance)};
   SurfaceMesh& mesh = scene.surroundings;
   if (config.clutter) {
     add_box(mesh, {-0.34f, -0.24f}, {0.13f, 0.09f, 0.045f}, 20, kClutterRed);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/hand/hand_frame.h"
 #include "core/hand/hand_model.h"
 #include "render/glove_colors.h"
 
@@ -41,8 +42,9 @@ struct SurfaceMesh {
 
 struct SceneConfig {
   Shader shader = Shader::first_subject;
-  bool clutter = true;             ///< objects of similar colors on the table
-  bool clutter_in_volume = false;  ///< another box, in the working volume (z 0.90 m)
+  Appearance appearance = Appearance::glove;  ///< labels are the glove's in any case
+  bool clutter = true;                        ///< objects of similar colors on the table
+  bool clutter_in_volume = false;             ///< another box, in the working volume (z 0.90 m)
 };
 
 /// Surroundings, IR camera's frame: table top (1.0 m x 0.74 m, at 1.06 m), floor (at 1.78 m).

@@ -50,6 +50,11 @@ const RgbdImages& SyntheticKinect::truth() const {
   return truth_;
 }
 
+TrueImages SyntheticKinect::color_truth() {
+  check(next_ > 0, "the truth of a frame is asked for after the frame");
+  return renderer_.render_color_truth(hand_, frames_[next_ - 1].T_camera_hand);
+}
+
 const PosedHand& SyntheticKinect::true_hand() const {
   check(next_ > 0, "the hand of a frame is asked for after the frame");
   return hand_;

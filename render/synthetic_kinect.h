@@ -36,6 +36,8 @@ class SyntheticKinect : public Device {
 
   /// The last frame's ideal images, for the evaluator only.
   const RgbdImages& truth() const;
+  /// The same from the RGB camera, rendered at each call.
+  TrueImages color_truth();
   /// The hand in these images, for the evaluator only.
   const PosedHand& true_hand() const;
 

@@ -266,13 +266,14 @@ ExperimentKey read_experiment_key(const JsonCursor& json) {
   key.truth = json["truth"].one_of<TruthKind>();
   key.subject = json["subject"].count();
   key.noise = {json["noise"]["model"].name(), json["noise"]["factor"].number(0, kLargestError)};
+  if (json.has("appearance")) key.appearance = json["appearance"].one_of<Appearance>();
   return key;
 }
 
 ExperimentResult read_experiment(const JsonCursor& json, const FileMetrics& metrics) {
   json.expect_keys({"trajectory", "database", "truth", "subject", "noise", "coverage", "aggregates", "joint_pck",
                     "sequence", "runs"},
-                   {"commands", "fingertip_pck"});
+                   {"appearance", "commands", "fingertip_pck"});
   json["sequence"].expect_keys({"jitter_position_mm", "jitter_rotation_deg", "latency_frames"});
   ExperimentResult experiment;
   experiment.key = read_experiment_key(json);

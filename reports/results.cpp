@@ -11,8 +11,10 @@
 namespace glovebench::reports {
 
 std::string to_string(const ExperimentKey& key) {
-  return fmt::format("{}_{}_{}_subject{}_{}_{}", key.trajectory, key.database, to_string(key.truth), key.subject,
-                     key.noise.model, key.noise.factor);
+  const bool has_glove = key.appearance == Appearance::glove;
+  return fmt::format("{}_{}_{}_subject{}{}_{}_{}", key.trajectory, key.database, to_string(key.truth), key.subject,
+                     has_glove ? "" : fmt::format("-{}", to_string(key.appearance)), key.noise.model,
+                     key.noise.factor);
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/hand/hand_frame.h"
 #include "core/tracker/track_result.h"
 #include "reports/commands.h"
 #include "reports/metrics/metric.h"
@@ -56,10 +57,11 @@ struct ExperimentKey {
   TruthKind truth = TruthKind::recorded;
   int subject = 1;  ///< rendered hand; 1: the tracker's
   NoiseSetting noise;
+  Appearance appearance = Appearance::glove;
 
   friend bool operator==(const ExperimentKey&, const ExperimentKey&) = default;
 };
-/// "Tr4_DB_open_power_recorded_subject1_gradient_1".
+/// "Tr4_DB_open_power_recorded_subject1_gradient_1"; of a bare hand "..._subject1-skin_gradient_1".
 std::string to_string(const ExperimentKey& key);
 
 /// Consecutive frames under one noise seed.

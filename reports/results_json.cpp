@@ -75,6 +75,7 @@ Json experiment_json(const ExperimentResult& experiment, const Protocol& protoco
                  {"latency_frames", rounded_or_null(sequence.latency_frames)}}},
                {"runs", runs_json(experiment.runs, metric_keys)}};
   // Left out if empty, so older results keep their bytes.
+  if (key.appearance != Appearance::glove) json["appearance"] = std::string(to_string(key.appearance));
   if (experiment.fingertip_pck) json["fingertip_pck"] = pck_json(*experiment.fingertip_pck);
   if (experiment.commands) json["commands"] = commands_json(*experiment.commands);
   return json;

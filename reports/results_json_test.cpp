@@ -55,6 +55,17 @@ TEST(ResultsJson, EqualResultsAreEqualBytes) {
   EXPECT_EQ(results_json(full_result()), results_json(full_result()));
 }
 
+TEST(ResultsJson, OnlyABareHandHasAnAppearance) {
+  RunResult result = small_result();
+  EXPECT_THAT(results_json(result), Not(HasSubstr("appearance")));
+  result.experiments[0].key.appearance = Appearance::skin;
+  const std::string text = results_json(result);
+  EXPECT_EQ(parse_results(text, "results.json").experiments[0].key, result.experiments[0].key);
+  EXPECT_THAT(to_string(result.experiments[0].key), HasSubstr("_subject1-skin_"));
+  EXPECT_THAT(error_of_change([](json& json) { json["experiments"][0]["appearance"] = "fur"; }),
+              testing::AllOf(HasSubstr("appearance"), HasSubstr("fur"), HasSubstr("glove or skin")));
+}
+
 TEST(ResultsJson, StudiesAreThereOnlyIfThereAreAny) {
   RunResult result = small_result();
   const std::string without = results_json(result);

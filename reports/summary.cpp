@@ -38,7 +38,8 @@ Cell metric_cell(const ExperimentResult& experiment, const Column& column) {
 }
 
 std::string truth_cell(const ExperimentKey& key, std::optional<int> last_subject) {
-  const std::string truth(to_string(key.truth));
+  std::string truth(to_string(key.truth));
+  if (key.appearance == Appearance::skin) truth += ", bare hand";
   if (last_subject.value_or(key.subject) != key.subject)
     return fmt::format("{}, subjects {} to {}", truth, key.subject, *last_subject);
   if (key.subject == 1) return truth;

@@ -35,6 +35,10 @@ std::string narrow(const std::optional<double>& value) {
   return fixed(value, !value || *value < 99.995 ? 2 : *value < 9999.95 ? 1 : 0);
 }
 
+bool is_variant(const ExperimentKey& key, const Variant& variant) {
+  return variant.truth == key.truth && variant.subject == key.subject && key.appearance == Appearance::glove;
+}
+
 std::string variant_cells(const ExperimentResult* experiment) {
   if (!experiment) return fmt::format("{:>6} {:>6} {:>6} {:>5}", "-", "-", "-", "-");
   return fmt::format("{:>6} {:>6} {:>6} {:>5}", narrow(experiment->aggregate_of("position_error_mm").mean),
@@ -174,9 +178,8 @@ bool is_figure4(const RunResult& result) {
   const auto is_of_it = [](const ExperimentResult& experiment) {
     const ExperimentKey& key = experiment.key;
     return std::ranges::count(figure4_databases(key.trajectory), key.database) > 0 &&
-           std::ranges::any_of(figure4_variants(), [&](const Variant& variant) {
-             return variant.truth == key.truth && variant.subject == key.subject;
-           });
+           std::ranges::any_of(figure4_variants(),
+                               [&](const Variant& variant) { return is_variant(key, variant); });
   };
   return !result.experiments.empty() && std::ranges::all_of(result.experiments, is_of_it);
 }
@@ -192,8 +195,7 @@ std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers
     if (row == rows.end())
       row = rows.insert(row, {key.trajectory, key.database, {}, paper.mean_of(key.trajectory, key.database)});
     for (size_t v = 0; v < figure4_variants().size(); ++v)
-      if (figure4_variants()[v].truth == key.truth && figure4_variants()[v].subject == key.subject)
-        row->variants[v] = &experiment;
+      if (is_variant(key, figure4_variants()[v])) row->variants[v] = &experiment;
   }
   return rows;
 }

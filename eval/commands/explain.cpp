@@ -52,7 +52,8 @@ struct Explain {
                        .noise = chosen.key.noise,
                        .seed = chosen.seed,
                        .database = chosen.key.database,
-                       .tracker = common.tracker_config()};
+                       .tracker = common.tracker_config(),
+                       .appearance = chosen.key.appearance};
     check_database(results, chosen.key, *workbench.database(chosen.key.database), results_path);
     const int number = chosen.frame.frame;
     const std::string path = common.output.empty()

@@ -139,14 +139,17 @@ TEST(Help, OfEveryCommandNamesItsFlags) {
   };
   expect_flags({}, {{"reproduce", "run", "record", "render", "track", "explain", "db", "list", "--version"}});
   expect_flags({"reproduce"}, {tracker, machine, random, {"--output", "--trajectory", "--seeds", "--robot-out"}});
-  expect_flags({"run"}, {tracker,
-                         machine,
-                         random,
-                         {"--output", "--trajectory", "--database", "--truth", "--noise", "--gain", "--subject",
-                          "--seeds", "--robot-out", "--suite", "--filter", "--list", "--dry-run"}});
+  expect_flags({"run"},
+               {tracker,
+                machine,
+                random,
+                {"--output", "--trajectory", "--database", "--truth", "--noise", "--gain", "--subject", "--seeds",
+                 "--robot-out", "--suite", "--filter", "--list", "--dry-run", "--mcap", "--appearance"}});
   expect_flags({"record"}, {tracker, machine, random, {"--output", "--trajectory", "--database"}});
-  expect_flags({"render"},
-               {tracker, machine, random, {"--output", "--trajectory", "--format", "fakenect", "exr", "png"}});
+  expect_flags({"render"}, {tracker,
+                            machine,
+                            random,
+                            {"--output", "--trajectory", "--format", "--appearance", "bop", "exr", "mcap", "tum"}});
   expect_flags({"track"},
                {tracker,
                 machine,

@@ -11,6 +11,7 @@
 #include "core/robot/command_limits.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/help.h"
+#include "eval/frame_formats/frame_format.h"
 #include "eval/program.h"
 #include "eval/robot_kinematics.h"
 #include "eval/studies/study.h"
@@ -168,6 +169,8 @@ void add_list(Command program) {
       .runs(list_entries<render::DepthNoise, render::depth_noises>);
   list.subcommand("formats", "Files of movements and postures, and captures for `glovebench import`.")
       .runs(list_formats);
+  list.subcommand("datasets", "Formats of frames, for `glovebench render --format`.")
+      .runs(list_entries<FrameFormat, frame_formats>);
   list.subcommand("metrics",
                   "What is measured, by which formula, over which frames; what `compare` and `gate` judge.")
       .runs(list_metrics);

@@ -1,20 +1,11 @@
 #include <fmt/format.h>
 
-#include <optional>
-
-#include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/registry.h"
-#include "core/kinect/disparity.h"
-#include "core/kinect/recording.h"
 #include "eval/commands/flags.h"
+#include "eval/frame_formats/frame_format.h"
 #include "eval/program.h"
-#include "eval/run.h"
-#include "eval/terminal.h"
-#include "render/exr.h"
-#include "render/label_renderer.h"
-#include "render/pictures.h"
 #include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
@@ -30,8 +21,12 @@ struct Render {
   std::string noise = "gradient";
   std::string database;
   int subject = 1;
+  std::string appearance = "glove";
 
   void run() {
+    const FrameFormat& chosen = find_frame_format(format);
+    if (!database.empty() && !chosen.has_estimates)
+      throw Error("--database", "--format", format, estimate_formats());
     const auto movement = std::make_shared<const Trajectory>(load());
     common.warn_of_units(*movement);
     common.left = movement->side == Side::left;
@@ -41,28 +36,15 @@ struct Render {
     spec.subject = subject;
     spec.noise = {noise, 1};
     spec.seed = common.seed;
-    render::SyntheticKinect kinect = make_kinect(workbench, spec);
-    std::optional<RecordingWriter> recording;
-    std::optional<WholeFiles> pictures;
-    if (format == "fakenect") recording.emplace(common.output, workbench.calibration());
-    if (format != "fakenect") pictures.emplace(common.output);
-    std::unique_ptr<Method> tracker;
-    if (!database.empty()) tracker = workbench.make_method(common.tracker_config(), database);
-
-    std::vector<TrackResult> results;
-    Progress progress("rendering", common.quiet);
-    const int count = static_cast<int>(movement->frames.size());
-    for (int f = 0; f < count; ++f) {
-      const DeviceFrame frame = *kinect.next_frame();
-      if (recording) recording->write(frame);
-      if (format == "png") add_pngs(*pictures, frame, f);
-      if (tracker && format == "exr") results.push_back(tracker->track(frame, results));
-      if (format == "exr") add_layers(*pictures, workbench, kinect, results, frame, f);
-      progress.show(static_cast<double>(f + 1) / count);
-    }
-    if (recording) recording->finish();
-    if (pictures) pictures->commit();
-    if (!common.quiet) fmt::print("{}: {} frames of {}\n", common.output, count, movement->name);
+    spec.appearance = from_name<Appearance>(appearance).value();
+    const std::string readme = dataset_readme(chosen, spec);
+    // Destroyed before the readme's writer locks the folder.
+    write_frames(workbench, spec, estimator(workbench),
+                 *chosen.make({common.output, movement->name, workbench.calibration(), workbench.model(), readme}));
+    WholeFiles files(common.output);
+    files.add("README.txt", readme);
+    files.commit();
+    if (!common.quiet) fmt::print("{}: {} frames of {}\n", common.output, movement->frames.size(), movement->name);
   }
 
   Trajectory load() const {
@@ -70,48 +52,44 @@ struct Render {
     return load_truth(trajectory, from_name<reports::TruthKind>(truth));
   }
 
-  static void add_pngs(WholeFiles& pictures, const DeviceFrame& frame, int f) {
-    const DepthImage depth = depth_from_disparity(frame.raw_disparity);
-    pictures.add(fmt::format("color_{:04}.png", f), encode_png(frame.color));
-    pictures.add(fmt::format("depth_{:04}.png", f), encode_png(render::picture_of_depth(depth, 0.4, 1.8)));
+  Estimator estimator(Workbench& workbench) const {
+    if (database.empty()) return {};
+    const std::shared_ptr<Method> tracker = workbench.make_method(common.tracker_config(), database);
+    return [tracker, results = std::vector<TrackResult>()](const DeviceFrame& images, int) mutable {
+      const TrackResult& result = results.emplace_back(tracker->track(images, results));
+      if (result.status != TrackStatus::tracked || !result.has.hand()) return std::optional<HandFrame>();
+      return std::optional(HandFrame{result.timestamp_us, result.posture, result.T_camera_hand});
+    };
   }
 
-  static void add_layers(WholeFiles& pictures, Workbench& workbench, const render::SyntheticKinect& kinect,
-                         std::span<const TrackResult> results, const DeviceFrame& frame, int f) {
-    render::FrameLayers layers{frame.color, kinect.truth().depth, kinect.truth().label, {}, {}};
-    if (!results.empty() && results.back().status == TrackStatus::tracked && results.back().has.hand()) {
-      const TrackResult& result = results.back();
-      const HandModel& model = *workbench.model();
-      render::LabelRenderer renderer;
-      const HandImages estimate =
-          renderer.render_ids(model, model.pose(result.posture), workbench.calibration().ir, result.T_camera_hand);
-      layers.tracker_depth = estimate.depth;
-      layers.tracker_label = estimate.label;
-    }
-    const std::string name = fmt::format("frame_{:04}.exr", f);
-    pictures.add(name, render::encode_exr(layers, name));
+  static std::string estimate_formats() {
+    std::vector<std::string> names;
+    for (const FrameFormat& each : frame_formats())
+      if (each.has_estimates) names.emplace_back(each.name);
+    return fmt::format("{}", fmt::join(names, ", "));
   }
 };
 
 }  // namespace
 
 void add_render(Command program) {
-  const Command command = program.subcommand("render", "Write the synthetic Kinect frames of a trajectory.");
+  const Command command =
+      program.subcommand("render", "Write the synthetic Kinect frames of a trajectory, with their truth.");
   const auto state = std::make_shared<Render>();
   state->common.add_output(command, "folder to write to").required();
   command
       .option("--trajectory", state->trajectory, "Tr1..Tr5, side_3 (`glovebench list families`) or a file (*.json)")
       .required();
   command.option("--truth", state->truth, "which truth of Tr1..Tr5").one_of({"source", "recorded"});
-  command
-      .option("--format", state->format,
-              "png: color and depth pictures; exr: color, z, label, and with --database the tracker's view; "
-              "fakenect: a recording that libfreenect's fakenect and `glovebench track` play")
-      .one_of({"png", "exr", "fakenect"});
+  command.option("--format", state->format, "of the files (`glovebench list datasets`)")
+      .one_of(names_in(frame_formats()));
   command.option("--noise", state->noise, "depth noise").one_of(names_in(render::depth_noises()));
   command.option("--subject", state->subject, "whose hand (`glovebench list subjects`)")
       .in(1, render::kSubjectCount);
-  command.option("--database", state->database, "exr: track with this database and add the tracker's view");
+  command.option("--appearance", state->appearance, "what the hand wears: the glove, or nothing")
+      .one_of(all_names<Appearance>());
+  command.option("--database", state->database,
+                 "track with this database and add the estimates: " + Render::estimate_formats());
   state->common.add_tracker(command);
   state->common.add_seed(command);
   state->common.add_cameras(command);

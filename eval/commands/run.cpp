@@ -7,6 +7,7 @@
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
 #include "eval/reproduction.h"
+#include "eval/run_mcap.h"
 #include "eval/run_warnings.h"
 #include "eval/settings_files.h"
 #include "eval/settings_run.h"
@@ -31,6 +32,7 @@ struct RunCommand {
   std::string suite_name;
   std::string filter;
   bool quick = false;
+  bool mcap = false;
   bool list = false;
   bool dry_run = false;
   std::vector<std::string> trajectories;
@@ -39,6 +41,7 @@ struct RunCommand {
   std::string noise = "gradient";
   double gain = 1;
   int subject = 1;
+  std::string appearance = "glove";
   int seed_count = 1;
   RobotFlags robot;
 
@@ -65,6 +68,7 @@ struct RunCommand {
   void run_plan(Workbench& workbench, const Plan& plan) {
     common.check_report_folder();
     const auto [result, timings] = carry_out(workbench, plan, robot.output_of(workbench), common.output);
+    if (mcap) write_run_mcaps(workbench, plan, common.output);
     warn(lost_hand_warnings(plan, result, common.output));
     if (common.quiet) return;
     if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
@@ -91,6 +95,7 @@ struct RunCommand {
       const Plan planned = with_tracker(plan, trackers[s]);
       const Outcome outcome =
           report_runs(workbench, planned, runs[s], {kOneJob, start, false}, robot_output, folders.back());
+      if (mcap) write_run_mcaps(workbench, planned, folders.back());
       warn(lost_hand_warnings(planned, outcome.result, folders.back()));
     }
     const reports::SettingsTable table = settings_table(folders);
@@ -104,7 +109,7 @@ struct RunCommand {
   /// Runs one part of the reproduction. A cascade on the command line replaces the four of Figure 8.
   void run_study() {
     for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
-                             "--noise", "--gain", "--subject", "--hand"})
+                             "--noise", "--gain", "--subject", "--appearance", "--hand", "--mcap"})
       if (command.given(flag)) throw Error(fmt::format("run {}: {} does not go with a study", study_name, flag));
     const Study& chosen = study(study_name);
     if (choices.are_several() && choices.cascades.size() < 2)
@@ -151,7 +156,8 @@ struct RunCommand {
   Suite suite_of_flags() const {
     Suite suite;
     for (const std::string& trajectory : without_manifests(trajectories)) {
-      SuiteEntry entry{trajectory, {}, databases, subject, {noise, gain}, {}};
+      SuiteEntry entry{trajectory,    {}, databases, subject, from_name<Appearance>(appearance).value(),
+                       {noise, gain}, {}};
       if (!trajectories::is_trajectory_file(trajectory)) {
         entry.truth = from_name<reports::TruthKind>(truth);
       }
@@ -164,7 +170,8 @@ struct RunCommand {
     if (suite_name.empty() && !(command.given("--trajectory") && command.given("--database"))) {
       throw Error("run", "experiments", "none", "--suite, or --trajectory and --database");
     }
-    for (const char* flag : {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject"}) {
+    for (const char* flag :
+         {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject", "--appearance"}) {
       if (!suite_name.empty() && command.given(flag)) {
         throw Error(fmt::format("run: {} does not go with --suite, whose file says it", flag));
       }
@@ -197,6 +204,9 @@ void add_run(Command program) {
       "settings.");
   const auto state = std::make_shared<RunCommand>(command);
   state->common.add_output(command, "folder of the report");
+  command.option(
+      "--mcap", state->mcap,
+      "also write EXPERIMENT.mcap: frames, truth and estimates of the first seed, for Foxglove or Rerun");
   command.option("--list", state->list, "print the experiments and stop");
   command.option("--dry-run", state->dry_run, "print what would be done and touch nothing");
   const Command experiments = command.group("Experiments");
@@ -217,6 +227,8 @@ void add_run(Command program) {
   camera.option("--gain", state->gain, "factor on the noise's gain").in(0, 100);
   camera.option("--subject", state->subject, "whose hand is in front of the camera (`glovebench list subjects`)")
       .in(1, render::kSubjectCount);
+  camera.option("--appearance", state->appearance, "what the hand wears: the glove, or nothing")
+      .one_of(all_names<Appearance>());
   state->common.add_seed(camera);
   camera
       .option("--seeds", state->seed_count,

@@ -131,6 +131,20 @@ Picture decode(std::string_view content, const std::string& path) {
   throw Error(path, "content", "no image", "a PNG, JPEG, PGM or PPM file");
 }
 
+template <typename Pixel>
+std::string png_of(const Image<Pixel>& image, uint32_t format) {
+  Png png;
+  png.width = image.width();
+  png.height = image.height();
+  png.format = format;
+  png.flags = PNG_IMAGE_FLAG_FAST;  // a video has many: more bytes in less time
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string bytes(size, '\0');
+  check(png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data(), 0, nullptr) != 0, "an image encodes");
+  bytes.resize(size);
+  return bytes;
+}
+
 Image<uint8_t> stretched(const Image<uint16_t>& deep) {
   const auto [low, high] = std::ranges::minmax(deep);
   Image<uint8_t> gray(deep.width(), deep.height());
@@ -143,16 +157,15 @@ Image<uint8_t> stretched(const Image<uint16_t>& deep) {
 }  // namespace
 
 std::string encode_png(const ColorImage& image) {
-  Png png;
-  png.width = image.width();
-  png.height = image.height();
-  png.format = PNG_FORMAT_RGB;
-  png.flags = PNG_IMAGE_FLAG_FAST;  // a video has many: more bytes in less time
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::string bytes(size, '\0');
-  check(png_image_write_to_memory(&png, bytes.data(), &size, 0, image.data(), 0, nullptr) != 0, "an image encodes");
-  bytes.resize(size);
-  return bytes;
+  return png_of(image, PNG_FORMAT_RGB);
+}
+
+std::string encode_png(const Image<uint8_t>& image) {
+  return png_of(image, PNG_FORMAT_GRAY);
+}
+
+std::string encode_png(const Image<uint16_t>& image) {
+  return png_of(image, PNG_FORMAT_LINEAR_Y);
 }
 
 std::string encode_jpeg(const ColorImage& image, int quality) {

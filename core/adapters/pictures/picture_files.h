@@ -7,8 +7,10 @@
 
 namespace glovebench {
 
-/// The bytes of a PNG file.
+/// The bytes of a PNG file. Gray keeps its values, of 8 or 16 bits.
 std::string encode_png(const ColorImage& image);
+std::string encode_png(const Image<uint8_t>& image);
+std::string encode_png(const Image<uint16_t>& image);
 /// The bytes of a JPEG file. `quality`: 1 to 100.
 std::string encode_jpeg(const ColorImage& image, int quality);
 

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/hand/hand_frame.h"
+#include "eval/run.h"
+
+namespace glovebench::eval {
+
+/// What the files of one movement share.
+struct Dataset {
+  std::string folder;
+  std::string name;  ///< of a file that holds all frames
+  RgbdCalibration calibration;
+  std::shared_ptr<const HandModel> tracker_hand;  ///< of estimates
+  std::string readme;                             ///< see dataset_readme
+};
+
+/// A rendered frame; poses and truth are those of the IR camera.
+struct DatasetFrame {
+  int number = 0;  ///< in the movement
+  const DeviceFrame& images;
+  const HandFrame& truth;
+  render::SyntheticKinect& kinect;    ///< which rendered it
+  std::optional<HandFrame> estimate;  ///< empty: lost or not tracked
+};
+
+class FrameWriter {
+ public:
+  virtual ~FrameWriter() = default;
+  /// Throws: Error.
+  virtual void add(const DatasetFrame& frame) = 0;
+  /// Completes the dataset. Otherwise all frames are lost.
+  /// Throws: Error.
+  virtual void finish() = 0;
+};
+
+/// How frames become files. eval/frame_formats/X_frames.cpp defines `FrameFormat X_frames()`.
+struct FrameFormat {
+  std::string_view name;
+  std::string_view description;
+  std::string_view conventions;  ///< lines of README.txt: files, units, frames
+  bool has_estimates;
+  /// Throws: Error if the folder cannot be written.
+  std::unique_ptr<FrameWriter> (*make)(const Dataset& dataset);
+};
+std::span<const FrameFormat> frame_formats();
+/// Throws: Error for an unknown name.
+const FrameFormat& find_frame_format(std::string_view name);
+
+/// Text of README.txt: origin, conventions, license.
+std::string dataset_readme(const FrameFormat& format, const RunSpec& spec);
+
+/// A frame's estimate; empty if the hand is lost. An empty function: nothing tracks.
+using Estimator = std::function<std::optional<HandFrame>(const DeviceFrame& images, int number)>;
+/// Renders a run's frames, writes and finishes them.
+/// Throws: Error.
+void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& estimate, FrameWriter& writer);
+
+}  // namespace glovebench::eval

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "eval/plan.h"
+
+namespace glovebench::eval {
+
+/// Writes FOLDER/EXPERIMENT.mcap of each experiment's first seed: its frames, rendered again, their truth, and the
+/// estimates of FOLDER/estimates/.
+/// Throws: Error.
+void write_run_mcaps(Workbench& workbench, const Plan& plan, const std::string& folder);
+
+}  // namespace glovebench::eval
