@@ -185,20 +185,21 @@ struct RgbdRenderer::State {
             pasted(empty_depth, region, read_truth<float>(2, GL_RED, GL_FLOAT, region))};
   }
 
+  LabelImage read_labels(int attachment, const Region& whole) {
+    return pasted(LabelImage(whole.width, whole.height), whole,
+                  read_truth<uint8_t>(attachment, GL_RED_INTEGER, GL_UNSIGNED_BYTE, whole));
+  }
+
   TrueImages draw_color_truth(const PinholeCamera& camera, const Eigen::Isometry3d& T_view_ir) {
     const Region whole{0, 0, camera.width, camera.height};
-    const LabelImage none(camera.width, camera.height);
-    const auto read_labels = [&](int attachment) {
-      return pasted(none, whole, read_truth<uint8_t>(attachment, GL_RED_INTEGER, GL_UNSIGNED_BYTE, whole));
-    };
     draw_truth(camera, T_view_ir, whole, Drawn::all);
     TrueImages truth{
         pasted(DepthImage(camera.width, camera.height), whole, read_truth<float>(2, GL_RED, GL_FLOAT, whole)),
-        read_labels(0),
-        read_labels(1),
+        read_labels(0, whole),
+        read_labels(1, whole),
         {}};
     draw_truth(camera, T_view_ir, whole, Drawn::hand);
-    truth.whole_hand = read_labels(0);
+    truth.whole_hand = read_labels(0, whole);
     return truth;
   }
 
