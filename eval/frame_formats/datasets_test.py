@@ -150,7 +150,8 @@ class Mcap:
                 for time, offset in fields.pairs("Q", "Q"):
                     assert chunk["messages"].pop(offset) == (channel, time)
             elif operation == 12:
-                self.metadata[fields.text()] = (place, dict(fields.pairs("s", "s")))
+                name = fields.text()
+                self.metadata[name] = (place, dict(fields.pairs("s", "s")))
         assert not any(chunk["messages"] for chunk in self.chunks.values()), "a message without an index"
 
     def read_chunk(self, place, fields):
