@@ -22,7 +22,7 @@ namespace glovebench::bench {
 namespace {
 
 constexpr size_t kFrameStep = 19;  // six to eight frames of each trajectory: open hand, grasp and between
-/// Of each family. The suite `families` judges on seeds 11 to 20.
+/// Seeds of the movements of each family. The suite `families` judges on 11 to 20.
 constexpr uint64_t kTuningSeeds[] = {101, 102}, kJudgingSeeds[] = {11, 12};
 
 Movement movement_of(const trajectories::Trajectory& trajectory) {

@@ -1,4 +1,4 @@
-// What a tracker that is a program waits for: a frame on its way there, and the answer on its way back.
+// The time that a frame takes to a tracker that is a program, and that its answer takes back.
 
 #include "bench/bench_data.h"
 #include "core/adapters/process/process_method.h"

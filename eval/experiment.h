@@ -20,7 +20,7 @@ struct Experiment {
 };
 /// In order of appearance. `runs` must outlive the result. A seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
-/// Whether each answer has posture and pose.
+/// True if each answer has posture and pose.
 bool has_hands(const Experiment& experiment);
 
 /// Results without robot commands and studies.

@@ -12,6 +12,7 @@ namespace glovebench {
 /// WebXR's 25 joints, then the forearm.
 inline constexpr int kJointCount = 26;
 inline constexpr int kWristJoint = 0;
+inline constexpr int kMiddleMcpJoint = 11;
 inline constexpr int kForearmJoint = 25;
 
 /// WebXR names and "forearm".

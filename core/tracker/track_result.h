@@ -40,7 +40,7 @@ struct AngleCertainty {
   uint32_t hidden = 0;                  ///< bit a: angle a is hardly seen
 };
 
-/// What an estimate has. Ours have all, another program's may lack some.
+/// The parts that an estimate has. Ours has all. Another program's may lack some.
 struct EstimateParts {
   bool posture = true;
   bool pose = true;

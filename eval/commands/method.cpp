@@ -34,7 +34,7 @@ std::string parts_of(const TrackResult& result) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Of the hand's origin or, without a pose, the mean of the joints, mm. Empty if the answer has only angles.
+/// Error of the hand's origin, mm. Without a pose: mean error of the joints. Empty if the answer has only angles.
 std::optional<double> distance_mm(const TrackResult& result, const HandFrame& truth, const HandModel& hand) {
   if (result.has.pose)
     return 1000 * (result.T_camera_hand.translation() - truth.T_camera_hand.translation()).norm();

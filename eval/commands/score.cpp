@@ -75,7 +75,7 @@ struct ScoreCommand {
     request.offset_ms = *offset;
   }
 
-  /// Of estimates that lack what the headline needs.
+  /// Prints joint errors if the estimates lack what the headline needs.
   static void print_joint_errors(const reports::RunResult& result) {
     const reports::ExperimentResult& experiment = result.experiments.front();
     if (experiment.aggregate_of("vertex_error_mm").mean) return;

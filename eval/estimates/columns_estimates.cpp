@@ -21,7 +21,7 @@ struct Source {
   double factor = 1;
 };
 
-/// What the headings say.
+/// The columns that the headings name.
 struct Columns {
   Source time;                  ///< factor to us
   std::vector<Source> numbers;  ///< in the order of EstimateSequence::numbers

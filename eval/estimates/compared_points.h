@@ -23,7 +23,7 @@ struct PointComparison {
 
   bool has_joints() const { return has.hand() || !joints.empty(); }
   bool has_points() const { return has_joints() || has.pose; }
-  /// Of a tracked answer.
+  /// Points of a tracked answer.
   Points of(const TrackResult& answer) const;
   Points of(const HandFrame& truth, const render::Subject& subject) const;
   /// Mean, mm or deg. Centers are moved together without place, and sizes made equal without scale.

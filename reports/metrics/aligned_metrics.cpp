@@ -8,8 +8,6 @@ namespace {
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-constexpr int kMiddleMcpJoint = 11;
-
 /// The same points twice, in the camera's frame, m.
 struct PointPairs {
   Matrix3Xd estimated, truth;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
@@ -22,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMiddleMcpJoint = 11;
 constexpr int kNotExecutable = 126, kNotFound = 127;  // a shell's exit codes
 
 class ProcessMethod : public Method {
@@ -116,13 +116,15 @@ class ProcessMethod : public Method {
   std::optional<TrackerProcess> program_;
 };
 
-/// Words between blanks, without quotation marks around them.
+/// Words between blanks. What stands in quotation marks is one word.
 std::vector<std::string> words_of(const std::string& command) {
-  std::istringstream stream(command);
   std::vector<std::string> words;
-  for (std::string word; stream >> word;) {
-    const size_t first = word.find_first_not_of("'\"");
-    if (first != std::string::npos) words.push_back(word.substr(first, word.find_last_not_of("'\"") - first + 1));
+  for (size_t at = 0; (at = command.find_first_not_of(' ', at)) != std::string::npos;) {
+    const bool is_quoted = command[at] == '\'' || command[at] == '"';
+    if (is_quoted) ++at;
+    const size_t end = std::min(command.find(is_quoted ? command[at - 1] : ' ', at), command.size());
+    words.push_back(command.substr(at, end - at));
+    at = std::min(end + 1, command.size());
   }
   return words;
 }

@@ -84,7 +84,7 @@ class ProcessMethodTest : public testing::Test {
       {}, small_calibration(), std::make_shared<HandModel>(HandModel::load(build_paths::hand_mesh())), {}, {}};
 };
 
-/// Whether a process of this command line runs.
+/// True if a process with this command line runs.
 bool runs(const std::string& words) {
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
@@ -96,7 +96,7 @@ bool runs(const std::string& words) {
   return false;
 }
 
-/// Whether that is so within 10 s.
+/// Waits up to 10 s. True if such a process then runs, or does not, as expected.
 bool becomes(const std::string& words, bool running) {
   const auto deadline = std::chrono::steady_clock::now() + 10s;
   while (runs(words) != running) {
@@ -106,7 +106,7 @@ bool becomes(const std::string& words, bool running) {
   return true;
 }
 
-/// Of this process alone.
+/// A command that no other process has.
 std::string unique_sleep() {
   return fmt::format("sleep {}.{}", 100000 + getpid(), 5);
 }
@@ -258,7 +258,7 @@ TEST_F(ProcessMethodTest, SurvivesRandomReplies) {
 }
 
 TEST_F(ProcessMethodTest, HashCoversTheFilesThatTheCommandNames) {
-  const std::string file = folder_ + "/mine.py", method = "exec:python3 '" + file + "' --fast";
+  const std::string file = folder_ + "/my tracker.py", method = "exec:python3 '" + file + "' --fast";
   write_file(file, "one");
   const std::string before = program_hash(method);
   EXPECT_EQ(program_hash(method), before);
