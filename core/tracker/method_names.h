@@ -6,7 +6,8 @@
 namespace glovebench {
 
 inline constexpr std::string_view kPaperMethod = "schroeder2012";
-/// A method that begins so is a program: "exec:COMMAND" (core/adapters/process). Only the command line may name one.
+/// A method that begins so is a program: "exec:COMMAND" (core/adapters/process). Only the command line may name
+/// one.
 inline constexpr std::string_view kProgramPrefix = "exec:";
 inline bool is_program(std::string_view method) {
   return method.starts_with(kProgramPrefix);
