@@ -23,7 +23,7 @@ struct PlacedColors {
 
 PlacedColors place_colors(const DeviceFrame& frame, const RgbdCalibration& calibration,
                           const SampleConfig& config) {
-  PlacedColors placed{depth_from_disparity(frame.raw_disparity, calibration.disparity), {}, {}};
+  PlacedColors placed{depth_of(frame, calibration.disparity), {}, {}};
   RegisteredImage mapped = register_color(placed.depth, frame.color, calibration, config.registration);
   placed.place = Image<uint8_t>(placed.depth.width(), placed.depth.height(), kNowhere);
   for (size_t i = 0; i < placed.depth.size(); ++i) {

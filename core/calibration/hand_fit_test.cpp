@@ -33,7 +33,7 @@ std::vector<TrackedView> filmed(const HandModel& hand) {
     TrackedView& view = views.emplace_back();
     view.timestamp_us = 66'667 * v;
     view.seen.points = build_cloud(images.depth, images.label, kKinect, WorkingVolume{}).points;
-    view.seen.mask.assign(images.depth, Image<uint16_t>(640, 480, 900), label_box(images.label, 40), 2.0f);
+    view.seen.mask.assign(images.depth, {Image<uint16_t>(640, 480, 900)}, label_box(images.label, 40), 2.0f);
     view.pose = {posture, perturbed_by(T, 2, 0.003, v)};
     for (double& angle : view.pose.posture) angle += random.uniform(-0.08, 0.08);
     view.pose.posture = clamp_to_limits(view.pose.posture);

@@ -43,7 +43,7 @@ std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& 
   view.timestamp_us = frame.depth_timestamp_us;
   view.pose = {result.posture_unfiltered, result.T_camera_hand_unfiltered};
   const Sighting seen = see_in_reach(frame, inputs.calibration, *inputs.table, inputs.config, unobserved);
-  view.seen.assign(seen, frame.raw_disparity);
+  view.seen.assign(seen, frame);
   return view;
 }
 

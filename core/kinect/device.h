@@ -9,11 +9,13 @@
 
 namespace glovebench {
 
+/// Images of the sizes of the calibration. Either `raw_disparity` or `depth` is empty.
 struct DeviceFrame {
-  Image<uint16_t> raw_disparity;  ///< 640x480, 11 bits, 2047: no value
-  ColorImage color;               ///< 640x480, not registered
+  Image<uint16_t> raw_disparity;  ///< 11 bits, 2047: no value
+  ColorImage color = {};          ///< not registered
   int64_t depth_timestamp_us = 0;
   int64_t color_timestamp_us = 0;
+  DepthImage depth = {};  ///< of a device that measures depth, m
 };
 
 class FrameError : public Error {

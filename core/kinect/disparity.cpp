@@ -65,4 +65,11 @@ DepthImage depth_from_disparity(const Image<uint16_t>& raw, const OptionalLine& 
   return look_up_all(raw, depths);
 }
 
+DepthImage depth_of(const DeviceFrame& frame, const OptionalLine& line, double z_max) {
+  if (!frame.raw_disparity.empty()) return depth_from_disparity(frame.raw_disparity, line, z_max);
+  DepthImage depth = frame.depth;
+  for (float& z : depth) z = double{z} <= z_max ? z : 0;
+  return depth;
+}
+
 }  // namespace glovebench

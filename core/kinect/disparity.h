@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/base/image.h"
-#include "core/camera/rgbd_calibration.h"
+#include "core/kinect/device.h"
 
 namespace glovebench {
 
@@ -27,5 +27,8 @@ DepthImage depth_from_disparity(const Image<uint16_t>& raw);
 /// Drops depth beyond `z_max` (m).
 DepthImage depth_from_disparity(const Image<uint16_t>& raw, const OptionalLine& line,
                                 double z_max = std::numeric_limits<double>::infinity());
+/// Of a frame's disparity, or the depth that the device measured.
+DepthImage depth_of(const DeviceFrame& frame, const OptionalLine& line,
+                    double z_max = std::numeric_limits<double>::infinity());
 
 }  // namespace glovebench

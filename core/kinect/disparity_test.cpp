@@ -53,6 +53,18 @@ TEST(Disparity, ConvertsImagesPixelByPixel) {
   EXPECT_EQ(depth(2, 1), depth_from_disparity(744));
 }
 
+TEST(Disparity, DepthOfAFrameIsWhatTheDeviceMeasured) {
+  DeviceFrame frame;
+  frame.depth = DepthImage(3, 1);
+  frame.depth(1, 0) = 0.5f;
+  frame.depth(2, 0) = 0.95f;
+  EXPECT_EQ(depth_of(frame, DisparityLine{-0.003, 3.3}), frame.depth);
+  EXPECT_EQ(depth_of(frame, {}, 0.9)(1, 0), 0.5f);
+  EXPECT_EQ(depth_of(frame, {}, 0.9)(2, 0), 0.0f);
+  const DeviceFrame of_disparity = {Image<uint16_t>(3, 1, 744)};
+  EXPECT_EQ(depth_of(of_disparity, {}), depth_from_disparity(of_disparity.raw_disparity));
+}
+
 TEST(Disparity, LeavesOutWhatIsTooFar) {
   Image<uint16_t> raw(3, 1, kNoDisparity);
   raw(1, 0) = 398;

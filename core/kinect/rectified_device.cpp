@@ -16,6 +16,18 @@ cv::Mat as_mat(const Image<T>& image, int type) {
   return cv::Mat(image.height(), image.width(), type, const_cast<T*>(image.data()));
 }
 
+/// `places`: pixels of the distorted image, where it has them.
+template <typename T, typename Places>
+Image<T> nearest_pixels(const Image<T>& distorted, const Places& places, int type, T outside) {
+  check(distorted.width() == places.width() && distorted.height() == places.height(),
+        "the depth image has the size of the calibrated camera");
+  Image<T> rectified(places.width(), places.height());
+  cv::Mat result = as_mat(rectified, type);
+  cv::remap(as_mat(distorted, type), result, as_mat(places, CV_16SC2), cv::noArray(), cv::INTER_NEAREST,
+            cv::BORDER_CONSTANT, cv::Scalar(outside));
+  return rectified;
+}
+
 }  // namespace
 
 void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens) {
@@ -56,13 +68,11 @@ Rectification::Rectification(const PinholeCamera& camera, const LensDistortion& 
 }
 
 Image<uint16_t> Rectification::operator()(const Image<uint16_t>& raw_disparity) const {
-  check(raw_disparity.width() == nearest_.width() && raw_disparity.height() == nearest_.height(),
-        "the disparity image has the size of the calibrated camera");
-  Image<uint16_t> rectified(nearest_.width(), nearest_.height());
-  cv::Mat result = as_mat(rectified, CV_16UC1);
-  cv::remap(as_mat(raw_disparity, CV_16UC1), result, as_mat(nearest_, CV_16SC2), cv::noArray(), cv::INTER_NEAREST,
-            cv::BORDER_CONSTANT, cv::Scalar(kNoDisparity));
-  return rectified;
+  return nearest_pixels(raw_disparity, nearest_, CV_16UC1, kNoDisparity);
+}
+
+DepthImage Rectification::operator()(const DepthImage& depth) const {
+  return nearest_pixels(depth, nearest_, CV_32FC1, 0.0f);
 }
 
 ColorImage Rectification::operator()(const ColorImage& color) const {
@@ -87,7 +97,8 @@ std::optional<DeviceFrame> RectifiedDevice::next_frame() {
   // Made with the first frame, not before: a calibration may claim large images without having any.
   if (!ir_) ir_.emplace(calibration_.ir, device_->calibration().ir_lens);
   if (!rgb_) rgb_.emplace(calibration_.rgb, device_->calibration().rgb_lens);
-  frame->raw_disparity = (*ir_)(frame->raw_disparity);
+  if (!frame->raw_disparity.empty()) frame->raw_disparity = (*ir_)(frame->raw_disparity);
+  if (!frame->depth.empty()) frame->depth = (*ir_)(frame->depth);
   frame->color = (*rgb_)(frame->color);
   return frame;
 }

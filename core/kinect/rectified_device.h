@@ -21,6 +21,8 @@ class Rectification {
 
   /// Takes the nearest pixel; 2047 outside.
   Image<uint16_t> operator()(const Image<uint16_t>& raw_disparity) const;
+  /// Takes the nearest pixel; 0 outside.
+  DepthImage operator()(const DepthImage& depth) const;
   /// Interpolates; black outside.
   ColorImage operator()(const ColorImage& color) const;
 

@@ -114,6 +114,18 @@ TEST(RectifiedDevice, NeverMixesDisparities) {
   for (const uint16_t raw : rectify(edge)) ASSERT_TRUE(raw == 400 || raw == kNoDisparity) << raw;
 }
 
+TEST(RectifiedDevice, MovesDepthAsItMovesDisparity) {
+  DeviceFrame frame = {.raw_disparity = seen_through<uint16_t>(with_lenses().ir, kBarrel, as_disparity),
+                       .color = ColorImage(640, 480)};
+  const auto rectified = [](const DeviceFrame& distorted) {
+    return *RectifiedDevice(std::make_unique<OneFrame>(with_lenses(), distorted)).next_frame();
+  };
+  const DepthImage expected = depth_from_disparity(rectified(frame).raw_disparity);
+  frame.depth = depth_of(frame, {});
+  frame.raw_disparity = {};
+  EXPECT_EQ(rectified(frame).depth, expected);
+}
+
 TEST(RectifiedDevice, IsTheDeviceItselfWhereThereIsNoLens) {
   auto device = std::make_unique<OneFrame>(nominal_kinect_calibration(), DeviceFrame{});
   const Device* before = device.get();

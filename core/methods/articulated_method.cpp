@@ -69,7 +69,7 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
       coarse_pose(*in_.model, in_.model->pose(mean.posture), mean.R_camera_hand, seen.cloud.points);
 
   observe(Stage::mask);
-  view_.assign(seen, frame.raw_disparity);
+  view_.assign(seen, frame);
 
   observe(Stage::fit);
   const ArticulatedEstimate fitted =

@@ -19,7 +19,7 @@ struct View {
     const HandImages images =
         renderer.render_ids(test_hand(), test_hand().pose(truth.posture), kKinect, truth.T_camera_hand);
     points = build_cloud(images.depth, images.label, kKinect, WorkingVolume{}).points;
-    mask.assign(images.depth, Image<uint16_t>(640, 480, 900), label_box(images.label, 40), 2.0f);
+    mask.assign(images.depth, {Image<uint16_t>(640, 480, 900)}, label_box(images.label, 40), 2.0f);
   }
   HandObservation observation() const { return {points, mask, kKinect}; }
 };

@@ -43,10 +43,10 @@ void HandMask::sweep(int v, int dv) {
   for (int u = width_ - 2; u >= 0; --u) learn(here[u], here[u + 1], 1, 0);
 }
 
-void HandMask::assign(const DepthImage& depth, const Image<uint16_t>& raw_disparity, const PixelBox& box,
-                      float farthest) {
-  check(depth.width() == raw_disparity.width() && depth.height() == raw_disparity.height(),
-        "depth and disparity are images of one camera");
+void HandMask::assign(const DepthImage& depth, const DeviceFrame& frame, const PixelBox& box, float farthest) {
+  const bool is_disparity = !frame.raw_disparity.empty();
+  check(depth.size() == (is_disparity ? frame.raw_disparity.size() : frame.depth.size()),
+        "both depths are images of one camera");
   box_ = box;
   width_ = box.right - box.left;
   height_ = box.bottom - box.top;
@@ -54,9 +54,11 @@ void HandMask::assign(const DepthImage& depth, const Image<uint16_t>& raw_dispar
   offsets_.resize(static_cast<size_t>(width_) * height_);
   for (int v = 0; v < height_; ++v) {
     const float* const z = depth.row(box.top + v) + box.left;
-    const uint16_t* const raw = raw_disparity.row(box.top + v) + box.left;
+    const uint16_t* const raw = is_disparity ? frame.raw_disparity.row(box.top + v) + box.left : nullptr;
+    const float* const measured = is_disparity ? nullptr : frame.depth.row(box.top + v) + box.left;
     for (int u = 0; u < width_; ++u) {
-      const bool may_be_hand = raw[u] == kNoDisparity || (z[u] > 0 && z[u] < farthest);
+      const bool is_unmeasured = is_disparity ? raw[u] == kNoDisparity : !(measured[u] > 0);
+      const bool may_be_hand = is_unmeasured || (z[u] > 0 && z[u] < farthest);
       row(v)[u] = may_be_hand ? Offset{0, 0} : Offset{kNoMask_px, kNoMask_px};
       is_empty_ &= !may_be_hand;
     }

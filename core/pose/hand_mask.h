@@ -6,6 +6,7 @@
 
 #include "core/base/image.h"
 #include "core/camera/pinhole_camera.h"
+#include "core/kinect/device.h"
 
 namespace glovebench {
 
@@ -20,8 +21,8 @@ PixelBox label_box(const LabelImage& labels, int margin);
 /// (Danielsson 1980, to 1 px).
 class HandMask {
  public:
-  /// `farthest`: limit of the hand's depth, m.
-  void assign(const DepthImage& depth, const Image<uint16_t>& raw_disparity, const PixelBox& box, float farthest);
+  /// `depth`: the frame's, m; may lack what is far. `farthest`: limit of the hand's depth, m.
+  void assign(const DepthImage& depth, const DeviceFrame& frame, const PixelBox& box, float farthest);
   /// From a position to the nearest mask pixel, px. Empty within 1 px of it, or without a mask.
   std::optional<Eigen::Vector2d> way_back_px(const Eigen::Vector2d& uv_px) const;
 

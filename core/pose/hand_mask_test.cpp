@@ -12,7 +12,7 @@ namespace {
 
 struct Scene {
   DepthImage depth{80, 60, 1.5f};
-  Image<uint16_t> raw{80, 60, 900};
+  DeviceFrame frame{Image<uint16_t>(80, 60, 900)};
   std::vector<Eigen::Vector2d> hand_px;
 
   void put_hand(int u, int v) {
@@ -21,7 +21,7 @@ struct Scene {
   }
   HandMask mask(const PixelBox& box = {0, 0, 80, 60}) const {
     HandMask made;
-    made.assign(depth, raw, box, 0.8f);
+    made.assign(depth, frame, box, 0.8f);
     return made;
   }
 };
@@ -52,9 +52,20 @@ TEST(HandMask, knows_the_nearest_pixel_of_the_hand) {
 
 TEST(HandMask, takes_a_pixel_without_a_depth_for_one_that_may_be_the_hand) {
   Scene scene;
-  scene.raw(40, 30) = kNoDisparity;
+  scene.frame.raw_disparity(40, 30) = kNoDisparity;
   scene.depth(40, 30) = 0;
   scene.depth(10, 30) = 0;  // too far away to be registered
+  const std::optional<Eigen::Vector2d> way = scene.mask().way_back_px({20.5, 30});
+  ASSERT_TRUE(way);
+  EXPECT_EQ(*way, Eigen::Vector2d(19.5, 0));
+}
+
+TEST(HandMask, of_measured_depth_is_that_of_disparity) {
+  Scene scene;
+  scene.depth(40, 30) = scene.depth(10, 30) = 0;
+  scene.frame = {};
+  scene.frame.depth = scene.depth;
+  scene.frame.depth(10, 30) = 5;  // too far away to be registered
   const std::optional<Eigen::Vector2d> way = scene.mask().way_back_px({20.5, 30});
   ASSERT_TRUE(way);
   EXPECT_EQ(*way, Eigen::Vector2d(19.5, 0));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/sanitizers.h"
+#include "core/kinect/disparity.h"
 #include "core/methods/method.h"
 #include "core/tracker/test_scene.h"
 
@@ -65,13 +66,16 @@ int requests_of(const std::function<void()>& work) {
   return requests;
 }
 
-/// A hand on its way through the view, that opens and closes.
+/// A hand on its way through the view, that opens and closes; with disparity or depth.
 const std::vector<DeviceFrame>& frames() {
   static const std::vector<DeviceFrame> shot = [] {
     std::vector<DeviceFrame> frames;
     for (int i = 0; i < 6; ++i) {
       const Eigen::Isometry3d T_camera_hand = render::test_pose({0.02 * i - 0.05, 0.03, 0.8 - 0.05 * i});
       frames.push_back(shoot(T_camera_hand, i % 2 == 0 ? Posture(Posture::Zero()) : power_posture()).frame);
+      if (i % 3 != 2) continue;
+      frames.back().depth = depth_of(frames.back(), {});
+      frames.back().raw_disparity = {};
     }
     return frames;
   }();

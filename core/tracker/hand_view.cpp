@@ -27,9 +27,9 @@ float mean_depth(std::span<const LabeledPoint> points) {
 
 }  // namespace
 
-void HandView::assign(const Sighting& seen, const Image<uint16_t>& raw_disparity) {
+void HandView::assign(const Sighting& seen, const DeviceFrame& frame) {
   const LabeledCloud& cloud = seen.cloud;
-  mask.assign(seen.depth, raw_disparity, label_box(cloud.labels, kMaskMargin_px),
+  mask.assign(seen.depth, frame, label_box(cloud.labels, kMaskMargin_px),
               mean_depth(cloud.points) + kBehindHand);
   points.clear();
   points.reserve(cloud.points.size());

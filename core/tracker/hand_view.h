@@ -11,7 +11,7 @@ struct HandView {
   HandMask mask;
 
   /// `seen` must be `tracked`. Reuses memory.
-  void assign(const Sighting& seen, const Image<uint16_t>& raw_disparity);
+  void assign(const Sighting& seen, const DeviceFrame& frame);
 };
 
 }  // namespace glovebench

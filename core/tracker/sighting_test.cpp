@@ -62,6 +62,15 @@ TEST(Sighting, within_reach_keeps_what_hides_the_hand) {
   expect_alike(frame);
 }
 
+TEST(Sighting, of_measured_depth_is_that_of_disparity) {
+  const DeviceFrame raw = shoot(test_pose({0.02, 0.03, 0.7})).frame;
+  DeviceFrame measured = {.raw_disparity = {}, .color = raw.color};
+  measured.depth = depth_of(raw, {});
+  EXPECT_EQ(seen(measured).depth, seen(raw).depth);
+  EXPECT_EQ(seen_in_reach(measured).depth, seen_in_reach(raw).depth);
+  EXPECT_EQ(seen_in_reach(measured).labels, seen_in_reach(raw).labels);
+}
+
 TEST(Sighting, within_reach_heeds_the_filters) {
   TrackerConfig config;
   config.segmentation.majority_filter = true;

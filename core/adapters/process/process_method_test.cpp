@@ -153,6 +153,10 @@ TEST_F(ProcessMethodTest, DepthGivesBackTheDisparity) {
     ASSERT_EQ(disparity_from_depth(units[raw] * kDepthUnit_mm / 1000), raw);
   EXPECT_EQ(units[1040], 0) << "beyond 16 bits";
   EXPECT_EQ(units[kNoDisparity], 0);
+  frame.depth = depth_of(frame, {});
+  frame.raw_disparity = {};
+  EXPECT_EQ(depth_units(frame, std::nullopt), units);
+  EXPECT_THAT(frame_line(0, frame), HasSubstr("\"depth_bytes\":4096"));
 }
 
 TEST_F(ProcessMethodTest, FailuresLoseTheirFrameAndSayWhy) {

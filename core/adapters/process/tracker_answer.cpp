@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
@@ -80,21 +81,19 @@ std::string frame_line(int number, const DeviceFrame& frame) {
   const ordered_json line = {{"frame", number},
                              {"depth_timestamp_us", frame.depth_timestamp_us},
                              {"color_timestamp_us", frame.color_timestamp_us},
-                             {"depth_bytes", 2 * frame.raw_disparity.size()},
+                             {"depth_bytes", 2 * (frame.raw_disparity.size() + frame.depth.size())},
                              {"rgb_bytes", 3 * frame.color.size()}};
   return line.dump() + "\n";
 }
 
 std::vector<uint16_t> depth_units(const DeviceFrame& frame, const OptionalLine& line) {
-  std::array<uint16_t, kNoDisparity + 1> units{};
-  for (uint16_t raw = 0; raw < kNoDisparity; ++raw) {
-    const double z = std::round(1000 * depth_from_disparity(raw, line) / kDepthUnit_mm);
-    if (z <= std::numeric_limits<uint16_t>::max()) units[raw] = static_cast<uint16_t>(z);
-  }
-  std::vector<uint16_t> depth(frame.raw_disparity.size());
-  std::ranges::transform(frame.raw_disparity, depth.begin(),
-                         [&](uint16_t raw) { return raw < units.size() ? units[raw] : uint16_t{0}; });
-  return depth;
+  const DepthImage depth = depth_of(frame, line);
+  std::vector<uint16_t> units(depth.size());
+  std::ranges::transform(depth, units.begin(), [](float z) {
+    const double unit = std::round(1000 * z / kDepthUnit_mm);
+    return unit > 0 && unit <= std::numeric_limits<uint16_t>::max() ? static_cast<uint16_t>(unit) : uint16_t{0};
+  });
+  return units;
 }
 
 TrackResult parse_answer(std::string_view line, int number) {
