@@ -29,8 +29,7 @@ float mean_depth(std::span<const LabeledPoint> points) {
 
 void HandView::assign(const Sighting& seen, const DeviceFrame& frame) {
   const LabeledCloud& cloud = seen.cloud;
-  mask.assign(seen.depth, frame, label_box(cloud.labels, kMaskMargin_px),
-              mean_depth(cloud.points) + kBehindHand);
+  mask.assign(seen.depth, frame, label_box(cloud.labels, kMaskMargin_px), mean_depth(cloud.points) + kBehindHand);
   points.clear();
   points.reserve(cloud.points.size());
   size_t next = 0;

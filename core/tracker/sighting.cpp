@@ -58,8 +58,7 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
 
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
              const TrackerConfig& config) {
-  return see_in(depth_of(frame, calibration.disparity), frame.color, calibration, table,
-                config, unobserved);
+  return see_in(depth_of(frame, calibration.disparity), frame.color, calibration, table, config, unobserved);
 }
 
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
@@ -67,15 +66,13 @@ Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibrati
   observe(Stage::registration);
   // A filter over neighbors looks across the border of what is left out.
   if (!config.segmentation.majority_filter && !config.segmentation.surface_majority) {
-    Sighting seen = see_in(
-        depth_of(frame, calibration.disparity, config.volume.z_max + kCutOffMargin),
-        frame.color, calibration, table, config, observe);
+    Sighting seen = see_in(depth_of(frame, calibration.disparity, config.volume.z_max + kCutOffMargin), frame.color,
+                           calibration, table, config, observe);
     // With too few points the status depends on what lies outside.
     if (static_cast<int>(seen.cloud.points.size()) >= config.detection.min_pixels) return seen;
     observe(Stage::registration);
   }
-  return see_in(depth_of(frame, calibration.disparity), frame.color, calibration, table,
-                config, observe);
+  return see_in(depth_of(frame, calibration.disparity), frame.color, calibration, table, config, observe);
 }
 
 }  // namespace glovebench

@@ -8,7 +8,7 @@
 #include "core/base/whole_file.h"
 #include "core/calibration/stereo_fit.h"
 #include "eval/commands/flags.h"
-#include "eval/commands/track_source.h"
+#include "eval/sources/source.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {

@@ -5,7 +5,7 @@
 #include "core/base/whole_file.h"
 #include "core/calibration/color_report.h"
 #include "eval/commands/flags.h"
-#include "eval/commands/track_source.h"
+#include "eval/sources/source.h"
 #include "render/pictures.h"
 #include "reports/text.h"
 
@@ -69,9 +69,7 @@ void add_calibrate_colors(Command calibrate) {
       "Make a color table of a recording of the glove, without labels: the light and the glove's colors are found "
       "from where the tracker's own table has them (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateColors>();
-  state->from.add(
-      command,
-      "fakenect:FOLDER, a recording in which every patch of the glove is seen; freenect[:INDEX], a Kinect");
+  state->from.add(command, "every patch of the glove is seen");
   state->common.add_output(command, "color table to write, for `track --colors`").required();
   command.option("--report", state->report, "separability and warnings to write (*.json)");
   command.option("--picture", state->picture,

@@ -6,8 +6,8 @@
 #include "core/base/whole_file.h"
 #include "core/calibration/hand_report.h"
 #include "eval/commands/flags.h"
-#include "eval/commands/track_source.h"
 #include "eval/program.h"
+#include "eval/sources/source.h"
 #include "reports/text.h"
 
 namespace glovebench::eval {
@@ -68,7 +68,7 @@ void add_calibrate_hand(Command calibrate) {
       "Fit the tracker's hand to a person, for --hand: overall size, lengths and widths of segments.\n"
       "Record about 10 s in which the hand opens, closes and turns (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateHand>();
-  state->from.add(command, "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect");
+  state->from.add(command, "a hand that moves");
   state->common.add_output(command, "hand to write, for --hand (*.json)").required();
   command.option("--report", state->report, "sizes, residuals and what was not seen, to write (*.json)");
   command.option("--database", state->database,

@@ -18,9 +18,9 @@
 #include "core/tracker/track_result.h"
 #include "eval/commands/flags.h"
 #include "eval/commands/robot_outputs.h"
-#include "eval/commands/track_source.h"
 #include "eval/program.h"
 #include "eval/run_warnings.h"
+#include "eval/sources/source.h"
 #include "eval/terminal.h"
 #include "eval/track_overlay.h"
 #include "render/label_renderer.h"
@@ -287,7 +287,7 @@ void add_track(Command program) {
   const Command command =
       program.subcommand("track", "Track the hand in a recording or before a Kinect and write the estimates.");
   const auto state = std::make_shared<Track>();
-  state->from.add(command, "fakenect:FOLDER, a recording; freenect[:INDEX], a Kinect, until Ctrl-C");
+  state->from.add(command, "a recording, or a camera until Ctrl-C");
   command.option("--frames", state->limit, "how many to track; 0: all").not_negative();
   command
       .option("--every-frame", state->from.every_frame,

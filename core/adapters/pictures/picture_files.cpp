@@ -131,6 +131,21 @@ Picture decode(std::string_view content, const std::string& path) {
   throw Error(path, "content", "no image", "a PNG, JPEG, PGM or PPM file");
 }
 
+/// Leaves out the chunks by which libpng would change values (gAMA, sRGB, iCCP).
+std::string without_ancillary_chunks(std::string_view png) {
+  constexpr size_t kMagic = 8, kFrame = 12;  // bytes; length, type and CRC
+  std::string kept(png.substr(0, kMagic));
+  for (png.remove_prefix(kept.size()); png.size() >= kFrame;) {
+    const uint8_t* const length = bytes_of(png);
+    const size_t size =
+        kFrame + (static_cast<size_t>(length[0]) << 24 | length[1] << 16 | length[2] << 8 | length[3]);
+    const bool is_ancillary = (png[4] & 0x20) != 0;
+    if (!is_ancillary) kept += png.substr(0, size);
+    png.remove_prefix(std::min(size, png.size()));
+  }
+  return kept;
+}
+
 template <typename Pixel>
 std::string png_of(const Image<Pixel>& image, uint32_t format) {
   Png png;
@@ -188,6 +203,13 @@ ColorImage decode_color(std::string_view content, const std::string& path) {
   ColorImage color(gray.width(), gray.height());
   std::ranges::transform(gray, color.begin(), [](uint8_t value) { return Rgb{value, value, value}; });
   return color;
+}
+
+Image<uint16_t> decode_deep(std::string_view content, const std::string& path) {
+  const bool is_png = content.starts_with("\x89PNG");
+  Picture picture = decode(is_png ? without_ancillary_chunks(content) : content, path);
+  if (auto* deep = std::get_if<Image<uint16_t>>(&picture)) return std::move(*deep);
+  throw Error(path, "pixels", "color or 8 bits", "gray of 16 bits");
 }
 
 Image<uint8_t> decode_gray(std::string_view content, const std::string& path) {

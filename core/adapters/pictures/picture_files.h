@@ -18,5 +18,8 @@ std::string encode_jpeg(const ColorImage& image, int quality);
 /// Throws: Error unless the content is one whole image of at most kMostPixels.
 ColorImage decode_color(std::string_view content, const std::string& path);
 Image<uint8_t> decode_gray(std::string_view content, const std::string& path);
+/// Numbers as stored, whatever color space or brightness a PNG file claims.
+/// Throws: Error likewise, and unless the image is gray of 16 bits.
+Image<uint16_t> decode_deep(std::string_view content, const std::string& path);
 
 }  // namespace glovebench

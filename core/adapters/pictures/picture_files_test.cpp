@@ -49,6 +49,19 @@ TEST(PictureFiles, JpegComesBackNearlyEqual) {
   EXPECT_LT(encode_jpeg(image, 20).size(), encode_jpeg(image, 95).size());
 }
 
+TEST(PictureFiles, DeepGrayKeepsItsNumbersWhateverItsColorSpace) {
+  Image<uint16_t> steps(3, 2, 5000);
+  steps(1, 0) = 1;
+  steps(2, 1) = 65535;
+  const std::string png = encode_png(steps);
+  EXPECT_EQ(decode_deep(png, "a.png"), steps);
+  const size_t behind_header = 33;
+  const std::string srgb("\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13);
+  EXPECT_EQ(decode_deep(std::string(png).insert(behind_header, srgb), "a.png"), steps);
+  for (const std::string& other : {encode_png(make_image()), encode_png(Image<uint8_t>(3, 2)), png.substr(0, 60)})
+    EXPECT_THROW(decode_deep(other, "a.png"), Error);
+}
+
 TEST(PictureFiles, GrayIsTheLuma) {
   ColorImage image(3, 1);
   image[0] = {255, 0, 0};

@@ -5,8 +5,11 @@
 namespace glovebench {
 
 void picture_fuzz(std::string_view bytes) {
-  const Image<uint8_t> gray = decode_gray(bytes, "picture.png");
-  check(gray.size() > 0 && gray.size() <= kMostPixels, "a picture is as large as one may be");
+  const auto expect_bounded = [](const auto& image) {
+    check(image.size() > 0 && image.size() <= kMostPixels, "a picture is as large as one may be");
+  };
+  expect_value_or_error([&] { expect_bounded(decode_gray(bytes, "picture.png")); });
+  expect_value_or_error([&] { expect_bounded(decode_deep(bytes, "picture.png")); });
 }
 
 }  // namespace glovebench

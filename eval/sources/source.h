@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/kinect/device.h"
@@ -17,17 +19,32 @@ struct TrackSource {
   std::function<int64_t()> arrived_us;    ///< when the last frame was complete, since 1970
   std::function<std::string()> ended_by;  ///< why a live device ended
 };
+/// A frame arrives when it is read.
+TrackSource recorded_source(std::unique_ptr<Device> device, int frame_count, std::function<int()> dropped);
 
 struct SourceFlags {
-  std::string source;       ///< "fakenect:FOLDER" or "freenect[:INDEX]"
+  std::string source;       ///< as `SourceKind::usage`
   std::string calibration;  ///< file; empty: the recording's, else a nominal Kinect's
+  std::string topics;       ///< "color=TOPIC,depth=TOPIC"; empty: a RealSense camera's
   bool every_frame = false;
 
+  /// `help`: what the frames show; the kinds follow.
   void add(Command command, const std::string& help);
 };
 
-/// Warns of a changed recording unless `quiet`.
-/// Throws: Error for an unknown kind, a missing device or recording, or without libfreenect.
+/// Where frames come from. eval/sources/X_source.cpp defines `SourceKind X_source()`.
+struct SourceKind {
+  std::string_view name;         ///< of `--source NAME:ARGUMENT`
+  std::string_view usage;        ///< for the help; brackets: may be left out
+  std::string_view description;  ///< for the help
+  /// Warns of a changed recording unless `quiet`.
+  /// Throws: Error.
+  TrackSource (*open)(const std::string& argument, const SourceFlags& flags, bool quiet);
+};
+std::span<const SourceKind> source_kinds();
+
+/// Rectifies the images.
+/// Throws: Error for an unknown kind, and as `SourceKind::open`.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
 /// Gives `take` up to `count` frames, spread over a recording or the first of a live device. Skips damaged frames,

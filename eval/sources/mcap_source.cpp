@@ -1,0 +1,183 @@
+#include "eval/sources/mcap_source.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/base/error.h"
+#include "core/base/mapped_memory.h"
+#include "core/base/text.h"
+#include "core/kinect/frame_pairer.h"
+#include "eval/sources/paired_recording.h"
+
+namespace glovebench::eval {
+namespace {
+
+constexpr const char *kImage = "sensor_msgs/msg/Image", *kCameraInfo = "sensor_msgs/msg/CameraInfo";
+constexpr const char* kStaticTopic = "/tf_static";
+constexpr size_t kMostImages = 216'000;  ///< of a topic: two hours
+constexpr size_t kMostTransforms = 4096;
+
+std::string info_topic(const std::string& image_topic) {
+  return image_topic.substr(0, image_topic.rfind('/') + 1) + "camera_info";
+}
+
+/// Sorts the messages of a file.
+class McapIndexer {
+ public:
+  McapIndexer(const ImageTopics& topics, const std::string& where) : topics_(topics), where_(where) {}
+
+  void add(const McapTopic& topic, const McapPlace& place, std::string_view message) {
+    if (topic.type == kImage && image_topics_.size() < kMostNamed) image_topics_.insert(topic.name);
+    if (topic.name == topics_.color) add_image(index_.color, topic, place, message);
+    if (topic.name == topics_.depth) add_image(index_.depth, topic, place, message);
+    if (topic.name == info_topic(topics_.color)) add_camera(index_.color, topic, message);
+    if (topic.name == info_topic(topics_.depth)) add_camera(index_.depth, topic, message);
+    if (topic.name == kStaticTopic) add_transforms(topic, message);
+  }
+  McapIndex take() {
+    if (index_.color.places.empty() || index_.depth.places.empty())
+      throw Error(where_, "images",
+                  image_topics_.empty() ? "none" : fmt::format("{}", fmt::join(image_topics_, ", ")),
+                  fmt::format("{} and {}, or --topics color=TOPIC,depth=TOPIC", topics_.color, topics_.depth));
+    return std::move(index_);
+  }
+
+ private:
+  static constexpr size_t kMostNamed = 10;
+
+  void require(const McapTopic& topic, const std::string& type) const {
+    if (topic.type != type || topic.encoding != "cdr")
+      throw Error(where_, topic.name, fmt::format("{} ({})", topic.type, topic.encoding), type + " (cdr)");
+  }
+  void add_image(McapImages& images, const McapTopic& topic, const McapPlace& place, std::string_view message) {
+    require(topic, kImage);
+    if (images.places.size() == kMostImages)
+      throw Error(where_, topic.name, fmt::format("over {} images", kMostImages), "fewer");
+    const RosImage image = parse_ros_image(message, where_);
+    if (images.places.empty()) images.frame = image.frame;
+    images.times_us.push_back(image.timestamp_us);
+    images.places.push_back(place);
+  }
+  void add_camera(McapImages& images, const McapTopic& topic, std::string_view message) {
+    require(topic, kCameraInfo);
+    if (!images.camera) images.camera = parse_ros_camera(message, where_);
+  }
+  void add_transforms(const McapTopic& topic, std::string_view message) {
+    require(topic, "tf2_msgs/msg/TFMessage");
+    for (RosTransform& transform : parse_ros_transforms(message, where_)) {
+      std::string child = transform.child;
+      index_.transforms.insert_or_assign(std::move(child), std::move(transform));
+      if (index_.transforms.size() > kMostTransforms)
+        throw Error(where_, topic.name, fmt::format("over {} frames", kMostTransforms), "fewer");
+    }
+  }
+
+  const ImageTopics& topics_;
+  const std::string& where_;
+  McapIndex index_;
+  std::set<std::string> image_topics_;  ///< for the message
+};
+
+struct FrameInRoot {
+  std::string root;
+  Eigen::Isometry3d T_root_frame = Eigen::Isometry3d::Identity();
+};
+FrameInRoot frame_in_root(const McapIndex& index, const std::string& frame) {
+  FrameInRoot found{frame};
+  for (size_t step = 0; step < index.transforms.size(); ++step) {  // at most, also around a loop
+    const auto above = index.transforms.find(found.root);
+    if (above == index.transforms.end()) break;
+    found.T_root_frame = above->second.T_parent_child * found.T_root_frame;
+    found.root = above->second.parent;
+  }
+  return found;
+}
+
+/// Images of a topic "...rect..." are rectified.
+void set_camera(const McapImages& images, const std::string& topic, const std::string& where, PinholeCamera& camera,
+                LensDistortion& lens) {
+  if (!images.camera)
+    throw Error(where, info_topic(topic), "nothing", fmt::format("{}, or --calibration", kCameraInfo));
+  const bool is_rectified = topic.find("rect", topic.rfind('/') + 1) != std::string::npos;
+  camera = is_rectified ? images.camera->rectified : images.camera->camera;
+  lens = is_rectified ? LensDistortion{} : images.camera->lens;
+}
+
+/// A mapped file and the readers of its two topics.
+struct McapRecording {
+  explicit McapRecording(const std::string& path) : where(path), memory(MappedMemory::of_file(path)) {}
+
+  std::string_view file() const {
+    return {reinterpret_cast<const char*>(memory.bytes().data()), memory.bytes().size()};
+  }
+  RosImage image(McapMessages& messages, const McapPlace& place) const {
+    memory.require_unchanged();
+    return parse_ros_image(messages.at(place), where);
+  }
+
+  std::string where;
+  MappedMemory memory;
+  McapMessages color{file(), where}, depth{file(), where};
+};
+
+TrackSource open_mcap(const std::string& path, const SourceFlags& flags, bool) {
+  const ImageTopics topics = parse_image_topics(flags.topics);
+  const auto recording = std::make_shared<McapRecording>(path);
+  const McapIndex index = index_mcap(recording->file(), topics, path);
+  const RgbdCalibration calibration =
+      flags.calibration.empty() ? calibration_of(index, topics, path) : load_calibration(flags.calibration);
+  RecordedImages images{index.depth.times_us, index.color.times_us,
+                        [recording, places = index.depth.places](size_t i) {
+                          return depth_of(recording->image(recording->depth, places[i]), recording->where);
+                        },
+                        [recording, places = index.color.places](size_t i) {
+                          return color_of(recording->image(recording->color, places[i]), recording->where);
+                        }};
+  return paired_source(path, calibration, std::move(images), PairingRules().max_gap_us);
+}
+
+}  // namespace
+
+ImageTopics parse_image_topics(const std::string& text) {
+  ImageTopics topics;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    const std::string part = text.substr(begin, end - begin), topic = part.substr(std::min<size_t>(6, part.size()));
+    if (topic.empty() || !(part.starts_with("color=") || part.starts_with("depth=")))
+      throw Error("--topics", "part", quoted_excerpt(part), "color=TOPIC or depth=TOPIC");
+    (part.starts_with("color=") ? topics.color : topics.depth) = topic;
+    begin = end + 1;
+  }
+  return topics;
+}
+
+McapIndex index_mcap(std::string_view file, const ImageTopics& topics, const std::string& where) {
+  McapIndexer indexer(topics, where);
+  for_each_message(file, where, [&](const McapTopic& topic, const McapPlace& place, std::string_view message) {
+    indexer.add(topic, place, message);
+  });
+  return indexer.take();
+}
+
+RgbdCalibration calibration_of(const McapIndex& index, const ImageTopics& topics, const std::string& where) {
+  RgbdCalibration calibration;
+  set_camera(index.depth, topics.depth, where, calibration.ir, calibration.ir_lens);
+  set_camera(index.color, topics.color, where, calibration.rgb, calibration.rgb_lens);
+  const FrameInRoot depth = frame_in_root(index, index.depth.frame),
+                    color = frame_in_root(index, index.color.frame);
+  if (depth.root != color.root)
+    throw Error(
+        where, kStaticTopic,
+        fmt::format("none from {} to {}", quoted_excerpt(index.depth.frame), quoted_excerpt(index.color.frame)),
+        "the pose of one camera in the other's frame, or --calibration");
+  calibration.T_rgb_ir = color.T_root_frame.inverse() * depth.T_root_frame;
+  return calibration_from_json(to_json(calibration), where);  // checks the numbers
+}
+
+SourceKind mcap_source() {
+  return {"mcap", "mcap:FILE", "images of ROS 2", open_mcap};
+}
+
+}  // namespace glovebench::eval

@@ -1,0 +1,190 @@
+#include "eval/sources/ros2_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/base/text.h"
+#include "eval/sources/field_reader.h"
+
+namespace glovebench::eval {
+namespace {
+
+constexpr size_t kLongestRosName = 256;
+
+/// Values are aligned to their size, counted from behind the four bytes of the header.
+class CdrReader {
+ public:
+  CdrReader(std::string_view message, const std::string& where, std::string field)
+      : where_(where),
+        field_(std::move(field)),
+        fields_(message.substr(std::min(kHeader.size(), message.size())), where_, field_) {
+    if (!message.starts_with(kHeader)) fields_.fail("another encoding", "CDR, little-endian");
+  }
+  CdrReader(const CdrReader&) = delete;
+  CdrReader& operator=(const CdrReader&) = delete;
+
+  template <typename Number>
+  Number number() {
+    fields_.align(sizeof(Number));
+    return fields_.number<Number>();
+  }
+  /// A number of items of at least `bytes` each.
+  size_t count(size_t bytes) {
+    const auto items = number<uint32_t>();
+    if (items > fields_.left() / bytes)
+      fail(fmt::format("{} items", items), fmt::format("fewer, of {} bytes", bytes));
+    return items;
+  }
+  std::string_view bytes() { return fields_.take(number<uint32_t>()); }
+  std::string name() {
+    std::string_view text = bytes();
+    if (text.ends_with('\0')) text.remove_suffix(1);
+    if (text.size() > kLongestRosName) fail(quoted_excerpt(text), fmt::format("at most {} bytes", kLongestRosName));
+    return std::string(text);
+  }
+  template <size_t kCount>
+  std::array<double, kCount> numbers() {
+    std::array<double, kCount> values;
+    for (double& value : values) value = number<double>();
+    return values;
+  }
+  int64_t time_us() {
+    const auto seconds = number<int32_t>();
+    const auto nanoseconds = number<uint32_t>();
+    if (seconds < 0) fail(fmt::format("a time of {} s", seconds), "a time from 1970 on");
+    return int64_t{seconds} * 1'000'000 + nanoseconds / 1000;
+  }
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+    fields_.fail(found, expected);
+  }
+
+ private:
+  static constexpr std::string_view kHeader = std::string_view("\0\1\0\0", 4);
+
+  const std::string& where_;
+  const std::string field_;
+  FieldReader fields_;
+};
+
+/// Height and width as in all messages.
+void read_size(CdrReader& reader, int& width, int& height) {
+  const auto rows = reader.number<uint32_t>(), columns = reader.number<uint32_t>();
+  if (columns < 1 || rows < 1 || columns > kMostSide_px || rows > kMostSide_px || columns * rows > kMostPixels)
+    reader.fail(fmt::format("{}x{} pixels", columns, rows), fmt::format("at most {} pixels", kMostPixels));
+  width = static_cast<int>(columns);
+  height = static_cast<int>(rows);
+}
+
+/// Calls `put(i, pixel)` for each pixel.
+template <typename Pixel, typename Put>
+void for_each_pixel(const RosImage& image, const std::string& where, const Put& put) {
+  const size_t row = image.width * sizeof(Pixel);
+  if (image.step < row || image.bytes.size() / image.step < static_cast<size_t>(image.height))
+    throw Error(where, "image", fmt::format("{} bytes, {} a row", image.bytes.size(), image.step),
+                fmt::format("{}x{} pixels of {} bytes", image.width, image.height, sizeof(Pixel)));
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      Pixel pixel;
+      std::memcpy(&pixel, image.bytes.data() + v * image.step + u * sizeof(Pixel), sizeof(Pixel));
+      put(static_cast<size_t>(v) * image.width + u, pixel);
+    }
+  }
+}
+
+LensDistortion lens_from(CdrReader& reader) {
+  const std::string model = reader.name();
+  constexpr size_t kMost = 5;
+  std::array<double, kMost> d{};
+  const size_t count = reader.count(sizeof(double));
+  for (size_t i = 0; i < count; ++i) {
+    const auto value = reader.number<double>();
+    if (i < kMost) d[i] = value;
+    const bool is_known = i < kMost && (model.empty() || model == "plumb_bob");
+    if (value != 0 && !is_known)
+      reader.fail(fmt::format("distortion {} of {} numbers", quoted_excerpt(model), count),
+                  "plumb_bob of at most 5, or zeros");
+  }
+  return {.k1 = d[0], .k2 = d[1], .p1 = d[2], .p2 = d[3], .k3 = d[4]};
+}
+
+}  // namespace
+
+RosImage parse_ros_image(std::string_view message, const std::string& where) {
+  CdrReader reader(message, where, "image");
+  RosImage image;
+  image.timestamp_us = reader.time_us();
+  image.frame = reader.name();
+  read_size(reader, image.width, image.height);
+  image.encoding = reader.name();
+  if (reader.number<uint8_t>() != 0) reader.fail("big-endian pixels", "little-endian ones");
+  image.step = reader.number<uint32_t>();
+  image.bytes = reader.bytes();
+  return image;
+}
+
+ColorImage color_of(const RosImage& image, const std::string& where) {
+  const bool is_bgr = image.encoding == "bgr8";
+  if (!is_bgr && image.encoding != "rgb8")
+    throw Error(where, "color image", quoted_excerpt(image.encoding), "rgb8 or bgr8");
+  ColorImage color(image.width, image.height);
+  for_each_pixel<Rgb>(image, where, [&](size_t i, Rgb pixel) {
+    if (is_bgr) std::swap(pixel[0], pixel[2]);
+    color[i] = pixel;
+  });
+  return color;
+}
+
+DepthImage depth_of(const RosImage& image, const std::string& where) {
+  DepthImage depth(image.width, image.height);
+  if (image.encoding == "16UC1" || image.encoding == "mono16") {
+    for_each_pixel<uint16_t>(image, where,
+                             [&](size_t i, uint16_t mm) { depth[i] = static_cast<float>(mm / 1000.0); });
+  } else if (image.encoding == "32FC1") {
+    for_each_pixel<float>(image, where, [&](size_t i, float z) { depth[i] = z > 0 && std::isfinite(z) ? z : 0; });
+  } else {
+    throw Error(where, "depth image", quoted_excerpt(image.encoding), "16UC1, mono16 or 32FC1");
+  }
+  return depth;
+}
+
+RosCamera parse_ros_camera(std::string_view message, const std::string& where) {
+  CdrReader reader(message, where, "CameraInfo");
+  reader.time_us();
+  reader.name();
+  RosCamera info;
+  int width = 0, height = 0;
+  read_size(reader, width, height);
+  info.lens = lens_from(reader);
+  const auto K = reader.numbers<9>();
+  reader.numbers<9>();  // R turns stereo cameras
+  const auto P = reader.numbers<12>();
+  info.camera = {.width = width, .height = height, .fx = K[0], .fy = K[4], .cx = K[2], .cy = K[5]};
+  info.rectified = {.width = width, .height = height, .fx = P[0], .fy = P[5], .cx = P[2], .cy = P[6]};
+  return info;
+}
+
+std::vector<RosTransform> parse_ros_transforms(std::string_view message, const std::string& where) {
+  constexpr size_t kLeastBytes = 80;  // of a transform
+  constexpr double kMost_m = 1000, kNormTolerance = 1e-3;
+  CdrReader reader(message, where, "transforms");
+  std::vector<RosTransform> transforms(reader.count(kLeastBytes));
+  for (RosTransform& transform : transforms) {
+    reader.time_us();
+    transform.parent = reader.name();
+    transform.child = reader.name();
+    const auto p = reader.numbers<3>();
+    const auto q = reader.numbers<4>();
+    const Eigen::Vector3d translation(p[0], p[1], p[2]);
+    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+    if (!(std::abs(rotation.norm() - 1) <= kNormTolerance) || !(translation.cwiseAbs().maxCoeff() <= kMost_m))
+      reader.fail(fmt::format("{} in {}", quoted_excerpt(transform.child), quoted_excerpt(transform.parent)),
+                  "a rotation by a unit quaternion, and at most 1 km");
+    transform.T_parent_child = Eigen::Translation3d(translation) * rotation.normalized();
+  }
+  return transforms;
+}
+
+}  // namespace glovebench::eval
