@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <functional>
@@ -19,6 +20,10 @@
 #include "core/robot/command_limits.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/estimates/estimate_format.h"
+#include "eval/frame_formats/ros2_messages.h"
+#include "eval/sources/mcap_source.h"
+#include "eval/sources/test_mcap.h"
+#include "eval/sources/tum_source.h"
 #include "eval/suite.h"
 #include "reports/comparison/noise_floor.h"
 #include "reports/comparison/speed.h"
@@ -283,6 +288,7 @@ std::vector<Reader> text_readers() {
       {"posture table", [=](auto& text) { motion::parse_postures_csv(text, "set", w); }, ""},
       {"estimates", [=](auto& text) { reports::parse_estimates(text, w); }, ""},
       {"recording index", [=](auto& text) { parse_recording_index(text, w); }, ""},
+      {"tum list", [=](auto& text) { eval::parse_tum_list(text, w); }, ""},
       {"server log", [=](auto& text) { last_state(text, {"a"}, w); }, ""},
       {"picture", [=](auto& text) { decode_gray(text, w); }, ""}};
   for (const eval::EstimateFormat& format : eval::estimate_formats())
@@ -331,6 +337,7 @@ TEST(ReaderMemory, of_long_texts_of_short_lines_is_bounded) {
             [](int i) { return fmt::format("1\t{}", 1e-5 * i); });
       }(),
       "points");
+  check("tum list", lines_from("", [](int) { return "0 a"; }), "");
   check("recording index", lines_from("", [](int i) { return fmt::format("d-0.{:06}-{}.pgm", i % 1'000'000, i); }),
         "");
   const auto commas = std::ranges::count(reports::estimates_csv({}), ',');
@@ -351,6 +358,27 @@ TEST(ReaderMemory, of_long_texts_of_short_lines_is_bounded) {
   while (angles.find("_deg") != std::string::npos) angles.erase(angles.find("_deg"), 4);
   check("posture table",
         lines_from(angles, [](int i) { return fmt::format("{}{}", i, repeated(",0", 2 * kAngleCount)); }), "");
+}
+
+/// A file of four chunks that unpack to these records.
+std::string packed_mcap(const std::string& records) {
+  std::string packed(ZSTD_compressBound(records.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), records.data(), records.size(), 1));
+  return eval::mcap_file(repeated(eval::mcap_chunk("zstd", packed, records.size()), 3 * packed.size()));
+}
+
+// The file is mapped: what reading takes does not depend on its size.
+TEST(ReaderMemory, of_mcap_is_bounded_whatever_it_unpacks_to) {
+  const std::string image = eval::ros_depth_image({0, "a"}, DepthImage(1, 1));
+  std::string images = eval::mcap_topic(1, "/camera/depth/image_rect_raw", "sensor_msgs/msg/Image"), topics;
+  while (images.size() < 11 << 20) images += eval::mcap_message(1, image);
+  for (uint16_t i = 0; i < 5000; ++i) topics += eval::mcap_topic(i, std::string(256, 'x'), std::string(256, 'y'));
+  const Reader reader = {"mcap", [](const std::string& file) { eval::index_mcap(file, {}, "x"); }, ""};
+  for (const auto& [records, refused] : {std::pair(images, "over 108000 images"), std::pair(topics, "over 4096")}) {
+    const Reading read = reading(reader, packed_mcap(records));
+    EXPECT_LE(read.bytes, 32 << 20) << refused;
+    EXPECT_NE(read.error.find(refused), std::string::npos) << read.error;
+  }
 }
 
 /// A header that claims an image of this size, without content.

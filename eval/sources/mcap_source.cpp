@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char *kImage = "sensor_msgs/msg/Image", *kCameraInfo = "sensor_msgs/msg/CameraInfo";
 constexpr const char* kStaticTopic = "/tf_static";
-constexpr size_t kMostImages = 216'000;  ///< of a topic: two hours
+constexpr size_t kMostImages = 108'000;  ///< of a topic: an hour
 constexpr size_t kMostTransforms = 4096;
 
 std::string info_topic(const std::string& image_topic) {
