@@ -6,12 +6,12 @@ namespace glovebench {
 void mcap_fuzz(std::string_view bytes) {
   const std::string where = "a.mcap";
   const eval::McapIndex index = eval::index_mcap(bytes, {}, where);
-  expect_value_or_error([&] { calibration_of(index, {}, where); });
+  expect_value_or_error([&] { eval::calibration_of(index, {}, where); });
   eval::McapMessages messages(bytes, where);
   for (const eval::McapPlace& place : index.depth.places)
-    expect_value_or_error([&] { depth_of(parse_ros_image(messages.at(place), where), where); });
+    expect_value_or_error([&] { eval::depth_of(eval::parse_ros_image(messages.at(place), where), where); });
   for (const eval::McapPlace& place : index.color.places)
-    expect_value_or_error([&] { color_of(parse_ros_image(messages.at(place), where), where); });
+    expect_value_or_error([&] { eval::color_of(eval::parse_ros_image(messages.at(place), where), where); });
 }
 
 }  // namespace glovebench

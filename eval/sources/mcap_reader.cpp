@@ -52,7 +52,8 @@ class McapTopics {
     const auto number = reader.number<uint16_t>();
     const auto type = types_.find(reader.number<uint16_t>());
     std::string topic = name(reader), encoding = name(reader);
-    topics_.try_emplace(number, std::move(topic), type != types_.end() ? type->second : "", std::move(encoding));
+    topics_.try_emplace(number, McapTopic{std::move(topic), type != types_.end() ? type->second : std::string(),
+                                          std::move(encoding)});
     require_few(topics_.size());
   }
   const McapTopic& at(uint16_t number) const {
@@ -82,7 +83,7 @@ class McapTopics {
 
 void unpack_lz4(std::string_view packed, std::string& room, const FieldReader& reader) {
   LZ4F_dctx* context = nullptr;
-  LZ4F_createDecompressionContext(&context, LZ4F_VERSION);
+  check(LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) == 0, "lz4 has memory");
   const std::unique_ptr<LZ4F_dctx, decltype(&LZ4F_freeDecompressionContext)> owner(context,
                                                                                    &LZ4F_freeDecompressionContext);
   size_t written = 0, hint = 1;

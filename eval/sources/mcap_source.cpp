@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/mapped_memory.h"
@@ -96,13 +98,13 @@ FrameInRoot frame_in_root(const McapIndex& index, const std::string& frame) {
 }
 
 /// Images of a topic "...rect..." are rectified.
-void set_camera(const McapImages& images, const std::string& topic, const std::string& where, PinholeCamera& camera,
-                LensDistortion& lens) {
+std::pair<PinholeCamera, LensDistortion> camera_of(const McapImages& images, const std::string& topic,
+                                                   const std::string& where) {
   if (!images.camera)
     throw Error(where, info_topic(topic), "nothing", fmt::format("{}, or --calibration", kCameraInfo));
   const bool is_rectified = topic.find("rect", topic.rfind('/') + 1) != std::string::npos;
-  camera = is_rectified ? images.camera->rectified : images.camera->camera;
-  lens = is_rectified ? LensDistortion{} : images.camera->lens;
+  if (is_rectified) return {images.camera->rectified, {}};
+  return {images.camera->camera, images.camera->lens};
 }
 
 /// A mapped file and the readers of its two topics.
@@ -163,8 +165,8 @@ McapIndex index_mcap(std::string_view file, const ImageTopics& topics, const std
 
 RgbdCalibration calibration_of(const McapIndex& index, const ImageTopics& topics, const std::string& where) {
   RgbdCalibration calibration;
-  set_camera(index.depth, topics.depth, where, calibration.ir, calibration.ir_lens);
-  set_camera(index.color, topics.color, where, calibration.rgb, calibration.rgb_lens);
+  std::tie(calibration.ir, calibration.ir_lens) = camera_of(index.depth, topics.depth, where);
+  std::tie(calibration.rgb, calibration.rgb_lens) = camera_of(index.color, topics.color, where);
   const FrameInRoot depth = frame_in_root(index, index.depth.frame),
                     color = frame_in_root(index, index.color.frame);
   if (depth.root != color.root)

@@ -69,13 +69,14 @@ class CdrReader {
   FieldReader fields_;
 };
 
-/// Height and width as in all messages.
-void read_size(CdrReader& reader, int& width, int& height) {
-  const auto rows = reader.number<uint32_t>(), columns = reader.number<uint32_t>();
-  if (columns < 1 || rows < 1 || columns > kMostSide_px || rows > kMostSide_px || columns * rows > kMostPixels)
-    reader.fail(fmt::format("{}x{} pixels", columns, rows), fmt::format("at most {} pixels", kMostPixels));
-  width = static_cast<int>(columns);
-  height = static_cast<int>(rows);
+struct ImageSize {
+  int width, height;
+};
+ImageSize size_from(CdrReader& reader) {
+  const auto height = reader.number<uint32_t>(), width = reader.number<uint32_t>();
+  if (width < 1 || height < 1 || width > kMostSide_px || height > kMostSide_px || width * height > kMostPixels)
+    reader.fail(fmt::format("{}x{} pixels", width, height), fmt::format("at most {} pixels", kMostPixels));
+  return {static_cast<int>(width), static_cast<int>(height)};
 }
 
 /// Calls `put(i, pixel)` for each pixel.
@@ -117,7 +118,9 @@ RosImage parse_ros_image(std::string_view message, const std::string& where) {
   RosImage image;
   image.timestamp_us = reader.time_us();
   image.frame = reader.name();
-  read_size(reader, image.width, image.height);
+  const ImageSize size = size_from(reader);
+  image.width = size.width;
+  image.height = size.height;
   image.encoding = reader.name();
   if (reader.number<uint8_t>() != 0) reader.fail("big-endian pixels", "little-endian ones");
   image.step = reader.number<uint32_t>();
@@ -155,8 +158,7 @@ RosCamera parse_ros_camera(std::string_view message, const std::string& where) {
   reader.time_us();
   reader.name();
   RosCamera info;
-  int width = 0, height = 0;
-  read_size(reader, width, height);
+  const auto [width, height] = size_from(reader);
   info.lens = lens_from(reader);
   const auto K = reader.numbers<9>();
   reader.numbers<9>();  // R turns stereo cameras
@@ -179,7 +181,7 @@ std::vector<RosTransform> parse_ros_transforms(std::string_view message, const s
     const auto q = reader.numbers<4>();
     const Eigen::Vector3d translation(p[0], p[1], p[2]);
     const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
-    if (!(std::abs(rotation.norm() - 1) <= kNormTolerance) || !(translation.cwiseAbs().maxCoeff() <= kMost_m))
+    if (!(std::abs(rotation.norm() - 1) <= kNormTolerance) || !(translation.norm() <= kMost_m))
       reader.fail(fmt::format("{} in {}", quoted_excerpt(transform.child), quoted_excerpt(transform.parent)),
                   "a rotation by a unit quaternion, and at most 1 km");
     transform.T_parent_child = Eigen::Translation3d(translation) * rotation.normalized();

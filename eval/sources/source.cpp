@@ -1,4 +1,4 @@
-#include "eval/commands/track_source.h"
+#include "eval/sources/source.h"
 
 #include <fmt/format.h>
 
