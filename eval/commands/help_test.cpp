@@ -153,7 +153,7 @@ TEST(Help, OfEveryCommandNamesItsFlags) {
   expect_flags({"track"},
                {tracker,
                 machine,
-                {"--source", "fakenect:", "freenect", "mcap:", "tum:", "--topics", "--database", "--output", "--left", "--calibration",
+                {"--source", "fakenect:", "freenect", "bag:", "mcap:", "tum:", "--topics", "--database", "--output", "--left", "--calibration",
                  "--frames", "--every-frame", "--format", "--overlay", "--page", "--as-fast-as-possible"}});
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});

@@ -43,7 +43,7 @@ void SourceFlags::add(Command command, const std::string& help) {
   command.option("--calibration", calibration,
                  "calibration (*.json) [the recording's; of a Kinect: nominal values]");
   command.option("--topics", topics,
-                 "mcap: color=TOPIC,depth=TOPIC; each CameraInfo beside it [of RealSense cameras]");
+                 "bag, mcap: color=TOPIC,depth=TOPIC, each with camera_info beside it [of RealSense cameras]");
 }
 
 void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,

@@ -79,8 +79,8 @@ TEST(TumList, IsReadLineByLine) {
 TEST(Sources, AreNamedWhereOneIsUnknown) {
   for (const char* wrong : {"live", "tum", "tum:", "freenect:", "fakenect", "mcap:"})
     EXPECT_THAT([&] { open_source({.source = wrong, .calibration = "", .topics = ""}, true); },
-                testing::ThrowsMessage<Error>(
-                    HasSubstr("expected one of fakenect:FOLDER, freenect[:INDEX], mcap:FILE, tum:FOLDER")))
+                testing::ThrowsMessage<Error>(HasSubstr(
+                    "expected one of bag:FILE, fakenect:FOLDER, freenect[:INDEX], mcap:FILE, tum:FOLDER")))
         << wrong;
 }
 

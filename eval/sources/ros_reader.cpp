@@ -1,4 +1,4 @@
-#include "eval/sources/ros2_reader.h"
+#include "eval/sources/ros_reader.h"
 
 #include <fmt/format.h>
 
@@ -14,21 +14,23 @@ namespace {
 
 constexpr size_t kLongestRosName = 256;
 
-/// Values are aligned to their size, counted from behind the four bytes of the header.
-class CdrReader {
+/// ROS 2 aligns values to their size, counted from behind the four bytes of the header, and ends texts by 0.
+class RosReader {
  public:
-  CdrReader(std::string_view message, const std::string& where, std::string field)
-      : where_(where),
+  RosReader(const RosMessage& message, const std::string& where, std::string field)
+      : is_aligned_(message.encoding == RosEncoding::cdr),
+        where_(where),
         field_(std::move(field)),
-        fields_(message.substr(std::min(kHeader.size(), message.size())), where_, field_) {
-    if (!message.starts_with(kHeader)) fields_.fail("another encoding", "CDR, little-endian");
+        fields_(message.bytes.substr(is_aligned_ ? std::min(kHeader.size(), message.bytes.size()) : 0), where_,
+                field_) {
+    if (is_aligned_ && !message.bytes.starts_with(kHeader)) fields_.fail("another encoding", "CDR, little-endian");
   }
-  CdrReader(const CdrReader&) = delete;
-  CdrReader& operator=(const CdrReader&) = delete;
+  RosReader(const RosReader&) = delete;
+  RosReader& operator=(const RosReader&) = delete;
 
   template <typename Number>
   Number number() {
-    fields_.align(sizeof(Number));
+    if (is_aligned_) fields_.align(sizeof(Number));
     return fields_.number<Number>();
   }
   /// A number of items of at least `bytes` each.
@@ -41,7 +43,7 @@ class CdrReader {
   std::string_view bytes() { return fields_.take(number<uint32_t>()); }
   std::string name() {
     std::string_view text = bytes();
-    if (text.ends_with('\0')) text.remove_suffix(1);
+    if (is_aligned_ && text.ends_with('\0')) text.remove_suffix(1);
     if (text.size() > kLongestRosName) fail(quoted_excerpt(text), fmt::format("at most {} bytes", kLongestRosName));
     return std::string(text);
   }
@@ -51,11 +53,12 @@ class CdrReader {
     for (double& value : values) value = number<double>();
     return values;
   }
-  int64_t time_us() {
+  RosHead head() {
+    if (!is_aligned_) number<uint32_t>();  // sequence
     const auto seconds = number<int32_t>();
     const auto nanoseconds = number<uint32_t>();
     if (seconds < 0) fail(fmt::format("a time of {} s", seconds), "a time from 1970 on");
-    return int64_t{seconds} * 1'000'000 + nanoseconds / 1000;
+    return {int64_t{seconds} * 1'000'000 + nanoseconds / 1000, name()};
   }
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
     fields_.fail(found, expected);
@@ -64,6 +67,7 @@ class CdrReader {
  private:
   static constexpr std::string_view kHeader = std::string_view("\0\1\0\0", 4);
 
+  const bool is_aligned_;
   const std::string& where_;
   const std::string field_;
   FieldReader fields_;
@@ -72,7 +76,7 @@ class CdrReader {
 struct ImageSize {
   int width, height;
 };
-ImageSize size_from(CdrReader& reader) {
+ImageSize size_from(RosReader& reader) {
   const auto height = reader.number<uint32_t>(), width = reader.number<uint32_t>();
   if (width < 1 || height < 1 || width > kMostSide_px || height > kMostSide_px || width * height > kMostPixels)
     reader.fail(fmt::format("{}x{} pixels", width, height), fmt::format("at most {} pixels", kMostPixels));
@@ -95,7 +99,7 @@ void for_each_pixel(const RosImage& image, const std::string& where, const Put& 
   }
 }
 
-LensDistortion lens_from(CdrReader& reader) {
+LensDistortion lens_from(RosReader& reader) {
   const std::string model = reader.name();
   constexpr size_t kMost = 5;
   std::array<double, kMost> d{};
@@ -113,11 +117,10 @@ LensDistortion lens_from(CdrReader& reader) {
 
 }  // namespace
 
-RosImage parse_ros_image(std::string_view message, const std::string& where) {
-  CdrReader reader(message, where, "image");
+RosImage parse_ros_image(const RosMessage& message, const std::string& where) {
+  RosReader reader(message, where, "image");
   RosImage image;
-  image.timestamp_us = reader.time_us();
-  image.frame = reader.name();
+  image.head = reader.head();
   const ImageSize size = size_from(reader);
   image.width = size.width;
   image.height = size.height;
@@ -153,10 +156,9 @@ DepthImage depth_of(const RosImage& image, const std::string& where) {
   return depth;
 }
 
-RosCamera parse_ros_camera(std::string_view message, const std::string& where) {
-  CdrReader reader(message, where, "CameraInfo");
-  reader.time_us();
-  reader.name();
+RosCamera parse_ros_camera(const RosMessage& message, const std::string& where) {
+  RosReader reader(message, where, "CameraInfo");
+  reader.head();
   RosCamera info;
   const auto [width, height] = size_from(reader);
   info.lens = lens_from(reader);
@@ -168,14 +170,13 @@ RosCamera parse_ros_camera(std::string_view message, const std::string& where) {
   return info;
 }
 
-std::vector<RosTransform> parse_ros_transforms(std::string_view message, const std::string& where) {
-  constexpr size_t kLeastBytes = 80;  // of a transform
+std::vector<RosTransform> parse_ros_transforms(const RosMessage& message, const std::string& where) {
+  constexpr size_t kLeastBytes = 72;  // of a transform
   constexpr double kMost_m = 1000, kNormTolerance = 1e-3;
-  CdrReader reader(message, where, "transforms");
+  RosReader reader(message, where, "transforms");
   std::vector<RosTransform> transforms(reader.count(kLeastBytes));
   for (RosTransform& transform : transforms) {
-    reader.time_us();
-    transform.parent = reader.name();
+    transform.parent = reader.head().frame;
     transform.child = reader.name();
     const auto p = reader.numbers<3>();
     const auto q = reader.numbers<4>();

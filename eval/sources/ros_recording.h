@@ -7,8 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "eval/sources/mcap_reader.h"
-#include "eval/sources/ros2_reader.h"
+#include "eval/sources/message_file.h"
+#include "eval/sources/ros_reader.h"
+#include "eval/sources/source.h"
 
 namespace glovebench::eval {
 
@@ -21,22 +22,27 @@ struct ImageTopics {
 ImageTopics parse_image_topics(const std::string& text);
 
 /// The images of a topic, in the order of the file.
-struct McapImages {
+struct RosImages {
+  RosEncoding encoding = RosEncoding::cdr;
   std::vector<int64_t> times_us;  ///< of the headers
-  std::vector<McapPlace> places;
+  std::vector<MessagePlace> places;
   std::string frame;                ///< of the first image
   std::optional<RosCamera> camera;  ///< first CameraInfo
 };
-struct McapIndex {
-  McapImages color, depth;
+struct RosIndex {
+  RosImages color, depth;
   std::map<std::string, RosTransform> transforms;  ///< static ones, by child
 };
 /// Reads the whole file.
 /// Throws: Error, also without images.
-McapIndex index_mcap(std::string_view file, const ImageTopics& topics, const std::string& where);
+RosIndex index_recording(std::string_view file, const ImageTopics& topics, const std::string& where);
 
 /// From CameraInfo and static transforms. Depth in the color camera's frame is registered to color.
 /// Throws: Error if something is missing.
-RgbdCalibration calibration_of(const McapIndex& index, const ImageTopics& topics, const std::string& where);
+RgbdCalibration calibration_of(const RosIndex& index, const ImageTopics& topics, const std::string& where);
+
+/// Opens a file of ROS messages.
+/// Throws: Error.
+TrackSource open_ros_recording(const std::string& path, const SourceFlags& flags, bool quiet);
 
 }  // namespace glovebench::eval
