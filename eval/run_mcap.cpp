@@ -31,8 +31,8 @@ void write_run_mcaps(Workbench& workbench, const Plan& plan, const std::string& 
     written.push_back(key);
     const Dataset dataset{folder, to_string(key), workbench.calibration(), workbench.model(),
                           dataset_readme(mcap, spec)};
-    write_frames(workbench, spec, stored_estimates(folder + "/" + reports::estimates_file(key), spec.seed),
-                 *mcap.make(dataset));
+    write_frames(workbench, spec, stored_estimates(folder + "/" + reports::estimates_file(key), spec.seed), mcap,
+                 dataset);
   }
 }
 
