@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "core/base/text.h"
 #include "eval/sources/field_reader.h"
 #include "eval/sources/message_file.h"
 
@@ -75,12 +74,6 @@ PackedChunk bag_chunk_in(const BagRecord& record) {
   return chunk;
 }
 
-std::string bag_name(std::string_view text, const std::string& where) {
-  if (text.size() > kLongestTopicName)
-    throw Error(where, "connection", quoted_excerpt(text), fmt::format("at most {} bytes", kLongestTopicName));
-  return std::string(text);
-}
-
 void for_each_bag_message(std::string_view file, const std::string& where, const UseMessage& use) {
   std::map<uint32_t, MessageTopic> topics;
   std::string buffer;
@@ -89,8 +82,8 @@ void for_each_bag_message(std::string_view file, const std::string& where, const
     const auto connection = record.fields.number<uint32_t>("conn");
     if (record.code == BagCode::connection) {
       const BagFields about(record.data, where);
-      topics.try_emplace(connection, MessageTopic{bag_name(record.fields.text("topic"), where),
-                                                  bag_name(about.text("type"), where), "ros1"});
+      topics.try_emplace(connection, MessageTopic{topic_name(record.fields.text("topic"), where),
+                                                  topic_name(about.text("type"), where), "ros1"});
       if (topics.size() > kMostTopics)
         throw Error(where, "connections", fmt::format("over {}", kMostTopics),
                     fmt::format("at most {}", kMostTopics));

@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "core/base/text.h"
 #include "eval/sources/field_reader.h"
 #include "eval/sources/message_file.h"
 
@@ -35,7 +34,7 @@ class McapTopics {
   void add_schema(std::string_view content) {
     FieldReader reader(content, where_, field_);
     const auto number = reader.number<uint16_t>();
-    types_.try_emplace(number, name(reader));
+    types_.try_emplace(number, topic_name(reader.text(), where_));
     require_few(types_.size());
   }
   void add_channel(std::string_view content) {
@@ -43,8 +42,8 @@ class McapTopics {
     const auto number = reader.number<uint16_t>();
     const auto type = types_.find(reader.number<uint16_t>());
     MessageTopic topic;
-    topic.name = name(reader);
-    topic.encoding = name(reader);
+    topic.name = topic_name(reader.text(), where_);
+    topic.encoding = topic_name(reader.text(), where_);
     if (type != types_.end()) topic.type = type->second;
     topics_.try_emplace(number, std::move(topic));
     require_few(topics_.size());
@@ -57,12 +56,6 @@ class McapTopics {
   }
 
  private:
-  static std::string name(FieldReader& reader) {
-    const std::string_view text = reader.text();
-    if (text.size() > kLongestTopicName)
-      reader.fail(quoted_excerpt(text), fmt::format("a name of at most {} bytes", kLongestTopicName));
-    return std::string(text);
-  }
   void require_few(size_t count) const {
     if (count > kMostTopics)
       throw Error(where_, field_, fmt::format("over {}", kMostTopics), fmt::format("at most {}", kMostTopics));
@@ -100,7 +93,6 @@ PackedChunk mcap_chunk_in(std::string_view content, const std::string& where) {
   return chunk;
 }
 
-/// Visits the records of one level: the file, or a chunk.
 void for_each_mcap_message(std::string_view file, const std::string& where, const UseMessage& use) {
   static const std::string field = "message";
   McapTopics topics(where);

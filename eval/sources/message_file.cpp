@@ -5,6 +5,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "core/base/text.h"
@@ -33,6 +34,14 @@ size_t unpack_lz4(std::string_view packed, std::string& room) {
 }
 
 }  // namespace
+
+std::string topic_name(std::string_view text, const std::string& where) {
+  constexpr size_t kLongest = 256;
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; };
+  if (text.size() > kLongest || std::ranges::any_of(text, is_control))
+    throw Error(where, "topic", quoted_excerpt(text), fmt::format("a name of at most {} characters", kLongest));
+  return std::string(text);
+}
 
 std::string_view unpack(const PackedChunk& chunk, uint64_t position, const std::string& where,
                         std::string& buffer) {

@@ -14,7 +14,10 @@ struct MessageTopic {
   std::string type;      ///< "sensor_msgs/msg/Image"; of ROS 1 "sensor_msgs/Image"
   std::string encoding;  ///< of messages: "cdr", "ros1"
 };
-inline constexpr size_t kMostTopics = 4096, kLongestTopicName = 256;
+inline constexpr size_t kMostTopics = 4096;
+/// A name of a topic or type.
+/// Throws: Error if it is long or has control characters.
+std::string topic_name(std::string_view text, const std::string& where);
 
 /// Where a message lies.
 struct MessagePlace {

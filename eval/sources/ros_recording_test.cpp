@@ -159,6 +159,8 @@ TEST(RosRecording, TellsWhichImagesThereAre) {
               HasSubstr("/camera/color/image_raw: found sensor_msgs/msg/CompressedImage (cdr), expected "
                         "sensor_msgs/Image (cdr or ros1)"));
   EXPECT_THAT(refusal(small_images()), HasSubstr("a message of channel 0"));
+  EXPECT_THAT(refusal(mcap_topic(0, "/two\nlines", kImageType)),
+              HasSubstr("found \"/two\\nlines\", expected a name"));
   EXPECT_THAT(recording_refusal([] { index_recording("GIF89a", {}, "a.gif"); }),
               HasSubstr("a.gif: content: found neither"));
 }

@@ -7,6 +7,7 @@
 
 #include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
+#include "core/base/file_set.h"
 #include "core/base/text.h"
 #include "core/kinect/recording_files.h"
 #include "eval/sources/paired_recording.h"
