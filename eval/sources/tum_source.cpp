@@ -89,7 +89,8 @@ TrackSource open_tum(const std::string& path, const SourceFlags& flags, bool qui
 std::vector<TumImage> parse_tum_list(std::string_view text, const std::string& where) {
   constexpr double kLatest_s = 1e10;
   std::vector<TumImage> images;
-  images.reserve(static_cast<size_t>(std::ranges::count(text, '\n')) + 1);
+  constexpr size_t kShortestLine = 4;  // "0 a\n"
+  images.reserve(std::min<size_t>(std::ranges::count(text, '\n'), text.size() / kShortestLine) + 1);
   trajectories::Lines lines(text);
   while (const auto line = lines.next()) {
     if (line->empty() || line->front() == '#') continue;
