@@ -97,7 +97,7 @@ void for_each_bag_message(std::string_view file, const std::string& where, const
   for_each_bag_record(file.substr(kBagBegin.size()), where, [&](const BagRecord& record, uint64_t offset) {
     if (record.code == BagCode::begin) {
       const auto index = record.fields.number<uint64_t>("index_pos");
-      if (index == 0 || index > file.size()) throw Error(where, "index", "none", kWholeBag);
+      if (index == 0 || index >= file.size()) throw Error(where, "index", "none", kWholeBag);
     }
     if (record.code != BagCode::chunk) return use_record(record, 0, file.data());
     const uint64_t position = kBagBegin.size() + offset;

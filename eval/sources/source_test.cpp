@@ -7,7 +7,9 @@
 #include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "core/base/math.h"
+#include "core/kinect/disparity.h"
 #include "eval/command_test.h"
+#include "eval/frame_formats/color_view.h"
 #include "eval/sources/paired_recording.h"
 #include "eval/sources/tum_source.h"
 #include "reports/estimates.h"
@@ -118,27 +120,62 @@ class SourcesLong : public CommandTest {
   }
 };
 
-// Depth is rounded to 1 mm.
-TEST_F(SourcesLong, McapGivesThePosesOfTheRecording) {
-  render("mcap");
-  expect_near("mcap:" + path("mcap/good.mcap"), Eigen::Isometry3d::Identity(), 1, 0.5);
+float most_difference(const DepthImage& a, const DepthImage& b) {
+  float most = 0;
+  for (size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
 }
 
-// Depth is rounded to 0.2 mm and moves to the nearest pixel of the color camera, 1.3 mm wide at 0.7 m.
+TEST_F(SourcesLong, FramesAreThoseOfTheRecording) {
+  for (const char* format : {"fakenect", "mcap", "tum"}) render(format);
+  const auto opened = [&](const std::string& source) {
+    return open_source({.source = source, .calibration = "", .topics = ""}, true).device;
+  };
+  const std::unique_ptr<Device> direct = opened("fakenect:" + path("fakenect")),
+                                mcap = opened("mcap:" + path("mcap/good.mcap")), tum = opened("tum:" + path("tum"));
+  const RgbdCalibration& truth = direct->calibration();
+  EXPECT_EQ(mcap->calibration().ir, truth.ir);
+  EXPECT_EQ(mcap->calibration().rgb, truth.rgb);
+  EXPECT_TRUE(mcap->calibration().T_rgb_ir.isApprox(truth.T_rgb_ir, 1e-12));
+  EXPECT_EQ(tum->calibration().ir, truth.rgb);
+  for (int i = 0; i < kFrames; ++i) {
+    const DeviceFrame expected = *direct->next_frame(), from_mcap = *mcap->next_frame(),
+                      from_tum = *tum->next_frame();
+    const DepthImage depth = depth_of(expected, {});
+    for (const DeviceFrame& found : {from_mcap, from_tum}) {
+      EXPECT_EQ(found.color, expected.color);
+      EXPECT_EQ(found.depth_timestamp_us, expected.depth_timestamp_us);
+      EXPECT_EQ(found.color_timestamp_us, expected.color_timestamp_us);
+    }
+    EXPECT_LE(most_difference(from_mcap.depth, depth), 0.5001e-3f) << "a step of 1 mm";
+    EXPECT_LE(most_difference(from_tum.depth, register_depth(depth, truth)), 0.1001e-3f) << "a step of 0.2 mm";
+  }
+  EXPECT_FALSE(mcap->next_frame() || tum->next_frame());
+}
+
+// Rounding to 1 mm moves the alignment of the 117 frames of Tr4 by 0.8 mm and 0.6 degrees (median), at most by 4.6
+// mm and 2.8 degrees. Their errors do not grow.
+TEST_F(SourcesLong, McapGivesThePosesOfTheRecording) {
+  render("mcap");
+  expect_near("mcap:" + path("mcap/good.mcap"), Eigen::Isometry3d::Identity(), 3, 2);
+}
+
+// Depth also moves to the nearest pixel of the color camera: 1.2 mm and 1.0 degrees, at most 5.3 mm and 4.8
+// degrees.
 TEST_F(SourcesLong, TumGivesThePosesOfTheRecordingInTheColorCamera) {
   render("tum");
-  expect_near("tum:" + path("tum"), synthetic_calibration().T_rgb_ir.inverse(), 2, 2);
+  expect_near("tum:" + path("tum"), synthetic_calibration().T_rgb_ir.inverse(), 5, 3);
 }
 
 TEST_F(SourcesLong, TumNamesDamagedImagesAndGoesOn) {
   render("tum");
-  fs::remove(path("tum/depth/0.033333.png"));
+  fs::remove(path("tum/depth/0.133334.png"));
   write_file(path("tum/depth/0.066667.png"), encode_png(Image<uint8_t>(640, 480)));
   const ProgramRun run = track_source("tum:" + path("tum"), path("x.csv"));
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_EQ(std::ranges::count(run.err, '\n'), 2) << run.err;
   EXPECT_THAT(run.err,
-              AllOf(HasSubstr("skipped: "), HasSubstr("depth/0.033333.png"), HasSubstr("depth/0.066667.png")));
+              AllOf(HasSubstr("skipped: "), HasSubstr("depth/0.133334.png"), HasSubstr("depth/0.066667.png")));
   EXPECT_THAT(run.out, HasSubstr("2 of 4 frames tracked, 2 unusable"));
 }
 
