@@ -150,11 +150,11 @@ TEST(Help, OfEveryCommandNamesItsFlags) {
                             machine,
                             random,
                             {"--output", "--trajectory", "--format", "--appearance", "bop", "exr", "mcap", "tum"}});
-  expect_flags({"track"},
-               {tracker,
-                machine,
-                {"--source", "fakenect:", "freenect", "bag:", "mcap:", "tum:", "--topics", "--database", "--output", "--left", "--calibration",
-                 "--frames", "--every-frame", "--format", "--overlay", "--page", "--as-fast-as-possible"}});
+  expect_flags({"track"}, {tracker,
+                           machine,
+                           {"--source", "fakenect:", "freenect", "bag:", "mcap:", "tum:", "--topics", "--database",
+                            "--output", "--left", "--calibration", "--frames", "--every-frame", "--format",
+                            "--overlay", "--page", "--as-fast-as-possible"}});
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});
   expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});
