@@ -52,7 +52,7 @@ std::string estimate_csv_line(const Estimate& estimate) {
   Eigen::Quaterniond q(estimate.T_camera_hand.linear());
   if (q.w() < 0) q.coeffs() = -q.coeffs();  // q and -q are the same rotation; always writes the one with w >= 0
   size_t column = kPosition;
-  const auto add = [&](double value) { line += "," + number_text(column++, value); };
+  const auto add = [&](double value) { line.append(1, ',').append(number_text(column++, value)); };
   for (const double value : position_mm) add(value);
   for (const double value : {q.w(), q.x(), q.y(), q.z()}) add(value);
   for (const double angle : estimate.posture) add(degrees_from_radians(angle));

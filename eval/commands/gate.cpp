@@ -65,8 +65,10 @@ struct Gate {
   /// Makes the candidate the baseline and says what that accepts.
   int replace(const std::string& folder, const FinishedRun& candidate) const {
     const reports::NamedResult& run = candidate.results;
+    const bool has_suite = !run.result.suite.empty() || !suite.empty();
+    const std::optional<Suite> whole = has_suite ? std::optional(suite_of(run, suite)) : std::nullopt;
     const std::vector<std::string> accepted = accepted_rows(folder, candidate);
-    update_baseline(folder, run, suite, measured_speed(), load_stage_times(candidate.files), accepted);
+    update_baseline(folder, run, whole, measured_speed(), load_stage_times(candidate.files), accepted);
     if (run.result.commit.ends_with("-dirty")) {
       fmt::print("warning: built from a tree with changes: nobody else has this program\n");
     }
