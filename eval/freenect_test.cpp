@@ -209,7 +209,7 @@ TEST_F(Freenect, RefusesADeviceThatIsNotThere) {
   EXPECT_THAT(run.err, HasSubstr("glovebench: libfreenect: "));
   for (const char* wrong : {"freenect:", "freenect:x", "freenect:-1", "freenect:1x", "freenect1"}) {
     arguments[2] = wrong;
-    EXPECT_THAT(refusal(arguments), HasSubstr("freenect:INDEX")) << wrong;
+    EXPECT_THAT(refusal(arguments), HasSubstr("freenect[:INDEX]")) << wrong;
   }
 }
 
