@@ -159,7 +159,7 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
               AllOf(HasSubstr("DB_none"), HasSubstr("DB_open_power")));
   EXPECT_THAT(refusal(run_of("Tr9")), Not(HasSubstr("share/glovebench"))) << "the installation's path says nothing";
   EXPECT_THAT(refusal({"run", "--trajectory", "Tr4", "--database", "DB_20_posture", "-o", output_}),
-              HasSubstr("posture sets: name: found \"DB_20_posture\", expected one of DB_20_postures, DB_open"));
+              HasSubstr("databases: name: found \"DB_20_posture\", expected one of DB_20_postures, DB_open"));
   EXPECT_THAT(refusal(run_of("Tr9")),
               AllOf(HasSubstr("a movement of a family as side_3 (`glovebench list families`)"),
                     HasSubstr("or a file (*.json)")));

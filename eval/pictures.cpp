@@ -34,6 +34,12 @@ const RunSpec& find_spec(const Plan& plan, const ExperimentKey& key, uint64_t se
   return *found;
 }
 
+std::optional<HandFrame> hand_in_run(const std::vector<reports::ExperimentEstimates>& all, const ExperimentKey& key,
+                                     uint64_t seed, int frame) {
+  const auto found = std::ranges::find(all, key, &reports::ExperimentEstimates::key);
+  return found == all.end() ? std::nullopt : reports::find_hand(found->estimates, seed, frame);
+}
+
 /// Estimates of the experiment's first seed.
 std::vector<Estimate> first_seed(const std::vector<reports::ExperimentEstimates>& all, const ExperimentKey& key) {
   std::vector<Estimate> estimates;
@@ -62,11 +68,13 @@ std::vector<reports::FrameSheet> make_sheets(Workbench& workbench, const Plan& p
 
 std::vector<reports::Picture> picture_worst_frames(Workbench& workbench, const Plan& plan,
                                                    const reports::RunResult& result,
+                                                   const std::vector<reports::ExperimentEstimates>& estimates,
                                                    const std::set<std::string>& from_files) {
   std::vector<reports::Picture> pictures;
   for (const reports::WorstFrame& worst : reports::worst_frames(result)) {
     const RunSpec& spec = find_spec(plan, worst.key, worst.seed);
-    const ColorImage picture = explain_frame(workbench, spec, worst.frame);
+    const std::optional<HandFrame> hand = hand_in_run(estimates, worst.key, worst.seed, worst.frame.frame);
+    const ColorImage picture = explain_frame(workbench, spec, worst.frame, hand);
     pictures.push_back({caption(worst), encode_jpeg(picture, kJpegQuality), explain_command(worst, from_files)});
   }
   return pictures;
@@ -86,22 +94,28 @@ OneFrame take_frame(Workbench& workbench, RunSpec spec, int frame) {
   return {*taken, kinect.truth()};
 }
 
-constexpr Rgb kTrueOutline = {255, 255, 255}, kEstimatedOutline = {255, 150, 40};
+constexpr Rgb kTrueOutline = {255, 255, 255}, kEstimatedOutline = {255, 150, 40}, kRunOutline = {90, 170, 255};
 
 LabelImage silhouette(LabelImage labels) {
   for (uint8_t& label : labels) label = label > 0;
   return labels;
 }
 
-/// Outlines the true and the estimated hand on M.
-ColorImage overlay(const HandModel& model, const TrackResult& result, const Eigen::Isometry3d& T_camera_hand,
-                   const FrameTrace& trace, const LabelImage& true_labels, const PinholeCamera& camera) {
+struct Outline {
+  Posture posture;
+  Eigen::Isometry3d T_camera_hand;
+  Rgb color;
+};
+/// Outlines the true hand and others on M.
+ColorImage overlay(const HandModel& model, std::span<const Outline> hands, const FrameTrace& trace,
+                   const LabelImage& true_labels, const PinholeCamera& camera) {
   render::LabelRenderer renderer;
-  const ColorImage with_truth = render::overlay_outline(trace.mapped.color, silhouette(true_labels), kTrueOutline);
-  return render::overlay_outline(
-      with_truth,
-      silhouette(renderer.render_labels(model, model.pose(result.posture_unfiltered), camera, T_camera_hand)),
-      kEstimatedOutline);
+  ColorImage image = render::overlay_outline(trace.mapped.color, silhouette(true_labels), kTrueOutline);
+  for (const auto& [posture, T_camera_hand, color] : hands) {
+    const LabelImage labels = renderer.render_labels(model, model.pose(posture), camera, T_camera_hand);
+    image = render::overlay_outline(image, silhouette(labels), color);
+  }
+  return image;
 }
 
 std::vector<render::TextLine> errors_alone(const reports::FrameErrors& errors) {
@@ -129,7 +143,8 @@ std::vector<render::TextLine> errors_in_run(const reports::FrameRecord& record) 
 /// Explains the outlines and E, and lists the errors. `alone`: empty if the frame is lost.
 ColorImage legend(const std::optional<reports::FrameErrors>& alone, const reports::FrameRecord& in_run) {
   std::vector<render::TextLine> lines = {{"white: the true hand", kTrueOutline},
-                                         {"orange: the tracker's hand", kEstimatedOutline},
+                                         {"orange: this frame alone, no filter", kEstimatedOutline},
+                                         {"blue: in the run, with the filter", kRunOutline},
                                          {""},
                                          {"E: mean distance from a glove pixel of the tiny"},
                                          {"image to the entry's nearest pixel of its color,"},
@@ -202,7 +217,8 @@ class TilePainter {
 
 }  // namespace
 
-ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run) {
+ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run,
+                         const std::optional<HandFrame>& hand_in_run) {
   const int frame = in_run.frame;
   const int count = static_cast<int>(spec.trajectory->frames.size());
   if (frame < 0 || frame >= count) {
@@ -240,11 +256,16 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const report
          reports::count_patches(taken.truth.patch)},
         model);
     const PinholeCamera& camera = workbench.calibration().ir;
-    panels.push_back({"coarse pose over M", cropped(overlay(model, result, result.T_camera_hand_coarse, trace,
-                                                            taken.truth.label, camera))});
-    panels.push_back({fmt::format("after ICP-T: {} iterations, {:.1f} mm off", result.icp_iterations,
+    const auto outlined = [&](std::span<const Outline> hands) {
+      return cropped(overlay(model, hands, trace, taken.truth.label, camera));
+    };
+    std::vector<Outline> hands = {{result.posture_unfiltered, result.T_camera_hand_coarse, kEstimatedOutline}};
+    panels.push_back({"coarse pose over M", outlined(hands)});
+    hands[0].T_camera_hand = result.T_camera_hand;
+    if (hand_in_run) hands.push_back({hand_in_run->posture, hand_in_run->T_camera_hand, kRunOutline});
+    panels.push_back({fmt::format("aligned in {} iterations, {:.1f} mm off", result.icp_iterations,
                                   *errors->record["position_error_mm"]),
-                      cropped(overlay(model, result, result.T_camera_hand, trace, taken.truth.label, camera))});
+                      outlined(hands)});
   } else {
     panels.push_back({"lost: " + std::string(to_string(result.status)), {}});
   }
@@ -263,7 +284,7 @@ reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, cons
   material.from_files = inputs_from_files(plan);
   // Only the paper's method can show its stages.
   if (plan.tracker.method == kPaperMethod)
-    material.worst_frames = picture_worst_frames(workbench, plan, result, material.from_files);
+    material.worst_frames = picture_worst_frames(workbench, plan, result, estimates, material.from_files);
   for (const std::string& warning : lost_hand_warnings(plan, result, ".")) material.warnings.push_back(warning);
   return material;
 }

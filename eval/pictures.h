@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,11 @@ namespace glovebench::eval {
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// All tracker stages of one frame, and its errors. The frame is tracked alone, without the filter; `in_run` is
-/// what the run measured for it. Throws: Error if the trajectory lacks the frame or the method is not the paper's.
-ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run);
+/// All tracker stages of one frame, and its errors. The frame is tracked alone, without the filter; `in_run` and
+/// `hand_in_run` are what the run measured and estimated.
+/// Throws: Error if the trajectory lacks the frame or the method is not the paper's.
+ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run,
+                         const std::optional<HandFrame>& hand_in_run);
 
 /// The IR camera, cropped and scaled to a tile (px) that shows every frame's glove. Needs a frame.
 PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,

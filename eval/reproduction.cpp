@@ -8,9 +8,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/adapters/process/process_method.h"
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
+#include "core/tracker/method_names.h"
 #include "eval/program.h"
 #include "eval/run_bytes.h"
 #include "eval/studies/study.h"
@@ -97,6 +99,7 @@ std::string study_key(Workbench& workbench, std::string_view name, const StudyOp
   const nlohmann::json content = {
       {"study", name},
       {"configuration", to_json(options.tracker)},
+      {"program", is_program(options.tracker.method) ? program_hash(options.tracker.method) : ""},
       {"seeds", options.seeds},
       {"quick", options.quick},
       {"cascades", cascades},

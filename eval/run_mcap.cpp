@@ -1,7 +1,6 @@
 #include "eval/run_mcap.h"
 
 #include <algorithm>
-#include <map>
 
 #include "eval/frame_formats/frame_format.h"
 #include "reports/estimates.h"
@@ -10,13 +9,8 @@ namespace glovebench::eval {
 namespace {
 
 Estimator stored_estimates(const std::string& path, uint64_t seed) {
-  std::map<int, HandFrame> tracked;
-  for (const reports::Estimate& estimate : reports::read_estimates(path))
-    if (estimate.seed == seed && estimate.status == TrackStatus::tracked)
-      tracked[estimate.frame] = {estimate.timestamp_us, estimate.posture, estimate.T_camera_hand};
-  return [tracked](const DeviceFrame&, int number) {
-    const auto found = tracked.find(number);
-    return found == tracked.end() ? std::optional<HandFrame>() : found->second;
+  return [estimates = reports::read_estimates(path), seed](const DeviceFrame&, int number) {
+    return reports::find_hand(estimates, seed, number);
   };
 }
 
@@ -31,8 +25,8 @@ void write_run_mcaps(Workbench& workbench, const Plan& plan, const std::string& 
     written.push_back(key);
     const Dataset dataset{folder, to_string(key), workbench.calibration(), workbench.model(),
                           dataset_readme(mcap, spec)};
-    write_frames(workbench, spec, stored_estimates(folder + "/" + reports::estimates_file(key), spec.seed),
-                 *mcap.make(dataset));
+    write_frames(workbench, spec, stored_estimates(folder + "/" + reports::estimates_file(key), spec.seed), mcap,
+                 dataset);
   }
 }
 

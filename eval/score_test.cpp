@@ -21,8 +21,8 @@ using nlohmann::json;
 using reports::FrameRecord;
 using testing::HasSubstr;
 
-/// Quaternions of run and track files are written to 1e-6, which is 2e-4 degrees.
-constexpr double kPrinted = 1e-3;
+/// Files have six decimals at least.
+constexpr double kPrinted = 1e-4;
 
 JointOrder order_named(const std::string& name) {
   return load_joint_order(name);
@@ -295,8 +295,8 @@ TEST_F(ScoreLong, OfARunsEstimatesEqualsTheRun) {
              &after = own["experiments"][0]["runs"][0]["frames"];
   ASSERT_EQ(before.size(), after.size());
   const std::vector<std::string> columns = run["frame_columns"];
-  // A quaternion that is written to 1e-6 moves a fingertip, 0.15 m away, by up to 3e-4 mm.
-  constexpr double kWritten = 3e-4;
+  // Of six decimals in millimeters and degrees.
+  constexpr double kWritten = 1e-5;
   int compared = 0;
   for (size_t f = 0; f < before.size(); ++f) {
     for (size_t c = 0; c < columns.size(); ++c) {
@@ -320,13 +320,20 @@ TEST_F(ScoreLong, OfARunsEstimatesEqualsTheRun) {
   }());
 }
 
-TEST_F(ScoreLong, AreComparedAndNotExplained) {
-  const auto truth = trajectories::parse_trajectory(read_file(path("good.json")), "good.json");
+TEST_F(ScoreLong, AreComparedAndGatedAndNotExplained) {
+  auto truth = trajectories::parse_trajectory(read_file(path("good.json")), "good.json");
   write_file(path("a.csv"), run_text(truth.frames));
   for (const char* output : {"one", "two"})
     expect_fine(run_glovebench({"score", "--truth", path("good.json"), "--estimates", path("a.csv"), "--name",
                                 "theirs", "-o", path(output), "-q"}));
   EXPECT_EQ(run_glovebench({"compare", path("one"), path("two")}).exit_code, 0);
+  EXPECT_EQ(run_glovebench({"gate", path("one"), "--baseline", path("base"), "--update"}).exit_code, 0);
+  EXPECT_EQ(run_glovebench({"gate", path("two"), "--baseline", path("base")}).exit_code, 0);
+  for (HandFrame& frame : truth.frames) frame.T_camera_hand.pretranslate(Eigen::Vector3d(0.005, 0, 0));
+  write_file(path("worse.csv"), run_text(truth.frames));
+  expect_fine(run_glovebench({"score", "--truth", path("good.json"), "--estimates", path("worse.csv"), "--name",
+                              "theirs", "-o", path("worse"), "-q"}));
+  EXPECT_EQ(run_glovebench({"gate", path("worse"), "--baseline", path("base")}).exit_code, 1);
   EXPECT_THAT(refusal(run_glovebench({"explain", path("one"), "0", "--trajectory", path("good.json")})),
               HasSubstr("a run of a tracker"));
 }

@@ -32,12 +32,10 @@ const std::vector<std::string>& columns() {
   return all;
 }
 
-std::string number_text(double value) {
-  return nlohmann::json(rounded(value)).dump();
-}
-
-std::string number_cell(double value) {
-  return fmt::format(",{}", number_text(value));
+/// Millimeters and degrees have six decimals; parts of a quaternion nine, for the same 1e-6 degrees.
+std::string number_text(size_t column, double value) {
+  const bool is_quaternion = column >= kQuaternion && column < kAngles;
+  return nlohmann::json(is_quaternion ? std::round(value * 1e9) / 1e9 + 0.0 : rounded(value)).dump();
 }
 
 }  // namespace
@@ -53,9 +51,11 @@ std::string estimate_csv_line(const Estimate& estimate) {
   const Eigen::Vector3d position_mm = estimate.T_camera_hand.translation() * 1000;
   Eigen::Quaterniond q(estimate.T_camera_hand.linear());
   if (q.w() < 0) q.coeffs() = -q.coeffs();  // q and -q are the same rotation; always writes the one with w >= 0
-  for (const double value : position_mm) line += number_cell(value);
-  for (const double value : {q.w(), q.x(), q.y(), q.z()}) line += number_cell(value);
-  for (const double angle : estimate.posture) line += number_cell(degrees_from_radians(angle));
+  size_t column = kPosition;
+  const auto add = [&](double value) { line.append(1, ',').append(number_text(column++, value)); };
+  for (const double value : position_mm) add(value);
+  for (const double value : {q.w(), q.x(), q.y(), q.z()}) add(value);
+  for (const double angle : estimate.posture) add(degrees_from_radians(angle));
   return line;
 }
 
@@ -96,8 +96,8 @@ class Line {
     double value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     const bool is_number = error == std::errc() && end == cell.data() + cell.size() && std::abs(value) <= largest;
-    if (!is_number || number_text(value) != cell) {
-      fail(column, fmt::format("a number of six decimals at most, up to {}", largest));
+    if (!is_number || number_text(column, value) != cell) {
+      fail(column, fmt::format("a number as `run` writes it, up to {}", largest));
     }
     return value;
   }
@@ -117,7 +117,7 @@ class Line {
 };
 
 Eigen::Quaterniond read_rotation(const Line& line) {
-  constexpr double kRounding = 1e-5;  // of four components written to 1e-6
+  constexpr double kRounding = 1e-5;  // as of four components written to 1e-6, as before
   const auto component = [&](size_t i) { return line.number(kQuaternion + i, 1); };
   const Eigen::Quaterniond q(component(0), component(1), component(2), component(3));
   if (std::abs(q.norm() - 1) > kRounding || q.w() < 0) line.fail(kQuaternion, "a quaternion of length 1, w >= 0");
@@ -199,6 +199,13 @@ std::vector<Estimate> parse_estimates(const std::string& text, const std::string
     estimates.push_back(estimate);
   }
   return estimates;
+}
+
+std::optional<HandFrame> find_hand(const std::vector<Estimate>& estimates, uint64_t seed, int frame) {
+  for (const Estimate& estimate : estimates)
+    if (estimate.seed == seed && estimate.frame == frame && estimate.status == TrackStatus::tracked)
+      return HandFrame{estimate.timestamp_us, estimate.posture, estimate.T_camera_hand};
+  return std::nullopt;
 }
 
 }  // namespace glovebench::reports

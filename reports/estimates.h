@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/hand/hand_frame.h"
 #include "core/tracker/track_result.h"
 #include "reports/results.h"
 
@@ -28,8 +30,8 @@ struct ExperimentEstimates {
 
 /// "estimates/EXPERIMENT.csv".
 std::string estimates_file(const ExperimentKey& key);
-/// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, 22 angles (deg). To 1e-6. A
-/// lost frame has empty cells.
+/// Columns: seed, frame, timestamp_us, status, position x y z (mm), quaternion w x y z, 22 angles (deg). To 1e-6,
+/// the quaternion to 1e-9. A lost frame has empty cells.
 std::string estimates_csv(const ExperimentEstimates& estimates);
 /// Without line ends.
 std::string estimates_heading();
@@ -37,5 +39,7 @@ std::string estimate_csv_line(const Estimate& estimate);
 /// Throws: Error for other content.
 std::vector<Estimate> read_estimates(const std::string& path);
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);
+/// The hand of a frame; empty if it was lost or is not there.
+std::optional<HandFrame> find_hand(const std::vector<Estimate>& estimates, uint64_t seed, int frame);
 
 }  // namespace glovebench::reports

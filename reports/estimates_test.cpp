@@ -61,7 +61,7 @@ TEST(Estimates, ComeBackAsTheyWereWritten) {
     if (w.status != TrackStatus::tracked) continue;
     EXPECT_LT((r.posture - w.posture).cwiseAbs().maxCoeff(), 1e-8) << "1e-6 degrees";
     EXPECT_LT((r.T_camera_hand.translation() - w.T_camera_hand.translation()).norm(), 1e-9) << "1e-6 mm";
-    EXPECT_LT((r.T_camera_hand.linear() - w.T_camera_hand.linear()).norm(), 1e-5) << "a quaternion to 1e-6";
+    EXPECT_LT((r.T_camera_hand.linear() - w.T_camera_hand.linear()).norm(), 1e-8) << "a quaternion to 1e-9";
   }
 }
 

@@ -89,7 +89,7 @@ Trajectory recorded_trajectory(const std::string& data_folder, const std::string
 
 PostureSet posture_set(const std::string& data_folder, const std::string& name) {
   const fs::path folder = fs::path(data_folder) / "postures";
-  expect_known(folder, "posture sets", name);
+  expect_known(folder, "databases", name);
   const std::string path = (folder / (name + ".json")).string();
   PostureSet set = load_posture_set(path);
   if (set.name != name) throw Error(path, "name", quoted_excerpt(set.name), quoted_excerpt(name));

@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <charconv>
+#include <filesystem>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -59,11 +60,18 @@ struct Explain {
     const std::string path = common.output.empty()
                                  ? fmt::format("{}/explain_{}_{}.png", run_folder, to_string(chosen.key), number)
                                  : common.output;
-    render::write_png(path, explain_frame(workbench, spec, chosen.frame));
+    render::write_png(path, explain_frame(workbench, spec, chosen.frame, hand_in_run(chosen)));
     if (common.quiet) return;
     const std::optional<double> error = chosen.frame[chosen.metric];
     fmt::print("{}: frame {}, seed {}, {} in the run\n{}\n", to_string(chosen.key), number, chosen.seed,
                error ? fmt::format("{} {:.1f}", chosen.metric, *error) : "lost", path);
+  }
+
+  /// Empty if the frame was lost or the folder has no estimates, as a baseline's.
+  std::optional<HandFrame> hand_in_run(const reports::WorstFrame& chosen) const {
+    const std::string path = run_folder + "/" + reports::estimates_file(chosen.key);
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    return reports::find_hand(reports::read_estimates(path), chosen.seed, chosen.frame.frame);
   }
 
   /// A numbered frame is of the first experiment and seed that were asked for.

@@ -65,7 +65,8 @@ struct Gate {
   /// Makes the candidate the baseline and says what that accepts.
   int replace(const std::string& folder, const FinishedRun& candidate) const {
     const reports::NamedResult& run = candidate.results;
-    const Suite whole = suite_of(run, suite);
+    const bool has_suite = !run.result.suite.empty() || !suite.empty();
+    const std::optional<Suite> whole = has_suite ? std::optional(suite_of(run, suite)) : std::nullopt;
     const std::vector<std::string> accepted = accepted_rows(folder, candidate);
     update_baseline(folder, run, whole, measured_speed(), load_stage_times(candidate.files), accepted);
     if (run.result.commit.ends_with("-dirty")) {
@@ -73,7 +74,8 @@ struct Gate {
     }
     if (quiet) return 0;
     for (const std::string& row : accepted) fmt::print("ACCEPTED: {}\n", row);
-    fmt::print("{} is the baseline of suite {} now, in {}\n", run.result.commit, run.result.suite, folder);
+    const std::string name = run.result.suite.empty() ? "" : " of suite " + run.result.suite;
+    fmt::print("{} is the baseline{} now, in {}\n", run.result.commit, name, folder);
     return 0;
   }
 
@@ -111,15 +113,15 @@ struct Gate {
   /// The command that makes the candidate the baseline, in one line to copy.
   void print_acceptance(const std::string& folder, const std::string& suite_of_run) const {
     const std::vector<std::string> built_in = suite_names();
-    const bool is_built_in = std::ranges::find(built_in, suite_of_run) != built_in.end();
+    const bool needs_file = !suite_of_run.empty() && std::ranges::find(built_in, suite_of_run) == built_in.end();
     std::string flags = " --update";
-    if (!is_built_in) flags += " --suite " + (suite.empty() ? "FILE" : reports::shell_quoted(suite));
+    if (needs_file) flags += " --suite " + (suite.empty() ? "FILE" : reports::shell_quoted(suite));
     if (!speed_path.empty()) flags += " --speed " + reports::shell_quoted(speed_path);
     if (pairing.other_seeds) flags += " --other-seeds";
     fmt::print("To accept it, e.g. for what became better:\n  glovebench gate {} --baseline {}{}\n",
                reports::shell_quoted(candidate_path), reports::shell_quoted(folder), flags);
     const std::string file =
-        is_built_in || !suite.empty() ? "" : fmt::format("FILE is that of suite {}. ", suite_of_run);
+        needs_file && suite.empty() ? fmt::format("FILE is that of suite {}. ", suite_of_run) : "";
     fmt::print("{}",
                reports::wrapped(file + "Commit the baseline's folder: its provenance.json records the accepted "
                                        "rows and the replaced baseline.",

@@ -54,6 +54,8 @@ CLI::Validator whole_number() {
             const std::string_view digits = std::string_view(text).substr(text.starts_with("-"));
             const bool is_decimal = !digits.starts_with("0") || digits == "0";
             if (read.ec == std::errc() && read.ptr == end && is_decimal) return {};
+            if (read.ec != std::errc::result_out_of_range)
+              return fmt::format("found {}, expected a whole number", printable(text));
             return fmt::format("found {}, expected a whole number from {} to {}", printable(text),
                                std::numeric_limits<Number>::min(), std::numeric_limits<Number>::max());
           },

@@ -38,9 +38,8 @@ struct Render {
     spec.seed = common.seed;
     spec.appearance = from_name<Appearance>(appearance).value();
     const std::string readme = dataset_readme(chosen, spec);
-    // Destroyed before the readme's writer locks the folder.
-    write_frames(workbench, spec, estimator(workbench),
-                 *chosen.make({common.output, movement->name, workbench.calibration(), workbench.model(), readme}));
+    write_frames(workbench, spec, estimator(workbench), chosen,
+                 {common.output, movement->name, workbench.calibration(), workbench.model(), readme});
     WholeFiles files(common.output);
     files.add("README.txt", readme);
     files.commit();

@@ -13,7 +13,11 @@ namespace {
 using nlohmann::ordered_json;
 using reports::rounded;
 
-constexpr double kFlesh = 0.020;  // m
+/// m in front of a joint, at most: an open hand has 18 mm over fingers' joints and 30 mm over the palm's.
+double flesh_over(int joint) {
+  const bool in_palm = joint == kWristJoint || joint == 1 || joint % 5 == 0;  // the wrist, metacarpals' bases
+  return in_palm ? 0.035 : 0.020;
+}
 
 ordered_json list_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
   ordered_json list = ordered_json::array();
@@ -71,7 +75,7 @@ std::array<JointLabel, kForearmJoint> label_joints(const JointPoses& T_hand_join
     // Compared before the conversion, which no large number survives.
     if (!(uv_px.minCoeff() >= -0.5 && uv_px.x() < camera.width - 0.5 && uv_px.y() < camera.height - 0.5)) continue;
     const int u = static_cast<int>(std::lround(uv_px.x())), v = static_cast<int>(std::lround(uv_px.y()));
-    labels[j].is_visible = true_depth.contains(u, v) && p_camera.z() - true_depth(u, v) <= kFlesh;
+    labels[j].is_visible = true_depth.contains(u, v) && p_camera.z() - true_depth(u, v) <= flesh_over(j);
   }
   return labels;
 }

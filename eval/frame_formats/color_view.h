@@ -16,7 +16,8 @@ struct JointLabel {
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< m
   bool is_visible = false;
 };
-/// WebXR's 25 joints. A joint lies in the flesh: it is visible if the surface at its pixel is at most 20 mm nearer.
+/// WebXR's 25 joints. A joint lies in the flesh: it is visible if the surface at its pixel is at most 20 mm nearer,
+/// or 35 mm at the wrist and the metacarpals' bases.
 std::array<JointLabel, kForearmJoint> label_joints(const JointPoses& T_hand_joint,
                                                    const Eigen::Isometry3d& T_camera_hand,
                                                    const DepthImage& true_depth, const PinholeCamera& camera);
@@ -47,6 +48,7 @@ inline constexpr std::string_view kHandConventions =
     "  joints_25    WebXR's order: the metacarpals' bases, too\n"
     "  *_mm         x, y, z in the color camera's frame\n"
     "  *_visible    1, or 0 where the true surface at the joint's pixel is more than\n"
-    "               20 mm nearer, or outside of the image\n";
+    "               20 mm nearer (35 mm at the wrist and the metacarpals' bases),\n"
+    "               or outside of the image\n";
 
 }  // namespace glovebench::eval

@@ -46,17 +46,19 @@ std::string dataset_readme(const FrameFormat& format, const RunSpec& spec) {
   return text;
 }
 
-void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& estimate, FrameWriter& writer) {
-  render::SyntheticKinect kinect = make_kinect(workbench, spec);
+void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& estimate, const FrameFormat& format,
+                  const Dataset& dataset) {
+  render::SyntheticKinect kinect = make_kinect(workbench, spec);  // may throw: before the folder is made
+  const std::unique_ptr<FrameWriter> writer = format.make(dataset);
   const std::span<const HandFrame> frames = frames_of(spec);
   Progress progress("rendering", workbench.config().quiet);
   for (size_t f = 0; f < frames.size(); ++f) {
     const DeviceFrame images = *kinect.next_frame();
     const int number = spec.frames.first + static_cast<int>(f);
-    writer.add({number, images, frames[f], kinect, estimate ? estimate(images, number) : std::nullopt});
+    writer->add({number, images, frames[f], kinect, estimate ? estimate(images, number) : std::nullopt});
     progress.show(static_cast<double>(f + 1) / static_cast<double>(frames.size()));
   }
-  writer.finish();
+  writer->finish();
 }
 
 }  // namespace glovebench::eval

@@ -60,6 +60,7 @@ std::string dataset_readme(const FrameFormat& format, const RunSpec& spec);
 using Estimator = std::function<std::optional<HandFrame>(const DeviceFrame& images, int number)>;
 /// Renders a run's frames, writes and finishes them.
 /// Throws: Error.
-void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& estimate, FrameWriter& writer);
+void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& estimate, const FrameFormat& format,
+                  const Dataset& dataset);
 
 }  // namespace glovebench::eval

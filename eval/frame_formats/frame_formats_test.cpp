@@ -63,7 +63,9 @@ std::array<JointLabel, kForearmJoint> labels_of(const Posture& posture, double t
 
 TEST(LabelJoints, AllAreSeenOfAnOpenHandFromBothSides) {
   for (const double turn : {0.0, static_cast<double>(EIGEN_PI)}) {
-    const auto labels = labels_of(Posture::Zero(), turn);
+    Posture open = Posture::Zero();
+    open[kThumbCmcFlexion] = -0.5;  // beside the palm
+    const auto labels = labels_of(open, turn);
     for (int j = 0; j < kForearmJoint; ++j) EXPECT_TRUE(labels[j].is_visible) << joint_name(j) << ", " << turn;
   }
 }

@@ -183,10 +183,10 @@ Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file)
   return suite;
 }
 
-void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
+void update_baseline(const std::string& folder, const reports::NamedResult& run, const std::optional<Suite>& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times,
                      const std::vector<std::string>& accepted) {
-  require_whole_suite(run, suite);
+  if (suite) require_whole_suite(run, *suite);
   WholeFiles files(folder);  // first, since it finishes an update that a kill interrupted
   const FileSet old(folder);
   if (old.has(kTimings)) throw Error(folder, "baseline", "a run", "a folder of its own");

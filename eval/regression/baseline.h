@@ -48,10 +48,10 @@ std::string default_baseline_folder(const std::string& suite);
 /// Throws: Error if the run has none or another.
 Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file);
 
-/// Makes a run the baseline and keeps the noise floor. `accepted`: what would have stopped the change.
-/// Throws: Error if the run is not the whole suite, the folder holds a run, or a truth differs from the old
-/// baseline's.
-void update_baseline(const std::string& folder, const reports::NamedResult& run, const Suite& suite,
+/// Makes a run the baseline and keeps the noise floor. `suite`: empty for a run without one, as a score.
+/// `accepted`: what would have stopped the change.
+/// Throws: Error if a suite's run is not whole, the folder holds a run, or a truth differs from the old baseline's.
+void update_baseline(const std::string& folder, const reports::NamedResult& run, const std::optional<Suite>& suite,
                      const std::vector<reports::SpeedRatio>& speed, const reports::StageTimes& times,
                      const std::vector<std::string>& accepted);
 

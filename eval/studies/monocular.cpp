@@ -39,12 +39,6 @@ Estimated depth_error_cm(const Selection& runs) {
   return estimate_mean(offset_sample(runs, [](const Eigen::Vector3d& o) { return 100 * std::abs(o.z()); }));
 }
 
-std::optional<double> tracked_percent(const Selection& runs) {
-  return mean(sample_of(runs, [](const MeasuredRun& each, size_t frame) {
-    return std::optional(each.run.answers[frame].status == TrackStatus::tracked ? 100.0 : 0.0);
-  }));
-}
-
 Table empty_monocular_table() {
   return {
       "monocular",

@@ -29,6 +29,7 @@ RunSpec spec_of(const Setting& setting, const std::string& database) {
   spec.tracker = setting.tracker;
   spec.lighting = setting.lighting;
   spec.clutter_in_volume = setting.clutter_in_volume;
+  spec.appearance = setting.appearance;
   spec.setting = setting.name;
   return spec;
 }
@@ -60,6 +61,7 @@ const std::vector<Study>& studies() {
       {"paper-literal", "Figure 4 with the pose filtered, too", run_paper_literal, 360, true},
       {"recommended", "Figure 4 with the recommended settings", run_recommended, 500, true},
       {"deviations", "Deviations from the paper, and its gaps", run_deviations, 900, true},
+      {"external", "A program of yours beside ours", run_external, 300, true},
   };
   return all;
 }
@@ -184,6 +186,12 @@ std::optional<double> covered_percent(const Selection& runs) {
 std::vector<reports::Cell> cells(const Estimated& estimated) {
   if (!estimated.interval) return {cell(estimated.value), {}, {}};
   return {cell(estimated.value), estimated.interval->low, estimated.interval->high};
+}
+
+std::optional<double> tracked_percent(const Selection& runs) {
+  return mean(sample_of(runs, [](const MeasuredRun& each, size_t frame) {
+    return std::optional(each.run.answers[frame].status == TrackStatus::tracked ? 100.0 : 0.0);
+  }));
 }
 
 const std::vector<reports::Column>& error_columns() {

@@ -43,6 +43,7 @@ struct Setting {
   int subject = 1;
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
+  Appearance appearance = Appearance::glove;
 };
 
 /// All frames; with `quick`, a stretch.
@@ -78,6 +79,7 @@ std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection&
 /// Times of a stage, or of whole frames, over all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
+std::optional<double> tracked_percent(const Selection& runs);
 
 /// Value, low, high.
 std::vector<reports::Cell> cells(const Estimated& estimated);
@@ -100,6 +102,9 @@ reports::StudyResult run_deviations(const StudyContext& context);
 reports::StudyResult run_paper_literal(const StudyContext& context);
 /// Figure 4 with profiles paper and recommended. No measures.
 reports::StudyResult run_recommended(const StudyContext& context);
+/// The program of `options.tracker` beside profiles paper and recommended, on a gloved and a bare hand. No
+/// measures. Throws: Error for a method of the toolkit's own.
+reports::StudyResult run_external(const StudyContext& context);
 /// monocular.depth_error_cm: with the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);
 /// Tables "light" and "light_tracking" of the ablations, and measures light.*.
