@@ -13,6 +13,7 @@
 #include "eval/pictures.h"
 #include "eval/program.h"
 #include "eval/run_warnings.h"
+#include "eval/streaming.h"
 #include "eval/terminal.h"
 #include "reports/report.h"
 
@@ -62,20 +63,6 @@ reports::PckCurve pck_of(const Experiment& experiment, std::span<const int> join
   return reports::pck_curve(errors_mm, frames * (tracked > 0 ? given.size() : joints.size()));
 }
 
-reports::ExperimentResult evaluate(const Experiment& experiment) {
-  std::vector<reports::SeedRun> runs;
-  for (const MeasuredRun* each : experiment.runs) {
-    reports::SeedRun& run = runs.emplace_back(each->run.spec.seed);
-    for (const reports::FrameErrors& errors : each->errors) run.frames.push_back(errors.record);
-  }
-  std::array<int, kForearmJoint> joints;
-  std::iota(joints.begin(), joints.end(), 0);
-  reports::ExperimentResult result = reports::summarize(experiment.key, std::move(runs), pck_of(experiment, joints),
-                                                        measure_sequences(experiment));
-  result.fingertip_pck = pck_of(experiment, fingertip_joints());
-  return result;
-}
-
 reports::ExperimentTiming timing_of(const Experiment& experiment) {
   reports::ExperimentTiming timing{experiment.key, 0, {}};
   for (const MeasuredRun* each : experiment.runs) {
@@ -118,6 +105,20 @@ void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_p
 
 }  // namespace
 
+reports::ExperimentResult evaluate(const Experiment& experiment) {
+  std::vector<reports::SeedRun> runs;
+  for (const MeasuredRun* each : experiment.runs) {
+    reports::SeedRun& run = runs.emplace_back(each->run.spec.seed);
+    for (const reports::FrameErrors& errors : each->errors) run.frames.push_back(errors.record);
+  }
+  std::array<int, kForearmJoint> joints;
+  std::iota(joints.begin(), joints.end(), 0);
+  reports::ExperimentResult result = reports::summarize(experiment.key, std::move(runs), pck_of(experiment, joints),
+                                                        measure_sequences(experiment));
+  result.fingertip_pck = pck_of(experiment, fingertip_joints());
+  return result;
+}
+
 bool has_hands(const Experiment& experiment) {
   return std::ranges::all_of(experiment.runs, [](const MeasuredRun* each) {
     return std::ranges::all_of(each->run.answers, [](const TrackResult& answer) { return answer.has.hand(); });
@@ -159,6 +160,8 @@ reports::RunResult results_of(const Plan& plan, std::span<const MeasuredRun> run
   else
     result.configuration = {{"score", plan.score}};
   if (plan.quick) result.configuration["quick"] = true;
+  if (const auto& streaming = plan.streaming)
+    result.configuration["streaming"] = streaming->tracker_ms ? nlohmann::json(*streaming->tracker_ms) : "measured";
   if (const auto cameras = to_json(workbench.calibration()); cameras != to_json(synthetic_calibration()))
     result.configuration["calibration"] = cameras;
   if (const auto& hand = workbench.config().hand) result.configuration["hand"] = to_json(*hand);
@@ -171,7 +174,8 @@ Outcome carry_out(Workbench& workbench, const Plan& plan, const RobotOutput& rob
   const auto start = std::chrono::steady_clock::now();
   const int threads = workbench.config().threads;
   RunStore store(folder);
-  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, {threads, &store}));
+  const RunOptions options = plan.times_frames() ? RunOptions{} : RunOptions{threads, &store};
+  const std::vector<MeasuredRun> runs = measure(workbench, execute(workbench, plan.specs, options));
   const Outcome outcome = report_runs(workbench, plan, runs, {threads, start}, robot, folder,
                                       [&](reports::RunResult& result) { add_studies(result, store); });
   store.finish();
@@ -187,6 +191,7 @@ Outcome report_runs(Workbench& workbench, const Plan& plan, std::span<const Meas
   if (!timed.commands)
     for (reports::ExperimentTiming& experiment : outcome.timings.experiments) experiment.command_ms.clear();
   if (auto families = family_table(runs)) outcome.result.studies.push_back(*std::move(families));
+  if (plan.streaming) outcome.result.studies.push_back(streaming_study(workbench, *plan.streaming, runs));
   add_studies(outcome.result);
   note_resources(outcome.timings, timed.start);
   std::vector<reports::ExperimentEstimates> estimates;

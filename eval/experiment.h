@@ -20,6 +20,8 @@ struct Experiment {
 };
 /// In order of appearance. `runs` must outlive the result. A seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
+/// Means, coverage and curves over frames and seeds.
+reports::ExperimentResult evaluate(const Experiment& experiment);
 /// True if each answer has posture and pose.
 bool has_hands(const Experiment& experiment);
 

@@ -8,6 +8,11 @@
 
 namespace glovebench::eval {
 
+/// Errors of the answers that a live system has when each frame is taken.
+struct Streaming {
+  std::optional<double> tracker_ms = {};  ///< time of each frame; empty: as measured
+};
+
 struct Plan {
   TrackerConfig tracker;
   std::vector<RunSpec> specs;                        ///< runs of the same frames are successive
@@ -15,6 +20,10 @@ struct Plan {
   bool quick = false;                                ///< few frames; no conclusions
   std::string association = "by time stamp, exact";  ///< of estimates to truths
   nlohmann::json score = {};  ///< configuration of `score`: other programs' estimates instead of a tracker
+  std::optional<Streaming> streaming = {};
+
+  /// True if the time of each frame becomes a result, so that one job runs at a time.
+  bool times_frames() const { return streaming && !streaming->tracker_ms; }
 };
 
 struct Figure4Options {

@@ -126,6 +126,10 @@ class Tracking {
   }
 
   const RunSpec& spec() const { return run_.spec; }
+  bool drops(int number) const {
+    const std::vector<bool>& dropped = run_.spec.dropped;
+    return !dropped.empty() && dropped[static_cast<size_t>(number - run_.spec.frames.first)];
+  }
   /// Device frame of these images with this run's noise.
   DeviceFrame frame_of(const render::RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                        int number) const {
@@ -169,6 +173,10 @@ std::vector<Run> track_together(Workbench& workbench, std::span<const RunSpec> s
     const double visible_percent = visible_percent_of(kinect, subject, truth);
     const RunSpec* shown = &first;
     for (Tracking& tracking : trackings) {
+      if (tracking.drops(number)) {
+        frame_done();
+        continue;
+      }
       if (!share_noise(*shown, tracking.spec())) {
         frame = tracking.frame_of(kinect.truth(), kinect.calibration(), truth.timestamp_us, number);
         shown = &tracking.spec();
@@ -308,6 +316,7 @@ std::string run_key(Workbench& workbench, const RunSpec& spec) {
       {"configuration", to_json(spec.tracker)},
       {"truth", {spec.trajectory->name, trajectories::hash(*spec.trajectory)}},
       {"frames", {spec.frames.first, frames_of(spec).size()}},
+      {"dropped", spec.dropped},
       {"noise", {spec.noise.model, spec.noise.factor}},
       {"seed", spec.seed},
       {"lighting",

@@ -36,7 +36,8 @@ struct RunSpec {
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
   Appearance appearance = Appearance::glove;
-  std::string setting = {};  ///< a label: a study's setting or a movement's family
+  std::string setting = {};        ///< a label: a study's setting or a movement's family
+  std::vector<bool> dropped = {};  ///< by frame; the tracker does not get these; empty: gets all
 };
 
 /// Measured on true images and surface.
@@ -46,7 +47,7 @@ struct Sight {
   double visible_percent = 0;                     ///< see reports/metrics/visibility.h
 };
 
-/// Results by frame. Errors: measured_run.h.
+/// Results by frame that the tracker got. Errors: measured_run.h.
 struct Run {
   RunSpec spec;
   std::vector<TrackResult> answers;

@@ -6,6 +6,7 @@
 #include "core/base/file_set.h"
 #include "eval/regression/baseline.h"
 #include "reports/comparison/comparison_report.h"
+#include "reports/summary.h"
 
 namespace glovebench::eval {
 namespace {
@@ -43,13 +44,18 @@ reports::SettingsTable settings_table(const std::vector<std::string>& folders, r
   return reports::compare_settings(runs, pairing, config);
 }
 
-void write_settings_table(const std::string& folder, const reports::SettingsTable& table) {
+void write_settings_table(const std::string& folder, const reports::SettingsTable& table,
+                          const std::vector<reports::StudyResult>& studies) {
   reports::require_own_folder(folder);
   WholeFiles files(folder);
   files.add("table.md", settings_markdown(table));
   files.add("table.csv", settings_csv(table));
   files.add("table.tex", settings_latex(table));
   files.add("index.html", settings_html(table));
+  for (const reports::StudyResult& study : studies) {
+    files.add(study.name + ".md", study_markdown(study));
+    for (const reports::Table& each : study.tables) files.add(each.name + ".csv", to_csv(each));
+  }
   files.commit();
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "reports/comparison/settings_table.h"
+#include "reports/study.h"
 
 namespace glovebench::eval {
 
@@ -13,8 +14,9 @@ namespace glovebench::eval {
 reports::SettingsTable settings_table(const std::vector<std::string>& folders, reports::PairingOptions pairing = {},
                                       const reports::CompareConfig& config = {});
 
-/// Writes table.md, .csv, .tex and index.html.
+/// Writes table.md, .csv, .tex and index.html; STUDY.md and TABLE.csv of `studies`.
 /// Throws: Error if the folder holds a run, or cannot be written.
-void write_settings_table(const std::string& folder, const reports::SettingsTable& table);
+void write_settings_table(const std::string& folder, const reports::SettingsTable& table,
+                          const std::vector<reports::StudyResult>& studies = {});
 
 }  // namespace glovebench::eval

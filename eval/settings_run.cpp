@@ -56,7 +56,8 @@ Plan with_tracker(Plan plan, const TrackerConfig& tracker) {
 std::vector<std::vector<MeasuredRun>> run_settings(Workbench& workbench, const Plan& plan,
                                                    std::span<const TrackerConfig> trackers,
                                                    const RunOptions& options) {
-  std::vector<Run> runs = execute(workbench, in_turn(plan.specs, trackers), options);
+  std::vector<Run> runs =
+      execute(workbench, in_turn(plan.specs, trackers), plan.times_frames() ? RunOptions{} : options);
   std::vector<Run> timed = execute(workbench, in_turn(timed_specs(plan), trackers), {});
   std::vector<std::vector<MeasuredRun>> by_tracker;
   for (size_t t = 0; t < trackers.size(); ++t) {

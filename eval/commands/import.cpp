@@ -4,7 +4,6 @@
 
 #include "core/base/error.h"
 #include "core/base/file_set.h"
-#include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
 #include "eval/program.h"
@@ -46,12 +45,8 @@ struct ImportMarkers {
       require_different_files(
           {{"input", input}, {"--output", output}, {"residuals", folder_above(output) + "/" + residuals}});
     const trajectories::CapturePlacement placement{side, T_capture_camera};
-    const trajectories::MarkerLayout markers =
-        layout.empty()
-            ? trajectories::MarkerLayout{}
-            : trajectories::parse_marker_layout(read_file(layout, trajectories::kLargestMarkerLayout), layout);
-    const HandModel model = HandModel::load(hand_mesh_path());
-    const trajectories::HandFit fit = trajectories::import_capture(files, read, side, markers, model);
+    const trajectories::HandFit fit = trajectories::import_capture(
+        files, read, side, trajectories::load_marker_layout(layout), HandModel::load(hand_mesh_path()));
     WholeFiles made(folder_above(output));
     if (is_poses || postures) {
       const size_t count = postures ? static_cast<size_t>(*postures) : fit.frames.size();

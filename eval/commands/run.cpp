@@ -11,6 +11,7 @@
 #include "eval/run_warnings.h"
 #include "eval/settings_files.h"
 #include "eval/settings_run.h"
+#include "eval/streaming.h"
 #include "eval/suite.h"
 #include "eval/terminal.h"
 #include "reports/comparison/comparison_report.h"
@@ -43,6 +44,8 @@ struct RunCommand {
   int subject = 1;
   std::string appearance = "glove";
   int seed_count = 1;
+  bool streaming = false;
+  double tracker_ms = 0;
   RobotFlags robot;
 
   void run() {
@@ -51,7 +54,8 @@ struct RunCommand {
     const Suite suite = chosen_suite();
     common.left = side_of(suite) == Side::left;
     Workbench workbench = common.workbench();
-    const Plan plan = plan_suite(workbench, common.tracker_config(), suite, filter);
+    Plan plan = plan_suite(workbench, common.tracker_config(), suite, filter);
+    if (streaming) plan.streaming = {command.given("--tracker-ms") ? std::optional(tracker_ms) : std::nullopt};
     warn(unit_warnings(plan));
     const std::vector<NamedTracker> settings =
         choices.are_several() ? choices.trackers(common) : std::vector<NamedTracker>{};
@@ -71,7 +75,8 @@ struct RunCommand {
     if (mcap) write_run_mcaps(workbench, plan, common.output);
     warn(lost_hand_warnings(plan, result, common.output));
     if (common.quiet) return;
-    if (result.studies.empty()) fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
+    if (!find_table(result.studies, "families"))
+      fmt::print("{}\n", reports::headline_text(result, terminal_columns()));
     for (const reports::StudyResult& study : result.studies)
       fmt::print("{}", study_text(study, terminal_columns()));
     fmt::print("All metrics, with intervals: {}/summary.md\n", common.output);
@@ -89,6 +94,7 @@ struct RunCommand {
     RunStore store(common.output);
     const auto runs = run_settings(workbench, plan, trackers, {workbench.config().threads, &store});
     std::vector<std::string> folders;
+    std::vector<std::pair<std::string, reports::StudyResult>> streamed;
     for (size_t s = 0; s < settings.size(); ++s) {
       folders.push_back(fmt::format("{}/{}", common.output, settings[s].name));
       constexpr int kOneJob = 1;  // each frame was timed alone, but not its commands
@@ -97,11 +103,16 @@ struct RunCommand {
           report_runs(workbench, planned, runs[s], {kOneJob, start, false}, robot_output, folders.back());
       if (mcap) write_run_mcaps(workbench, planned, folders.back());
       warn(lost_hand_warnings(planned, outcome.result, folders.back()));
+      for (const reports::StudyResult& study : outcome.result.studies)
+        if (study.name == kStreamingStudy) streamed.emplace_back(settings[s].name, study);
     }
     const reports::SettingsTable table = settings_table(folders);
-    write_settings_table(common.output, table);
+    std::vector<reports::StudyResult> studies;
+    if (!streamed.empty()) studies.push_back(joined_streaming(streamed));
+    write_settings_table(common.output, table, studies);
     store.finish();
     if (common.quiet) return;
+    for (const reports::StudyResult& study : studies) fmt::print("{}", study_text(study, terminal_columns()));
     fmt::print("{}\nOf each setting: {}/NAME/summary.md. Again: glovebench table {}\nReport: {}/index.html\n",
                settings_text(table, terminal_columns()), common.output, fmt::join(folders, " "), common.output);
   }
@@ -109,7 +120,7 @@ struct RunCommand {
   /// Runs one part of the reproduction. A cascade on the command line replaces the four of Figure 8.
   void run_study() {
     for (const char* flag : {"--suite", "--filter", "--list", "--dry-run", "--trajectory", "--database", "--truth",
-                             "--noise", "--gain", "--subject", "--appearance", "--hand", "--mcap"})
+                             "--noise", "--gain", "--subject", "--appearance", "--hand", "--mcap", "--streaming"})
       if (command.given(flag)) throw Error(fmt::format("run {}: {} does not go with a study", study_name, flag));
     const Study& chosen = study(study_name);
     if (choices.are_several() && choices.cascades.size() < 2)
@@ -207,6 +218,14 @@ void add_run(Command program) {
   command.option(
       "--mcap", state->mcap,
       "also write EXPERIMENT.mcap: frames, truth and estimates of the first seed, for Foxglove or Rerun");
+  command.option("--streaming", state->streaming,
+                 "also measure the answers that a live system has when each frame is taken: late ones, and none to "
+                 "frames that arrive while the tracker computes");
+  command
+      .option("--tracker-ms", state->tracker_ms,
+              "with --streaming: time of each frame [measured, one job at a time]")
+      .in(0, 1e6)
+      .needs("--streaming");
   command.option("--list", state->list, "print the experiments and stop");
   command.option("--dry-run", state->dry_run, "print what would be done and touch nothing");
   const Command experiments = command.group("Experiments");

@@ -9,11 +9,15 @@
 #include "core/base/error.h"
 #include "core/base/registry.h"
 #include "core/base/text.h"
+#include "eval/capture_score.h"
 #include "eval/commands/flags.h"
+#include "eval/sources/source.h"
 #include "eval/experiment.h"
 #include "eval/program.h"
 #include "eval/terminal.h"
+#include "render/label_renderer.h"
 #include "reports/summary.h"
+#include "trajectories/capture/import_capture.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/text_cells.h"
 
@@ -32,14 +36,23 @@ struct ScoreCommand {
   int subject = 1;
   reports::NoiseSetting noise;
   RobotFlags robot;
+  std::string source, database = "DB_20_postures", colors, layout;
 
   void run() {
+    if (source.empty() == request.estimates.empty())
+      throw Error("score", "estimates", source.empty() ? "none" : "--estimates and --source", "one of these flags");
+    common.check_report_folder();
+    if (!source.empty()) return score_recording();
+    for (const char* flag : {"--config", "--cascade", "--method", "--profile"})
+      if (command.given(flag)) throw Error(fmt::format("score: {} goes with --source", flag));
     complete_request();
     Workbench workbench = common.workbench();
-    common.check_report_folder();
-    const Score scored = score(workbench, request);
+    report(workbench, score(workbench, request), request.estimates);
+  }
+
+  void report(Workbench& workbench, const Score& scored, const std::string& estimates) {
     for (const auto& warning : scored.plan.score.at("warnings"))
-      say("glovebench: warning: {}: {}\n", request.estimates, warning.get<std::string>());
+      say("glovebench: warning: {}: {}\n", estimates, warning.get<std::string>());
     const std::vector<MeasuredRun> runs = measure(workbench, scored.runs);
     const Outcome outcome = report_runs(workbench, scored.plan, runs, {workbench.config().threads, start, false},
                                         robot.output_of(workbench), common.output);
@@ -48,6 +61,47 @@ struct ScoreCommand {
     print_joint_errors(outcome.result);
     for (const std::string& match : scored.matches) fmt::print("{}\n", match);
     fmt::print("All metrics, with intervals: {0}/summary.md\nReport: {0}/index.html\n", common.output);
+  }
+
+  /// Tracks a recording and scores it against a capture of the same hand.
+  void score_recording() {
+    for (const char* flag : {"--format", "--beside", "--joints", "--units", "--frame", "--time-unit", "--tolerance",
+                             "--time-offset", "--subject", "--noise", "--gain"})
+      if (command.given(flag)) throw Error(fmt::format("score: {} does not go with --source", flag));
+    if (!source.starts_with("fakenect:")) throw Error("--source", "kind", source, "fakenect:FOLDER");
+    const auto capture = std::make_shared<const trajectories::Trajectory>(load_capture());
+    common.left = capture->side == Side::left;
+    TrackSource recording = open_source({source, common.calibration}, common.quiet);
+    common.calibration_json = to_json(recording.device->calibration());
+    Workbench workbench = common.workbench();
+    const std::string name_of_database = workbench.add_database(database);
+    const TrackerConfig config = common.tracker_config();
+    const std::unique_ptr<Method> method = make_method(
+        {config, recording.device->calibration(), workbench.model(), workbench.database(name_of_database),
+         colors.empty() ? workbench.color_table(config.segmentation.color_space)
+                        : std::make_shared<const ColorTable>(ColorTable::load(colors)),
+         render::label_renderer_factory()});
+    CaptureRequest asked;
+    asked.spec.trajectory = capture;
+    asked.spec.seed = common.seed;
+    asked.spec.database = name.empty() ? name_of_database : checked_name(name, "--name", "name");
+    asked.spec.tracker = config;
+    asked.answers = track_recording(recording, *method, common.quiet);
+    asked.recording = source;
+    report(workbench, score_against_capture(workbench, asked), source);
+  }
+
+  /// Markers, or a movement that was made of them; in the capture's frame.
+  trajectories::Trajectory load_capture() const {
+    using trajectories::Format;
+    const bool is_movement = trajectories::is_trajectory_file(truth);
+    const Format* format = is_movement ? nullptr : format_of_file(truth, &Format::markers);
+    if (!format) return load_truth(truth, from_name<reports::TruthKind>(truth_kind));
+    const Side side = common.left ? Side::left : Side::right;
+    const trajectories::HandFit fit = trajectories::import_capture(
+        {truth}, *format, side, trajectories::load_marker_layout(layout), HandModel::load(hand_mesh_path()));
+    const std::string stem = std::filesystem::path(truth).stem().string();
+    return trajectory_of(fit, {side, Eigen::Isometry3d::Identity()}, checked_name(stem, "--truth", "file name"), 1);
   }
 
   void complete_request() {
@@ -104,17 +158,33 @@ std::string formats_text() {
 }  // namespace
 
 void add_score(Command program) {
-  const Command command =
-      program.subcommand("score",
-                         "Measure the estimates of any program against a truth and report the errors.\n"
-                         "Metrics that need what the estimates lack are empty.");
+  const Command command = program.subcommand(
+      "score",
+      "Measure the estimates of any program against a truth and report the errors.\n"
+      "Metrics that need what the estimates lack are empty.\n"
+      "With --source: track a recording and measure it against motion capture of the same hand.");
   const auto state = std::make_shared<ScoreCommand>(command);
   state->common.add_output(command, "folder of the report").required();
-  command.option("--truth", state->truth, "Tr1..Tr5, side_3 (`glovebench list families`) or a file (*.json)")
+  command
+      .option(
+          "--truth", state->truth,
+          "Tr1..Tr5, side_3 (`glovebench list families`) or a file (*.json); with --source also markers (*.trc, "
+          "*.csv, *.bvh)")
       .required();
   command.option("--truth-kind", state->truth_kind, "which truth of Tr1..Tr5").one_of({"source", "recorded"});
-  command.option("--estimates", state->request.estimates, "file").required().existing_file();
+  command.option("--estimates", state->request.estimates, "file").existing_file();
   command.option("--name", state->name, "of the program, in tables [the file's]");
+  const Command recording = command.group("A recording against motion capture");
+  recording.option("--source", state->source,
+                   "instead of --estimates: fakenect:FOLDER, a recording to track; time offset and rigid transform "
+                   "to the truth are estimated");
+  recording.option("--database", state->database, "to track against: name (`glovebench list databases`) or file")
+      .needs("--source");
+  recording.option("--colors", state->colors, "color table (`glovebench calibrate colors`)").needs("--source");
+  recording.option("--layout", state->layout, "JSON file that says where markers of other names sit")
+      .needs("--source");
+  recording.option("--left", state->common.left, "a left hand, of markers").needs("--source");
+  state->common.add_tracker(recording);
   const Command file = command.group("What the file does not say");
   file.option("--format", state->request.format, formats_text() + " [by ending and first line]")
       .one_of(names_in(estimate_formats()));

@@ -91,7 +91,8 @@ OffsetDistances distances_by_offset(const PointComparison& comparison, std::span
   return all;
 }
 
-/// Rows of randomly drawn blocks, as many as there are.
+}  // namespace
+
 std::vector<Eigen::Index> drawn_rows(Eigen::Index count, Eigen::Index block, int draw) {
   RandomStream random(1, "time offset", draw, "bootstrap");
   std::vector<Eigen::Index> rows;
@@ -102,8 +103,6 @@ std::vector<Eigen::Index> drawn_rows(Eigen::Index count, Eigen::Index block, int
   }
   return rows;
 }
-
-}  // namespace
 
 int64_t default_tolerance_us(std::span<const HandFrame> truth) {
   std::vector<int64_t> steps;

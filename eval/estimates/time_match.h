@@ -37,4 +37,7 @@ TimeOffset estimate_offset(const PointComparison& comparison, std::span<const Ha
                            const std::vector<Points>& true_points, const EstimateSequence& estimates,
                            const std::string& where);
 
+/// Rows of randomly drawn blocks, as many as there are.
+std::vector<Eigen::Index> drawn_rows(Eigen::Index count, Eigen::Index block, int draw);
+
 }  // namespace glovebench::eval

@@ -67,6 +67,13 @@ void take_spread(TrackSource& source, int count, const std::string& title, bool 
   }
 }
 
+std::vector<TrackResult> track_recording(TrackSource& source, Method& method, bool quiet) {
+  std::vector<TrackResult> results;
+  take_spread(source, std::max(source.frame_count, 1), "tracking", quiet,
+              [&](const DeviceFrame& frame) { results.push_back(method.track(frame, results)); });
+  return results;
+}
+
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet) {
   if (!quiet && !files.empty())
     say("glovebench: {}: {} changed since it was recorded\n", source, fmt::join(files, ", "));

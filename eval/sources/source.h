@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/kinect/device.h"
+#include "core/methods/method.h"
 #include "eval/commands/options.h"
 
 namespace glovebench::eval {
@@ -51,6 +52,10 @@ TrackSource open_source(const SourceFlags& flags, bool quiet);
 /// and names them on stderr unless `quiet`. `title`: for the progress bar.
 void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
                  const std::function<void(const DeviceFrame&)>& take);
+
+/// The results of all frames of a recording. Skips damaged frames, and names them on stderr unless `quiet`.
+/// Throws: Error.
+std::vector<TrackResult> track_recording(TrackSource& source, Method& method, bool quiet);
 
 /// Names changed files on stderr unless `quiet`.
 void say_changed(const std::string& source, const std::vector<std::string>& files, bool quiet);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/text.h"
@@ -139,6 +140,11 @@ MarkerLayout parse_marker_layout(std::string_view text, const std::string& where
     layout[name] = place;
   }
   return layout;
+}
+
+MarkerLayout load_marker_layout(const std::string& path) {
+  constexpr uint64_t kLargest = uint64_t{1} << 20;  // bytes
+  return path.empty() ? MarkerLayout{} : parse_marker_layout(read_file(path, kLargest), path);
 }
 
 std::optional<PlacedMarker> place_marker(const std::string& name, const HandModel& model) {

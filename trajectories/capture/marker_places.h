@@ -31,13 +31,15 @@ struct PlacedMarker {
   bool is_joint_center() const { return deviation.isZero(); }
 };
 
-inline constexpr uint64_t kLargestMarkerLayout = uint64_t{1} << 20;  // bytes
-
 /// Other names with their places.
 using MarkerLayout = std::map<std::string, std::string>;
 /// Reads "glovebench-marker-layout" (README.md).
 /// Throws: Error.
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where);
+
+/// Of a file. Empty without `path`.
+/// Throws: Error.
+MarkerLayout load_marker_layout(const std::string& path);
 
 /// The place on a right hand. `name`: of README.md ("index_proximal_2") or WebXR. Empty for others.
 std::optional<PlacedMarker> place_marker(const std::string& name, const HandModel& model);
