@@ -11,9 +11,9 @@
 #include "core/base/text.h"
 #include "eval/capture_score.h"
 #include "eval/commands/flags.h"
-#include "eval/sources/source.h"
 #include "eval/experiment.h"
 #include "eval/program.h"
+#include "eval/sources/source.h"
 #include "eval/terminal.h"
 #include "render/label_renderer.h"
 #include "reports/summary.h"
@@ -71,7 +71,9 @@ struct ScoreCommand {
     if (!source.starts_with("fakenect:")) throw Error("--source", "kind", source, "fakenect:FOLDER");
     const auto capture = std::make_shared<const trajectories::Trajectory>(load_capture());
     common.left = capture->side == Side::left;
-    TrackSource recording = open_source({source, common.calibration}, common.quiet);
+    const SourceFlags from = {
+        .source = source, .calibration = common.calibration, .topics = "", .every_frame = true};
+    TrackSource recording = open_source(from, common.quiet);
     common.calibration_json = to_json(recording.device->calibration());
     Workbench workbench = common.workbench();
     const std::string name_of_database = workbench.add_database(database);
