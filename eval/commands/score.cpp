@@ -71,8 +71,7 @@ struct ScoreCommand {
     if (!source.starts_with("fakenect:")) throw Error("--source", "kind", source, "fakenect:FOLDER");
     const auto capture = std::make_shared<const trajectories::Trajectory>(load_capture());
     common.left = capture->side == Side::left;
-    const SourceFlags from = {
-        .source = source, .calibration = common.calibration, .topics = "", .every_frame = true};
+    const SourceFlags from = {.source = source, .calibration = common.calibration, .topics = ""};
     TrackSource recording = open_source(from, common.quiet);
     common.calibration_json = to_json(recording.device->calibration());
     Workbench workbench = common.workbench();
