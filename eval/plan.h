@@ -8,7 +8,7 @@
 
 namespace glovebench::eval {
 
-/// Errors of the answers that a live system has when each frame is taken.
+/// Errors of the answers that a live system uses, at eight moments a frame.
 struct Streaming {
   std::optional<double> tracker_ms = {};  ///< time of each frame; empty: as measured
 };

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "eval/experiment.h"
 #include "reports/summary.h"
+#include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {
 namespace {
@@ -15,9 +16,13 @@ namespace {
 using reports::Column;
 using reports::Table;
 
+double milliseconds(const HandFrame& frame) {
+  return static_cast<double>(frame.timestamp_us) / 1000;
+}
+
 std::vector<double> arrivals_ms(const RunSpec& spec) {
   std::vector<double> arrivals;
-  for (const HandFrame& frame : frames_of(spec)) arrivals.push_back(static_cast<double>(frame.timestamp_us) / 1000);
+  for (const HandFrame& frame : frames_of(spec)) arrivals.push_back(milliseconds(frame));
   return arrivals;
 }
 
@@ -55,17 +60,37 @@ std::vector<Run> track_kept(Workbench& workbench, std::span<const MeasuredRun> r
   return tracked;
 }
 
-/// The answers in use at the frames' times. Before the first one the hand is lost.
+constexpr size_t kUsesPerFrame = 8;
+
+/// The frames and, between each two, moments at equal distances. The last frame is the last moment.
+std::vector<HandFrame> moments_of(const RunSpec& spec) {
+  const std::span<const HandFrame> frames = frames_of(spec);
+  std::vector<HandFrame> moments;
+  for (size_t f = 0; f + 1 < frames.size(); ++f)
+    for (size_t use = 0; use < kUsesPerFrame; ++use)
+      moments.push_back(
+          trajectories::frame_between(frames[f], frames[f + 1], static_cast<double>(use) / kUsesPerFrame));
+  moments.push_back(frames.back());
+  return moments;
+}
+
+/// The answers in use at the moments, with the truth there and the sight of the frame before. Before the first
+/// answer the hand is lost.
 Run run_in_use(const Run& usual, const Run& kept, const Playback& playback) {
   const std::vector<TrackResult>& answers = kept.answers.empty() ? usual.answers : kept.answers;
   TrackResult none;
   none.has = answers.front().has;
-  Run run = usual;
-  run.answers.clear();
-  for (const double moment : arrivals_ms(usual.spec)) {
-    const std::optional<size_t> place = playback.in_use(moment);
+  trajectories::Trajectory truth = *usual.spec.trajectory;
+  truth.frames = moments_of(usual.spec);
+  Run run;
+  run.spec = usual.spec;
+  run.spec.frames = {};
+  for (size_t m = 0; m < truth.frames.size(); ++m) {
+    const std::optional<size_t> place = playback.in_use(milliseconds(truth.frames[m]));
     run.answers.push_back(place ? answers[*place] : none);
+    run.seen.push_back(usual.seen[m / kUsesPerFrame]);
   }
+  run.spec.trajectory = std::make_shared<const trajectories::Trajectory>(std::move(truth));
   return run;
 }
 
@@ -101,12 +126,16 @@ Table empty_table(const Streaming& streaming) {
   table.name = kStreamingStudy;
   table.title = "Streaming accuracy";
   table.explanation = fmt::format(
-      "In use: the errors of the newest answer that is finished when a frame is taken, against the truth of that "
-      "frame; before the first answer the hand is lost (Li, Wang and Ramanan 2020). A tracker that has finished "
+      "In use: the errors of the newest answer that is finished, against the truth at {} moments a frame, which "
+      "lies "
+      "between two frames' truths; before the first answer the hand is lost (after Li, Wang and Ramanan 2020, who "
+      "use "
+      "answers when a frame is taken). A tracker that has finished takes the newest frame; frames that it never "
       "takes "
-      "the newest frame; frames that it never takes are dropped, and it does not see them. Age: from the frame of "
-      "the "
-      "answer in use to its use; at least one frame. Time of a frame: {}.",
+      "are dropped, and it does not see them. Age: from the frame of the answer in use to its use. Time of a "
+      "frame: "
+      "{}.",
+      kUsesPerFrame,
       is_time ? "mean over the frames, measured while no other job of the command ran; other times give other "
                 "results"
               : "as given");
@@ -129,8 +158,10 @@ PlaybackMeans means_of(const Streaming& streaming, const Experiment& experiment,
     const std::vector<double> arrivals = arrivals_ms(each->run.spec);
     std::ranges::copy(tracker_times_ms(streaming, each->run), std::back_inserter(times));
     kept += playback.kept.size();
-    for (const double moment : arrivals)
+    for (const HandFrame& frame : moments_of(each->run.spec)) {
+      const double moment = milliseconds(frame);
       if (const auto place = playback.in_use(moment)) ages.push_back(moment - arrivals[playback.kept[*place]]);
+    }
   }
   const double frames = static_cast<double>(times.size());
   return {reports::mean(times).value(), 100 * (1 - static_cast<double>(kept) / frames), reports::mean(ages)};

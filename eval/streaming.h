@@ -27,7 +27,7 @@ struct Playback {
 /// Wang and Ramanan 2020, "Towards Streaming Perception", section 3.
 Playback play(std::span<const double> arrival_ms, std::span<const double> tracker_ms);
 
-/// The errors of `runs`, beside those of the answers in use when each frame is taken; a row per experiment.
+/// The errors of `runs`, beside those of the answers in use at eight moments a frame; a row per experiment.
 /// A run that drops frames is tracked again without them.
 reports::StudyResult streaming_study(Workbench& workbench, const Streaming& streaming,
                                      std::span<const MeasuredRun> runs);

@@ -168,4 +168,17 @@ std::vector<std::string> unit_doubts(const Trajectory& trajectory, const Working
   return doubts;
 }
 
+HandFrame frame_between(const HandFrame& before, const HandFrame& after, double share) {
+  HandFrame frame;
+  const auto passed_us = static_cast<double>(after.timestamp_us - before.timestamp_us);
+  frame.timestamp_us = before.timestamp_us + std::llround(share * passed_us);
+  frame.posture = (1 - share) * before.posture + share * after.posture;
+  frame.T_camera_hand.linear() = Eigen::Quaterniond(before.T_camera_hand.linear())
+                                     .slerp(share, Eigen::Quaterniond(after.T_camera_hand.linear()))
+                                     .toRotationMatrix();
+  frame.T_camera_hand.translation() =
+      (1 - share) * before.T_camera_hand.translation() + share * after.T_camera_hand.translation();
+  return frame;
+}
+
 }  // namespace glovebench::trajectories

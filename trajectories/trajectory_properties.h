@@ -55,4 +55,7 @@ std::string angle_doubt(std::span<const Posture> postures);
 /// Also if most frames are nearer or farther than the working volume.
 std::vector<std::string> unit_doubts(const Trajectory& trajectory, const WorkingVolume& volume);
 
+/// The hand between two frames, `share` from 0 to 1: angles, position and time linearly, rotation by slerp.
+HandFrame frame_between(const HandFrame& before, const HandFrame& after, double share);
+
 }  // namespace glovebench::trajectories

@@ -219,7 +219,7 @@ void add_run(Command program) {
       "--mcap", state->mcap,
       "also write EXPERIMENT.mcap: frames, truth and estimates of the first seed, for Foxglove or Rerun");
   command.option("--streaming", state->streaming,
-                 "also measure the answers that a live system has when each frame is taken: late ones, and none to "
+                 "also measure the answers that a live system uses: late ones, and none to "
                  "frames that arrive while the tracker computes");
   command
       .option("--tracker-ms", state->tracker_ms,

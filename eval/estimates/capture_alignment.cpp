@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/pose/horn.h"
+#include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {
 namespace {
@@ -200,18 +201,6 @@ bool add_intervals(const Alignable& all, const AnswerRows& rows, double step_us,
   return true;
 }
 
-HandFrame frame_between(const HandFrame& before, const HandFrame& after, double time_us) {
-  const double share = share_between(before, after, time_us);
-  HandFrame frame;
-  frame.posture = (1 - share) * before.posture + share * after.posture;
-  frame.T_camera_hand.linear() = Eigen::Quaterniond(before.T_camera_hand.linear())
-                                     .slerp(share, Eigen::Quaterniond(after.T_camera_hand.linear()))
-                                     .toRotationMatrix();
-  frame.T_camera_hand.translation() =
-      (1 - share) * before.T_camera_hand.translation() + share * after.T_camera_hand.translation();
-  return frame;
-}
-
 }  // namespace
 
 CaptureAlignment align_to_capture(std::span<const HandFrame> capture, std::span<const TrackResult> answers,
@@ -246,7 +235,8 @@ CapturedTruth captured_truth(std::span<const HandFrame> capture, std::span<const
     const double time_us = static_cast<double>(answer.timestamp_us) + alignment.time.offset_us;
     const std::optional<size_t> after = frame_after(capture, time_us);
     if (!after) continue;
-    HandFrame& frame = truth.frames.emplace_back(frame_between(capture[*after - 1], capture[*after], time_us));
+    HandFrame& frame = truth.frames.emplace_back(trajectories::frame_between(
+        capture[*after - 1], capture[*after], share_between(capture[*after - 1], capture[*after], time_us)));
     frame.T_camera_hand = alignment.T_camera_capture * frame.T_camera_hand;
     if (!first_us) first_us = answer.timestamp_us;
     frame.timestamp_us = answer.timestamp_us - *first_us;
