@@ -126,8 +126,7 @@ std::vector<render::TextLine> errors_alone(const reports::FrameErrors& errors) {
           {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
                        *record["rotation_error_deg"])},
           {fmt::format("posture {:.1f} deg (RMS of 22 angles)", *record["posture_rms_deg"])},
-          {fmt::format("fingertips {:.1f} mm", *record["fingertip_error_mm"])},
-          {fmt::format("  thumb to little: {} mm", fmt::join(tips, ", "))}};
+          {fmt::format("fingertips {:.1f} mm, each {}", *record["fingertip_error_mm"], fmt::join(tips, ", "))}};
 }
 
 std::vector<render::TextLine> errors_in_run(const reports::FrameRecord& record) {
@@ -262,7 +261,8 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const report
     std::vector<Outline> hands = {{result.posture_unfiltered, result.T_camera_hand_coarse, kEstimatedOutline}};
     panels.push_back({"coarse pose over M", outlined(hands)});
     hands[0].T_camera_hand = result.T_camera_hand;
-    if (hand_in_run) hands.push_back({hand_in_run->posture, hand_in_run->T_camera_hand, kRunOutline});
+    // Below the other, which it often equals.
+    if (hand_in_run) hands.insert(hands.begin(), {hand_in_run->posture, hand_in_run->T_camera_hand, kRunOutline});
     panels.push_back({fmt::format("aligned in {} iterations, {:.1f} mm off", result.icp_iterations,
                                   *errors->record["position_error_mm"]),
                       outlined(hands)});

@@ -295,7 +295,7 @@ TEST_F(ScoreLong, OfARunsEstimatesEqualsTheRun) {
              &after = own["experiments"][0]["runs"][0]["frames"];
   ASSERT_EQ(before.size(), after.size());
   const std::vector<std::string> columns = run["frame_columns"];
-  // Of six decimals in millimeters and degrees.
+  // The file has six decimals of a millimeter and of a degree.
   constexpr double kWritten = 1e-5;
   int compared = 0;
   for (size_t f = 0; f < before.size(); ++f) {

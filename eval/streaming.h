@@ -14,7 +14,7 @@ namespace glovebench::eval {
 
 inline constexpr const char* kStreamingStudy = "streaming";
 
-/// What a live system tracks, and when its answers are finished.
+/// Which frames a live system tracks, and when each answer is finished.
 struct Playback {
   std::vector<size_t> kept;         ///< frames that the tracker gets; the others are dropped
   std::vector<double> finished_ms;  ///< by kept frame; on the clock of the frames

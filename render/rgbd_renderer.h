@@ -18,7 +18,7 @@ struct RgbdImages {
   Image<uint8_t> patch;  ///< IR camera; patch + 1, else 0
 };
 
-/// What a camera sees at its pixel centers, and where it would see the hand if nothing hid it.
+/// One camera's view at its pixel centers. `whole_hand` also shows the hand where something hides it.
 struct TrueImages {
   DepthImage depth;       ///< z, m
   LabelImage label;       ///< 1..kColorCount, else 0

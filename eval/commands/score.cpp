@@ -68,11 +68,11 @@ struct ScoreCommand {
     for (const char* flag : {"--format", "--beside", "--joints", "--units", "--frame", "--time-unit", "--tolerance",
                              "--time-offset", "--subject", "--noise", "--gain"})
       if (command.given(flag)) throw Error(fmt::format("score: {} does not go with --source", flag));
-    if (!source.starts_with("fakenect:")) throw Error("--source", "kind", source, "fakenect:FOLDER");
     const auto capture = std::make_shared<const trajectories::Trajectory>(load_capture());
     common.left = capture->side == Side::left;
     const SourceFlags from = {.source = source, .calibration = common.calibration, .topics = ""};
     TrackSource recording = open_source(from, common.quiet);
+    if (recording.frame_count == 0) throw Error("--source", "kind", source, "a recording, not a camera");
     common.calibration_json = to_json(recording.device->calibration());
     Workbench workbench = common.workbench();
     const std::string name_of_database = workbench.add_database(database);
@@ -177,8 +177,8 @@ void add_score(Command program) {
   command.option("--name", state->name, "of the program, in tables [the file's]");
   const Command recording = command.group("A recording against motion capture");
   recording.option("--source", state->source,
-                   "instead of --estimates: fakenect:FOLDER, a recording to track; time offset and rigid transform "
-                   "to the truth are estimated");
+                   "instead of --estimates: a recording to track, as of `track --source`; time offset and rigid "
+                   "transform to the truth are estimated");
   recording.option("--database", state->database, "to track against: name (`glovebench list databases`) or file")
       .needs("--source");
   recording.option("--colors", state->colors, "color table (`glovebench calibrate colors`)").needs("--source");

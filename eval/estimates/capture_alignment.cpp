@@ -24,7 +24,7 @@ struct Answer {
   Points points;
 };
 
-/// What is aligned: answers against points of the capture.
+/// Answers, and the points of the capture to align them with.
 struct Alignable {
   std::span<const HandFrame> capture;
   std::vector<Points> capture_points;
@@ -97,7 +97,7 @@ double median_step_us(const std::vector<Answer>& answers) {
   return quantile_of(steps, 0.5).value();
 }
 
-/// Of some rows. Infinite if they cannot be fitted.
+/// Mean square distance of some rows after their best transform, m^2; infinite if there is none.
 double mean_square_at(const Alignable& all, double offset_us, const AnswerRows& rows) {
   const std::optional<RigidFit> fit = fit_at(all, offset_us, rows);
   return fit ? fit->mean_square : std::numeric_limits<double>::infinity();

@@ -8,7 +8,8 @@
 
 namespace glovebench::eval {
 
-/// Where a recording lies in a capture of the same hand. Intervals are 95%: a bootstrap over blocks of a second.
+/// Time and place of a recording in a capture of the same hand. The 95% intervals come from a bootstrap over blocks
+/// of a second.
 struct CaptureAlignment {
   TimeOffset time;  ///< added to the time stamps of the answers
   Eigen::Isometry3d T_camera_capture = Eigen::Isometry3d::Identity();

@@ -12,7 +12,7 @@
 
 namespace glovebench::eval {
 
-/// What the files of one movement share.
+/// A movement that becomes files.
 struct Dataset {
   std::string folder;
   std::string name;  ///< of a file that holds all frames

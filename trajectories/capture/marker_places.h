@@ -37,7 +37,7 @@ using MarkerLayout = std::map<std::string, std::string>;
 /// Throws: Error.
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where);
 
-/// Of a file. Empty without `path`.
+/// Reads a file of a layout. Empty if `path` is empty.
 /// Throws: Error.
 MarkerLayout load_marker_layout(const std::string& path);
 
