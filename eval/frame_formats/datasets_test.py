@@ -15,6 +15,7 @@ import sys
 import tempfile
 import unittest
 
+sys.dont_write_bytecode = True  # beside the sources
 from dataset_readers import HEIGHT, WIDTH, Mcap, read_png
 
 FRAMES = 3
