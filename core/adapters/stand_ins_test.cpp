@@ -6,6 +6,7 @@
 #include "core/adapters/dds/robot_bus.h"
 #include "core/adapters/freenect/live_kinect.h"
 #include "core/adapters/kdl/make_arm_solver.h"
+#include "core/adapters/openni2/oni_player.h"
 #include "core/base/error.h"
 
 namespace glovebench {
@@ -26,6 +27,13 @@ TEST(StandIns, NameLibfreenect) {
   EXPECT_THAT([] { open_kinect(nominal_kinect_calibration()); },
               ThrowsMessage<Error>(
                   AllOf(HasSubstr("device 0"), HasSubstr("without libfreenect"), HasSubstr("libfreenect-dev"))));
+}
+
+TEST(StandIns, NameOpenNi2) {
+  EXPECT_FALSE(kHasOpenNi2);
+  EXPECT_THAT(
+      [] { open_oni("a.oni"); },
+      ThrowsMessage<Error>(AllOf(HasSubstr("a.oni"), HasSubstr("without OpenNI2"), HasSubstr("libopenni2-dev"))));
 }
 
 TEST(StandIns, SolveForNoArm) {

@@ -152,7 +152,7 @@ TEST(Help, OfEveryCommandNamesItsFlags) {
                             {"--output", "--trajectory", "--format", "--appearance", "bop", "exr", "mcap", "tum"}});
   expect_flags({"track"}, {tracker,
                            machine,
-                           {"--source", "fakenect:", "freenect", "bag:", "mcap:", "tum:", "--topics", "--database",
+                           {"--source", "fakenect:", "freenect", "bag:", "mcap:", "oni:", "tum:", "--topics", "--database",
                             "--output", "--left", "--calibration", "--frames", "--every-frame", "--format",
                             "--overlay", "--page", "--as-fast-as-possible"}});
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});

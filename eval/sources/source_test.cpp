@@ -82,7 +82,7 @@ TEST(Sources, AreNamedWhereOneIsUnknown) {
   for (const char* wrong : {"live", "tum", "tum:", "freenect:", "fakenect", "mcap:"})
     EXPECT_THAT([&] { open_source({.source = wrong, .calibration = "", .topics = ""}, true); },
                 testing::ThrowsMessage<Error>(HasSubstr(
-                    "expected one of bag:FILE, fakenect:FOLDER, freenect[:INDEX], mcap:FILE, tum:FOLDER")))
+                    "expected one of bag:FILE, fakenect:FOLDER, freenect[:INDEX], mcap:FILE, oni:FILE, tum:FOLDER")))
         << wrong;
 }
 
