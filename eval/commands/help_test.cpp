@@ -152,9 +152,9 @@ TEST(Help, OfEveryCommandNamesItsFlags) {
                             {"--output", "--trajectory", "--format", "--appearance", "bop", "exr", "mcap", "tum"}});
   expect_flags({"track"}, {tracker,
                            machine,
-                           {"--source", "fakenect:", "freenect", "bag:", "mcap:", "oni:", "tum:", "--topics", "--database",
-                            "--output", "--left", "--calibration", "--frames", "--every-frame", "--format",
-                            "--overlay", "--page", "--as-fast-as-possible"}});
+                           {"--source", "fakenect:", "freenect", "bag:", "mcap:", "oni:", "tum:", "--topics",
+                            "--database", "--output", "--left", "--calibration", "--frames", "--every-frame",
+                            "--format", "--overlay", "--page", "--as-fast-as-possible"}});
   expect_flags({"explain"}, {machine, {"run", "frame", "--experiment", "--trajectory", "--output"}});
   expect_flags({"db"}, {{"build", "info"}});
   expect_flags({"db", "build"}, {machine, {"--postures", "--output", "--left"}});

@@ -26,7 +26,14 @@ constexpr uint32_t kLargestImage = 1600 * 1200 * 3;  // bytes, of OpenNI2's play
 constexpr size_t kMostOniImages = 108'000;           // of a kind: an hour
 constexpr uint64_t kLatest_us = 10'000'000'000'000'000;
 
-enum OniRecordType : uint32_t { kNewData = 10, kEnd = 11, kNodeAdded = 13, kSeekTable = 14 };
+enum OniRecordType : uint32_t {
+  kIntProperty = 3,
+  kGeneralProperty = 6,
+  kNewData = 10,
+  kEnd = 11,
+  kNodeAdded = 13,
+  kSeekTable = 14
+};
 enum OniNodeType : uint32_t { kDepthNode = 2, kColorNode = 3 };
 
 class OniWalk {
@@ -69,18 +76,27 @@ class OniWalk {
                node = record.number<uint32_t>(), size = record.number<uint32_t>(),
                payload = record.number<uint32_t>();
     record.number<uint64_t>();  // earlier record
-    if (begin != kRecordBegin || node > kMostNodes || size < kRecordHead || size > kMostFields)
+    if (begin != kRecordBegin || type < kIntProperty || type > kSeekTable || node > kMostNodes ||
+        size < kRecordHead || size > kMostFields)
       record.fail("damaged data", "a record");
     FieldReader fields(record.take(size - kRecordHead), where_, field);
     record.take(payload);
+    if (type <= kGeneralProperty) skip_name(fields);
     if (type == kNodeAdded) add_node(node, fields);
     if (type == kNewData) add_image(node, fields, payload);
     if (type == kSeekTable) seek_tables_.push_back(position_);
     position_ += record.position();
     return type != kEnd;
   }
+  /// OpenNI2 indexes an array by these characters.
+  static void skip_name(FieldReader& fields) {
+    const std::string_view name = fields.text();
+    const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
+    if (name.empty() || name.back() != '\0' || !std::all_of(name.begin(), name.end() - 1, is_plain))
+      fields.fail("damaged data", "a name");
+  }
   void add_node(uint32_t node, FieldReader& fields) {
-    fields.text();  // its name
+    skip_name(fields);
     nodes_[node] = fields.number<uint32_t>();
     fields.number<uint32_t>();  // codec
     fields.number<uint32_t>();  // images

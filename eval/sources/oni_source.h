@@ -7,7 +7,8 @@
 
 namespace glovebench::eval {
 
-/// Times of the images of a recording of OpenNI2's recorder, in the order of the file.
+/// Times of the images of a recording of OpenNI2's recorder, in the order of the file. The recorder
+/// begins both kinds at 0.
 struct OniTimes {
   std::vector<int64_t> depth_us, color_us;
 };

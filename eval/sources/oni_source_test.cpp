@@ -75,7 +75,12 @@ TEST(OniTimes, RefuseWhatOpenNi2WouldTrust) {
               HasSubstr("seek table: found none at byte 24"));
   EXPECT_EQ(oni_refusal(oni_head() + oni_record(14, 1) + oni_node(1, 2, 24) + kOniEnd), "");
   EXPECT_THAT(oni_refusal(oni_head() + oni_record(6, 1, std::string(1 << 17, 'x')) + kOniEnd),
-              HasSubstr("record at byte 24: found damaged data"));
+              HasSubstr("record at byte 24: found damaged data, expected a record"));
+  const std::string named = oni_record(3, 1, bytes_of(uint32_t{3}) + std::string("ab\0", 3));
+  EXPECT_EQ(oni_refusal(oni_head() + named + kOniEnd), "");
+  for (const char* name : {"a\xE4\0", "abc"})
+    EXPECT_THAT(oni_refusal(oni_head() + oni_record(3, 1, bytes_of(uint32_t{3}) + std::string(name, 3)) + kOniEnd),
+                HasSubstr("found damaged data, expected a name"));
   EXPECT_THAT(oni_refusal(oni_head() + oni_node(1, 2) + oni_image(1, 0, 6'000'000) + kOniEnd),
               HasSubstr("found damaged data, expected an image"));
 }

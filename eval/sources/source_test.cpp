@@ -80,9 +80,10 @@ TEST(TumList, IsReadLineByLine) {
 
 TEST(Sources, AreNamedWhereOneIsUnknown) {
   for (const char* wrong : {"live", "tum", "tum:", "freenect:", "fakenect", "mcap:"})
-    EXPECT_THAT([&] { open_source({.source = wrong, .calibration = "", .topics = ""}, true); },
-                testing::ThrowsMessage<Error>(HasSubstr(
-                    "expected one of bag:FILE, fakenect:FOLDER, freenect[:INDEX], mcap:FILE, oni:FILE, tum:FOLDER")))
+    EXPECT_THAT(
+        [&] { open_source({.source = wrong, .calibration = "", .topics = ""}, true); },
+        testing::ThrowsMessage<Error>(HasSubstr(
+            "expected one of bag:FILE, fakenect:FOLDER, freenect[:INDEX], mcap:FILE, oni:FILE, tum:FOLDER")))
         << wrong;
 }
 

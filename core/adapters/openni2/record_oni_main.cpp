@@ -51,6 +51,7 @@ int recorded_frames(const char* file) {
   openni::Device device;
   openni::VideoStream depth;
   if (!fine(device.open(file)) || !fine(depth.create(device, openni::SENSOR_DEPTH))) return 0;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // as openni2_player.cpp
   return device.getPlaybackControl()->getNumberOfFrames(depth);
 }
 
