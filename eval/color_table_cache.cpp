@@ -68,7 +68,7 @@ ColorTableConfig one_lighting(ColorSpace space) {
   return {space, {lighting}, as_seen};
 }
 
-ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
+ColorTable calibrate_colors(const std::shared_ptr<const HandModel>& model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config) {
   // Some clutter on the table has nearly the glove's colors. It lies beyond the working volume, and learning it as
   // background would cost glove pixels.
@@ -102,7 +102,7 @@ ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const H
       // Made anew below.
     }
   }
-  const ColorTable table = calibrate_colors(std::move(model), calibration, postures,
+  const ColorTable table = calibrate_colors(model, calibration, postures,
                                             {.space = space, .lightings = calibration_lightings(), .model = {}});
   table.save(path);
   return table;

@@ -23,7 +23,7 @@ ColorTableConfig one_lighting(ColorSpace space);
 
 /// Calibrates from rendered, labeled views of the gloved hand.
 /// Paper: section III-A.
-ColorTable calibrate_colors(std::shared_ptr<const HandModel> model, const RgbdCalibration& calibration,
+ColorTable calibrate_colors(const std::shared_ptr<const HandModel>& model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config = {});
 
 /// Hash of the sources of `calibrate_colors`.

@@ -108,7 +108,7 @@ void note_resources(reports::Timings& timings, std::chrono::steady_clock::time_p
 reports::ExperimentResult evaluate(const Experiment& experiment) {
   std::vector<reports::SeedRun> runs;
   for (const MeasuredRun* each : experiment.runs) {
-    reports::SeedRun& run = runs.emplace_back(each->run.spec.seed);
+    reports::SeedRun& run = runs.emplace_back(reports::SeedRun{each->run.spec.seed, {}});
     for (const reports::FrameErrors& errors : each->errors) run.frames.push_back(errors.record);
   }
   std::array<int, kForearmJoint> joints;

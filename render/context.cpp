@@ -90,7 +90,7 @@ void Context::make_current() const {
   draws = true;
 }
 
-void Context::release() const {
+void Context::release() {
   OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
   draws = false;
   driver().unlock();

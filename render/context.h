@@ -19,7 +19,7 @@ class Context {
 
   /// Waits for the drawing thread.
   void make_current() const;
-  void release() const;
+  static void release();
 
  private:
   struct State;

@@ -48,7 +48,7 @@ void drop_from_memory(const std::string& path) {
     uintptr_t begin = 0, end = 0;
     char dash = 0;
     if (std::istringstream(line) >> std::hex >> begin >> dash >> end)
-      ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+      ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);  // NOLINT(performance-no-int-to-ptr)
   }
   ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_DONTNEED);
   ::close(descriptor);

@@ -34,6 +34,6 @@ struct CameraFit {
 
 /// Fits a camera by Zhang's method (OpenCV), leaving out views beyond misfit_limit.
 /// Throws: Error for too few or too similar views, or a bad fit (require_fit).
-CameraFit fit_camera(const BoardViews& views, const Chessboard& board, LensModel lens, const std::string& where);
+CameraFit fit_camera(const BoardViews& boards, const Chessboard& board, LensModel lens, const std::string& where);
 
 }  // namespace glovebench::calibration

@@ -150,7 +150,7 @@ class Run {
     return patches;
   }
   /// RMS of the patches' mean heights over the surface, m: noise averages out of them, a wrong size does not.
-  std::optional<double> misfit(const std::array<PatchPoints, kPatchCount>& patches) const {
+  static std::optional<double> misfit(const std::array<PatchPoints, kPatchCount>& patches) {
     double squares = 0;
     int count = 0;
     for (const PatchPoints& patch : patches) {

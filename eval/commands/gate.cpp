@@ -98,7 +98,7 @@ struct Gate {
   }
 
   /// Prints what the failures mean.
-  void explain_failure(const reports::GateDecision& decision, bool has_floor) const {
+  static void explain_failure(const reports::GateDecision& decision, bool has_floor) {
     const size_t count = decision.failures.size();
     std::string text = fmt::format("{} {} this change. ", count, count == 1 ? "row stops" : "rows stop");
     if (decision.has_places)

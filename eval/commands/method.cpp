@@ -117,8 +117,8 @@ struct MethodTest {
   }
 
   /// Also prints how far the answers are from the truth.
-  std::vector<std::string> faults_of(const std::vector<TrackResult>& results, const Trajectory& truth,
-                                     const HandModel& hand) const {
+  static std::vector<std::string> faults_of(const std::vector<TrackResult>& results, const Trajectory& truth,
+                                            const HandModel& hand) {
     std::set<std::string> reasons;
     Trajectory answers;
     std::vector<double> distances_mm;

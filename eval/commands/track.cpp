@@ -131,7 +131,7 @@ struct Track {
     if (!page.empty()) write_file(page, reports::track_page(from.source, for_page, page_scripts()));
     warn(config.volume);
     if (!common.quiet) print_summary(source, spent.count());
-    if (failure) throw *failure;
+    if (failure) throw Error(*failure);
     if (!common.quiet && !source.ended_by().empty()) say("glovebench: {}\n", source.ended_by());
   }
 
@@ -272,7 +272,7 @@ struct Track {
   }
 
   [[noreturn]] void refuse() const {
-    if (failure) throw *failure;
+    if (failure) throw Error(*failure);
     throw Error(from.source, "usable frames", fmt::format("none of {}", frames), "at least one");
   }
 

@@ -116,12 +116,12 @@ std::vector<NamedTracker> TrackerChoices::trackers(const CommonFlags& common) co
   return trackers;
 }
 
-void ComparisonFlags::add(Command command, const std::string& which_metrics) {
+void ComparisonFlags::add(Command command, const std::string& default_metrics) {
   std::vector<std::string> known;
   for (const reports::Metric& metric : reports::gated_metrics()) known.emplace_back(metric.key);
   command
       .option("--metrics", metrics,
-              "metrics to compare, chosen before you look: fewer make narrower intervals [" + which_metrics + "]")
+              "metrics to compare, chosen before you look: fewer make narrower intervals [" + default_metrics + "]")
       .one_of(known)
       .repeated()
       .comma_separated();

@@ -69,7 +69,7 @@ class Headings {
     return *column;
   }
   const std::string& unit(size_t column) const { return names_[column].second; }
-  std::string field(size_t column) const { return fmt::format("line 1, column {}", column + 1); }
+  static std::string field(size_t column) { return fmt::format("line 1, column {}", column + 1); }
 
   Source take_time() {
     std::optional<size_t> column = take("time");

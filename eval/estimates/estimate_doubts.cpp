@@ -93,8 +93,8 @@ std::vector<Doubt> scale_doubts(const Evidence& evidence) {
                                      {0.01, "100 times too large"},
                                      {10.0, "10 times too small"},
                                      {0.1, "10 times too large"}}) {
-    doubts.push_back(evidence.doubt(fmt::format("positions are {}", what), [&](TrackResult answer) {
-      return moved(std::move(answer), [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return factor * p; });
+    doubts.push_back(evidence.doubt(fmt::format("positions are {}", what), [&, by = factor](TrackResult answer) {
+      return moved(std::move(answer), [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return by * p; });
     }));
   }
   return doubts;

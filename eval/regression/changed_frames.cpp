@@ -55,7 +55,7 @@ class Scene {
  public:
   Scene(Workbench& workbench, const ChangedFrame& change, std::shared_ptr<const trajectories::Trajectory> truth)
       : workbench_(workbench), camera_(workbench.calibration().ir) {
-    RunSpec spec{truth, {change.frame, 1}, change.key.subject, change.key.noise, change.candidate_seed};
+    RunSpec spec{std::move(truth), {change.frame, 1}, change.key.subject, change.key.noise, change.candidate_seed};
     spec.appearance = change.key.appearance;
     render::SyntheticKinect kinect = make_kinect(workbench, spec);
     const DeviceFrame device = kinect.next_frame().value();

@@ -77,7 +77,9 @@ inline void append_example_experiment(Comparison& comparison, const ExperimentKe
   for (size_t m = 0; m < gated_metrics().size(); ++m) {
     const Metric& metric = gated_metrics()[m];
     const auto& values =
-        frames.differences.emplace_back(&metric, example_differences(name, m, level, loses_frames)).values;
+        frames.differences
+            .emplace_back(FrameDifferences::OfMetric{&metric, example_differences(name, m, level, loses_frames)})
+            .values;
     double sum = 0;
     int count = 0;
     for (const auto& value : values) {

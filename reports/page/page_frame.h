@@ -9,7 +9,7 @@ namespace glovebench::reports {
 struct Picture {
   std::string caption;
   std::string image;         ///< of a PNG or JPEG file
-  std::string command = "";  ///< shows it again; may be empty
+  std::string command = {};  ///< shows it again; may be empty
 };
 
 /// Empty without pictures.

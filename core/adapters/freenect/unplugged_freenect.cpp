@@ -34,6 +34,7 @@ freenect_frame_mode mode_of(size_t bytes) {
 
 }  // namespace
 
+// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name): of the library
 int freenect_init(freenect_context** context, freenect_usb_context*) {
   *context = some<freenect_context>();
   return 0;
@@ -104,3 +105,4 @@ int freenect_process_events_timeout(freenect_context* context, timeval*) {
   ++frame;
   return 0;
 }
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)
