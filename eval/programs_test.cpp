@@ -161,16 +161,20 @@ TEST_F(ProgramsLong, JointsAloneAreMeasured) {
 
 TEST_F(ProgramsLong, StandBesideOursInAReproduction) {
   const auto reproduce = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"reproduce", "--quick", "--only", "external", "-o", path("out")};
+    std::vector<std::string> arguments = {"reproduce", "--quick", "--only", "external", "-q", "-o", path("out")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_glovebench(arguments);
   };
   EXPECT_THAT(refusal(reproduce({})), HasSubstr("expected exec:COMMAND"));
   expect_fine(reproduce({"--method", program(R"({"frame": frame["frame"], "joints_mm": [[0, 20, 700]] * 25})")}));
-  const json table = json::parse(read_file(path("out/results.json"))).at("studies").at(0).at("tables").at(0);
-  std::vector<std::string> trackers;
-  for (const json& row : table.at("rows")) trackers.push_back(row.at(0));
-  EXPECT_THAT(trackers, ElementsAre("paper", "recommended", "the program", "the program, bare hand"));
+  const json tables = json::parse(read_file(path("out/results.json"))).at("studies").at(0).at("tables");
+  for (const json& table : tables) {
+    std::vector<std::string> trackers;
+    for (const json& row : table.at("rows")) trackers.push_back(row.at(0));
+    EXPECT_THAT(trackers, ElementsAre("paper", "recommended", "the program", "the program, bare hand"));
+  }
+  EXPECT_EQ(tables.at(1).at("name"), "streaming");
+  const json& table = tables[0];
   EXPECT_LT(table["rows"][1][2].get<double>(), 20) << "our joints";
   EXPECT_GT(table["rows"][2][2].get<double>(), 30) << "joints that are all one";
 }
