@@ -22,10 +22,12 @@ using testing::IsEmpty;
 class Programs : public CommandTest {
  protected:
   /// A tracker in Python that answers with `answer`, an expression of the frame's line `frame`.
-  std::string program(const std::string& answer) const {
+  /// It takes `start_s` to start.
+  std::string program(const std::string& answer, double start_s = 0) const {
     write_file(path("mine.py"), fmt::format(R"(
-import json, sys
+import json, sys, time
 open("{}", "a").write("started\n")
+time.sleep({})
 frames = sys.stdin.buffer
 start = json.loads(frames.readline())
 while line := frames.readline():
@@ -33,7 +35,7 @@ while line := frames.readline():
     frames.read(frame["depth_bytes"] + frame["rgb_bytes"])
     print(json.dumps({}), flush=True)
 )",
-                                            path("starts"), answer));
+                                            path("starts"), start_s, answer));
     return "exec:/usr/bin/python3 '" + path("mine.py") + "'";
   }
   size_t starts() const {
@@ -166,7 +168,9 @@ TEST_F(ProgramsLong, StandBesideOursInAReproduction) {
     return run_glovebench(arguments);
   };
   EXPECT_THAT(refusal(reproduce({})), HasSubstr("expected exec:COMMAND"));
-  expect_fine(reproduce({"--method", program(R"({"frame": frame["frame"], "joints_mm": [[0, 20, 700]] * 25})")}));
+  constexpr double kStart_s = 2;  // twice the frames' time
+  expect_fine(
+      reproduce({"--method", program(R"({"frame": frame["frame"], "joints_mm": [[0, 20, 700]] * 25})", kStart_s)}));
   const json tables = json::parse(read_file(path("out/results.json"))).at("studies").at(0).at("tables");
   for (const json& table : tables) {
     std::vector<std::string> trackers;
@@ -174,6 +178,10 @@ TEST_F(ProgramsLong, StandBesideOursInAReproduction) {
     EXPECT_THAT(trackers, ElementsAre("paper", "recommended", "the program", "the program, bare hand"));
   }
   EXPECT_EQ(tables.at(1).at("name"), "streaming");
+  const json times = json::parse(read_file(path("out/timings.json"))).at("studies").at(0).at("tables").at(0);
+  constexpr size_t kDropped = 6;
+  EXPECT_EQ(times.at("columns").at(kDropped).at("key"), "dropped_percent");
+  EXPECT_LT(times.at("rows").at(2).at(kDropped), 50) << "the start is not the first frame's time";
   const json& table = tables[0];
   EXPECT_LT(table["rows"][1][2].get<double>(), 20) << "our joints";
   EXPECT_GT(table["rows"][2][2].get<double>(), 30) << "joints that are all one";

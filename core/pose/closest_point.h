@@ -32,7 +32,7 @@ class Surface {
   void assign(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
               Coloring coloring);
 
-  const RecycledVector<Face>& faces(size_t label) const { return faces_[label]; }
+  const RecycledVector<Face>& faces(uint8_t label) const { return faces_[label]; }
   bool empty() const;
 
  private:

@@ -236,7 +236,7 @@ void ClosestPointSearch::keep_nearest_as_triangles() {
 
 void ClosestPointSearch::find_nearest_of_triangles(const Surface& surface) {
   places_.clear();
-  for (size_t label = 0; label < colors_.size(); ++label) {
+  for (uint8_t label = 0; label < static_cast<uint8_t>(colors_.size()); ++label) {
     triangles_[label].clear();
     for (const Surface::Face& face : surface.faces(label)) {
       if (places_.size() <= face.triangle) places_.resize(face.triangle + 1);
@@ -258,7 +258,7 @@ void ClosestPointSearch::find_nearest_of_triangles(const Surface& surface) {
 void ClosestPointSearch::start(const Surface& surface) {
   keep_nearest_as_triangles();
   size_t most = 0;
-  for (size_t label = 0; label < colors_.size(); ++label) {
+  for (uint8_t label = 0; label < static_cast<uint8_t>(colors_.size()); ++label) {
     colors_[label].assign(surface.faces(label));
     most = std::max(most, colors_[label].faces.size());
   }

@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/adapters/openni2/oni_player.h"
@@ -47,28 +48,19 @@ class OpenNi2 {
 };
 
 std::string name_of(openni::PixelFormat format) {
-  switch (format) {
-    case openni::PIXEL_FORMAT_DEPTH_1_MM:
-      return "DEPTH_1_MM";
-    case openni::PIXEL_FORMAT_DEPTH_100_UM:
-      return "DEPTH_100_UM";
-    case openni::PIXEL_FORMAT_SHIFT_9_2:
-      return "SHIFT_9_2";
-    case openni::PIXEL_FORMAT_SHIFT_9_3:
-      return "SHIFT_9_3";
-    case openni::PIXEL_FORMAT_RGB888:
-      return "RGB888";
-    case openni::PIXEL_FORMAT_YUV422:
-      return "YUV422";
-    case openni::PIXEL_FORMAT_GRAY8:
-      return "GRAY8";
-    case openni::PIXEL_FORMAT_GRAY16:
-      return "GRAY16";
-    case openni::PIXEL_FORMAT_JPEG:
-      return "JPEG";
-    case openni::PIXEL_FORMAT_YUYV:
-      return "YUYV";
-  }
+  constexpr std::pair<openni::PixelFormat, const char*> kNames[] = {
+      {openni::PIXEL_FORMAT_DEPTH_1_MM, "DEPTH_1_MM"},
+      {openni::PIXEL_FORMAT_DEPTH_100_UM, "DEPTH_100_UM"},
+      {openni::PIXEL_FORMAT_SHIFT_9_2, "SHIFT_9_2"},
+      {openni::PIXEL_FORMAT_SHIFT_9_3, "SHIFT_9_3"},
+      {openni::PIXEL_FORMAT_RGB888, "RGB888"},
+      {openni::PIXEL_FORMAT_YUV422, "YUV422"},
+      {openni::PIXEL_FORMAT_GRAY8, "GRAY8"},
+      {openni::PIXEL_FORMAT_GRAY16, "GRAY16"},
+      {openni::PIXEL_FORMAT_JPEG, "JPEG"},
+      {openni::PIXEL_FORMAT_YUYV, "YUYV"}};
+  for (const auto& [known, name] : kNames)
+    if (known == format) return name;
   return fmt::format("format {}", static_cast<int>(format));
 }
 
