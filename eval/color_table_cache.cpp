@@ -90,7 +90,7 @@ ColorTable calibrate_colors(const std::shared_ptr<const HandModel>& model, const
   return colors.build(config.model);
 }
 
-ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
+ColorTable cached_color_table(const std::string& folder, const std::shared_ptr<const HandModel>& model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space) {
   const std::string hash = input_hash(*model, calibration, postures, space);

@@ -31,7 +31,7 @@ std::string color_table_source_hash();
 
 /// Calibrates with all lightings. Caches the table in `folder` by the hash of inputs and sources. Replaces a
 /// damaged or old file.
-ColorTable cached_color_table(const std::string& folder, std::shared_ptr<const HandModel> model,
+ColorTable cached_color_table(const std::string& folder, const std::shared_ptr<const HandModel>& model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space = ColorSpace::yuv);
 

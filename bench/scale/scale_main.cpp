@@ -96,13 +96,13 @@ std::pair<Database, ordered_json> load(const std::string& path) {
   Database database = Database::load(path, kSizes);
   const double seconds = seconds_since(start);
   const ResidentMemory after = resident_memory();
-  return {std::move(database),
-          {{"seconds", seconds},
-           {"anonymous_bytes", after.anonymous - before.anonymous},
-           {"file_bytes", after.file - before.file},
-           {"peak_resident_bytes", after.peak},
-           {"major_faults", page_faults().major - faults.major},
-           {"minor_faults", page_faults().minor - faults.minor}}};
+  ordered_json measured = {{"seconds", seconds},
+                           {"anonymous_bytes", after.anonymous - before.anonymous},
+                           {"file_bytes", after.file - before.file},
+                           {"peak_resident_bytes", after.peak},
+                           {"major_faults", page_faults().major - faults.major},
+                           {"minor_faults", page_faults().minor - faults.minor}};
+  return {std::move(database), std::move(measured)};
 }
 
 /// Looks up each frame. `before` is called before each, outside of the time.
