@@ -27,14 +27,14 @@ struct Movement {
 /// Every 19th frame of these movements.
 enum class FrameSet {
   paper,    ///< the five source trajectories
-  tuning,   ///< generated: of each family two, to choose constants on
-  judging,  ///< generated: two others of each
+  tuning,   ///< generated: two of each family, to choose constants
+  judging,  ///< generated: two others
 };
 constexpr auto names_of(FrameSet) {
   return std::to_array<std::string_view>({"paper", "tuning", "judging"});
 }
 
-/// GLOVEBENCH_CACHE, the user's cache folder or a new temporary one.
+/// GLOVEBENCH_CACHE, the user's or a new temporary folder.
 /// Throws: Error.
 std::string default_cache_folder();
 /// Private to this user.
@@ -45,7 +45,7 @@ struct Settings {
   std::string cache_folder;
   std::string database = "DB_20_postures";
   FrameSet frames = FrameSet::paper;
-  FrameSet colors = FrameSet::paper;  ///< whose labels make the color table
+  FrameSet colors = FrameSet::paper;  ///< of the color table
 };
 
 struct BenchFrame {
@@ -55,7 +55,7 @@ struct BenchFrame {
   FrameTrace trace;
   Square square;
   TinyImages tiny;
-  PosedHand posed;  ///< in the looked-up posture
+  PosedHand posed;  ///< in the posture found
   TrackResult result;
 };
 
@@ -77,8 +77,7 @@ struct BenchData {
 void prepare(const Settings& settings);
 const BenchData& data();
 
-/// What `compute` returned when it was first called under this name. A benchmark's repetitions each call its
-/// function anew, but its answer is checked once.
+/// Returns the first result of this name, so that repetitions check an answer once.
 template <typename Compute>
 auto once(const std::string& name, const Compute& compute) {
   static std::map<std::string, decltype(compute())> results;
@@ -89,12 +88,12 @@ auto once(const std::string& name, const Compute& compute) {
 /// For a library that the build lacks.
 inline constexpr const char* kMissing = "missing";
 
-/// Adds a counter: time for one of `count` items.
+/// Adds a counter: time per item.
 void set_time_each(benchmark::State& state, const std::string& name, size_t count);
 
 /// Minimum bytes per item.
 struct BytesTouched {
-  double near = 0;  ///< in caches; `far`: behind them
+  double near = 0;  ///< in caches; `far`: in memory
   double far = 0;
 };
 inline constexpr const char *kNearBytes = "near_bytes", *kFarBytes = "far_bytes";

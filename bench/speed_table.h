@@ -25,7 +25,7 @@ struct EngineRatio {
 /// By stage, plain first.
 std::vector<EngineRatio> engine_ratios(const Measurements& measurements);
 
-/// A stage's time and the minimum for reading its bytes.
+/// A stage's time, and the least time to read its bytes.
 struct StageFloor {
   std::string benchmark;
   double bytes = 0;

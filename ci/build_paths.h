@@ -2,7 +2,7 @@
 
 #include <string>
 
-/// Paths of this build, for tests and benchmarks. No other source may have them (compiler caches).
+/// Paths of this build, for tests and benchmarks only (compiler caches).
 namespace glovebench::build_paths {
 
 std::string source(const std::string& path);   ///< of the repository

@@ -17,7 +17,6 @@
 
 namespace glovebench {
 
-/// Throws: std::runtime_error unless the folder belongs to this user alone.
 inline std::string shared_folder(const std::string& name) {
   std::string path = testing::TempDir() + name;
   ::mkdir(path.c_str(), 0700);
@@ -53,13 +52,13 @@ class TestFolder {
   std::string path_ = testing::TempDir() + "glovebench-test-XXXXXX";
 };
 
-/// The folder of the running test or suite, until the program ends.
+/// Of the running test or suite, until the program ends.
 inline const std::string& test_folder() {
   static std::map<const testing::TestInfo*, TestFolder> folders;
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// A folder for expensive files, shared by all processes of this executable's build. Removes those of other builds.
+/// For expensive files; shared by all processes of this build.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");
@@ -73,7 +72,7 @@ inline std::string shared_test_folder() {
   return folder.string();
 }
 
-/// A folder in `home` that `fill` fills once. Other processes wait.
+/// Other processes wait for `fill`.
 inline std::string filled_once(const std::string& home, const std::string& name,
                                const std::function<void(const std::string& folder)>& fill) {
   namespace fs = std::filesystem;

@@ -1,7 +1,5 @@
 #pragma once
 
-// Runs a test on each instruction set.
-
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 

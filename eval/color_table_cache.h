@@ -26,11 +26,9 @@ ColorTableConfig one_lighting(ColorSpace space);
 ColorTable calibrate_colors(const std::shared_ptr<const HandModel>& model, const RgbdCalibration& calibration,
                             const std::vector<Posture>& postures, const ColorTableConfig& config = {});
 
-/// Hash of the sources of `calibrate_colors`.
 std::string color_table_source_hash();
 
-/// Calibrates with all lightings. Caches the table in `folder` by the hash of inputs and sources. Replaces a
-/// damaged or old file.
+/// Calibrates with all lightings. Caches the table in `folder` by the hash of inputs and sources.
 ColorTable cached_color_table(const std::string& folder, const std::shared_ptr<const HandModel>& model,
                               const RgbdCalibration& calibration, const std::vector<Posture>& postures,
                               ColorSpace space = ColorSpace::yuv);

@@ -12,7 +12,7 @@
 
 namespace glovebench::eval {
 
-/// Commands as `track` sends them.
+/// As `track` sends them.
 struct CommandStream {
   std::vector<RobotCommand> commands;  ///< in time order, at most one per result
   std::vector<double> command_ms;      ///< processor time by result
@@ -20,7 +20,6 @@ struct CommandStream {
 };
 CommandStream make_commands(std::span<const TrackResult> results, const RobotSetup& setup,
                             const CommandLimits& limits);
-/// Results of a perfect tracker.
 std::vector<TrackResult> true_results(std::span<const HandFrame> truth);
 
 /// Compares commands with the truth's at equal time stamps. Errors are of `following` commands. Jerk needs four in
@@ -55,8 +54,7 @@ struct RobotOutput {
   CommandLimits limits = {};
   nlohmann::json configuration = {};  ///< for the results; null: none
 };
-/// Makes the commands of `runs` and writes them as one set of files. Adds errors to `result` and latencies to
-/// `timings`, both of these runs.
+/// Makes and writes the commands of `runs`. Adds their errors to `result` and latencies to `timings`.
 void add_commands(reports::RunResult& result, reports::Timings& timings, std::span<const MeasuredRun> runs,
                   const RobotOutput& robot);
 

@@ -38,7 +38,7 @@ class CommandTest : public testing::Test {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     return run.err;
   }
-  /// Tracks with DB_open_power. Returns results.json.
+  /// Returns results.json.
   nlohmann::json run_trajectory(const std::string& trajectory, const std::string& output,
                                 const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments = {"run",           "--trajectory", path(trajectory), "--database",

@@ -18,9 +18,9 @@ struct Experiment {
   reports::ExperimentKey key;
   std::vector<const MeasuredRun*> runs;
 };
-/// In order of appearance. `runs` must outlive the result. A seed occurs once.
+/// In order of appearance. `runs` must outlive the result; seeds must differ.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
-/// Means, coverage and curves over frames and seeds.
+/// Over frames and seeds.
 reports::ExperimentResult evaluate(const Experiment& experiment);
 /// True if each answer has posture and pose.
 bool has_hands(const Experiment& experiment);
@@ -35,19 +35,18 @@ struct Outcome {
 struct TimedWith {
   int threads = 1;
   std::chrono::steady_clock::time_point start;
-  bool commands = true;  ///< false: omit times of robot commands, measured with other `threads`
+  bool commands = true;  ///< false: omit times of commands, measured with other `threads`
 };
-/// Writes the report of measured runs, with robot commands, the table of families and `add_studies`.
-/// Throws: Error if the folder cannot be written.
+/// Reports measured runs, with robot commands, families and `add_studies`.
+/// Throws: Error.
 Outcome report_runs(
     Workbench& workbench, const Plan& plan, std::span<const MeasuredRun> runs, const TimedWith& timed,
     const RobotOutput& robot, const std::string& folder,
     const std::function<void(reports::RunResult&)>& add_studies = [](reports::RunResult&) {});
 
-/// `store` keeps finished parts.
 using AddStudies = std::function<void(reports::RunResult& result, RunStore& store)>;
-/// Executes and measures the plan's runs, then `report_runs` into `folder`. Resumes an interrupted run.
-/// Throws: Error before any work for a wrong plan, or if the folder cannot be written.
+/// Executes, measures and reports the plan's runs. Resumes an interrupted run.
+/// Throws: Error before any work for a wrong plan, or as `report_runs`.
 Outcome carry_out(
     Workbench& workbench, const Plan& plan, const RobotOutput& robot, const std::string& folder,
     const AddStudies& add_studies = [](reports::RunResult&, RunStore&) {});

@@ -8,8 +8,8 @@
 
 namespace glovebench::eval {
 
-/// Errors of generated movements by family, database, hand and noise: means with Student's 95% intervals over
-/// movements. Empty without such runs.
+/// Mean errors of generated movements, with Student's 95% intervals over movements, by family, database, hand and
+/// noise. Empty without them.
 std::optional<reports::StudyResult> family_table(std::span<const MeasuredRun> runs);
 
 }  // namespace glovebench::eval

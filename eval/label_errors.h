@@ -17,9 +17,9 @@ std::vector<render::Lighting> held_out_lightings();
 
 /// In IR pixels. Ignores glove pixels without color. Labels count only in the working volume.
 struct LabelErrors {
-  int glove = 0;       ///< true glove pixels
+  int glove = 0;
   int missed = 0;      ///< without a label
-  int labeled = 0;     ///< pixels with a label
+  int labeled = 0;     ///< with a label
   int wrong = 0;       ///< with a false label
   int mislabeled = 0;  ///< glove pixels without the true label
   int interior = 0;    ///< glove pixels whose 8 neighbors have their true label
@@ -29,7 +29,7 @@ struct LabelErrors {
 
   /// Share of labeled pixels; 0 without any.
   double wrong_share() const;
-  /// Share of glove pixels, of which there must be one.
+  /// Share of glove pixels; one must exist.
   double missed_share() const;
   double mislabeled_share() const;
   /// Shares of interior and of other glove pixels; one must exist.

@@ -13,22 +13,22 @@
 namespace glovebench::eval {
 
 /// Chart scripts, sheets of Figures 5 and 6 if run, the worst frames (paper's method only), and warnings.
-/// Throws: Error without the program's data.
+/// Throws: Error.
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// All tracker stages of one frame, and its errors. The frame is tracked alone, without the filter; `in_run` and
-/// `hand_in_run` are what the run measured and estimated.
+/// Shows all tracker stages of a frame, tracked alone, without the filter. `in_run`, `hand_in_run`: the run's
+/// errors and estimate.
 /// Throws: Error if the trajectory lacks the frame or the method is not the paper's.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run,
                          const std::optional<HandFrame>& hand_in_run);
 
-/// The IR camera, cropped and scaled to a tile (px) that shows every frame's glove. Needs a frame.
+/// The IR camera, cropped and scaled to a tile (px) around every frame's glove. Needs a frame.
 PinholeCamera camera_around(const PinholeCamera& ir, const HandModel& hand, std::span<const HandFrame> frames,
                             int tile_width, int tile_height);
 
-/// Two tiles per frame, without noise: true hand in color; estimated minus true depth (lost: the true hand in
-/// gray). `estimates`: one per frame.
+/// Two tiles per frame, without noise: true hand in color; estimated minus true depth (lost: true hand in gray).
+/// `estimates`: one per frame.
 /// Paper: pictures under Figures 5 and 6.
 reports::FrameSheet make_frame_sheet(Workbench& workbench, const std::string& figure,
                                      std::span<const HandFrame> frames,

@@ -8,7 +8,7 @@
 
 namespace glovebench::eval {
 
-/// Errors of the answers that a live system uses, at eight moments a frame.
+/// Measures the answers that a live system uses, at eight moments a frame.
 struct Streaming {
   std::optional<double> tracker_ms = {};  ///< time of each frame; empty: as measured
 };
@@ -19,10 +19,10 @@ struct Plan {
   std::string suite = {};                            ///< empty: none
   bool quick = false;                                ///< few frames; no conclusions
   std::string association = "by time stamp, exact";  ///< of estimates to truths
-  nlohmann::json score = {};  ///< configuration of `score`: other programs' estimates instead of a tracker
+  nlohmann::json score = {};                         ///< configuration of `score`; null: a tracker's plan
   std::optional<Streaming> streaming = {};
 
-  /// True if the time of each frame becomes a result, so that one job runs at a time.
+  /// True if frame times are results. Then one job runs at a time.
   bool times_frames() const { return streaming && !streaming->tracker_ms; }
 };
 
@@ -32,7 +32,7 @@ struct Figure4Options {
   std::vector<reports::NoiseSetting> noises = {{}};
   FrameRange frames;
 };
-/// Each ground truth with the databases of its grasp: recorded truth, source truth, source truth with subject 2.
+/// The databases of each grasp on recorded truth, source truth, and source truth with subject 2.
 /// Paper: Figure 4.
 Plan plan_figure4(const TrackerConfig& tracker, const Figure4Options& options);
 

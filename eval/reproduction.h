@@ -18,7 +18,7 @@ struct ReproductionOptions {
   std::vector<std::string> only;  ///< of part_names; empty: all, or with `trajectories` Figure 4
 };
 
-/// Hash of all inputs of a study except the program, as `run_key` of a run.
+/// Hash of a study's inputs except the program, as `run_key`.
 std::string study_key(Workbench& workbench, std::string_view name, const StudyOptions& options);
 
 /// "fig4", "fig5", "fig6" and the studies.
@@ -29,14 +29,14 @@ std::vector<std::string> part_names();
 int exit_code_of(const reports::RequiredClaims& required, const ReproductionOptions& options, bool judged);
 
 /// Experiments of Figures 4 to 6.
-/// Throws: Error for an unknown part.
+/// Throws: Error.
 Plan plan_reproduction(const ReproductionOptions& options);
 
 /// Parts, estimated times, existing databases. Builds nothing.
 std::string describe_reproduction(Workbench& workbench, const ReproductionOptions& options);
 
 using ShowResults = std::function<void(const reports::RunResult& so_far)>;
-/// Calls `show` after Figures 4 to 6 and after each study.
+/// Calls `show` after Figures 4 to 6 and each study.
 /// Throws: Error as `plan_reproduction` and `carry_out`.
 Outcome reproduce(
     Workbench& workbench, const ReproductionOptions& options, const RobotOutput& robot, const std::string& folder,

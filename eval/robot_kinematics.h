@@ -24,7 +24,7 @@ using Mapping = std::function<ShadowHandTargets(const Posture&)>;
 /// Right hand; at least one posture.
 MappingErrors mapping_errors(const Skeleton& skeleton, const std::vector<Posture>& postures, const Mapping& map);
 
-/// For `glovebench list mapping`: both mappings on all posture sets and source trajectories.
+/// Both mappings on all posture sets and source trajectories.
 reports::Table mapping_table(const Skeleton& skeleton, const std::string& data_folder, ShadowCoupling coupling);
 
 }  // namespace glovebench::eval

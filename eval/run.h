@@ -36,8 +36,8 @@ struct RunSpec {
   render::Lighting lighting = {};
   bool clutter_in_volume = false;
   Appearance appearance = Appearance::glove;
-  std::string setting = {};        ///< a label: a study's setting or a movement's family
-  std::vector<bool> dropped = {};  ///< by frame; the tracker does not get these; empty: gets all
+  std::string setting = {};        ///< a study's setting or a movement's family
+  std::vector<bool> dropped = {};  ///< by frame: hidden from the tracker; empty: none
 };
 
 /// Measured on true images and surface.
@@ -47,7 +47,7 @@ struct Sight {
   double visible_percent = 0;                     ///< see reports/metrics/visibility.h
 };
 
-/// Results by frame that the tracker got. Errors: measured_run.h.
+/// Results by frame that the tracker got.
 struct Run {
   RunSpec spec;
   std::vector<TrackResult> answers;
@@ -61,19 +61,18 @@ std::span<const HandFrame> frames_of(const RunSpec& spec);
 /// The seed does not change it.
 reports::ExperimentKey key_of(const RunSpec& spec);
 render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec);
-/// True if hand, frames, light and scene are the same.
 bool share_images(const RunSpec& a, const RunSpec& b);
 
 struct RunOptions {
   int threads = 1;
-  RunStore* store = nullptr;  ///< loads and stores runs
+  RunStore* store = nullptr;
 };
-/// Renders, adds noise and tracks, in the order of `specs`. Trackers get only device frames and calibration.
-/// `threads` change only times. Successive specs with the same images are rendered once.
+/// Renders, adds noise and tracks. Trackers get only device frames and calibration. `threads` change only times.
+/// Successive specs with the same images are rendered once.
 /// Throws: Error for a wrong spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
-/// By frame. Renders; the noise does not count.
+/// By frame. Renders without noise.
 std::vector<Sight> see(Workbench& workbench, const RunSpec& spec);
 
 /// Hash of all inputs except the program.

@@ -13,7 +13,6 @@ std::string to_bytes(const Run& run);
 /// Empty for other bytes.
 std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec);
 
-/// Lossless CBOR.
 std::string to_bytes(const reports::StudyResult& study);
 std::optional<reports::StudyResult> study_from_bytes(const std::string& bytes);
 

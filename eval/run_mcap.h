@@ -6,8 +6,8 @@
 
 namespace glovebench::eval {
 
-/// Writes FOLDER/EXPERIMENT.mcap of each experiment's first seed: its frames, rendered again, their truth, and the
-/// estimates of FOLDER/estimates/.
+/// Writes FOLDER/EXPERIMENT.mcap of each experiment's first seed: rendered frames, truth, and estimates of
+/// FOLDER/estimates/.
 /// Throws: Error.
 void write_run_mcaps(Workbench& workbench, const Plan& plan, const std::string& folder);
 

@@ -7,10 +7,10 @@
 namespace glovebench::eval {
 
 /// The folder of a run in progress. After a crash the same command resumes and writes the same bytes.
-/// FOLDER/.unfinished/ marks the run. It holds a lock and finished parts with program hash, key and checksum.
+/// FOLDER/.unfinished/ marks the run, locks it and holds finished parts.
 class RunStore {
  public:
-  /// Throws: Error if another run holds the folder or it cannot be written.
+  /// Throws: Error, also if another run holds the folder.
   explicit RunStore(const std::string& folder);
   /// Removes a new mark unless `begin` was called.
   ~RunStore();
@@ -20,13 +20,13 @@ class RunStore {
   /// Keeps the mark until `finish`.
   void begin();
 
-  /// A part that this program stored, else empty. Removes useless files and says so once on stderr. Thread-safe.
+  /// A part that this program stored, else empty. Removes useless files, with one message on stderr. Thread-safe.
   std::optional<std::string> load(const std::string& key) const;
   /// Thread-safe.
-  /// Throws: Error if it cannot be written.
+  /// Throws: Error.
   void save(const std::string& key, const std::string& content) const;
 
-  /// Removes mark and parts at once.
+  /// Removes mark and parts.
   /// Throws: Error.
   void finish();
 

@@ -19,10 +19,10 @@ struct ScoreRequest {
   EstimateFlags flags;
   std::optional<double> tolerance_ms;  ///< empty: half the time between frames
   double offset_ms = 0;                ///< added to the estimates' times
-  bool estimates_offset = false;       ///< instead
+  bool estimates_offset = false;       ///< estimates the offset instead
 };
 
-/// Runs whose answers come from a file, to be measured like those of a tracker.
+/// Runs whose answers come from a file.
 struct Score {
   Plan plan;
   std::vector<Run> runs;             ///< one per seed of the file

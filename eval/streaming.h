@@ -16,23 +16,22 @@ inline constexpr const char* kStreamingStudy = "streaming";
 
 /// Which frames a live system tracks, and when each answer is finished.
 struct Playback {
-  std::vector<size_t> kept;         ///< frames that the tracker gets; the others are dropped
-  std::vector<double> finished_ms;  ///< by kept frame; on the clock of the frames
+  std::vector<size_t> kept;         ///< frames that the tracker gets
+  std::vector<double> finished_ms;  ///< by kept frame, on the frames' clock
 
-  /// Place in `kept` of the newest answer that is finished. Empty before the first one.
+  /// Index in `kept` of the newest finished answer. Empty before the first one.
   std::optional<size_t> in_use(double moment_ms) const;
 };
-/// Plays frames on a simulated clock. A tracker that has finished takes the newest frame that arrived meanwhile,
-/// else the next one. `arrival_ms` increases. `tracker_ms`: the time that the tracker takes, by frame. Paper: Li,
-/// Wang and Ramanan 2020, "Towards Streaming Perception", section 3.
+/// Plays frames on a simulated clock. A finished tracker takes the newest frame that arrived meanwhile, else the
+/// next. `arrival_ms` increases. `tracker_ms`: by frame.
+/// Paper: Li, Wang and Ramanan 2020, "Towards Streaming Perception", section 3.
 Playback play(std::span<const double> arrival_ms, std::span<const double> tracker_ms);
 
-/// The errors of `runs`, beside those of the answers in use at eight moments a frame; a row per experiment.
-/// A run that drops frames is tracked again without them.
+/// The errors of `runs`, beside those of the answers in use. Runs that drop frames are tracked again without them.
 reports::StudyResult streaming_study(Workbench& workbench, const Streaming& streaming,
                                      std::span<const MeasuredRun> runs);
 
-/// The studies of several settings in one. `studies`: by setting.
+/// Joins the studies of several settings.
 reports::StudyResult joined_streaming(const std::vector<std::pair<std::string, reports::StudyResult>>& studies);
 
 }  // namespace glovebench::eval

@@ -27,20 +27,20 @@ struct Suite {
   std::vector<SuiteEntry> entries;
 };
 
-/// Reads the format of trajectories/README.md. Relative files belong to the folder of `path`.
+/// Reads the format of trajectories/README.md. Files are relative to the folder of `path`.
 /// Throws: Error.
 Suite parse_suite(std::string_view text, const std::string& path);
 /// "quick", "full" or a *.json file.
-/// Throws: Error for an unknown name or a bad file.
+/// Throws: Error.
 Suite load_suite(const std::string& name_or_file);
 std::vector<std::string> suite_names();
 
 /// Side of the first trajectory. The workbench must have the same.
-/// Throws: Error if it cannot be read.
+/// Throws: Error.
 Side side_of(const Suite& suite);
 
-/// Experiments that match `filter` (shell wildcards; empty: all), those of the same frames together. Adds database
-/// files to the workbench. Builds nothing.
+/// Experiments that match `filter` (shell wildcards; empty: all). Those of the same frames are successive. Adds
+/// database files to the workbench. Builds nothing.
 /// Throws: Error for a repeated experiment, the other hand, or no match.
 Plan plan_suite(Workbench& workbench, const TrackerConfig& tracker, const Suite& suite, const std::string& filter);
 

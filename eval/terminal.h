@@ -16,7 +16,7 @@
 
 namespace glovebench::eval {
 
-/// Drops the text if stderr is broken (full or closed pipe, lost terminal).
+/// Prints to stderr. Drops the text if stderr is broken.
 template <typename... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   const std::string text = fmt::format(format, std::forward<Values>(values)...);
@@ -54,7 +54,7 @@ class Progress {
   int last_percent_ = -1;
 };
 
-/// Reads no clock.
+/// Statistics over the last `kFrames`.
 class LiveStatus {
  public:
   static constexpr size_t kFrames = 60;  ///< two seconds

@@ -105,7 +105,6 @@ inline ProgramRun run_program(const std::vector<std::string>& command, const Pro
   return finish_program(start_program(command, setting));
 }
 
-/// With the tests' cache.
 inline StartedProgram start_glovebench(std::vector<std::string> arguments, ProgramSetting setting = {}) {
   arguments.insert(arguments.begin(), build_paths::program("glovebench"));
   setting.environment.emplace("GLOVEBENCH_CACHE", test_cache_folder());

@@ -15,9 +15,9 @@ struct TrueNeighbor {
   double distance = 0;  ///< mean over equal vertices, m
 };
 
-/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. A look-up
-/// sees neither distance nor direction: hands are compared at one origin and along one ray, that to the middle of
-/// the bounding square (`box_ray`). `model`: the database's hand. Both must outlive the search. Thread-safe.
+/// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. Hands are
+/// compared at one origin and along one ray (`box_ray`). `model`: the database's hand. Both must live longer.
+/// Thread-safe.
 class TrueNeighborSearch {
  public:
   TrueNeighborSearch(const HandModel& model, const Database& database);

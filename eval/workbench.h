@@ -27,10 +27,10 @@ struct WorkbenchConfig {
 };
 
 /// `find_method` or, for "exec:COMMAND", a program.
-/// Throws: Error as the method.
+/// Throws: Error.
 std::unique_ptr<Method> make_method(const MethodInputs& inputs);
 
-/// Models, databases and color tables that experiments share, each made or loaded on first use. Thread-safe.
+/// Models, databases and color tables, made or loaded on first use. Thread-safe.
 class Workbench {
  public:
   explicit Workbench(WorkbenchConfig config);
@@ -39,22 +39,20 @@ class Workbench {
   std::shared_ptr<const HandModel> model();
   /// Subject 1's hand, and the tracker's unless `hand` is given.
   std::shared_ptr<const HandModel> package_hand();
-  /// See render::make_subject.
   render::Subject subject(int number);
   const RgbdCalibration& calibration() const { return config_.calibration; }
   /// The table for the synthetic Kinect's cameras, not for `calibration`.
   std::shared_ptr<const ColorTable> color_table(ColorSpace space = ColorSpace::yuv);
   std::shared_ptr<const Database> database(const std::string& name);
   std::shared_ptr<const Database> database(const PostureSet& postures);
-  /// Adds a database (*.glovedb) or postures (*.csv, *.json) and returns its name. Returns other text unchanged.
-  /// Opens a file once.
+  /// Adds a database (*.glovedb) or postures (*.csv, *.json) and returns its name; returns other text unchanged.
   /// Throws: Error for another hand, other views or a taken name.
   std::string add_database(const std::string& name_or_file);
   /// True if `database(name)` builds nothing.
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// The paper's tracker, whose stages can be inspected.
+  /// The paper's tracker.
   /// Throws: Error if another method is configured.
   Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 

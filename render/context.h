@@ -4,9 +4,9 @@
 
 namespace glovebench::render {
 
-/// An off-screen OpenGL 4.5 core context (OSMesa). Threads draw in turn: making it current waits for the others. A
-/// thread has at most one current context. The first context sets LP_NUM_THREADS=0: create it while no thread uses
-/// the environment.
+/// An off-screen OpenGL 4.5 core context (OSMesa). Only one thread draws at a time; making a context current waits
+/// for it. A thread has at most one current context. The first context sets LP_NUM_THREADS=0: create it while no
+/// thread uses the environment.
 class Context {
  public:
   /// Makes it current.
@@ -17,7 +17,6 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Waits for the drawing thread.
   void make_current() const;
   static void release();
 

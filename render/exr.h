@@ -6,7 +6,7 @@
 
 namespace glovebench::render {
 
-/// Truth, and the tracker's estimate in the layer "tracker". Images have one size; empty ones are left out.
+/// Truth and the tracker's estimate. Images have one size; empty ones are left out.
 struct FrameLayers {
   ColorImage color;          ///< linear R, G, B, 32-bit float
   DepthImage depth;          ///< Z, m, 32-bit float

@@ -17,7 +17,7 @@ struct HandMesh {
 };
 HandMesh make_hand_mesh(std::span<const Triangle> triangles);
 
-/// The hand's values at the mesh's vertices.
+/// Copies the hand's values to the mesh's vertices.
 std::vector<Eigen::Vector3f> spread(const HandMesh& mesh, std::span<const Eigen::Vector3f> values);
 
 /// Area-weighted unit normals, outward, hand frame.

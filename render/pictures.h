@@ -15,16 +15,16 @@ ColorImage picture_of_depth(const DepthImage& depth, double z_near, double z_far
 /// `other` minus `depth`: blue at -`range` (m), white at 0, orange at +`range`; gray: one has no value; dark:
 /// neither has. Images must have one size.
 ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage& other, double range);
-/// Draws the borders of labels with a black edge. Images must have one size.
+/// Draws label borders with a black edge. Images must have one size.
 ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, const Rgb& line = {255, 255, 255});
 struct Stroke {
   Eigen::Vector2d from_px, to_px;
 };
-/// Draws lines with end dots and a dark edge.
+/// Lines with end dots and a dark edge.
 ColorImage overlay_strokes(const ColorImage& color, std::span<const Stroke> strokes, const Rgb& line);
-/// Writes a line of ASCII text at the upper left.
+/// A line of ASCII at the upper left.
 ColorImage overlay_text(const ColorImage& color, const std::string& text);
-/// Throws: Error. No file is written then.
+/// Throws: Error.
 void write_png(const std::string& path, const ColorImage& image);
 
 struct Panel {
@@ -39,7 +39,7 @@ struct TextLine {
   std::string text;
   Rgb color = {230, 230, 230};
 };
-/// Lines, as large as titles in a montage.
+/// As large as titles in a montage.
 ColorImage picture_of_text(const std::vector<TextLine>& lines, int width, int height);
 
 /// The whole image if nothing is labeled.

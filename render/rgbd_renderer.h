@@ -18,16 +18,16 @@ struct RgbdImages {
   Image<uint8_t> patch;  ///< IR camera; patch + 1, else 0
 };
 
-/// One camera's view at its pixel centers. `whole_hand` also shows the hand where something hides it.
+/// One camera's view at its pixel centers.
 struct TrueImages {
   DepthImage depth;       ///< z, m
   LabelImage label;       ///< 1..kColorCount, else 0
   Image<uint8_t> patch;   ///< patch + 1, else 0
-  LabelImage whole_hand;  ///< label of the hand alone
+  LabelImage whole_hand;  ///< label of the hand, also where something hides it
 };
 
-/// Draws a hand in a scene from a Kinect's two cameras, without shadows. Colors are means of 2x2 samples; depth and
-/// truth are single samples. For one thread at a time.
+/// Renders a Kinect's two views, without shadows. Colors are means of 2x2 samples; depth and truth are single
+/// ones. For one thread at a time.
 class RgbdRenderer {
  public:
   /// Throws: Error without OpenGL.
@@ -35,9 +35,9 @@ class RgbdRenderer {
   ~RgbdRenderer();
 
   RgbdImages render(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand, const Lighting& lighting);
-  /// True labels in RGB pixels.
+  /// In RGB pixels.
   LabelImage render_color_labels(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
-  /// The truth in RGB pixels and in the RGB camera's frame.
+  /// In RGB pixels and the RGB camera's frame.
   TrueImages render_color_truth(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
   const RgbdCalibration& calibration() const { return calibration_; }
 

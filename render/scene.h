@@ -10,7 +10,7 @@
 
 namespace glovebench::render {
 
-/// Diffuse, with a Blinn-Phong highlight and a pattern.
+/// Diffuse, with a Blinn-Phong highlight.
 struct Material {
   Eigen::Vector3f albedo = Eigen::Vector3f::Zero();  ///< linear RGB, 0..1
   float gloss = 0;
@@ -37,14 +37,14 @@ struct SurfaceMesh {
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Eigen::Vector3f> normals;  ///< unit length
   std::vector<uint8_t> materials;        ///< of vertices
-  std::vector<uint32_t> indices;         ///< three per triangle
+  std::vector<uint32_t> indices;
 };
 
 struct SceneConfig {
   Shader shader = Shader::first_subject;
-  Appearance appearance = Appearance::glove;  ///< labels are the glove's in any case
-  bool clutter = true;                        ///< objects of similar colors on the table
-  bool clutter_in_volume = false;             ///< another box, in the working volume (z 0.90 m)
+  Appearance appearance = Appearance::glove;  ///< labels are always the glove's
+  bool clutter = true;                        ///< objects of glove-like colors on the table
+  bool clutter_in_volume = false;             ///< a box in the working volume (z 0.90 m)
 };
 
 /// Surroundings, IR camera's frame: table top (1.0 m x 0.74 m, at 1.06 m), floor (at 1.78 m).
@@ -54,7 +54,7 @@ struct Scene {
 };
 Scene make_scene(const SceneConfig& config);
 
-/// The bare forearm, 200 mm from the hand's cuff on. Forearm joint's frame.
+/// 200 mm long from the cuff, in the forearm joint's frame.
 SurfaceMesh make_forearm(const PosedHand& hand);
 
 }  // namespace glovebench::render

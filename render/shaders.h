@@ -10,7 +10,7 @@ extern const char* const kTruthShader;
 extern const char* const kLitShader;
 /// Covers the image.
 extern const char* const kResolveVertexShader;
-/// Averages 2x2 samples and codes sRGB.
+/// Averages 2x2 samples; writes sRGB.
 extern const char* const kResolveShader;
 
 }  // namespace glovebench::render

@@ -24,7 +24,7 @@ struct SyntheticKinectConfig {
 DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                               const NoiseConfig& noise, const FrameKey& key);
 
-/// A Kinect before a rendered hand. For one thread at a time.
+/// For one thread at a time.
 class SyntheticKinect : public Device {
  public:
   /// Throws: Error without OpenGL or for an impossible configuration.
@@ -34,11 +34,10 @@ class SyntheticKinect : public Device {
   const RgbdCalibration& calibration() const override { return renderer_.calibration(); }
   std::optional<DeviceFrame> next_frame() override;
 
-  /// The last frame's ideal images, for the evaluator only.
+  /// The last frame's ideal images. Truth is for the evaluator only.
   const RgbdImages& truth() const;
-  /// The same from the RGB camera, rendered at each call.
+  /// From the RGB camera, rendered at each call.
   TrueImages color_truth();
-  /// The hand in these images, for the evaluator only.
   const PosedHand& true_hand() const;
 
  private:

@@ -9,14 +9,13 @@ namespace glovebench::reports {
 
 bool has_commands(const RunResult& result);
 
-/// Explains the tables below.
 std::string command_explanation();
 Table command_stream_table(const RunResult& result);
 /// By reason. No rows without interventions.
 Table command_intervention_table(const RunResult& result);
 /// Errors against the truth's commands, and smoothness.
 Table command_error_table(const RunResult& result);
-/// Time from frame to command. No rows without times.
+/// From frame to command. No rows without times.
 Table command_latency_table(const RunResult& result, const Timings& timings);
 
 /// tables/commands.csv, without times.

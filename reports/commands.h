@@ -14,7 +14,7 @@
 
 namespace glovebench::reports {
 
-/// RMS jerk; smaller is smoother (Flash and Hogan 1985). Compare a tracked hand's with the truth's.
+/// RMS jerk; smaller is smoother (Flash and Hogan 1985).
 struct Jerk {
   std::optional<double> joints_deg_s3;
   std::optional<double> position_m_s3;  ///< of the hand's origin
@@ -53,7 +53,7 @@ struct CommandResult {
 
 /// "commands" in results.json.
 nlohmann::ordered_json commands_json(const CommandResult& commands);
-/// Throws: Error for other content.
+/// Throws: Error.
 CommandResult read_commands(const JsonCursor& json);
 
 }  // namespace glovebench::reports

@@ -22,10 +22,9 @@ struct Estimate {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m
 };
 
-/// Seed after seed.
 struct ExperimentEstimates {
   ExperimentKey key;
-  std::vector<Estimate> estimates;
+  std::vector<Estimate> estimates;  ///< by seed, then frame
 };
 
 /// "estimates/EXPERIMENT.csv".
@@ -36,10 +35,10 @@ std::string estimates_csv(const ExperimentEstimates& estimates);
 /// Without line ends.
 std::string estimates_heading();
 std::string estimate_csv_line(const Estimate& estimate);
-/// Throws: Error for other content.
+/// Throws: Error.
 std::vector<Estimate> read_estimates(const std::string& path);
 std::vector<Estimate> parse_estimates(const std::string& text, const std::string& where);
-/// The hand of a frame; empty if it was lost or is not there.
+/// Empty if the frame was lost or is not there.
 std::optional<HandFrame> find_hand(const std::vector<Estimate>& estimates, uint64_t seed, int frame);
 
 }  // namespace glovebench::reports

@@ -10,7 +10,6 @@
 
 namespace glovebench::reports {
 
-/// Other errors are multiples of these.
 inline FrameRecord example_frame(int index, double position_mm, double posture_deg, double rotation_deg) {
   FrameRecord frame;
   frame.frame = index;
@@ -41,7 +40,6 @@ inline FrameRecord example_lost_frame(int index) {
   return frame;
 }
 
-/// At 30 Hz. The last two frames were lost.
 inline CommandResult example_commands(int frames, double error) {
   CommandResult commands;
   commands.frames = frames;
@@ -57,7 +55,7 @@ inline CommandResult example_commands(int frames, double error) {
   return commands;
 }
 
-/// Four experiments: means 4 mm, 3 deg, 2 deg with one of four frames lost; all lost; no frames; another noise.
+/// Four experiments: means 4 mm, 3 deg, 2 deg, one of four frames lost; all lost; no frames; another noise.
 inline RunResult small_result() {
   RunResult result;
   result.protocol = make_protocol("by time stamp, exact");
@@ -86,7 +84,7 @@ inline RunResult small_result() {
   return result;
 }
 
-/// With two jumps of the posture that decay.
+/// With posture jumps that decay.
 inline std::vector<FrameRecord> example_frames(const std::string& name, uint64_t seed, int count, double level) {
   std::vector<FrameRecord> frames;
   RandomStream random(seed, name, 0, "example");

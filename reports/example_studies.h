@@ -87,7 +87,7 @@ inline StudyResult example_figure8() {
            {"figure8.tiny_time_share", "", 1.02, {}, true}}};
 }
 
-/// With empty cells, an inconclusive claim and one that does not hold.
+/// With empty cells, an inconclusive and a broken claim.
 inline std::vector<StudyResult> example_studies() {
   return {example_figure7(), example_figure8()};
 }

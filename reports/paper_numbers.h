@@ -39,7 +39,7 @@ struct PaperNumbers {
   std::string rate_hardware;
   double mean_position_error_below_mm = 0;
 
-  /// Printed means of an experiment. Null where the paper has only a bar.
+  /// Printed means. Null where the paper has only a bar.
   const PaperErrors* mean_of(const std::string& trajectory, const std::string& database) const;
 };
 

@@ -10,16 +10,13 @@
 
 namespace glovebench::reports {
 
-/// Writes the files of a run (reports/README.md) as one set (core/base/file_set.h), which replaces an older report.
-/// Returns their names.
-/// Throws: Error if the folder cannot be written. An older report then stays.
+/// Writes a run's files (reports/README.md) as one set (core/base/file_set.h). Returns their names.
+/// Throws: Error if the folder cannot be written; an older report then stays.
 std::vector<std::string> write_report(const std::string& folder, const RunResult& result, const Timings& timings,
                                       const PageMaterial& material = {},
                                       const std::vector<ExperimentEstimates>& estimates = {});
 
-// For services that keep benchmark histories.
-
-/// Bencher Metric Format: a benchmark per experiment, a measure per gated metric with its interval.
+/// Bencher Metric Format: a benchmark per experiment, a measure with interval per gated metric.
 std::string bencher_json(const RunResult& result);
 /// customSmallerIsBetter: one entry per experiment and gated metric.
 std::string github_action_benchmark_json(const RunResult& result);

@@ -22,7 +22,7 @@ struct FrameRecord {
   int frame = 0;
   int64_t timestamp_us = 0;
   TrackStatus status = TrackStatus::no_hand;
-  bool is_judged = true;       ///< false: without a pose, nobody knows the next two
+  bool is_judged = true;       ///< false: no pose, so the next two are unknown
   bool covered = false;        ///< tracked within 50 mm and 30 degrees
   bool false_tracked = false;  ///< tracked, but not covered
   bool false_lost = false;     ///< lost, though trackable
@@ -75,7 +75,7 @@ struct SeedRun {
 /// Lost frames stay in the denominator. coverage.h defines visible, found and usable.
 struct Coverage {
   int frames = 0;
-  std::optional<int> covered = 0;  ///< empty, as others below, if estimates lack what they need
+  std::optional<int> covered = 0;  ///< empty, like others below, if estimates lack what they need
   int lost = 0;
   std::optional<int> false_tracked = 0;
   int false_lost = 0;
@@ -119,7 +119,6 @@ struct ExperimentResult {
   }
   friend bool operator==(const ExperimentResult&, const ExperimentResult&) = default;
 };
-/// Computes coverage, aggregates and intervals.
 ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurve pck, SequenceMetrics sequence,
                            const BootstrapConfig& bootstrap = {});
 
@@ -127,7 +126,7 @@ ExperimentResult summarize(ExperimentKey key, std::vector<SeedRun> runs, PckCurv
 struct Protocol {
   int metric_definitions = 1;  ///< increases when a metric changes its meaning
   std::vector<std::string> joint_order;
-  std::vector<std::string> metric_keys;               ///< columns; versions differ
+  std::vector<std::string> metric_keys;               ///< columns
   std::string association;                            ///< estimates to truths: "by time stamp, exact"
   std::map<std::string, double> coverage_rules = {};  ///< metrics/coverage.h; empty in older results
 
@@ -142,7 +141,6 @@ class Incomparable : public Error {
   using Error::Error;
 };
 
-/// Not part of the protocol.
 struct InputHashes {
   std::map<std::string, std::string> truths;     ///< by truth_name
   std::map<std::string, std::string> databases;  ///< content_hash by name

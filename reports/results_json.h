@@ -13,13 +13,13 @@ namespace glovebench::reports {
 std::vector<std::string> frame_columns(std::span<const std::string> metric_keys);
 nlohmann::ordered_json frame_row(const FrameRecord& frame, std::span<const std::string> metric_keys);
 
-/// Follows reports/schema/results.schema.json, with the protocol's metrics that this program knows. Rounds to 1e-6.
-/// Equal results give equal bytes.
+/// Follows reports/schema/results.schema.json. Rounds to 1e-6, omits unknown metrics. Equal results give equal
+/// bytes.
 std::string results_json(const RunResult& result);
 void write_results(const std::string& path, const RunResult& result);
 
-/// Drops unknown metrics, but keeps their protocol keys. Missing ones are empty.
-/// Throws: Error for other content, such as a wrong protocol id or count.
+/// Drops unknown metrics, but keeps their protocol keys. Missing metrics are empty.
+/// Throws: Error, also for a wrong protocol id or count.
 RunResult read_results(const std::string& path);
 RunResult parse_results(const std::string& text, const std::string& where);
 

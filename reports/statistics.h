@@ -20,7 +20,6 @@ std::optional<double> rms(std::span<const double> values);
 /// `share`: 0..1. Interpolates linearly at rank share * (n - 1).
 std::optional<double> percentile(std::span<const double> values, double share);
 
-/// Statistics are empty if count is 0.
 struct Aggregate {
   int count = 0;
   std::optional<double> mean;
@@ -48,7 +47,7 @@ PckCurve pck_curve(std::span<const double> errors_mm, size_t keypoint_count);
 struct ConfidenceInterval {
   double low = 0;
   double high = 0;
-  double level = 0;  ///< share of resampled means inside
+  double level = 0;  ///< 0..1
   int seeds = 0;     ///< resampled
   int blocks = 0;    ///< of successive frames, resampled
   int block_frames = 0;
@@ -69,7 +68,7 @@ struct BootstrapConfig {
 std::optional<ConfidenceInterval> confidence_interval(
     const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config = {});
 
-/// A part, such as a trajectory, that is fixed. Its seeds and frames are resampled.
+/// A fixed part, such as a trajectory, whose seeds and frames are resampled.
 struct StratumShape {
   int seeds = 1;   ///< >= 1
   int frames = 0;  ///< >= 0
@@ -79,8 +78,7 @@ struct Draw {
   std::vector<int> seeds;
   std::vector<int> frames;
 };
-/// Interval of a statistic over strata. `statistic` gets one draw per stratum and may be empty. Empty if it always
-/// is, or for fewer than five blocks in all.
+/// `statistic` gets one draw per stratum. Empty if `statistic` always is, or for fewer than five blocks in all.
 std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic,
@@ -90,8 +88,7 @@ std::optional<ConfidenceInterval> stratified_interval(
 double student_quantile(double level, int degrees_of_freedom);
 /// |T| is at least `t` with this probability: the two-sided p-value.
 double student_p(double t, int degrees_of_freedom);
-/// P-values adjusted for their number by Holm's step-down method. One of at most 0.05 is significant at 5% for all
-/// hypotheses together.
+/// Holm's step-down method: an adjusted p-value of at most 0.05 is significant at 5% for all hypotheses together.
 std::vector<double> holm_adjusted(std::span<const double> p_values);
 /// Interval of the mean of independent values. Empty for fewer than five values or equal ones.
 std::optional<ConfidenceInterval> student_interval(std::span<const double> values, const std::string& over,
@@ -101,7 +98,6 @@ std::optional<ConfidenceInterval> student_interval(std::span<const double> value
 inline constexpr double kLargestError = 1e6;
 
 nlohmann::ordered_json aggregate_json(const Aggregate& aggregate);
-/// Ignores other members.
 /// Throws: Error unless values are in 0..kLargestError.
 Aggregate read_aggregate(const JsonCursor& json);
 

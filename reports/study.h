@@ -37,10 +37,10 @@ const Measure* find_measure(const std::vector<StudyResult>& studies, std::string
 
 /// "studies" in results.json, without times.
 nlohmann::ordered_json studies_json(const std::vector<StudyResult>& studies);
-/// "studies" in timings.json: naming columns and times, of tables with times.
+/// "studies" in timings.json: naming columns and times.
 nlohmann::ordered_json study_times_json(const std::vector<StudyResult>& studies);
 
-/// Throws: Error for other content.
+/// Throws: Error.
 std::vector<StudyResult> read_studies(const JsonCursor& json);
 
 /// Checks: names are unique and no other report file's; one cell per column; at least one naming column, none a

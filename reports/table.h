@@ -63,7 +63,6 @@ nlohmann::ordered_json cell_json(const Cell& cell);
 
 // All formats escape text.
 
-/// "Better" and "worse" are bold.
 std::string to_markdown(const Table& table);
 /// `plots`: an SVG per row, after the names. `link`: where a heading leads ("#place"), or empty.
 std::string to_html(const Table& table, const std::vector<std::string>& plots = {},
@@ -73,13 +72,13 @@ std::string to_latex(const Table& table, const std::string& heading = "");
 /// The widest columns shrink to fit. `grouped`: the first column becomes a line above its rows.
 std::string to_text(const Table& table, bool grouped = false, size_t columns = kTerminalColumns);
 void erase_column(Table& table, size_t column);
-/// Drops columns of names that are too long for a terminal, but not the first.
+/// Drops naming columns that are too long for a terminal, but not the first.
 Table without_long_names(Table table);
 /// Keys, then values to 1e-6. `names`: columns in front, each with one value.
 std::string to_csv(const Table& table, const std::vector<std::pair<std::string, std::string>>& names = {});
 
-/// A line of plain values (RFC 4180 with line feeds). Null is empty. An apostrophe precedes text that a spreadsheet
-/// would take for a formula.
+/// Plain values (RFC 4180 with line feeds); null is empty. An apostrophe precedes text that a spreadsheet would
+/// take for a formula.
 std::string csv_line(const nlohmann::ordered_json& cells);
 
 }  // namespace glovebench::reports

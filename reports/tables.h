@@ -21,9 +21,9 @@ struct Variant {
 };
 const std::array<Variant, 3>& figure4_variants();
 
-/// Databases for Tr1 to Tr5: the one for its grasp first, the largest last. Empty names for other trajectories.
+/// For Tr1 to Tr5: the database of its grasp first, the largest last. Else empty names.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
-/// True if there are experiments and all are Figure 4's (with any noise).
+/// True if there are experiments, all of Figure 4 (any noise).
 bool is_figure4(const RunResult& result);
 
 /// Pointers are null where not run.
@@ -36,7 +36,7 @@ struct Figure4Row {
 /// In running order. Rows refer to both arguments.
 std::vector<Figure4Row> figure4_rows(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise);
 
-/// Errors and coverage per variant, beside the paper's; below each other for fewer than 115 `columns`.
+/// Variants beside the paper; below each other for fewer than 115 `columns`.
 std::string figure4_table(const RunResult& result, const PaperNumbers& paper, const NoiseSetting& noise,
                           size_t columns = 120);
 
@@ -54,13 +54,11 @@ std::string metrics_csv(const RunResult& result);
 /// Percent of all frames.
 std::optional<double> covered_percent(const ExperimentResult& experiment);
 
-// The first columns of each CSV name run (run_name) and experiment.
-
-/// Columns "run" to "noise_factor".
+/// The first columns of each CSV: "run" (run_name) to "noise_factor".
 nlohmann::ordered_json experiment_columns();
 nlohmann::ordered_json experiment_cells(const std::string& run, const ExperimentKey& key);
 
-/// Columns: run, experiment, seed, frame_columns.
+/// Columns: experiment_columns, seed, frame_columns.
 std::string frames_csv(const std::string& run, const ExperimentResult& experiment);
 /// Errors per frame beside the paper's, which are of another movement.
 std::string curve_csv(const std::string& run, const ExperimentResult& experiment, const PaperCurve& paper);

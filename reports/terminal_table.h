@@ -7,11 +7,11 @@
 
 namespace glovebench::reports {
 
-/// Removes the columns of names in which all rows agree, but keeps one. Returns what was removed: "heading name".
+/// Removes naming columns in which all rows agree, but keeps one. Returns "heading name" of each.
 std::vector<std::string> remove_common_names(Table& table);
 
-/// For a terminal. A table that is too wide loses the ends of its intervals and the names that all rows share, and
-/// stands in parts, one below the other.
+/// A table that is too wide loses the ends of its intervals and the names that all rows share, and stands in
+/// parts.
 std::string to_terminal(Table table, size_t columns);
 
 }  // namespace glovebench::reports

@@ -10,11 +10,10 @@ namespace glovebench::reports {
 std::string escape_html(const std::string& text);  ///< also SVG
 /// XML 1.0. Invalid characters become U+FFFD.
 std::string escape_xml(const std::string& text);
-/// One cell or line. Escapes brackets only where they form links.
+/// For one cell or line.
 std::string escape_markdown(const std::string& text);
 std::string escape_latex(const std::string& text);
 std::string latex_comment(const std::string& text);
-/// Names from a user's file may contain anything.
 std::string shell_quoted(const std::string& text);
 
 /// "-" without value.
@@ -25,11 +24,10 @@ inline constexpr size_t kTerminalColumns = 120;
 size_t text_width(std::string_view text);
 /// Cuts the middle.
 std::string shortened(const std::string& text, size_t columns);
-/// Lines of at most `columns`, broken between words. Later lines begin with `indent` spaces; the first leaves room
-/// for them.
 /// "1 seed", "2 seeds".
 std::string counted(size_t count, std::string_view noun);
 
+/// Breaks lines between words. Later lines begin with `indent` spaces; the first leaves room for them.
 std::string wrapped(const std::string& text, size_t columns = kTerminalColumns, size_t indent = 0);
 
 /// One line per member; arrays of plain values in one line. Equal values give equal bytes. Numbers must be finite.

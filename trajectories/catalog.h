@@ -23,15 +23,15 @@ const std::vector<std::string>& posture_set_names();
 
 std::string trajectory_path(const std::string& data_folder, TrajectoryKind kind, const std::string& name);
 
-/// Throws: Error for an unknown name or bad file. Name and kind must match the path.
+/// Throws: Error, also if name or kind do not match the path.
 Trajectory source_trajectory(const std::string& data_folder, const std::string& name);
 Trajectory recorded_trajectory(const std::string& data_folder, const std::string& name);
 
-/// Throws: Error as above.
+/// Throws: Error, also if the name does not match.
 PostureSet posture_set(const std::string& data_folder, const std::string& name);
 /// Throws: Error.
 PostureSet load_gestures(const std::string& data_folder);
-/// People's postures, for the family `captured`.
+/// For the family `captured`.
 /// Throws: Error.
 PostureSet load_captured_postures(const std::string& data_folder);
 

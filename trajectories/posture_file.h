@@ -12,12 +12,13 @@ namespace glovebench::trajectories {
 
 std::string in_quotes(std::string_view text);
 std::string joint_order_json();
-/// Throws: Error unless it is the names of angle_infos().
+/// Throws: Error unless `field` has the names of angle_infos().
 void expect_joint_order(const JsonCursor& field);
 
 /// 22 angles in degrees, to 0.001.
 std::string angles_json(const Posture& posture);
-/// 22 angles in degrees, within limits.
+/// 22 angles in degrees.
+/// Throws: Error outside of limits.
 Posture angles_from(const JsonCursor& field);
 
 /// Throws: Error if the name is in `names`.
@@ -28,7 +29,7 @@ void expect_new_name(const std::string& name, std::set<std::string>& names, cons
 PostureSet parse_postures_json(std::string_view text, const std::string& where);
 PostureSet parse_postures_csv(std::string_view text, const std::string& set_name, const std::string& where);
 
-/// The canonical file. Parsing reproduces it byte for byte.
+/// Parsing reproduces it byte for byte.
 /// Throws: Error if it could not be read again.
 std::string canonical_text(const PostureSet& set);
 void write_posture_set(const PostureSet& set, const std::string& path);

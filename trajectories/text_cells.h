@@ -9,7 +9,6 @@ namespace glovebench::trajectories {
 
 /// Without spaces, tabs and carriage returns at the ends.
 std::string_view trimmed(std::string_view text);
-/// Per line.
 inline constexpr size_t kMostCells = 1000;
 /// Trimmed parts. After kMostCells the rest is one part.
 std::vector<std::string_view> split(std::string_view text, char separator);

@@ -28,7 +28,6 @@ struct Provenance {
   friend bool operator==(const Provenance&, const Provenance&) = default;
 };
 
-/// A ground truth.
 struct Trajectory {
   std::string name;
   std::string description;
@@ -38,8 +37,8 @@ struct Trajectory {
   std::vector<HandFrame> frames;         ///< in time order, not empty
 };
 
-inline constexpr int64_t kMaxTimestampUs = 1'000'000'000'000'000;  ///< 31 years
-inline constexpr double kMaxPositionMm = 10'000;                   ///< of each coordinate
+inline constexpr int64_t kMaxTimestampUs = 1'000'000'000'000'000;
+inline constexpr double kMaxPositionMm = 10'000;  ///< of each coordinate
 /// Largest deviation from unit length in a file; reading normalizes.
 inline constexpr double kQuaternionNormTolerance = 1e-3;
 
@@ -47,13 +46,13 @@ inline constexpr double kQuaternionNormTolerance = 1e-3;
 /// Throws: Error.
 Trajectory parse_trajectory(std::string_view text, const std::string& where);
 
-/// The canonical file (README.md). Parsing reproduces it byte for byte.
+/// The file of README.md. Parsing reproduces it byte for byte.
 /// Throws: Error if it could not be read again.
 std::string canonical_text(const Trajectory& trajectory);
 /// Throws: Error.
 void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
-/// Hash of the canonical file.
+/// Hash of canonical_text.
 std::string hash(const Trajectory& trajectory);
 
 }  // namespace glovebench::trajectories

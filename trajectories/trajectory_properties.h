@@ -33,12 +33,12 @@ struct TrajectoryProperties {
   int settled_frames = 0;      ///< at either end
 };
 
-/// RMS over the finger angles, rad.
+/// RMS over finger angles, rad.
 double finger_distance(const Posture& a, const Posture& b);
 
 /// Largest finger_distance of a settled frame.
 inline constexpr double kSettledDeg = 8;
-/// A frame within this share of the way is at the end.
+/// A frame within this share of the way is at an end.
 inline constexpr double kTransitionEnd = 0.15;
 
 TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, const Posture& grasp);
@@ -47,15 +47,13 @@ TrajectoryProperties measure(const Trajectory& trajectory, const Posture& open, 
 std::string properties_table(const std::vector<Trajectory>& trajectories,
                              const std::vector<TrajectoryProperties>& properties);
 
-// A sentence per valid value that is probably in wrong units.
-
-/// Empty unless the file's angles look like radians.
+/// A sentence if the file's angles look like radians, else empty.
 std::string angle_doubt(std::span<const Posture> postures);
 
-/// Also if most frames are nearer or farther than the working volume.
+/// A sentence per doubt about units: angle_doubt, or most frames are outside of the working volume.
 std::vector<std::string> unit_doubts(const Trajectory& trajectory, const WorkingVolume& volume);
 
-/// The hand between two frames, `share` from 0 to 1: angles, position and time linearly, rotation by slerp.
+/// Angles, position and time linearly, rotation by slerp. `share`: 0 to 1.
 HandFrame frame_between(const HandFrame& before, const HandFrame& after, double share);
 
 }  // namespace glovebench::trajectories

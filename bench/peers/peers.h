@@ -17,7 +17,7 @@
 
 namespace glovebench::bench {
 
-/// A search of one size's fields, alone.
+/// Searches the images of one size.
 class LookUpPeer {
  public:
   virtual ~LookUpPeer() = default;
@@ -28,7 +28,7 @@ class LookUpPeer {
     for (const LabelImage& query : queries) matches.push_back(look_up(query, keep));
     return matches;
   }
-  /// Numbers that the last call added or multiplied, for each query.
+  /// Numbers that the last call added or multiplied, per query.
   double work() const { return work_; }
 
  protected:
@@ -46,12 +46,11 @@ template <typename Peer>
 std::unique_ptr<LookUpPeer> make_look_up(const Database& database, int size) {
   return std::make_unique<Peer>(database, size);
 }
-/// These find the nearest.
+/// Exact search.
 extern const MakeLookUpPeer kFaiss, kFaissBytes, kOpenCv, kSparse, kSparseRows;
-/// These find near ones.
+/// Approximate search.
 extern const MakeLookUpPeer kFaiss8Bit, kFaissPq, kFaissHnsw;
 
-/// A structure over a surface, and its queries.
 class ClosestPointPeer {
  public:
   virtual ~ClosestPointPeer() = default;
@@ -72,10 +71,10 @@ using AlignPeer = Alignment (*)(const Surface& surface, std::span<const LabeledP
                                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 extern const AlignPeer kPcl;
 
-/// Starts a search at the point's last face, or at that of the previous point of its color.
+/// Starts a search at the last face of the point, or of the previous one of its color.
 class WarmStart {
  public:
-  /// The closest point of that face, or face -1. `last`: the point's last result, or face -1.
+  /// The closest point there, or face -1. `last`: the point's last result, or face -1.
   ClosestPoint operator()(const LabeledPoint& point, const ClosestPoint& last, const Surface& surface) const {
     const int face = last.face >= 0 ? last.face : faces_[point.label];
     if (face < 0) return {};

@@ -20,8 +20,8 @@ struct PageFaults {
 };
 PageFaults page_faults();
 
-/// Drops a flushed file's pages from process and system cache. Another process that maps them keeps them.
-/// Throws: Error if it is missing.
+/// Drops a flushed file's pages from process and system cache, unless another process maps them.
+/// Throws: Error.
 void drop_from_memory(const std::string& path);
 
 }  // namespace glovebench::bench

@@ -7,7 +7,6 @@
 
 namespace glovebench {
 
-/// The text with one random damage: bytes changed, lost or repeated; a cut; a hostile JSON value.
 inline std::string damaged_text(std::string text, RandomStream& random) {
   static const std::array<std::string, 7> kHostile = {"null", "-1", "1e999", "[[[[", "NaN", "18446744073709551615",
                                                       "{}"};

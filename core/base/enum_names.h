@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// An enumeration of 0, 1, 2, ... with names: `constexpr auto names_of(Color) { return
+/// An enumeration 0, 1, 2, ... with `constexpr auto names_of(Color) { return
 /// std::to_array<std::string_view>({"red", "green"}); }`
 template <typename Enum>
 concept Named = std::is_enum_v<Enum> && requires(Enum value) {

@@ -5,11 +5,10 @@
 
 namespace glovebench {
 
-/// Bad input from outside the program, in one line. `where` names the file or other source.
+/// Bad input from outside, in one line. `where` names its source.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
-  /// "WHERE: FIELD: found FOUND, expected EXPECTED"
   Error(const std::string& where, const std::string& field, const std::string& found, const std::string& expected)
       : std::runtime_error(where + ": " + field + ": found " + found + ", expected " + expected) {}
 };

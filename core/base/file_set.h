@@ -14,7 +14,7 @@
 
 namespace glovebench {
 
-// A set is files of one folder that change together (core/base/README.md).
+// A set is files of a folder that change together (core/base/README.md).
 
 inline constexpr const char* kManifest = "manifest.json";
 /// Bytes.
@@ -30,7 +30,6 @@ struct ManifestEntry {
   uint64_t bytes = 0;
   std::string hash;
 };
-/// Entries by path.
 using Manifest = std::map<std::string, ManifestEntry>;
 
 /// Throws: Error beyond `max_bytes`.
@@ -41,15 +40,14 @@ Manifest parse_manifest(const std::string& text, const std::string& where);
 /// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
 
-/// Reads files of one state of the folder.
 class FileSet {
  public:
-  /// Throws: Error if the manifest is unreadable.
+  /// Throws: Error as read_manifest.
   explicit FileSet(std::string folder) : folder_(std::move(folder)), manifest_(read_manifest(folder_)) {}
 
   const std::string& folder() const { return folder_; }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
-  /// True if the manifest names the file or, without a manifest, the file exists.
+  /// True if the manifest names it or, without a manifest, it exists.
   bool has(const std::string& name) const;
   /// Throws: BrokenSet if it differs from the manifest, Error if it is unreadable or too large.
   std::string read(const std::string& name, uint64_t max_bytes = std::numeric_limits<uint64_t>::max()) const;
@@ -58,7 +56,7 @@ class FileSet {
     std::string content;
     bool is_changed = false;
   };
-  /// Reads a file that may differ from the manifest or be missing there.
+  /// For a file that need not match the manifest.
   /// Throws: Error.
   Found find(const std::string& name, uint64_t max_bytes) const;
   /// Throws: BrokenSet.
@@ -73,7 +71,7 @@ class FileSet {
   std::optional<Manifest> manifest_;
 };
 
-/// Locks a folder for one writer, if the file system can.
+/// For one writer, if the file system can lock.
 /// Throws: Error if another process holds it for over 10 s.
 class FolderLock {
  public:
@@ -101,7 +99,6 @@ class WholeFiles {
   /// Throws: Error, also for a link.
   void add(const std::string& name, std::string_view content, mode_t mode = 0644);
   void remove(const std::string& name);
-  /// Added files, in order.
   const std::vector<std::string>& names() const { return added_; }
   void commit();
 

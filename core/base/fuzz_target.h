@@ -11,13 +11,13 @@
 
 namespace glovebench {
 
-/// Runs on any bytes (eval/fuzz_main.cpp). May throw only Error, of one line.
+/// Runs on any bytes (eval/fuzz_main.cpp). May throw only Error, in one line.
 struct FuzzTarget {
   std::string name;  ///< of NAME_fuzz.cpp and ci/corpora/NAME
   std::function<void(std::string_view bytes)> run;
 };
 
-/// For readers, which may throw Error.
+/// For readers.
 template <typename Reader>
 void expect_value_or_error(const Reader& reader) {
   try {
@@ -27,7 +27,7 @@ void expect_value_or_error(const Reader& reader) {
   }
 }
 
-/// For state machines, which must not throw Error.
+/// For state machines, which throw no Error.
 template <typename Run>
 void without_error(const Run& run) {
   try {

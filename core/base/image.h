@@ -49,7 +49,7 @@ class Image {
 /// 0..255 per channel.
 using Rgb = std::array<uint8_t, 3>;
 using ColorImage = Image<Rgb>;
-/// Depth z along the optical axis, m; not the ray's length. 0: no value.
+/// z along the optical axis, m; not the ray's length. 0: no value.
 using DepthImage = Image<float>;
 /// 1..kColorCount; 0 off the glove.
 using LabelImage = Image<uint8_t>;

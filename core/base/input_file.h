@@ -24,9 +24,9 @@ class InputFile {
   /// Bytes (0 in /proc). Empty for a pipe.
   std::optional<uint64_t> size() const { return size_; }
   int descriptor() const { return descriptor_; }
-  /// Throws: Error if size or time of change differ since opening.
+  /// Throws: Error if size or time of change differ from opening.
   void require_unchanged() const;
-  /// Returns the number of bytes, 0 at the end.
+  /// The number of bytes, 0 at the end.
   /// Throws: Error.
   size_t read(std::span<char> room);
 
@@ -43,9 +43,9 @@ inline constexpr uint64_t kLargestResults = 256'000'000;
 inline constexpr uint64_t kLargestSmallFile = 16'000'000;
 inline constexpr uint64_t kLargestUnknownFile = uint64_t{256} << 20;
 
-/// Throws: Error if it is missing, unreadable or larger than `max_bytes`.
+/// Throws: Error if missing, unreadable or larger than `max_bytes`.
 std::string read_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
-/// The same, without pipes.
+/// Without pipes.
 std::string read_regular_file(const std::string& path, uint64_t max_bytes = kLargestUnknownFile);
 
 }  // namespace glovebench

@@ -28,7 +28,7 @@ class JsonCursor {
   JsonCursor(const nlohmann::json& value, std::string&& where, std::string path = "") = delete;
   JsonCursor(nlohmann::json&& value, const std::string& where, std::string path = "") = delete;
 
-  /// Requires all `required` keys. Allows only `optional` ones besides.
+  /// Requires `required`, allows `optional` keys.
   void expect_keys(std::initializer_list<std::string_view> required,
                    std::initializer_list<std::string_view> optional = {}) const {
     expect_keys({required.begin(), required.end()}, {optional.begin(), optional.end()});
@@ -68,7 +68,6 @@ class JsonCursor {
   Eigen::Vector3d vector3(std::optional<double> most = {}) const;
 
   const nlohmann::json& value() const { return *value_; }
-  /// "FILE: frames[17].angles_deg[3]".
   std::string place() const;
   [[noreturn]] void fail(const std::string& expected) const;
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
@@ -84,7 +83,6 @@ class JsonCursor {
   friend class JsonMembers;
 };
 
-/// An array. Makes cursors on access.
 class JsonItems {
  public:
   explicit JsonItems(const JsonCursor& array) : array_(array) {}

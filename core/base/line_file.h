@@ -7,8 +7,8 @@
 
 namespace glovebench {
 
-/// Writes lines (core/base/README.md) to NAME.partial (NAME.partial-2, ... if it exists). `finish` renames it to
-/// NAME. The constructor opens streams.
+/// Writes lines to NAME.partial (or NAME.partial-2, ...), which `finish` renames to NAME (core/base/README.md).
+/// The constructor opens streams.
 class LineFile {
  public:
   /// Throws: Error.
@@ -21,7 +21,7 @@ class LineFile {
   /// Adds the line end. After an error nothing is written.
   /// Throws: Error, which names the partial file.
   void append(std::string_view line);
-  /// Throws: Error, which names the partial file; also if a line is missing.
+  /// Throws: Error likewise, and if a line is missing.
   void finish();
   /// "3 lines in NAME.partial". Empty without lines.
   std::string kept() const;
@@ -31,11 +31,11 @@ class LineFile {
 
   std::string path_;
   OutputTarget target_;
-  std::string partial_;  ///< empty for streams and after `finish`
+  std::string partial_;
   int descriptor_ = -1;
   long lines_ = 0;
   off_t bytes_ = 0;
-  int error_ = 0;  ///< errno; 0: none
+  int error_ = 0;
 };
 
 }  // namespace glovebench

@@ -16,8 +16,8 @@ class MappedMemory {
   /// Zeros, in large pages if possible.
   /// Throws: std::bad_alloc.
   static MappedMemory zeros(size_t bytes);
-  /// Maps a file for reading. A WholeFile may replace it. If it is shortened, access to lost bytes ends the process
-  /// (SIGBUS).
+  /// Maps a file for reading. A WholeFile may replace it. If the file is shortened, access to lost bytes ends the
+  /// process (SIGBUS).
   /// Throws: Error.
   static MappedMemory of_file(const std::string& path);
   /// Maps an open file for writing.
@@ -29,7 +29,6 @@ class MappedMemory {
 
   /// Frees a file's pages inside this range until their next access. No effect on `zeros`.
   void release(size_t offset, size_t bytes) const;
-  /// Turns off read-ahead.
   void expect_random_reads(size_t offset, size_t bytes) const;
 
   /// Throws: Error if the file changed since `of_file`.

@@ -9,7 +9,7 @@ namespace glovebench {
 
 inline constexpr size_t kDeepestNesting = 64;
 
-/// Limits of a document's memory: a constant, and per byte of text.
+/// Limits of a document's memory: constant, and per byte of text.
 inline constexpr uint64_t kJsonBytes = uint64_t{8} << 20;
 inline constexpr uint64_t kJsonBytesPerByte = 12;
 inline constexpr uint64_t kCborBytesPerByte = 64;

@@ -6,10 +6,10 @@
 
 namespace glovebench {
 
-/// Takes at least `bytes`, aligned to 64, from this thread's store or the heap.
+/// At least `bytes`, aligned to 64, from this thread's store or the heap.
 /// Throws: std::bad_alloc.
 void* take_memory(size_t bytes);
-/// Returns memory to this thread's store of up to 64 MiB (0 under the address sanitizer).
+/// The store keeps up to 64 MiB (0 under the address sanitizer).
 void give_memory(void* memory, size_t bytes) noexcept;
 
 template <typename T>

@@ -11,14 +11,14 @@
 
 namespace glovebench {
 
-/// Checks that the entry of X_KIND.cpp has the name X, if it has a name.
+/// Checks that X_KIND.cpp's entry has the name X, if any.
 template <typename Entry>
 Entry named(std::string_view name, Entry entry) {
   if constexpr (requires { entry.name; }) check(entry.name == name, "an entry has the name of its file");
   return entry;
 }
 
-/// Sorted names of a registry (glovebench_registry in CMakeLists.txt).
+/// Sorted, of a registry (glovebench_registry in CMakeLists.txt).
 template <typename Entry>
 std::vector<std::string> names_in(std::span<const Entry> entries) {
   std::vector<std::string> names;

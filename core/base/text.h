@@ -1,7 +1,5 @@
 #pragma once
 
-// Texts for error messages, and safe names for paths.
-
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -14,22 +12,20 @@ namespace glovebench {
 /// Replaces unprintable bytes by "?".
 std::string printable(std::string_view text);
 
-/// An excerpt in quotes, escaped as in JSON.
+/// In quotes, escaped as in JSON.
 std::string quoted_excerpt(std::string_view text);
 
-/// An excerpt of a value. Of an array or object: only its kind.
+/// Of an array or object: only its kind.
 std::string excerpt(const nlohmann::json& value);
 
-/// "; did you mean NAME?" for the nearest name by edits (a character inserted, removed, replaced, or swapped with
-/// its neighbor; case is ignored), else the shortest that begins with the word. Empty if the edits exceed a third
-/// of the characters and the word has fewer than four, or two names are equally near or short.
+/// "; did you mean NAME?" for the nearest name (case is ignored) or the shortest that begins with the word. Empty
+/// if none is near, or two are equally good.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
 /// "one of horn, robust", with `did_you_mean`.
 std::string one_of(const std::vector<std::string>& names, std::string_view found);
 
-/// True if the text is a safe part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces; begins with a
-/// letter or digit.
+/// A safe part of a path: 1 to 64 letters, digits, '_', '-', '.' or spaces; begins with a letter or digit.
 bool is_name(std::string_view text);
 inline constexpr const char* kNameExpected =
     "a name of 1 to 64 letters, digits, '_', '-', '.' or spaces that begins with a letter or digit";
@@ -38,10 +34,10 @@ inline constexpr const char* kNameExpected =
 /// Throws: Error unless `is_name`.
 std::string checked_name(std::string name, const std::string& where, const std::string& field);
 
-/// "FOLDER/NAME". The name may contain folders.
+/// "FOLDER/NAME". NAME may contain folders.
 /// Throws: Error for an absolute name, or a part that is empty, begins with a dot or has control characters.
 std::string path_within(const std::string& folder, std::string_view name);
-/// The same, for writing or removing.
+/// For writing or removing.
 /// Throws: Error as above, and if a folder in the name is a symbolic link.
 std::string place_within(const std::string& folder, std::string_view name);
 

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// An output goes to a file or a stream (device, pipe, "-", /dev/fd/3): core/base/README.md.
+/// A file or a stream (device, pipe, "-", /dev/fd/3): core/base/README.md.
 struct OutputTarget {
   bool is_stream = false;
   int descriptor = -1;  ///< of an open stream
@@ -26,7 +26,7 @@ OutputTarget find_output(const std::string& path);
 /// Throws: Error.
 int open_stream(const OutputTarget& target, const std::string& path);
 
-/// Creates a file with the older one's mode and, if permitted, owner. Returns -1 and sets errno on failure.
+/// Creates a file with the older one's mode and, if permitted, owner. On failure returns -1 and sets errno.
 int create_like(const std::optional<struct stat>& older, const std::string& new_path, mode_t mode = 0644);
 
 struct Written {
@@ -35,13 +35,13 @@ struct Written {
 };
 Written write_all(int descriptor, std::string_view content);
 
-/// Makes a file's content survive a power failure. Returns 0 or errno.
+/// Returns 0 or errno.
 int sync_file(int descriptor);
 
 /// Creates and syncs a folder and its parents. "": the current one.
 /// Throws: Error.
 void make_folders(const std::string& folder);
-/// Makes new names survive a power failure, if the file system can.
+/// Syncs new names, if the file system can.
 /// Throws: Error if the disk fails.
 void sync_folder(const std::string& folder);
 /// "." for a plain name.
@@ -60,7 +60,7 @@ class WholeFile {
   void append(std::string_view content);
   /// Fills an empty file with zeros on the disk and maps it for writing. Not for streams.
   MappedMemory map(uint64_t bytes);
-  /// Makes content and name survive a power failure.
+  /// Content and name then survive a power failure.
   void commit();
 
  private:
@@ -72,7 +72,7 @@ class WholeFile {
 
 void write_file(const std::string& path, std::string_view content);
 
-/// Removes temporary files of killed writers if `is_such` accepts the target's name. Files in use (locked) stay.
+/// Removes temporary files of killed writers if `is_such` accepts the target's name. Locked files stay.
 void remove_leftovers(const std::string& folder, const std::function<bool(const std::string& name)>& is_such);
 
 }  // namespace glovebench

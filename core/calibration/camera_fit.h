@@ -8,19 +8,18 @@
 
 namespace glovebench::calibration {
 
-/// Largest error of a kept view or pair: three times the median, at least 0.5 px. `errors_px` is not empty.
+/// Largest error of a kept view or pair: three times the median, at least 0.5 px. `errors_px` must not be empty.
 double misfit_limit(const std::vector<double>& errors_px);
 /// Throws: Error if the RMS error exceeds 2 px.
 void require_fit(double error_px, const std::string& where);
 LeftOut misfit(const std::string& name, double error_px, double limit_px);
 
-/// The fitted coefficients of LensDistortion.
-enum class LensModel { none, radial, full };  ///< none; k1, k2, k3; all five
+enum class LensModel { none, radial, full };  ///< fitted: none; k1, k2, k3; all five
 constexpr auto names_of(LensModel) {
   return std::to_array<std::string_view>({"none", "radial", "full"});
 }
 
-/// Errors are RMS distances of observed from fitted corners.
+/// Errors are RMS distances of corners from fitted ones.
 struct CameraFit {
   PinholeCamera camera;
   LensDistortion lens;
@@ -28,11 +27,11 @@ struct CameraFit {
   double error_px = 0;
   std::vector<BoardView> views;
   std::vector<double> view_errors_px;
-  int tilted = 0;  ///< views with a tilt over 10 degrees
+  int tilted = 0;  ///< by over 10 degrees
   std::vector<LeftOut> left_out;
 };
 
-/// Fits a camera by Zhang's method (OpenCV), leaving out views beyond misfit_limit.
+/// Zhang's method (OpenCV), without views beyond misfit_limit.
 /// Throws: Error for too few or too similar views, or a bad fit (require_fit).
 CameraFit fit_camera(const BoardViews& boards, const Chessboard& board, LensModel lens, const std::string& where);
 

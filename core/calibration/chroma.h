@@ -15,7 +15,7 @@ using Chroma = Eigen::Vector2d;
 inline double luma_of(const Eigen::Array3d& rgb) {
   return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
 }
-/// `rgb` must not be black.
+/// `rgb`: not black.
 inline Chroma chroma_of(const Eigen::Array3d& rgb) {
   const double luma = luma_of(rgb);
   return {(rgb[2] - luma) / (1.772 * luma), (rgb[0] - luma) / (1.402 * luma)};
@@ -28,7 +28,6 @@ inline Eigen::Array3d array_of(const Rgb& rgb) {
   return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
 }
 
-/// True if a channel may be clipped.
 inline bool is_overexposed(const Rgb& rgb) {
   constexpr uint8_t kWhite = 251;
   return rgb[0] >= kWhite || rgb[1] >= kWhite || rgb[2] >= kWhite;
@@ -36,19 +35,19 @@ inline bool is_overexposed(const Rgb& rgb) {
 
 struct KnownChroma {
   Chroma place = Chroma::Zero();
-  double reach = 0;  ///< no new peak counts within it
+  double reach = 0;  ///< no new peak within it
 };
 
-/// Density of samples in the chroma plane, smoothed by a Gaussian (peak 1, deviation `width`). Skips samples with Y
-/// < `min_luma`.
+/// Density of samples in the chroma plane, smoothed by a Gaussian (peak 1, deviation `width`). Skips Y <
+/// `min_luma`.
 class ChromaDensity {
  public:
   ChromaDensity(std::span<const ColorSample> samples, double min_luma, double width);
 
-  /// Weighted share of samples around `chroma`. 0 outside -1.2 to 2.
+  /// Weighted share of samples around `chroma`; 0 outside -1.2 to 2.
   double at(const Chroma& chroma) const;
-  /// At most `most` local maxima above `share`, highest first, outside the reach and slope of known ones. Found
-  /// peaks get `reach`.
+  /// Up to `most` local maxima above `share`, highest first, outside reach and slope of known ones. New ones get
+  /// `reach`.
   std::vector<Chroma> peaks(std::vector<KnownChroma> known, double reach, double share, size_t most) const;
 
  private:

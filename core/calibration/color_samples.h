@@ -25,18 +25,18 @@ struct ColorSample {
 struct MixedSample {
   Rgb rgb{};
   Rgb near{};   ///< nearest even pixel, in the volume
-  Rgb other{};  ///< the even pixel within 3 px that differs most from `near`
+  Rgb other{};  ///< even pixel within 3 px, least like `near`
   bool other_is_inside = false;
 };
 
-/// A frame in IR pixels. `inside`: 1 for a colored pixel in the volume.
+/// IR pixels. `inside`: 1 for a colored pixel in the volume.
 struct VolumeView {
   ColorImage color;
   Image<uint8_t> inside;
 };
 VolumeView view_volume(const DeviceFrame& frame, const RgbdCalibration& calibration, const SampleConfig& config);
 
-/// Pixels of an unlabeled recording. An even pixel shares surface and color with its four neighbors.
+/// Pixels of an unlabeled recording. Even pixels share surface and color with their four neighbors.
 class ColorSamples {
  public:
   explicit ColorSamples(SampleConfig config = {}) : config_(config) {}
@@ -49,9 +49,8 @@ class ColorSamples {
   /// Even pixels more than kCutOffMargin behind the volume.
   const std::vector<ColorSample>& beyond() const { return beyond_; }
   const std::vector<MixedSample>& mixed() const { return mixed_; }
-  /// Colored pixels in the volume.
   int64_t inside_pixels() const { return inside_pixels_; }
-  /// Standard deviation of green noise, 0..255. 0 without pixels in the volume.
+  /// Deviation of green noise, 0..255; 0 without pixels in the volume.
   double noise_gray() const;
 
  private:

@@ -11,10 +11,10 @@
 
 namespace glovebench::calibration {
 
-/// Chroma of the glove's colors at the start of a calibration. Index 0 is unused.
+/// Chroma of the glove's colors before calibration. Index 0 is unused.
 using ColorSeeds = std::array<Chroma, kColorCount + 1>;
 
-/// The mean of each color's cells.
+/// Each color's mean cell.
 /// Throws: Error for a color without cells.
 ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where);
 
@@ -22,20 +22,20 @@ ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where);
 /// Throws: Error.
 ColorSeeds parse_glove_colors(std::string_view text, const std::string& where);
 
-/// Reads a color table or a list of colors.
+/// From a color table or a list of colors.
 /// Throws: Error.
 ColorSeeds load_seeds(const std::string& path);
 
-/// Change of light and camera between seeds and recording.
+/// Change of light and camera from seeds to recording.
 struct RecordedLight {
   Eigen::Array3d gain = Eigen::Array3d::Ones();  ///< of linear R, G, B; G = 1
-  /// Factor of the chroma: > 1 in weak light, < 1 with haze or reflections.
+  /// Factor of chroma: > 1 in weak light, < 1 with haze or reflections.
   double saturation = 1;
 };
 
 ColorSeeds relit(const ColorSeeds& seeds, const RecordedLight& light);
 
-/// The light that puts the seeds where samples are dense. Without samples: no change.
+/// Puts the seeds where samples are dense. Without samples: no change.
 RecordedLight estimate_light(const ColorSeeds& seeds, std::span<const ColorSample> samples, double min_luma);
 
 }  // namespace glovebench::calibration

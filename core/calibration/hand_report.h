@@ -11,7 +11,7 @@ namespace glovebench::calibration {
 
 MeasuredHand measured_hand(const HandFit& fit, Side side);
 
-/// A sentence per size that the recording does not show, and per sign of a bad fit.
+/// One sentence per size that the recording hides and per sign of a bad fit.
 std::vector<std::string> hand_warnings(const HandFit& fit, const ShownMotion& motion);
 
 /// README.md lists the keys.

@@ -13,19 +13,19 @@ namespace glovebench::calibration {
 struct TrackedView {
   int64_t timestamp_us = 0;
   HandView seen;
-  ArticulatedPose pose;  ///< tracked with other sizes; the fit starts here
+  ArticulatedPose pose;  ///< the fit starts here
 };
-/// A frame's view. Empty if the hand was lost.
+/// Empty if the hand was lost.
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
 struct ShownMotion {
   int views = 0;
   double seconds = 0;                ///< first to last view
-  double turn_deg = 0;               ///< largest angle between two viewing directions
+  double turn_deg = 0;               ///< largest between viewing directions
   std::array<double, 5> bend_deg{};  ///< thumb to little: range of both middle joints' bend
 };
 ShownMotion motion_of(std::span<const TrackedView> views);
-/// Throws: Error unless there are enough views, the fingers open and close, and the hand turns.
+/// Throws: Error unless views suffice, the fingers open and close, and the hand turns.
 void require_motion(const ShownMotion& motion, const std::string& where);
 
 }  // namespace glovebench::calibration

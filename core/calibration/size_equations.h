@@ -9,13 +9,13 @@ namespace glovebench::calibration {
 using SizeVector = Eigen::Matrix<double, kSizeCount, 1>;
 using SizeMatrix = Eigen::Matrix<double, kSizeCount, kSizeCount>;
 
-/// The surface's derivatives by angles and sizes, from differences.
+/// Derivatives of the surface by angles and sizes (differences).
 class SurfaceMotion {
  public:
   explicit SurfaceMotion(const HandModel& model);
 
   static constexpr int kMoves = kAngleCount + kSizeCount;
-  /// kMoves vectors per vertex, hand frame: mm per degree and mm per percent.
+  /// kMoves vectors per vertex, hand frame: mm per degree, mm per percent.
   std::vector<Eigen::Vector3f> at(const Posture& posture, const PosedHand& hand) const;
   const HandModel& model() const { return model_; }
 
@@ -24,8 +24,8 @@ class SurfaceMotion {
   std::vector<HandModel> stretched_;
 };
 
-/// Normal equations of one view: H sizes = g, with pose and posture eliminated. Also the step of pose and posture
-/// for a step of the sizes. Sizes in percent; other units as in articulated_step.h.
+/// Normal equations of one view: H sizes = g, pose and posture eliminated; also their step for a step of the
+/// sizes. Sizes in percent; other units as in articulated_step.h.
 struct SizeEquations {
   SizeMatrix H = SizeMatrix::Zero();
   SizeVector g = SizeVector::Zero();
@@ -34,7 +34,7 @@ struct SizeEquations {
 
   StepVector step(const SizeVector& sizes) const { return pose_step - pose_by_sizes * sizes; }
 };
-/// `tukey_mm`: farther points have no weight. All points together count as 1,000.
+/// `tukey_mm`: farther points have no weight. All points together count 1,000.
 SizeEquations size_equations(const SurfaceMotion& motion, const TrackedView& view, const ArticulatedPose& pose,
                              double tukey_mm);
 

@@ -8,19 +8,19 @@
 namespace glovebench::calibration {
 
 struct StereoFit {
-  CameraFit ir, rgb;  ///< each camera alone
+  CameraFit ir, rgb;
   RgbdCalibration calibration;
-  double error_px = 0;  ///< RMS over all corners
+  double error_px = 0;  ///< RMS of all corners
   std::vector<std::string> pairs;
   std::vector<double> pair_errors_px;
   std::vector<LeftOut> left_out;
-  /// Standard errors of T_rgb_ir.
+  /// Standard errors.
   double translation_error = 0;  ///< m
   double rotation_error = 0;     ///< rad
 };
 
 /// Fits each camera alone, then both to views of the same name, which must show the board in one place.
-/// Throws: Error as fit_camera, and if too few pairs fit, or T_rgb_ir is too large for one device.
+/// Throws: Error as fit_camera, and for too few fitting pairs, or T_rgb_ir too large for one device.
 StereoFit fit_stereo(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board, LensModel lens);
 
 /// README.md lists the keys.

@@ -17,7 +17,7 @@ inline Eigen::Vector2d undistort(const LensDistortion& lens, const Eigen::Vector
   return guess;
 }
 
-/// A common calibration, with cameras rotated by 1.5 degrees.
+/// A common calibration, cameras rotated by 1.5 degrees.
 inline RgbdCalibration kinect_with_lenses() {
   RgbdCalibration truth;
   truth.ir = {.width = 640, .height = 480, .fx = 594.21, .fy = 591.04, .cx = 339.31, .cy = 242.74};
@@ -91,7 +91,7 @@ class BoardCamera {
   std::vector<Eigen::Vector2d> rays_;
 };
 
-/// Tilted by 15 to 45 degrees. Both cameras see the whole board.
+/// Tilted by 15 to 45 degrees, whole in both images.
 inline std::vector<Eigen::Isometry3d> poses_before(const RgbdCalibration& truth, const Chessboard& board, int count,
                                                    uint64_t seed) {
   RandomStream random(seed, "board", 0, "poses");

@@ -46,7 +46,7 @@ inline Eigen::Array3d light_at(int u, int v, const TestScene& scene) {
   return albedo * scene.gain * (scene.strength * (0.35 + 0.65 * u / kTestWidth));
 }
 
-/// A stripe's first row mixes it with the stripe above.
+/// A stripe's first row mixes in the stripe above.
 inline DeviceFrame test_frame(const TestScene& scene, int number) {
   DeviceFrame frame{Image<uint16_t>(kTestWidth, kTestHeight), ColorImage(kTestWidth, kTestHeight)};
   RandomStream random(3, "test glove", number, "noise");

@@ -8,7 +8,7 @@ namespace glovebench {
 inline constexpr int kMostSide_px = 4096;
 inline constexpr int kMostPixels = 1 << 21;  // over 1920x1080
 
-/// Axes: x right, y down, z forward. Pixel centers are integers: the image spans [-0.5, width - 0.5).
+/// x right, y down, z forward. Pixel centers are integers: the image spans [-0.5, width - 0.5).
 struct PinholeCamera {
   int width = 640;
   int height = 480;
@@ -17,11 +17,11 @@ struct PinholeCamera {
   double cx = 0;  ///< px
   double cy = 0;  ///< px
 
-  /// Pixel of a point with z > 0.
+  /// For z > 0.
   Eigen::Vector2d project(const Eigen::Vector3d& p_camera) const {
     return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
   }
-  /// Point at a pixel and depth z, m.
+  /// `z`: depth, m.
   Eigen::Vector3d back_project(double u_px, double v_px, double z) const {
     return {(u_px - cx) / fx * z, (v_px - cy) / fy * z, z};
   }

@@ -6,19 +6,18 @@
 namespace glovebench {
 
 struct RegistrationConfig {
-  /// A surface hides a pixel if it is nearer by more than this on the RGB ray, m, > 0.
+  /// A surface nearer by more on the RGB ray hides a pixel, m, > 0.
   double occlusion_tolerance = 0.015;
 };
 
-/// The mapped image M: the color of each depth pixel.
+/// The mapped image M.
 /// Paper: section III-A.
 struct RegisteredImage {
   ColorImage color;          ///< in IR pixels
-  Image<uint8_t> has_color;  ///< 1 if the RGB camera sees the pixel, else 0
+  Image<uint8_t> has_color;  ///< 1: seen by the RGB camera
 };
 
-/// Maps colors to the depth image. Inputs must be rectified. Pixels without depth, hidden, or outside the RGB image
-/// get no color.
+/// Inputs must be rectified. Pixels without depth, hidden, or outside the RGB image get no color.
 RegisteredImage register_color(const DepthImage& depth, const ColorImage& color, const RgbdCalibration& calibration,
                                const RegistrationConfig& config);
 

@@ -22,25 +22,23 @@ struct ViewConfig {
   double distance = 0.75;           ///< camera to hand origin, m
   double field_of_view_deg = 24.0;  ///< of the square image
   int image_size = 192;             ///< px
-  double field_cap_share = 0.5;     ///< largest stored distance, share of the side, (0, 1]
+  double field_cap_share = 0.5;     ///< largest stored distance / side, (0, 1]
 };
 
 /// In 1/kFieldScale px.
 uint8_t field_cap(double cap_share, int size);
 
-/// 756 views of each posture as tiny images, with a distance field for each color. Entry = posture * 756 + view.
-/// Immutable; copies share memory.
+/// 756 views of each posture as tiny images, with a distance field per color. Immutable; copies share memory.
 /// Paper: section III.
 class Database {
  public:
-  /// Renders all views. `threads` do not change the result. Each thread calls `renderers` once. `progress` gets 0
-  /// to 1.
+  /// `threads` do not change the result. Each thread calls `renderers` once. `progress` gets 0 to 1.
   /// Throws: Error without postures, or for a repeated size or one outside 4..64 px.
   static Database build(const PostureSet& postures, const HandModel& model, const ViewConfig& views,
                         const ViewRendererFactory& renderers, int threads,
                         const std::function<void(double)>& progress = {}, std::span<const int> sizes = kTinySizes,
                         DatabaseMemory memory = DatabaseMemory::normal);
-  /// Builds a file, which may exceed memory. Returns its `content_hash()`.
+  /// Builds a file, even beyond memory. Returns its `content_hash()`.
   /// Throws: Error as `build`, or if the disk is full.
   static std::string build_file(const std::string& path, const PostureSet& postures, const HandModel& model,
                                 const ViewConfig& views, const ViewRendererFactory& renderers, int threads,
@@ -49,12 +47,12 @@ class Database {
                                 DatabaseMemory memory = DatabaseMemory::normal);
 
   void save(const std::string& path) const;
-  /// Loads those of `sizes` that the file has. Checks hashes and values. Labels and fields stay mapped
+  /// Loads those of `sizes` that exist. Checks hashes and values. Labels and fields stay mapped
   /// (MappedMemory::of_file). Uses the caller's TBB arena.
   /// Throws: Error.
   static Database load(const std::string& path, std::span<const int> sizes = kTinySizes);
-  /// Recomputes the fields of loaded sizes. Uses the caller's TBB arena.
-  /// Throws: Error if a stored field differs.
+  /// Recomputes loaded fields in the caller's TBB arena.
+  /// Throws: Error if a stored one differs.
   void check() const;
   /// Throws: Error if the file changed since.
   void require_unchanged() const { bytes_->require_unchanged(); }
@@ -64,10 +62,10 @@ class Database {
   const PostureSet& posture_set() const { return header_.postures; }
   const Posture& posture(int entry) const { return header_.postures.postures[entry / kViewCount]; }
   static int view(int entry) { return entry % kViewCount; }
-  /// Unit vector from the view's camera to the center of the hand's bounding square.
+  /// Unit vector from the view's camera to the hand's bounding square's center.
   const Eigen::Vector3d& box_ray(int entry) const { return box_rays_[entry]; }
   Side side() const { return header_.side; }
-  /// Hash of the inputs, without the memory mode.
+  /// Of the inputs, without the memory mode.
   const std::string& input_hash() const { return header_.input_hash; }
   /// See DatabaseLayout.
   const std::string& content_hash() const { return content_hash_; }

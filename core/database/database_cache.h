@@ -9,8 +9,8 @@ namespace glovebench {
 
 inline constexpr std::string_view kDatabaseEnding = ".glovedb";
 
-/// Loads a database from `folder`, or builds and stores it. Waits for another process's build. Reports and rebuilds
-/// a damaged file. A build removes files of older code.
+/// Loads a database from `folder`, or builds and stores it. Waits for another process's build. Reports and
+/// rebuilds a damaged file. Building removes files of older code.
 struct DatabaseCache {
   std::string folder;
   ViewRendererFactory renderers;

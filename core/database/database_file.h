@@ -25,14 +25,13 @@ struct DatabaseHeader {
   std::set<int> sizes_px;
 };
 
-/// A part of the file. Pieces are hashed in parallel.
 struct Section {
   enum class Kind { box_rays, labels, fields };
 
   Kind kind = Kind::box_rays;
   int size_px = 0;  ///< 0: all sizes
   uint64_t offset = 0;
-  uint64_t bytes = 0;  ///< 0: fields of low memory, which are only hashed
+  uint64_t bytes = 0;  ///< 0: fields of low memory, only hashed
   uint64_t piece_bytes = 0;
 
   std::string name() const;
@@ -43,14 +42,14 @@ struct SizeSections {
 };
 
 /// A database's bytes, little-endian: magic, length and checksum of a JSON header, the header, then sections of
-/// whole pages. At least kBehind zero bytes follow each section.
+/// whole pages, each with at least kBehind zero bytes behind.
 class DatabaseLayout {
  public:
   static constexpr uint64_t kBehind = 64;
   static constexpr int kPieceEntries = 54;
 
   explicit DatabaseLayout(DatabaseHeader header);
-  /// Throws: Error unless the bytes are a complete database.
+  /// Throws: Error unless the bytes are a whole database.
   DatabaseLayout(std::span<const uint8_t> file, const std::string& path);
 
   const DatabaseHeader& header() const { return header_; }
@@ -58,9 +57,9 @@ class DatabaseLayout {
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
   int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
-  /// Sections in file order, also of fields that are not stored.
+  /// In file order, with fields that are not stored.
   std::vector<Section> sections() const;
-  /// Hash of angles, box rays, labels and fields. Memory modes do not change it.
+  /// Of angles, box rays, labels and fields. Independent of the memory mode.
   std::string content_hash() const;
 
   /// Writes the header with hashes.

@@ -7,10 +7,10 @@
 
 namespace glovebench {
 
-/// Distances are in 1/kFieldScale px: 3 for a straight step, 4 for a diagonal one.
+/// In 1/kFieldScale px a straight step is 3, a diagonal one 4.
 inline constexpr int kFieldScale = 3;
 
-/// Distance to the nearest pixel of `color` by two-pass chamfering, at most `cap`.
+/// Distances to `color` by two-pass chamfering, at most `cap`.
 /// Paper: section III-B.
 void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
 
@@ -21,7 +21,7 @@ struct RowRange {
 
 /// The same, faster.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field);
-/// The same for rows `wanted` only.
+/// Only rows `wanted`.
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field, RowRange wanted);
 /// The fields of all colors in turn.
 void chamfer_fields(const LabelImage& labels, uint8_t cap, std::span<uint8_t> fields);

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Keeps the `keep` nearest entries by images of `size` px.
+/// Keeps the `keep` entries nearest by images of `size` px.
 struct CascadeStage {
   int size = 64;
   int keep = 3;
@@ -33,7 +33,7 @@ struct TinyImages {
 };
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade);
 
-/// Mean distance from a glove pixel of the query to the entry's nearest pixel of its color, px. 0 without glove
+/// Mean distance of the query's glove pixels to the entry's nearest pixel of their color, px. 0 without glove
 /// pixels.
 /// Paper: equation (2).
 float distance(const Database& database, int entry, const LabelImage& query);
@@ -45,8 +45,7 @@ struct LookUpTrace {
   std::vector<std::vector<int>> kept;
 };
 
-/// A search. All give equal matches and traces. X_look_up.cpp in core/database/look_ups defines `LookUpEntry
-/// X_look_up()`.
+/// All give equal matches and traces.
 struct LookUpEntry {
   std::string_view name;
   std::string_view description;
@@ -56,9 +55,9 @@ struct LookUpEntry {
 /// Sorted by name.
 std::span<const LookUpEntry> look_ups();
 
-/// Each stage ranks the entries that the stage before kept: best first, equal errors by number. Empty without glove
-/// pixels. `name`: of `look_ups`.
-/// Throws: Error for an unknown name.
+/// Each stage ranks the entries that the stage before kept: best first, equal errors by number. Empty without
+/// glove pixels.
+/// Throws: Error if `name` is not in `look_ups`.
 /// Paper: section III-B.
 RecycledVector<Match> look_up(const Database& database, const TinyImages& query, const Cascade& cascade,
                               std::string_view name = "fast", LookUpTrace* trace = nullptr);

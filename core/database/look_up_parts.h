@@ -19,12 +19,11 @@ inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
   return static_cast<float>(sum) / static_cast<float>(kFieldScale * glove_pixels);
 }
 
-/// Offsets into an entry's fields, one per glove pixel of the query.
+/// Into an entry's fields, one per glove pixel.
 RecycledVector<int> glove_offsets(const LabelImage& query);
 /// In 1/kFieldScale px, at most 4096 * 255.
 uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets);
 
-/// `trace` may be null.
 inline void note_kept(const RecycledVector<Candidate>& candidates, LookUpTrace* trace) {
   if (trace == nullptr) return;
   std::vector<int>& kept = trace->kept.emplace_back();
@@ -38,12 +37,12 @@ inline RecycledVector<Match> matches_of(const RecycledVector<Candidate>& candida
   return matches;
 }
 
-/// Stored fields, or fields made from labels.
+/// Stored fields, or made from labels.
 class EntryFields {
  public:
   /// Throws: Error if the query's size is not loaded.
   EntryFields(const Database& database, const LabelImage& query);
-  /// As Database::fields, undefined for colors that the query lacks. Valid until the next call.
+  /// As Database::fields; undefined for colors that the query lacks. Valid until the next call.
   const uint8_t* of(int entry);
 
  private:

@@ -7,23 +7,22 @@
 
 namespace glovebench {
 
-/// Distances of low-memory entries to a query. Makes fields color by color until the entry is too far.
+/// Distances of low-memory entries. Makes fields color by color until an entry is too far.
 class MadeDistances {
  public:
   /// Throws: Error if the query's size is not loaded.
   MadeDistances(const Database& database, const LabelImage& query);
 
-  /// The sum over glove pixels, 1/kFieldScale px; if above `limit`, any number above it.
+  /// Sum over glove pixels, 1/kFieldScale px; if above `limit`, any number above it.
   uint32_t sum(int entry, uint32_t limit) const;
 
  private:
-  /// One color of the query.
   struct Part {
     uint8_t color = 0;
     size_t pixels = 0;
     RowRange rows_px;
     RecycledVector<FieldChunk> chunks;
-    RecycledVector<WeightedRow> bounds;  ///< sum to a lower bound
+    RecycledVector<WeightedRow> bounds;
   };
 
   const Database& database_;

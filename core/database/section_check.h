@@ -23,8 +23,8 @@ struct DatabaseContent {
   std::map<int, FieldRows> rows;
 };
 
-/// Hashes sections and checks their values. Makes and hashes fields that are not stored. `load` also makes rows and
-/// keeps a normal database in memory. Uses the caller's TBB arena.
+/// Hashes sections and checks values, also of fields that are not stored. `load` also makes rows and keeps a
+/// normal database in memory.
 DatabaseContent look_at_sections(const DatabaseLayout& layout, const MappedMemory& file,
                                  std::span<const Section> sections, bool load);
 

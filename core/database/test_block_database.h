@@ -9,7 +9,6 @@
 
 namespace glovebench {
 
-/// Paints blocks of two colors that depend on the view.
 class BlockRenderer : public ViewRenderer {
  public:
   LabelImage render_labels(const HandModel&, const PosedHand&, const PinholeCamera& camera,

@@ -23,7 +23,6 @@ inline PostureSet test_postures() {
   return {"DB_test", {"open", "power"}, {Posture::Zero(), power_posture()}};
 }
 
-/// Built by the first test process.
 inline const Database& test_database(DatabaseMemory memory = DatabaseMemory::normal) {
   const auto get = [](DatabaseMemory which) {
     DatabaseCache cache;

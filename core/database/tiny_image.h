@@ -14,21 +14,21 @@ inline constexpr std::array<int, 4> kTinySizes = {8, 16, 32, 64};
 /// Limits of chamfer_field, px.
 inline constexpr int kSmallestTinySize = 4, kLargestTinySize = 64;
 
-/// Half-open pixel ranges; may extend beyond the image.
+/// Half-open; may extend beyond the image.
 struct Square {
   int left = 0;
   int top = 0;
   int side = 0;
 };
 
-/// Centered on the bounding box of the labeled pixels. Side 0 without any.
+/// Around the labeled pixels' bounding box. Side 0 without any.
 Square bounding_square(const LabelImage& labels);
 
 /// Unit vector to the center.
 Eigen::Vector3d square_ray(const Square& square, const PinholeCamera& camera);
 
-/// Scales the square to size x size. Each cell takes its most frequent label; ties go to the glove, then to the
-/// smaller label.
+/// Scales the square to size x size. A cell takes its most frequent label; ties go to the glove, then the smaller
+/// label.
 LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square, int size);
 
 /// The same, faster.

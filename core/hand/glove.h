@@ -54,11 +54,11 @@ const std::array<uint8_t, kPatchCount>& patch_labels();
 const std::array<uint32_t, kAngleCount>& patches_moved();
 
 using PatchScores = std::array<double, kPatchCount>;
-/// How strongly each vertex belongs to each patch. `mesh`: hand frame, with forearm. `border_shift`: towards the
+/// How strongly a vertex belongs to each patch. `mesh`: hand frame, with forearm. `border_shift`: towards the
 /// fingertips, m.
 std::vector<PatchScores> patch_scores(const RiggedMesh& mesh, double border_shift);
 
-/// Cuts triangles where the largest interpolated score changes. The mesh stays closed.
+/// Cuts triangles where the best interpolated score changes. The mesh stays closed.
 GlovedMesh cut_patches(const RiggedMesh& mesh, const std::vector<PatchScores>& scores);
 
 }  // namespace glovebench

@@ -9,21 +9,20 @@
 
 namespace glovebench {
 
-/// A hand that `glovebench calibrate hand` measured.
+/// From `glovebench calibrate hand`.
 struct MeasuredHand {
   Side side = Side::right;
   HandShape shape;
   HandSizes deviation{};                ///< standard deviations
-  std::array<bool, kSizeCount> seen{};  ///< false: hardly seen, near the mesh's
+  std::array<bool, kSizeCount> seen{};  ///< false: near the mesh's
   int views = 0;                        ///< fitted frames
-  double residual_before = 0;           ///< mean distance of points from the mesh, m
-  double residual = 0;                  ///< from the fitted hand, m
+  double residual_before = 0;           ///< mean distance of points from mesh, m
+  double residual = 0;                  ///< from fitted hand, m
 };
 
 inline constexpr uint64_t kLargestHandFile = uint64_t{64} << 10;  // bytes
 
-/// Reads a versioned JSON object.
-/// Throws: Error if it is incomplete, of another version or mesh, or has impossible sizes.
+/// Throws: Error if incomplete, of another version or mesh, or with impossible sizes.
 MeasuredHand hand_from_json(const nlohmann::json& json, const std::string& where);
 nlohmann::ordered_json to_json(const MeasuredHand& hand);
 /// Throws: Error.

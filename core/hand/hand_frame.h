@@ -13,7 +13,6 @@ struct HandFrame {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m; IR camera
 };
 
-/// What a hand in front of the camera wears: the glove, or nothing.
 enum class Appearance { glove, skin };
 constexpr auto names_of(Appearance) {
   return std::to_array<std::string_view>({"glove", "skin"});

@@ -15,7 +15,7 @@
 
 namespace glovebench {
 
-/// Hand frame of core/README.md, m.
+/// Hand frame, m.
 struct PosedHand {
   RecycledVector<Eigen::Vector3f> vertices;
   JointPoses T_hand_joint;
@@ -25,10 +25,10 @@ struct PosedHand {
 class HandModel {
  public:
   /// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20.
-  /// Throws: Error if the file is missing or its checksum differs.
+  /// Throws: Error if it is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
 
-  /// This hand with sizes multiplied by `factors`. Patches keep their places on the skin, unlike those of `load`.
+  /// This hand with sizes times `factors`. Patches keep their places on the skin, unlike in `load`.
   HandModel stretched(const HandSizes& factors) const;
 
   PosedHand pose(const Posture& posture) const;
@@ -36,10 +36,10 @@ class HandModel {
   size_t vertex_count() const { return bind_vertices_.size(); }
   const std::vector<Influence>& influences() const { return influences_; }
   Side side() const { return side_; }
-  /// The right hand's skeleton. A left hand mirrors it.
+  /// The right hand's; a left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const HandShape& shape() const { return shape_; }
-  /// Hash of cut mesh, weights and skeleton.
+  /// Of cut mesh, weights and skeleton.
   const std::string& hash() const { return hash_; }
 
  private:

@@ -7,15 +7,15 @@
 
 namespace glovebench {
 
-/// Sizes are factors on the package's mesh. `kScale` is the whole hand's; others are relative to it. Segments:
-/// thumb metacarpal, proximal, distal; index, middle, ring, little proximal, intermediate, distal.
+/// Factors on the package's mesh. `kScale` is the whole hand's; others are relative to it. Segments: thumb
+/// metacarpal, proximal, distal; index, middle, ring, little proximal, intermediate, distal.
 inline constexpr int kSegmentCount = 15;
 enum HandSize : int {
   kScale,
   kPalmBreadth,
   kPalmThickness,
-  kKnuckleArch,      ///< palmar distance of other MCPs from the middle one
-  kThumbPalmLength,  ///< wrist to the thumb's first joint, along the palm
+  kKnuckleArch,      ///< palmar distance of other MCPs from the middle's
+  kThumbPalmLength,  ///< wrist to thumb's first joint, along the palm
   kIndexPalmLength,  ///< wrist to MCP; the middle finger has none
   kRingPalmLength,
   kLittlePalmLength,
@@ -29,7 +29,7 @@ inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
 /// Names in files, such as "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();
 
-/// A gloved hand's differences from the package's mesh.
+/// Differences from the package's mesh.
 struct HandShape {
   HandSizes sizes = [] {
     HandSizes ones;

@@ -38,7 +38,7 @@ enum Angle : int {
   kLittleDipFlexion,
 };
 
-/// Name in files, and limits of a human hand. core/README.md defines zero and signs.
+/// Names in files; limits of a human hand. core/README.md defines zero and signs.
 struct AngleInfo {
   std::string_view name;
   double min_deg;

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Up to four joints of a vertex. Weights are >= 0 and sum to 1.
+/// Up to four joints. Weights are >= 0 and sum to 1.
 struct Influence {
   std::array<uint8_t, 4> joint = {0, 0, 0, 0};
   std::array<float, 4> weight = {0, 0, 0, 0};
@@ -25,10 +25,9 @@ struct RiggedMesh {
   std::vector<Eigen::Isometry3d> T_mesh_joint;     ///< by joint (skeleton.h)
 };
 
-/// Hash of the package's mesh file.
 inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
-/// Loads the file of HandModel::load in its own frame. Welds vertices by position.
+/// Loads HandModel::load's file in its own frame. Welds vertices by position.
 /// Throws: Error as HandModel::load.
 RiggedMesh load_rigged_mesh(const std::string& path);
 

@@ -27,19 +27,19 @@ const std::array<int, 5>& fingertip_joints();
 
 using JointPoses = std::array<Eigen::Isometry3d, kJointCount>;
 
-/// The right hand's kinematic tree. A joint's rotation in its parent is R_zero_before * R_y(abduction) *
-/// R_x(-flexion) * R_zero_after. core/README.md defines zero.
+/// The right hand's. A joint's rotation in its parent is R_zero_before * R_y(abduction) * R_x(-flexion) *
+/// R_zero_after (zero: core/README.md).
 class Skeleton {
  public:
   Skeleton() = default;
   explicit Skeleton(const JointPoses& T_hand_joint_bind);
 
   JointPoses pose(const Posture& posture) const;
-  /// Unit axes of the angles, right-handed, hand frame.
+  /// Angles' unit axes, right-handed, hand frame.
   std::array<Eigen::Vector3d, kAngleCount> axes(const JointPoses& T_hand_joint) const;
   const Posture& bind_posture() const { return bind_posture_; }
 
-  /// A joint's position in its parent's frame (else the hand frame), m.
+  /// Position in the parent's frame (else the hand frame), m.
   const Eigen::Vector3d& offset(int joint) const { return joints_.at(joint).offset; }
   void set_offset(int joint, const Eigen::Vector3d& offset) { joints_.at(joint).offset = offset; }
 

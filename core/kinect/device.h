@@ -9,13 +9,13 @@
 
 namespace glovebench {
 
-/// Images of the sizes of the calibration. Either `raw_disparity` or `depth` is empty.
+/// Images of the calibration's sizes. Either `raw_disparity` or `depth` is empty.
 struct DeviceFrame {
   Image<uint16_t> raw_disparity;  ///< 11 bits, 2047: no value
   ColorImage color = {};          ///< not registered
   int64_t depth_timestamp_us = 0;
   int64_t color_timestamp_us = 0;
-  DepthImage depth = {};  ///< of a device that measures depth, m
+  DepthImage depth = {};  ///< if the device measures depth, m
 };
 
 class FrameError : public Error {
@@ -23,7 +23,7 @@ class FrameError : public Error {
   using Error::Error;
 };
 
-/// A source of frames. Their depth and color are paired by time.
+/// Frames of depth and color paired by time.
 class Device {
  public:
   virtual ~Device() = default;

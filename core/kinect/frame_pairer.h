@@ -13,11 +13,11 @@ namespace glovebench {
 /// The Kinect's clock: 60 MHz, 32 bits, wraps every 71.6 s.
 inline constexpr int64_t kTicksPerMicrosecond = 60;
 
-/// Converts ticks to microseconds without wraps. Successive stamps must be less than half a wrap apart.
+/// Converts ticks to microseconds without wraps. Successive stamps must be under half a wrap apart.
 class TickClock {
  public:
   TickClock() = default;
-  /// `first_us`: time of the first stamp, wrong by less than half a wrap. Magnitude below 1.5e17.
+  /// `first_us`: the first stamp's time, wrong by less than half a wrap; magnitude below 1.5e17.
   explicit TickClock(int64_t first_us) : first_us_(first_us) {}
 
   int64_t microseconds(uint32_t ticks) {
@@ -42,9 +42,9 @@ struct PairingRules {
   size_t max_waiting = std::numeric_limits<size_t>::max();  ///< of each kind
 };
 
-/// Pairs each depth image with a copy of the color image nearest in time (of two, the earlier). A depth image waits
-/// for a color image that is not earlier, at most until depth is `max_gap_us` ahead, more than `max_waiting` wait,
-/// or `finish`. Pairs come in order of time. Drops an image that is not later than its kind's last. If the clock
+/// Pairs each depth image with a copy of the color image nearest in time (of two, the earlier). A depth image
+/// waits for a color image that is not earlier, at most until depth is `max_gap_us` ahead, more than `max_waiting`
+/// wait, or `finish`. Pairs come in order of time. Drops an image not later than its kind's last; if the clock
 /// restarts, drops waiting images instead, and times go back.
 template <typename Depth, typename Color>
 class FramePairer {
@@ -71,7 +71,7 @@ class FramePairer {
     pair_up();
     if (colors_.size() > rules_.max_waiting) colors_.pop_front();
   }
-  /// Pairs waiting images. No push may follow.
+  /// No push may follow.
   void finish() {
     finished_ = true;
     pair_up();
@@ -84,7 +84,7 @@ class FramePairer {
   }
 
   int unpaired() const { return unpaired_; }
-  /// Images dropped because they were not later.
+  /// Dropped because not later.
   int went_back() const { return went_back_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// The newest values, oldest first. Dropped values count as late only after the first `pop`. Not thread-safe.
+/// The newest values, oldest first. Dropped values count as late after the first `pop`. Not thread-safe.
 template <typename T>
 class LatestQueue {
  public:

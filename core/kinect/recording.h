@@ -17,13 +17,13 @@ namespace glovebench {
 ///     a-SECONDS.MICROS-TICKS.dump       accelerometer, ignored
 ///     calibration.json                  rgbd_calibration.h
 ///     manifest.json                     core/base/file_set.h; optional
-/// SECONDS.MICROS is the arrival by the computer's clock, TICKS the time by the device's clock (TickClock). An
-/// image's time stamp is its ticks without wraps, nearest to the arrival.
+/// SECONDS.MICROS is the arrival by the computer's clock, TICKS the device's time (TickClock). An image's time
+/// stamp is its ticks without wraps, nearest to the arrival.
 
 /// Plays a recording, paired by FramePairer.
 class RecordingDevice : public Device {
  public:
-  /// `calibration` replaces the folder's. fakenect's recordings have none.
+  /// `calibration` replaces the folder's; fakenect writes none.
   /// Throws: Error if index or calibration is missing or malformed, a file is listed twice, or there is no pair.
   explicit RecordingDevice(const std::string& folder,
                            const std::optional<RgbdCalibration>& calibration = std::nullopt);
@@ -34,9 +34,8 @@ class RecordingDevice : public Device {
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
-  /// Images with a repeated time stamp.
   int repeated_count() const { return repeated_count_; }
-  /// Those of calibration and index that differ from the manifest.
+  /// Calibration or index, if different from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }
 
  private:
@@ -53,16 +52,16 @@ class RecordingDevice : public Device {
   int repeated_count_ = 0;
 };
 
-/// Writes a recording. It plays back equal frames if each color image is the nearest to its depth image.
+/// Plays back equal frames if each color image is the nearest to its depth image.
 class RecordingWriter {
  public:
   /// Throws: Error if the folder has a recording or cannot be written.
   RecordingWriter(const std::string& folder, const RgbdCalibration& calibration);
 
-  /// Depth time stamps must rise. An equal color time stamp means the same image.
+  /// Depth time stamps must rise. Equal color time stamps mean the same image.
   /// Throws: Error for wrong time stamps, sizes or disparities.
   void write(const DeviceFrame& frame);
-  /// Completes the recording. Otherwise all frames are lost.
+  /// Completes the recording; without it all frames are lost.
   /// Throws: Error without frames.
   void finish();
 

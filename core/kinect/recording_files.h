@@ -25,7 +25,7 @@ RecordedName parse_recorded_name(std::string_view name, const std::string& where
 std::string encode_pgm(const Image<uint16_t>& raw_disparity);
 std::string encode_ppm(const ColorImage& color);
 
-/// Throws: Error unless the content is one image of that size (disparity: 11 bits). So does `decode_ppm`.
+/// Throws: Error unless the content is one image of that size (disparity: 11 bits); also `decode_ppm`.
 Image<uint16_t> decode_pgm(std::string_view content, int width, int height, const std::string& path);
 ColorImage decode_ppm(std::string_view content, int width, int height, const std::string& path);
 
@@ -41,11 +41,11 @@ struct RecordingEntry {
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
 
-/// Images by time. At equal times: depth first, then in the index's order.
-/// Throws: Error if it is malformed or lists a file twice.
+/// By time, then depth first, then in the index's order.
+/// Throws: Error if malformed or if a file is listed twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 
-/// Checks the files' sizes and headers. fakenect would end the program at a bad one.
+/// Checks sizes and headers: a bad one would make fakenect end the program.
 /// Throws: Error.
 void check_fakenect_dump(const std::string& folder);
 

@@ -13,7 +13,7 @@ namespace glovebench {
 /// Throws: Error if the distortion folds the image.
 void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens);
 
-/// Undistorts images of the camera's size.
+/// For images of the camera's size.
 class Rectification {
  public:
   /// Throws: Error as `require_unfolded`.
@@ -27,11 +27,11 @@ class Rectification {
   ColorImage operator()(const ColorImage& color) const;
 
  private:
-  using Place = std::array<int16_t, 2>;  ///< u, v in the distorted image
+  using Place = std::array<int16_t, 2>;
 
   Image<Place> nearest_;
-  Image<Place> top_left_;      ///< of four neighbors
-  Image<uint16_t> fractions_;  ///< OpenCV's index of their weights
+  Image<Place> top_left_;
+  Image<uint16_t> fractions_;
 };
 
 class RectifiedDevice : public Device {
@@ -48,7 +48,7 @@ class RectifiedDevice : public Device {
   std::optional<Rectification> ir_, rgb_;
 };
 
-/// Rectifies a device if its calibration has a lens.
+/// Rectifies if the calibration has a lens.
 std::unique_ptr<Device> without_lens_distortion(std::unique_ptr<Device> device);
 
 }  // namespace glovebench

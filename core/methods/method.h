@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// Tracks one hand. Its only memory is the previous results.
+/// Tracks one hand; remembers only the previous results.
 class Method {
  public:
   virtual ~Method() = default;
@@ -27,10 +27,9 @@ struct MethodInputs {
   std::shared_ptr<const HandModel> model;
   std::shared_ptr<const Database> database;
   std::shared_ptr<const ColorTable> table;
-  ViewRendererFactory renderers = {};  ///< to compare rendered images; may be empty
+  ViewRendererFactory renderers = {};  ///< renders to compare; may be empty
 };
 
-/// X_method.cpp in this folder defines `MethodEntry X_method()`.
 struct MethodEntry {
   std::string_view name;
   std::string_view description;

@@ -17,18 +17,18 @@ struct HandObservation {
   const PinholeCamera& camera;
 };
 
-/// Gauss-Newton steps. Pairs are values of the first and last step. Between them `tukey_mm` and `start_weight`
-/// change geometrically, `tangential` linearly.
+/// Gauss-Newton steps. Pairs: values of the first and last step; between them `tukey_mm` and `start_weight` change
+/// geometrically, `tangential` linearly.
 struct FitStage {
   int steps;                ///< >= 1
-  int rigid_steps;          ///< steps at the start that move only the pose
+  int rigid_steps;          ///< first steps, which move only the pose
   int max_points;           ///< uniform stride
   double tukey_mm[2];       ///< farther points have no weight
   double start_weight[2];   ///< pull to the start's posture, per square degree
-  double tangential[2];     ///< weight of a distance along the surface, relative to the normal
+  double tangential[2];     ///< weight of distances along the surface, relative to the normal
   bool outline_moves_pose;  ///< false: only the angles
 };
-/// All starts run `trial`, the best `kept_starts` run `rough`, the best of these runs `fine`. Weights are for 1,000
+/// All starts run `trial`, the best `kept_starts` run `rough`, the best of these `fine`. Weights are per 1,000
 /// points.
 struct FitSchedule {
   FitStage trial{4, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
@@ -38,25 +38,25 @@ struct FitSchedule {
   double previous_weight = 0.003;  ///< pull to the previous posture, per square degree
   double outline_weight = 1;       ///< of a vertex outside the mask
   int outline_stride = 3;          ///< every nth vertex
-  double score_cut_mm = 15;        ///< cap on distances when starts are compared
+  double score_cut_mm = 15;        ///< cap on distances that compare starts
 };
 
-/// An angle is hidden if it moves fewer points.
+/// An angle that moves fewer points is hidden.
 inline constexpr int kSeenPoints = 30;
 
 struct ArticulatedEstimate {
   AlignmentStatus status = AlignmentStatus::too_few_points;
   ArticulatedPose pose;
   int start = -1;  ///< index into `starts`
-  int points = 0;  ///< in `fine`
+  int points = 0;
   int steps = 0;
   double residual = 0;                  ///< mean point-to-triangle distance before the last step, m
   std::optional<double> misfit;         ///< as TrackResult::misfit
-  Posture deviation = Posture::Zero();  ///< standard deviations, rad
+  Posture deviation = Posture::Zero();  ///< standard, rad
   uint32_t hidden = 0;                  ///< bit a: angle a
 };
 
-/// The bodies that move a face, with their shares at each corner.
+/// Bodies that move a face, with shares at each corner.
 struct FaceBodies {
   static constexpr int kMost = 8;
   int count = 0;
@@ -67,11 +67,10 @@ struct FaceBodies {
 /// Refines pose and posture (core/README.md, "The method `articulated`").
 class ArticulatedFit {
  public:
-  /// `implementation`: of the closest-point search.
   ArticulatedFit(std::shared_ptr<const HandModel> model, const FitSchedule& schedule,
                  Implementation implementation);
 
-  /// `starts` is not empty. `previous`: the last posture or null.
+  /// `starts` is not empty. `previous`: last posture or null.
   ArticulatedEstimate operator()(const HandObservation& seen, std::span<const ArticulatedPose> starts,
                                  const Posture* previous) const;
 

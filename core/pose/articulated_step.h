@@ -12,20 +12,20 @@ struct ArticulatedPose {
   Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();
 };
 
-/// Hand frame: rotation about the origin (degrees), translation (mm), 22 angles (degrees).
+/// Hand frame: rotation about the origin (degrees), translation (mm), angles (degrees).
 inline constexpr int kUnknowns = 6 + kAngleCount;
 using StepVector = Eigen::Matrix<double, kUnknowns, 1>;
 using StepMatrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// How far a surface point should move along a direction.
+/// How far a surface point should move, along a direction.
 struct Pull {
   Eigen::Vector3d q;          ///< hand frame, m
   Eigen::Vector3d direction;  ///< hand frame
   double distance_mm = 0;
   double weight = 1;
 };
-/// Motion along the pull's direction, per degree of rotation and mm of translation.
+/// Motion along the pull, per degree of rotation and mm of translation.
 Vector6d row_of(const Pull& pull);
 
 /// H step = g.
@@ -41,7 +41,7 @@ struct NormalEquations {
 class PlainPullSums {
  public:
   explicit PlainPullSums(const std::array<Screw, kAngleCount>& screws) : screws_(screws) {}
-  /// `shares`: of the point.
+  /// `shares`: the point's.
   void add(const Pull& pull, const BodyShares& shares);
   NormalEquations equations() const { return equations_; }
 
@@ -61,7 +61,6 @@ struct RowSums {
   Vector6d sum = Vector6d::Zero();
 
   void add(const Pull& pull);
-  /// Adds a pull along each axis.
   void add_along_axes(const Eigen::Vector3d& q, const Eigen::Vector3d& apart_mm, double weight);
 };
 

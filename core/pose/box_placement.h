@@ -9,13 +9,13 @@
 
 namespace glovebench {
 
-/// Continuous image coordinates: a pixel extends 0.5 px from its center.
+/// In continuous image coordinates: a pixel extends 0.5 px from its center.
 struct ImageSquare {
   Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
   double side_px = 0;
 };
 ImageSquare image_square(const Square& square);
-/// Around the projected points. Empty without points or if one is behind the camera.
+/// Around projected points. Empty without points or if one is behind the camera.
 std::optional<ImageSquare> projected_square(std::span<const Eigen::Vector3f> points_hand,
                                             const Eigen::Isometry3d& T_camera_hand, const PinholeCamera& camera);
 
@@ -24,7 +24,7 @@ struct BoxPlacement {
   int iterations = 0;
   bool converged = false;  ///< to 0.01 px
 };
-/// The position whose projected points fill `observed`. Empty if `observed` is empty, or so large that points fall
+/// The position where projected points fill `observed`. Empty if `observed` is empty, or so large that points fall
 /// behind the camera.
 std::optional<BoxPlacement> place_in_square(std::span<const Eigen::Vector3f> points_hand,
                                             const Eigen::Matrix3d& R_camera_hand, const ImageSquare& observed,

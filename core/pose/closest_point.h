@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Triangles of a posed hand that face a viewpoint, by color. Hand frame, m.
+/// A posed hand's triangles that face a viewpoint, by color. Hand frame, m.
 class Surface {
  public:
   struct Face {
@@ -19,11 +19,11 @@ class Surface {
     uint32_t triangle;  ///< in the model
   };
   enum class Coloring { by_color, any_color };
-  /// The label of all faces with `any_color`.
+  /// The label of faces with `any_color`.
   static constexpr uint8_t kAnyColor = 0;
 
   Surface() = default;
-  /// Culls faces that look away from `viewpoint_hand`.
+  /// Culls faces that look away.
   /// Paper: section III-C.
   Surface(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand,
           Coloring coloring = Coloring::by_color) {
@@ -39,7 +39,7 @@ class Surface {
   std::array<RecycledVector<Face>, kColorCount + 1> faces_;
 };
 
-/// Mean of the camera-facing faces, weighted by visible area. Hand frame, m. The origin if there are none.
+/// Mean of camera-facing faces, weighted by visible area. Hand frame, m. The origin without any.
 Eigen::Vector3f seen_center(const HandModel& model, const PosedHand& hand, const Eigen::Vector3f& viewpoint_hand);
 
 struct ClosestPoint {
@@ -51,8 +51,8 @@ struct ClosestPoint {
 /// Ericson, Real-Time Collision Detection, section 5.1.5.
 Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Face& face);
 
-/// Searches all faces of each point's label. Of equally near faces the first wins. Without a finite squared
-/// distance the face is -1.
+/// Searches all faces of each point's label. Of equally near faces the first wins. Face -1: no finite squared
+/// distance.
 RecycledVector<ClosestPoint> closest_points_plain(std::span<const LabeledPoint> points_hand,
                                                   const Surface& surface);
 

@@ -9,12 +9,12 @@
 
 namespace glovebench {
 
-/// Neighboring points of one color, searched together.
+/// Neighboring points of one color.
 struct PointGroup {
   static constexpr int kPoints = 16;  ///< at most
 
   int32_t points[kPoints];   ///< indices, padded with the last
-  int32_t nearest[kPoints];  ///< distinct nearest faces in the last call, in FacePackets::faces
+  int32_t nearest[kPoints];  ///< distinct nearest faces of the last call, in FacePackets::faces
   int count = 0;
   int nearest_count = 0;  ///< 0 before the first call
   uint8_t label = 0;
@@ -22,11 +22,11 @@ struct PointGroup {
 
 struct GroupScratch {
   RecycledVector<uint8_t> is_measured;  ///< by face; 0 between groups
-  RecycledVector<int32_t> candidates;   ///< in FacePackets::faces
-  RecycledVector<float> doubt;          ///< rounding error of each distance, m
+  RecycledVector<int32_t> candidates;
+  RecycledVector<float> doubt;  ///< rounding error of each distance, m
 };
 
-/// Counts over all calls.
+/// Counts of all calls.
 struct SearchWork {
   int64_t groups = 0;
   int64_t nearest = 0;  ///< distinct nearest faces per group
@@ -34,13 +34,13 @@ struct SearchWork {
   int64_t boxes = 0;
 };
 
-/// Gives the results of `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`), faster. For
-/// one set of points that moves little between calls. Later calls allocate nothing.
+/// Equals `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`). For one set of points that
+/// moves little between calls. Later calls allocate nothing.
 class ClosestPointSearch {
  public:
   ClosestPointSearch() = default;
   explicit ClosestPointSearch(const Surface& surface) { start(surface); }
-  /// Copies a new surface. Points start at their last faces if these remain.
+  /// Copies the surface. Points start at their last faces if these remain.
   void start(const Surface& surface);
   /// Valid until the next call.
   const RecycledVector<ClosestPoint>& operator()(std::span<const LabeledPoint> points_hand);

@@ -23,12 +23,12 @@ struct FacePackets {
 
   struct alignas(64) Face {
     float a[3], b[3], c[3];
-    float ab[3], ac[3];  ///< b - a, c - a
-    int32_t face;        ///< in Surface::faces
+    float ab[3], ac[3];
+    int32_t face;  ///< in Surface::faces
   };
 
   RecycledVector<Face> faces;                ///< padded with the last
-  RecycledVector<Boxes<kFaces>> face_boxes;  ///< one per packet; padding is very far
+  RecycledVector<Boxes<kFaces>> face_boxes;  ///< by packet; padding is very far
   RecycledVector<Boxes<kPackets>> packet_boxes;
   float slack = 0;  ///< rounding error of a corner, m
 
@@ -36,8 +36,8 @@ struct FacePackets {
   void assign(std::span<const Surface::Face> surface_faces);
 };
 
-/// Rounding may place the closest point of a thin face up to blur * D^2 outside it, for a point at distance D.
-/// Infinite without area.
+/// Rounding may place a thin face's closest point up to blur * D^2 outside it, at distance D. Infinite without
+/// area.
 float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench

@@ -6,12 +6,12 @@
 
 namespace glovebench {
 
-/// T_to_from with the least mean squared distance (Horn 1987). Empty for fewer than three points or on a line.
+/// T_to_from of least mean squared distance (Horn 1987). Empty below three points or on a line.
 /// Paper: reference 23.
 std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> from,
                                               std::span<const Eigen::Vector3f> to);
 
-/// Unit eigenvector of the largest eigenvalue, either sign.
+/// Of the largest eigenvalue; unit length, either sign.
 Eigen::Vector4d largest_eigenvector(const Eigen::Matrix4d& matrix);
 
 }  // namespace glovebench

@@ -11,7 +11,7 @@
 
 namespace glovebench {
 
-/// Both give equal results. `plain` follows the paper line by line.
+/// Equal results. `plain` follows the paper line by line.
 enum class Implementation { plain, fast };
 constexpr auto names_of(Implementation) {
   return std::to_array<std::string_view>({"plain", "fast"});
@@ -25,7 +25,7 @@ struct IcpConfig {
   int subsampling_factor = 0;        ///< every nth point (Figure 9); 0: by `max_points`
   int max_iterations = 100;          ///< >= 1
   double convergence_share = 1e-3;   ///< stop if the mean distance changes by a smaller share, > 0
-  bool cull_each_iteration = false;  ///< false: only before the first iteration (the paper)
+  bool cull_each_iteration = false;  ///< false: only at the start (the paper)
   Implementation implementation = Implementation::fast;  ///< of the closest-point search
   bool color_sensitive = true;                           ///< false: any color
 };
@@ -41,29 +41,27 @@ struct Alignment {
 };
 
 RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, size_t n);
-/// Takes every nth point, for the smallest n that leaves at most `max_points`.
+/// Every nth point, for the smallest n that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
-/// Has the given rotation. Puts the center of the camera-facing faces, else the hand's origin, at the cloud's
-/// center.
+/// Puts the center of the camera-facing faces, else the hand's origin, at the cloud's center.
 /// Paper: section III-C.
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points, bool center_visible_surface = true);
 
-/// X_alignment.cpp in core/pose/alignments defines `AlignmentEntry X_alignment()`. `align` sets all fields of the
-/// result, obeys `max_iterations` and `cull_each_iteration`, and matches by `Matcher`, which obeys `implementation`
-/// and `color_sensitive`.
+/// `align` sets all fields of the result, obeys `max_iterations` and `cull_each_iteration`, and matches by
+/// `Matcher`.
 struct AlignmentEntry {
   std::string_view name;
   std::string_view description;
-  /// `points`: at least 3, camera frame, m, labeled like the surface.
+  /// `points`: at least 3, camera frame, m; labels as the surface's.
   Alignment (*align)(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> points,
                      const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);
 };
 std::span<const AlignmentEntry> alignments();
 
 /// Aligns subsampled points with the closest visible triangles of their colors.
-/// Throws: Error for an unknown alignment.
+/// Throws: Error for an unknown algorithm.
 /// Paper: section III-C, equation (3).
 Alignment align(const HandModel& model, const PosedHand& hand, std::span<const LabeledPoint> cloud,
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config);

@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// The look-up's theta, R-hat-prime.
+/// The look-up's theta and R-hat-prime.
 /// Paper: sections III-B and III-C.
 struct CoarseEstimate {
   Posture posture = Posture::Zero();  ///< rad
@@ -17,8 +17,8 @@ struct CoarseEstimate {
   bool ambiguous = false;  ///< two rotations differ by more than 60 degrees
 };
 
-/// Mean of the matches with weights 1 / (E + epsilon), of rotations by `mean_rotation`. A view's rotation refers to
-/// the ray to its hand; turns it to `query_ray` (unit, camera frame; empty: not turned). `matches` is not empty.
+/// Weights matches by 1 / (E + epsilon); rotations: `mean_rotation`. Turns each view's rotation from the ray to
+/// its hand to `query_ray` (unit, camera frame; empty: not turned). `matches` is not empty.
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
                            const std::optional<Eigen::Vector3d>& query_ray, double epsilon);
 

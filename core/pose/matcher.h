@@ -9,14 +9,13 @@
 
 namespace glovebench {
 
-/// Closest points on camera-facing faces, for an alignment.
+/// Closest points on camera-facing faces.
 class Matcher {
  public:
-  /// `model` and `hand` must outlive it. `cloud`: camera frame, m, labeled as the surface.
+  /// `model` and `hand` must outlive it. `cloud`: camera frame, m; labels as the surface's.
   Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
           const IcpConfig& config);
 
-  /// Keeps the faces that face the camera.
   void cull(const Eigen::Isometry3d& T_camera_hand);
   /// Call after `cull`.
   void match(const Eigen::Isometry3d& T_camera_hand);
@@ -39,7 +38,6 @@ class Matcher {
   std::span<const ClosestPoint> closest_;
 };
 
-/// The camera in the hand frame.
 Eigen::Vector3f viewpoint_hand(const Eigen::Isometry3d& T_camera_hand);
 
 }  // namespace glovebench

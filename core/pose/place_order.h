@@ -8,10 +8,10 @@
 
 namespace glovebench {
 
-/// Orders points by label (at most 15), then along a Morton curve of 64 x 64 x 64 cells.
+/// Orders points by label (at most 15), then along a Morton curve of 64x64x64 cells.
 class PlaceOrder {
  public:
-  /// Indices into `points`, valid until the next call.
+  /// Indices into `points` until the next call.
   std::span<const uint32_t> operator()(std::span<const LabeledPoint> points);
 
  private:

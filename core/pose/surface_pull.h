@@ -5,11 +5,11 @@
 
 namespace glovebench {
 
-/// Tukey's weight of a distance: 1 at 0, 0 from `width` on.
+/// 1 at 0, 0 from `width` on.
 double tukey_weight(double distance, double width);
 
 struct SurfacePull {
-  Pull pull;                 ///< along the normal inside a face, else along the connecting line
+  Pull pull;                 ///< along the normal inside a face, else along the connection
   Eigen::Vector3d apart_mm;  ///< from surface to point, hand frame
   Eigen::Vector3d barycentric;
 };

@@ -34,7 +34,6 @@ inline Eigen::Vector3d random_direction(RandomStream& random) {
   return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
 }
 
-/// Rotated by up to 20 degrees, moved by up to 30 mm.
 inline Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T_camera_hand, int number) {
   RandomStream random(1, "icp", number, "start");
   const Eigen::AngleAxisd turn(radians_from_degrees(random.uniform(0, 20)), random_direction(random));
@@ -44,7 +43,6 @@ inline Eigen::Isometry3d perturbed(const Eigen::Isometry3d& T_camera_hand, int n
   return start;
 }
 
-/// In random directions.
 inline Eigen::Isometry3d perturbed_by(const Eigen::Isometry3d& T_camera_hand, double angle_deg, double distance,
                                       int number) {
   RandomStream random(1, "icp", number, "far start");

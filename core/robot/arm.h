@@ -8,12 +8,12 @@
 
 namespace glovebench {
 
-/// The arm is a Mitsubishi PA-10-7C.
+/// Mitsubishi PA-10-7C.
 inline constexpr int kArmJointCount = 7;
 /// Joint angles from base to flange, rad.
 using ArmJoints = std::array<double, kArmJointCount>;
 
-/// Limits, speed and Denavit-Hartenberg row: T = R_z(angle) * T_z(d) * R_x(alpha).
+/// Denavit-Hartenberg row: T = R_z(angle) * T_z(d) * R_x(alpha).
 struct ArmJointInfo {
   std::string_view name;
   double min_deg;
@@ -24,14 +24,14 @@ struct ArmJointInfo {
 };
 const std::array<ArmJointInfo, kArmJointCount>& arm_joint_infos();
 
-/// T_base_flange. The flange's z points away from the arm.
+/// T_base_flange; z points away from the arm.
 Eigen::Isometry3d arm_flange_pose(const ArmJoints& joints);
 
 /// Inverse kinematics (core/adapters/kdl).
 class ArmSolver {
  public:
   virtual ~ArmSolver() = default;
-  /// Joint angles within limits, near `start`. Empty if none is found.
+  /// Within limits, near `start`. Empty if none is found.
   virtual std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const = 0;
 };
 
@@ -45,13 +45,13 @@ struct MountedArm {
 /// Elbow up, flange 0.6 m ahead of the base, looking down.
 inline constexpr ArmJoints kArmAtRest = {0, 0.16, 0, 1.94, 0, 1.04, 1.5708};
 
-/// Solves in small steps: joint angles never jump.
+/// Solves in small steps, so joint angles never jump.
 class ArmFollower {
  public:
   explicit ArmFollower(std::shared_ptr<const ArmSolver> solver, const ArmJoints& start = kArmAtRest)
       : solver_(std::move(solver)), joints_(start) {}
 
-  /// Moves the flange. Returns false and stays if the pose is out of reach.
+  /// False, and stays, if the pose is out of reach.
   bool follow(const Eigen::Isometry3d& T_base_flange);
   const ArmJoints& joints() const { return joints_; }
 

@@ -12,29 +12,29 @@ namespace glovebench {
 enum class CommandState {
   following,  ///< moves to the targets
   holding,    ///< hand lost: stays
-  stopped,    ///< hand lost for long: stays, later starts slowly
+  stopped,    ///< lost for long: stays, later starts slowly
 };
 constexpr auto names_of(CommandState) {
   return std::to_array<std::string_view>({"following", "holding", "stopped"});
 }
 static_assert(kCountOf<CommandState> == static_cast<int>(CommandState::stopped) + 1, "each value has a name");
 
-/// How a command was changed. `_speed`: slowed to that limit.
+/// Changes of a command. `_speed`: slowed to that limit.
 enum class Intervention {
   stale,        ///< dropped: time stamp not later, or frame's time stamp earlier
   not_finite,   ///< refused
-  not_rigid,    ///< refused: invalid rotation
-  joint_limit,  ///< joint moved into its limits, or J1 down to J2
+  not_rigid,    ///< refused
+  joint_limit,  ///< moved into its limits, or J1 down to J2
   coupling,
-  actuator_mismatch,  ///< motors did not fit their joints
+  actuator_mismatch,  ///< motors did not fit joints
   joint_speed,
-  workspace,  ///< hand or fingertips moved into it
+  workspace,  ///< hand or fingertips moved inside
   hand_speed,
   hand_turn_speed,
   fingertip_speed,
   arm_limit,
   arm_speed,
-  arm_unreachable,  ///< no joint angles near the last ones; kept those
+  arm_unreachable,  ///< no joint angles near the last, which stay
   hold,
   stop,
 };
@@ -46,7 +46,7 @@ constexpr auto names_of(Intervention) {
 }
 static_assert(kCountOf<Intervention> == static_cast<int>(Intervention::stop) + 1, "each value has a name");
 
-/// Numbers of commands by kind.
+/// Commands by kind.
 class Interventions {
  public:
   int64_t operator[](Intervention kind) const { return counts_[static_cast<size_t>(kind)]; }

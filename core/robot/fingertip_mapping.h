@@ -8,14 +8,14 @@ namespace glovebench {
 /// Fingertips of the right hand, hand frame, m.
 Fingertips human_fingertips(const Skeleton& skeleton, const Posture& posture);
 
-/// Maps a pinch to a pinch (core/robot/README.md). Far from a pinch, equals the direct mapping. Starts at the last
-/// result and moves the motors (not the wrist's) as little as possible.
+/// Maps a pinch to a pinch (core/robot/README.md); far from one, equals the direct mapping. Starts at the last
+/// result and moves motors (not the wrist's) as little as possible.
 class FingertipMapping {
  public:
   explicit FingertipMapping(Skeleton skeleton, ShadowCoupling coupling = ShadowCoupling::series)
       : skeleton_(std::move(skeleton)), coupling_(coupling) {}
 
-  /// Flags a joint if the direct mapping's flag remains or the fit moved the joint to a limit.
+  /// Flags a joint if the direct mapping's flag remains or the fit moved it to a limit.
   /// Throws: Error if an angle is not finite.
   ShadowHandTargets map(const Posture& posture);
   void reset() { last_.setZero(); }

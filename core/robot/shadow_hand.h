@@ -9,30 +9,30 @@
 
 namespace glovebench {
 
-/// How J1 and J2 of a free finger share their motor's angle (core/robot/README.md).
+/// How J1 and J2 of a finger share their motor's angle (core/robot/README.md).
 enum class ShadowCoupling {
-  series,  ///< J2 alone to 90 degrees, then J1
+  series,  ///< J2 to 90 degrees, then J1
   even,
 };
 constexpr auto names_of(ShadowCoupling) {
   return std::to_array<std::string_view>({"series", "even"});
 }
 
-/// The last two joints of a finger, rad.
+/// A finger's last two, rad.
 struct CoupledJoints {
   double distal;    ///< J1, never above J2
   double proximal;  ///< J2
 };
-/// Splits a motor's target, 0 to pi rad. J1 + J2 equals `motor` exactly.
+/// `motor`: target, 0 to pi rad. J1 + J2 equals it exactly.
 CoupledJoints split_motor(double motor, ShadowCoupling coupling);
-/// J1's share of a small motor motion, 0 to 1.
+/// J1's share of a small motion, 0 to 1.
 double distal_share(double motor, ShadowCoupling coupling);
 
-/// The joints at a share (0 to 1) of the way. The motor's angle changes linearly. If `from` does not follow the
-/// coupling, its deviation fades. J1 never exceeds J2.
+/// The joints at a share (0 to 1) of the way. The motor moves linearly. If `from` does not follow the coupling,
+/// its deviation fades. J1 never exceeds J2.
 CoupledJoints between(const CoupledJoints& from, const CoupledJoints& to, double share, ShadowCoupling coupling);
 
-/// Joints of the Shadow Dexterous Hand. J1 is a finger's last joint, J4 its spread.
+/// J1 is a finger's last joint, J4 its spread.
 // clang-format off: one finger a row
 enum ShadowJoint : int {
   kFFJ1,
@@ -64,8 +64,8 @@ enum ShadowJoint : int {
 inline constexpr int kShadowJointCount = 24;
 inline constexpr int kShadowActuatorCount = 20;
 
-/// Robot angle = sign * human angle. Positive: THJ5 turns the thumb across the palm, THJ4 lifts it off the palm,
-/// WRJ1 bends to the palm, WRJ2 turns to the thumb.
+/// Robot angle = sign * human angle. Positive: THJ5 turns the thumb across the palm, THJ4 lifts it off, WRJ1 bends
+/// to the palm, WRJ2 turns to the thumb.
 struct ShadowJointInfo {
   std::string_view name;
   double min_deg;
@@ -75,7 +75,7 @@ struct ShadowJointInfo {
 };
 const std::array<ShadowJointInfo, kShadowJointCount>& shadow_joint_infos();
 
-/// A motor of two joints (J0) has their sum as its target.
+/// The target of a motor of two joints (J0) is their sum.
 struct ShadowActuatorInfo {
   std::string_view name;
   ShadowJoint joint;
@@ -83,7 +83,7 @@ struct ShadowActuatorInfo {
 };
 const std::array<ShadowActuatorInfo, kShadowActuatorCount>& shadow_actuator_infos();
 
-/// Targets within the limits, rad. `clamped`: changed by the limits.
+/// Within limits, rad. `clamped`: changed by them.
 struct ShadowHandTargets {
   std::array<double, kShadowJointCount> joints{};
   std::array<bool, kShadowJointCount> joint_clamped{};
@@ -91,10 +91,10 @@ struct ShadowHandTargets {
   std::array<bool, kShadowActuatorCount> actuator_clamped{};
 };
 
-/// Computes the motors' targets from the joints'.
+/// From the joints'.
 void make_actuators(ShadowHandTargets& hand);
 
-/// Each joint takes the angle of its source, clamped. The coupling splits the clamped sum of J1 and J2.
+/// Each joint takes its source's angle, clamped. The coupling splits the clamped J1 + J2.
 /// Throws: Error if an angle is not finite.
 /// Paper: section V.
 ShadowHandTargets map_to_shadow_hand(const Posture& posture, ShadowCoupling coupling = ShadowCoupling::series);

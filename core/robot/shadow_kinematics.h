@@ -9,21 +9,21 @@ namespace glovebench {
 
 /// Thumb to little; hand frame, m.
 using Fingertips = Eigen::Matrix<double, 3, 5>;
-/// Derivatives of fingertip f (rows 3 f to 3 f + 2) by the joints, m/rad.
+/// Fingertip f (rows 3f to 3f + 2) by joint, m/rad.
 using FingertipJacobian = Eigen::Matrix<double, 15, kShadowJointCount>;
 
-/// Largest distance of a fingertip from the hand's origin, and from WRJ2, m.
+/// Largest distance of fingertips from the hand's origin, and from WRJ2, m.
 inline constexpr double kShadowHandReach = 0.15, kShadowWristReach = 0.23;
 
-/// Shadow's palm (x to the thumb, y dorsal, z to the fingers, origin WRJ1) in the hand frame of core/README.md.
+/// Shadow's palm (x to the thumb, y dorsal, z to the fingers, origin WRJ1).
 const Eigen::Isometry3d& shadow_T_hand_palm();
 
-/// Forward kinematics with Shadow's dimensions (sr_common, sr_description), right hand; a left hand mirrors x. The
-/// wrist does not move fingertips.
+/// Shadow's dimensions (sr_common, sr_description), right hand; a left hand mirrors x. The wrist does not move
+/// fingertips.
 Fingertips shadow_fingertips(const std::array<double, kShadowJointCount>& joints);
 FingertipJacobian shadow_fingertip_jacobian(const std::array<double, kShadowJointCount>& joints);
 
-/// The hand in the frame of WRJ2, which is fixed to the forearm. If the wrist is straight, it has the palm's axes.
+/// WRJ2's frame is fixed to the forearm. With a straight wrist it has the palm's axes.
 Eigen::Isometry3d shadow_T_wrist_hand(const std::array<double, kShadowJointCount>& joints);
 
 }  // namespace glovebench

@@ -7,7 +7,6 @@
 
 namespace glovebench {
 
-/// Gauss-Newton with a numerical Jacobian.
 class JacobianSolver : public ArmSolver {
  public:
   std::optional<ArmJoints> solve(const Eigen::Isometry3d& T_base_flange, const ArmJoints& start) const override {

@@ -20,7 +20,7 @@ class TestFingertips {
     tips_.row(2) = (0.0495 - palm.row(2).array()).matrix();
   }
   const Tips& in_hand() const { return tips_; }
-  /// In the frame of WRJ2, fixed to the forearm.
+  /// In WRJ2's frame.
   Tips in_forearm() const {
     const Tips palm = in_palm();
     const double bend = q_[22], side = q_[23];
@@ -61,7 +61,7 @@ class TestFingertips {
     palm.col(1) = Eigen::Vector3d(0.033, 0, 0.095) + finger(0, -q_[3]);
     palm.col(2) = Eigen::Vector3d(0.011, 0, 0.099) + finger(4, -q_[7]);
     palm.col(3) = Eigen::Vector3d(-0.011, 0, 0.095) + finger(8, q_[11]);
-    // The palm folds about an axis 35 degrees off the fingers.
+    // The fold's axis is 35 degrees off the fingers.
     const double tilt = 35 * std::atan(1.0) / 45;
     const Eigen::Vector3d little = Eigen::Vector3d(0, 0, 0.06579) + finger(12, q_[15]);
     palm.col(4) = Eigen::Vector3d(-0.033, 0, 0.02071) + about_y(tilt, about_z(q_[16], about_y(-tilt, little)));

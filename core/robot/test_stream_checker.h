@@ -17,7 +17,7 @@ class StreamChecker {
   /// J1 and J2 may differ from their coupling.
   void start(const RobotTargets& targets) { targets_ = targets; }
 
-  /// The next command's problem; empty: none.
+  /// Empty: no problem.
   std::string problem(const RobotCommand& command) {
     std::string found = stamps(command);
     if (found.empty()) found = states(command);
@@ -32,8 +32,8 @@ class StreamChecker {
 
  private:
   static constexpr double kDegree = 3.14159265358979323846 / 180;
-  static constexpr double kTiny = 1e-12;     // rad and m: rounding of sums
-  static constexpr double kTip = 1e-9;       // m: rounding in the two computations
+  static constexpr double kTiny = 1e-12;     // rounding of sums, rad and m
+  static constexpr double kTip = 1e-9;       // m: rounding of two computations
   static constexpr double kRotation = 5e-6;  // rad: rotations are exact to 1e-6
 
   std::string stamps(const RobotCommand& command) const {

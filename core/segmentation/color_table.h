@@ -16,7 +16,7 @@ namespace glovebench {
 /// BT.601, full range, U and V centered at 128.
 using Yuv = std::array<uint8_t, 3>;
 constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
-  // 16-bit fixed point. Halves round down, so no clamp is needed.
+  // 16-bit fixed point. Halves round down: no clamp is needed.
   constexpr int half = (1 << 15) - 1, center = 128 << 16;
   const int r = rgb[0], g = rgb[1], b = rgb[2];
   return {static_cast<uint8_t>((19595 * r + 38470 * g + 7471 * b + half) >> 16),
@@ -30,7 +30,7 @@ constexpr auto names_of(ColorSpace) {
   return std::to_array<std::string_view>({"yuv", "rgb"});
 }
 
-/// A label for each of 64 x 64 x 64 color cells.
+/// Labels of 64x64x64 color cells.
 /// Paper: section III-A.
 class ColorTable {
  public:
@@ -41,7 +41,7 @@ class ColorTable {
   /// Throws: Error unless `labels` are kCells values in 0..kColorCount.
   explicit ColorTable(std::vector<uint8_t> labels, ColorSpace space = ColorSpace::yuv);
 
-  /// `color`: in the table's space.
+  /// `color`: in this space.
   static size_t cell(const std::array<uint8_t, 3>& color) {
     constexpr int shift = 8 - kBits;
     return (size_t{color[0]} >> shift) << (2 * kBits) | (size_t{color[1]} >> shift) << kBits |
@@ -64,18 +64,18 @@ class ColorTable {
   ColorSpace space_ = ColorSpace::yuv;
 };
 
-/// The label image L of the mapped image M.
+/// L, of the mapped image M.
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table);
 LabelImage segment(const ColorImage& color, const ColorTable& table);
 
-/// The most frequent label of 3x3 pixels. Not in the paper.
+/// The most frequent of 3x3 labels. Not in the paper.
 LabelImage majority_filter(const LabelImage& labels);
 
 /// Throws: Error.
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
 
-/// The most frequent label of those 3x3 pixels that are within `depth_step`, m. Ties go to the pixel's own label,
-/// else the smallest. Unlabeled pixels need two votes. Not in the paper.
+/// The most frequent label of those 3x3 pixels within `depth_step`, m. Ties go to the pixel's own label, else the
+/// smallest. Unlabeled pixels need two votes. Not in the paper.
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step = 0.02);
 
 }  // namespace glovebench

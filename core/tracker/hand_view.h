@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// Input of the fit of pose and posture.
+/// For the fit of pose and posture.
 struct HandView {
   RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at a surface's edge
   HandMask mask;

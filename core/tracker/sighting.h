@@ -10,7 +10,6 @@
 
 namespace glovebench {
 
-/// True if the glove touches the image border over too long a stretch.
 bool is_cut_by_border(const LabelImage& labels, size_t glove_pixels, const DetectionConfig& config);
 
 /// `tracked` if the cloud is one whole hand.
@@ -26,10 +25,9 @@ struct Sighting {
   TrackStatus status = TrackStatus::no_hand;
 };
 
-/// Processes the whole images.
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
              const TrackerConfig& config);
-/// The same cloud and status, faster. Ignores depths over `kCutOffMargin` behind the volume, also in
+/// The same cloud and status, faster. Ignores depths over kCutOffMargin behind the volume, also in
 /// `labeled_outside`.
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);

@@ -16,7 +16,6 @@ std::shared_ptr<const T> borrowed(const T& object) {
   return {&object, [](const T*) {}};
 }
 
-/// Made by the first test process.
 inline const ColorTable& test_color_table() {
   static const ColorTable table = [] {
     const std::string path = shared_test_folder() + "/colors.table";
@@ -45,7 +44,6 @@ inline Tracker make_tracker(const TrackerConfig& config = {}) {
                  borrowed(test_color_table()));
 }
 
-/// With the glove in both images.
 struct Shot {
   DeviceFrame frame;
   LabelImage ir_labels;
@@ -61,7 +59,7 @@ inline Shot shoot(const Eigen::Isometry3d& T_camera_hand, const Posture& posture
           images.label, renderer.render_color_labels(hand, T_camera_hand)};
 }
 
-/// Correct if the gloves do not overlap.
+/// If the gloves do not overlap.
 inline DeviceFrame with_second_glove(const Shot& first, const Shot& second) {
   DeviceFrame frame = first.frame;
   for (size_t i = 0; i < frame.raw_disparity.size(); ++i) {

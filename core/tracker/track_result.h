@@ -13,20 +13,20 @@
 
 namespace glovebench {
 
-/// A frame that is not `tracked` is lost. It repeats the last tracked posture and pose (before any: the open hand
-/// at the origin).
+/// A frame that is not `tracked` is lost. It repeats the last tracked posture and pose (at first: the open hand at
+/// the origin).
 enum class TrackStatus {
   tracked,
   no_hand,         ///< too few glove pixels
   outside_volume,  ///< over a third of the glove is too near or too far
-  cut_by_border,   ///< the glove touches the image border over too long a stretch
-  several_hands,   ///< more than one large glove-colored object
+  cut_by_border,   ///< the glove touches the border over too long a stretch
+  several_hands,   ///< another large glove-colored object
   too_few_points,
   degenerate_cloud,  ///< points on one line
   no_shared_color,   ///< cloud and visible model share none
-  poor_match,        ///< nearest entry's error above `max_matching_error`
-  poor_alignment,    ///< final mean distance above `max_residual`
-  missing,           ///< another program gave no estimate
+  poor_match,        ///< error above `max_matching_error`
+  poor_alignment,    ///< distance above `max_residual`
+  missing,           ///< no estimate by another program
 };
 constexpr auto names_of(TrackStatus) {
   return std::to_array<std::string_view>({"tracked", "no_hand", "outside_volume", "cut_by_border", "several_hands",
@@ -40,12 +40,12 @@ struct AngleCertainty {
   uint32_t hidden = 0;                  ///< bit a: angle a is hardly seen
 };
 
-/// The parts that an estimate has. Ours has all. Another program's may lack some.
+/// What an estimate has. Another program's may lack some.
 struct EstimateParts {
   bool posture = true;
   bool pose = true;
-  bool place = true;      ///< false: the joints have no place in the camera frame, only its axes
-  bool scale = true;      ///< false: the joints have no unit
+  bool place = true;      ///< false: joints have camera axes, but no place
+  bool scale = true;      ///< false: joints have no unit
   bool internals = true;  ///< unfiltered posture, matches, alignment
 
   bool hand() const { return posture && pose; }
@@ -67,10 +67,10 @@ struct TrackResult {
   RecycledVector<Match> matches;
 
   EstimateParts has;
-  /// By joint without the forearm, camera axes, m. Empty: those of the tracker's hand in this posture and pose.
+  /// By joint without the forearm, camera axes, m. Empty: those of the tracker's hand.
   RecycledVector<std::optional<Eigen::Vector3d>> joints;
 
-  bool ambiguous = false;  ///< rotations differ by more than 60 degrees
+  bool ambiguous = false;  ///< matches' rotations differ by over 60 degrees
   bool converged = false;
   int cloud_points = 0;  ///< |C|
   int icp_points = 0;
@@ -81,7 +81,6 @@ struct TrackResult {
   std::optional<double> misfit;
 };
 
-/// Stages in the order of a frame.
 enum class Stage {
   registration,
   segmentation,
@@ -94,7 +93,7 @@ enum class Stage {
   mask,
   fit,
   smoothing,
-  answer  ///< of a tracker that is a program: from the frame to its answer
+  answer  ///< of a tracker program, from the frame on
 };
 /// As in timings.json.
 constexpr auto names_of(Stage) {
@@ -103,13 +102,13 @@ constexpr auto names_of(Stage) {
 }
 static_assert(kCountOf<Stage> == static_cast<int>(Stage::answer) + 1, "each value has a name");
 
-/// Called when a stage begins. A frame may enter a stage twice. Must not be empty.
+/// At a stage's begin. A frame may enter one twice. Must not be empty.
 using StageObserver = std::function<void(Stage stage)>;
 inline void unobserved(Stage) {}
 
-/// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz, matching_error_px,
-/// icp_iterations, icp_residual_mm, ambiguous, converged; if known, joints_mm, angle_deviations_deg and hidden
-/// (names). Lacks what the result lacks; a lost frame also posture and pose.
+/// JSON without line end: frame, timestamp_us, status, angles_deg, position_mm, quaternion_wxyz,
+/// matching_error_px, icp_iterations, icp_residual_mm, ambiguous, converged; if known, joints_mm,
+/// angle_deviations_deg and hidden (names). Lacks what the result lacks; if lost, also posture and pose.
 std::string estimate_line(int frame, const TrackResult& result);
 
 }  // namespace glovebench

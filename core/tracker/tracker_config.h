@@ -17,21 +17,21 @@ namespace glovebench {
 struct SegmentationConfig {
   ColorSpace color_space = ColorSpace::yuv;
   bool majority_filter = false;    ///< 3x3 (not in the paper)
-  bool surface_majority = false;   ///< among neighbors within 2 cm of depth (not in the paper)
+  bool surface_majority = false;   ///< within 2 cm of depth (not in the paper)
   bool largest_component = false;  ///< not in the paper
 };
 
 struct LookupConfig {
   Cascade cascade = {{16, 500}, {64, 3}};  ///< section IV-B
   double interpolation_epsilon = 0.01;     ///< eps in 1 / (E + eps), px, > 0
-  bool turn_to_ray = true;                 ///< turn a view's rotation to the ray through the hand
+  bool turn_to_ray = true;                 ///< turn views' rotations to the ray through the hand
   std::string implementation = "fast";     ///< a name of `look_ups`
   double max_matching_error = 0.08;        ///< share of the last stage's side, > 0; larger: `poor_match`
 };
 
 struct SmoothingConfig {
-  double posture_keep = 0.75;  ///< x = keep * previous + (1 - keep) * new, [0, 1)
-  double pose_keep = 0.0;      ///< the same (slerp for the rotation), [0, 1)
+  double posture_keep = 0.75;  ///< weight of the previous value, [0, 1)
+  double pose_keep = 0.0;      ///< likewise (rotation: slerp), [0, 1)
   int forget_after = 15;       ///< lost frames before a restart, >= 1
 };
 
@@ -62,10 +62,10 @@ struct TrackerConfig {
   std::vector<std::string> problems() const;
 };
 
-/// "paper"; "paper-literal", which also filters the pose; "recommended", the most accurate.
-/// Throws: Error for other names.
+/// "paper"; "paper-literal" also filters the pose; "recommended" is the most accurate.
+/// Throws: Error for others.
 TrackerConfig profile(const std::string& name);
-/// Replaces fields of `base` by those of a JSON object.
+/// `base` with the fields of a JSON object.
 /// Throws: Error for an unknown, mistyped or out-of-range key.
 TrackerConfig config_from_json(const nlohmann::json& json, const TrackerConfig& base, const std::string& where);
 nlohmann::json to_json(const TrackerConfig& config);
@@ -73,7 +73,7 @@ nlohmann::json to_json(const TrackerConfig& config);
 struct ConfigMeaning {
   std::string_view field;  ///< "icp.max_points"
   std::string_view meaning;
-  std::string_view paper;  ///< its words and section; empty: not in the paper
+  std::string_view paper;  ///< words and section; empty: not in the paper
 };
 struct ConfigField {
   ConfigMeaning what;
@@ -81,7 +81,7 @@ struct ConfigField {
   std::string range;  ///< in words
   std::string value;  ///< JSON
 };
-/// In the order of the tracker's stages.
+/// By stage.
 std::vector<ConfigField> config_fields(const TrackerConfig& config);
 
 }  // namespace glovebench

@@ -23,8 +23,8 @@ struct CommonFlags {
   std::string cascade;
   std::string calibration;  ///< file; empty: the synthetic Kinect's
   nlohmann::json calibration_json;
-  std::string hand;          ///< file; empty: the package's mesh
-  nlohmann::json hand_json;  ///< of an earlier run
+  std::string hand;  ///< file; empty: the package's mesh
+  nlohmann::json hand_json;
   std::string cache_folder;
   uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
@@ -52,10 +52,9 @@ struct CommonFlags {
   /// Throws: Error beyond the largest seed.
   std::vector<uint64_t> seeds(int count) const;
   /// Makes the folder.
-  /// Throws: Error if it cannot be written.
+  /// Throws: Error.
   void check_output_folder() const;
-  /// The same for a run's report.
-  /// Throws: Error also if it would replace a file that no run wrote.
+  /// Throws: Error as `check_output_folder`, or if the report would replace a file that no run wrote.
   void check_report_folder() const;
 };
 
@@ -64,7 +63,7 @@ struct NamedTracker {
   TrackerConfig tracker;
 };
 
-/// Flags of a command that compares trackers. One of them may be repeated.
+/// Flags of a command that compares trackers, one of which may be repeated.
 struct TrackerChoices {
   std::vector<std::string> profiles, configs, methods, cascades;
 
@@ -73,8 +72,7 @@ struct TrackerChoices {
   /// Throws: Error if two flags have several values.
   void choose(CommonFlags& common) const;
   bool are_several() const;
-  /// One configuration per value of the repeated flag, with the other flags of `common`. Begins with the paper's if
-  /// it is none of them.
+  /// One configuration per value of the repeated flag; the first is the paper's if none of them is.
   /// Throws: Error for a bad value, equal names, or different database views.
   std::vector<NamedTracker> trackers(const CommonFlags& common) const;
 };
@@ -84,7 +82,7 @@ struct ComparisonFlags {
   double confidence = 0.99;
 
   void add(Command command, const std::string& default_metrics);
-  /// Throws: Error for a metric that is named twice.
+  /// Throws: Error for a repeated metric.
   reports::CompareConfig config() const;
 };
 
@@ -111,14 +109,12 @@ struct FileFlag {
   std::string path;         ///< empty: none
   std::string ending = {};  ///< required; empty: any
 };
-/// Throws: Error if a list names something twice.
+/// Throws: Error if a name repeats.
 void refuse_twice(const std::string& flag, const std::vector<std::string>& names);
 
-/// Checks files that a command writes or could overwrite.
 /// Throws: Error if two are one file, or one is another's partial file (core/base/line_file.h).
 void require_different_files(const std::vector<FileFlag>& files);
-/// The same, and that they can be written.
-/// Throws: Error as above, for another ending, or if a file cannot be written.
+/// Throws: Error as `require_different_files`, for another ending, or if one cannot be written.
 void require_writable_files(const std::vector<FileFlag>& files);
 
 /// Throws: Error in a build without a solver.
@@ -134,7 +130,7 @@ struct RobotFlags {
 
   /// Returns the option of `output`.
   Option add(Command command, const std::string& what);
-  /// Throws: Error for an arm in a build without a solver.
+  /// Throws: Error as `require_arm_solver`.
   RobotSetup setup(Workbench& workbench) const;
   RobotOutput output_of(Workbench& workbench) const;
 };

@@ -8,7 +8,7 @@
 
 namespace glovebench::eval {
 
-/// The text of --help. Rare options only if `all`.
+/// Rare options only if `all`.
 std::string help_text(const CommandText& command, const std::string& usage, bool all, size_t columns);
 
 /// The subcommands, with the first lines of their descriptions.
@@ -17,13 +17,12 @@ std::string commands_text(const CommandText& command, size_t columns);
 /// "unknown flag --ouptut; did you mean --output?"
 std::string describe_unknown(const CommandText& command, const std::string& word);
 
-/// For man(1).
 std::string man_page(const CommandText& program, const std::string& version);
 
 /// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty for file names, which the shell completes.
 std::string completions(const CommandText& program, const std::vector<std::string>& line);
 
-/// For bash, zsh or fish. Calls `completions`.
+/// For bash, zsh or fish.
 std::string completion_script(std::string_view shell);
 
 }  // namespace glovebench::eval

@@ -51,7 +51,6 @@ struct OptionText {
   bool is_argument() const { return !names.front().starts_with("-"); }
 };
 
-/// A command, for help, man page and completion.
 struct CommandText {
   std::string name;
   std::string description;
@@ -64,16 +63,16 @@ class Command {
  public:
   using Action = std::function<int()>;
 
-  /// `chosen` receives the action of the chosen command.
+  /// `chosen` receives the chosen command's action.
   Command(CLI::App& app, Action& chosen) : app_(&app), chosen_(&chosen) {}
 
-  /// The user must name a subcommand unless the command `runs` by itself. Each line of the description is a
-  /// paragraph; lists of commands show the first.
+  /// The user must name a subcommand unless the command `runs` by itself. Lists of commands show the description's
+  /// first line.
   Command subcommand(const std::string& name, const std::string& description) const;
   /// The help shows its options under `heading`.
   Command group(const std::string& heading) const;
-  /// `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help shows the default unless it
-  /// is empty or the option is required. A bool is a flag. A transform is X Y Z (m) QW QX QY QZ.
+  /// `names`: `-o,--output`, or `file` for an argument. Rejects empty values. A bool is a flag. A transform is X Y
+  /// Z (m) QW QX QY QZ.
   /// Throws: Error unless a transform is finite with a unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;
@@ -101,11 +100,10 @@ class Command {
   std::string group_ = "Options";
 };
 
-/// Returns the exit code. A wrong command line: 2, with one line on stderr.
+/// Returns the exit code; 2, with one line on stderr, for a wrong command line.
 /// Throws: what the command throws.
 int run_program(int argc, const char* const* argv, const std::function<void(Command program)>& add_commands);
 
-// Each adds its file's command.
 void add_reproduce(Command program);
 void add_run(Command program);
 void add_record(Command program);

@@ -26,11 +26,11 @@ struct BusFlags {
 class RobotOutputs {
  public:
   /// `file`: JSON Lines; empty: none.
-  /// Throws: Error as `join_robot_bus`, or if the file cannot be written.
+  /// Throws: Error.
   RobotOutputs(const std::string& file, const std::optional<RobotBusOptions>& bus);
 
   bool any() const { return file_ || bus_; }
-  /// The arm's joints at the start. Empty without a controller.
+  /// Empty without a controller.
   std::optional<ArmJoints> arm_start() const { return bus_ ? bus_->arm_start() : std::nullopt; }
   /// Guards and sends a command. On a bus, time is the first frame's stamp plus wall time. With a controller,
   /// motion starts at the measured joints, also after a lost hand. `arrived_us`: when the frame arrived, since

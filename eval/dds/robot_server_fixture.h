@@ -82,7 +82,6 @@ class RobotServer : public DdsBus {
     command.insert(command.end(), more.begin(), more.end());
     return start(command, setting);
   }
-  /// Waits until the log shows the start.
   StartedProgram serve_until_ready(const std::string& sides, const std::string& log,
                                    const std::vector<std::string>& more = {}, const ProgramSetting& setting = {}) {
     const size_t before = std::filesystem::exists(log) ? std::filesystem::file_size(log) : 0;
@@ -122,7 +121,6 @@ class RobotServer : public DdsBus {
   static int64_t good(const std::string& log, const std::string& topic) {
     return received(log, topic, "accepted") + received(log, topic, "starting") + received(log, topic, "stale");
   }
-  /// A busy server misses ticks, then waits for its sender's new start.
   static bool had_gaps(const ProgramRun& run) { return run.out.find("; gaps: ") != std::string::npos; }
   static double last_angle(const std::string& log, const std::string& joint) {
     return lines(log, "state").back().at("position_deg").at(joint).get<double>();
@@ -143,7 +141,7 @@ class RobotServer : public DdsBus {
     int states = 0;
     std::istringstream all(read_file(log));
     for (std::string line; std::getline(all, line);) {
-      const json event = json::parse(line, nullptr, false);  // a kill may have cut it
+      const json event = json::parse(line, nullptr, false);
       if (event.is_discarded()) continue;
       if (event.at("event") == "interval") interval = event;
       if (event.at("event") == "start") started = true;

@@ -49,7 +49,6 @@ class DdsBus : public testing::Test {
     EXPECT_TRUE(comes_true([&] { return said(listener).find("ready") != std::string::npos; }));
     return listener;
   }
-  /// Runs a probe script.
   StartedProgram talk(const std::string& script, const ProgramSetting& setting = {}) {
     const std::string file = path("script-" + std::to_string(scripts_++));
     write_file(file, script);

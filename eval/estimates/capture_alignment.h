@@ -8,22 +8,22 @@
 
 namespace glovebench::eval {
 
-/// Time and place of a recording in a capture of the same hand. The 95% intervals come from a bootstrap over blocks
-/// of a second.
+/// Time and place of a recording in a capture of the same hand, with 95% bootstrap intervals over blocks of a
+/// second.
 struct CaptureAlignment {
-  TimeOffset time;  ///< added to the time stamps of the answers
+  TimeOffset time;  ///< added to the answers' time stamps
   Eigen::Isometry3d T_camera_capture = Eigen::Isometry3d::Identity();
   double position_95 = 0;  ///< of the transform, at the hand's mean place, m
   double rotation_95 = 0;  ///< rad
-  double residual = 0;     ///< root mean square distance of the palm, or of joints, after the alignment, m
+  double residual = 0;     ///< RMS distance of the palm, or of joints, after alignment, m
   size_t used = 0;         ///< answers
   size_t left_out = 0;     ///< answers that are farther off than three medians
 };
 
-/// Finds the time offset with the least mean square distance between answers and capture; the rigid transform of
-/// each offset is Horn's. Any offset counts that puts half of the tracked answers into the capture. `capture` is in
-/// its own frame; points between its frames are interpolated. Throws: Error for fewer than 10 tracked answers,
-/// answers without place or scale, or a hand that does not move.
+/// Finds the time offset with the least mean square distance between answers and interpolated capture, whose frame
+/// is its own. At each offset, half of the tracked answers must fall into the capture. Horn's method gives the
+/// transform.
+/// Throws: Error for fewer than 10 tracked answers, answers without place or scale, or a hand that does not move.
 CaptureAlignment align_to_capture(std::span<const HandFrame> capture, std::span<const TrackResult> answers,
                                   const render::Subject& subject, const HandModel& hand, const std::string& where);
 
@@ -32,7 +32,7 @@ struct CapturedTruth {
   std::vector<HandFrame> frames;  ///< from 0 us on
   std::vector<TrackResult> answers;
 };
-/// Leaves out answers outside the capture or in gaps of over 0.1 s.
+/// Leaves out answers outside the capture or in gaps over 0.1 s.
 /// Throws: Error if none is left.
 CapturedTruth captured_truth(std::span<const HandFrame> capture, std::span<const TrackResult> answers,
                              const CaptureAlignment& alignment, const std::string& where);

@@ -15,7 +15,6 @@ namespace glovebench::eval {
 /// row.
 using Points = Eigen::MatrixXd;
 
-/// How estimates of one file are compared with the truth to find a time offset or a mistake.
 struct PointComparison {
   EstimateParts has;
   std::vector<int> joints;  ///< empty: all, if it has posture and pose
@@ -26,12 +25,11 @@ struct PointComparison {
   /// Points of a tracked answer.
   Points of(const TrackResult& answer) const;
   Points of(const HandFrame& truth, const render::Subject& subject) const;
-  /// Mean, mm or deg. Centers are moved together without place, and sizes made equal without scale.
+  /// Mean, mm or deg. Without place, centers are aligned; without scale, sizes.
   double distance(const Points& estimated, const Points& truth) const;
   const char* unit() const { return has_points() ? "mm" : "deg"; }
 };
 
-/// Of all frames.
 std::vector<Points> points_of(const PointComparison& comparison, std::span<const HandFrame> truth,
                               const render::Subject& subject);
 

@@ -20,15 +20,14 @@ struct EstimateSequence {
   std::vector<int64_t> timestamps_us;
   std::vector<TrackStatus> statuses;
   std::vector<size_t> begins;  ///< of each frame's numbers
-  /// Of each tracked frame: 22 angles (rad), position (m) and quaternion w x y z, joints (m), as far as it has
-  /// them.
+  /// Of each tracked frame, as far as known: angles (22, rad), position (m), quaternion w x y z, joints (m).
   std::vector<double> numbers;
 
   size_t size() const { return timestamps_us.size(); }
   size_t numbers_per_frame() const;
   void reserve(size_t frames);
-  /// `own`: the numbers; ignored for lost frames.
-  /// Throws: Error if time does not increase, or for numbers that are no hand.
+  /// `own`: its numbers; ignored for lost frames.
+  /// Throws: Error if time does not increase, or for impossible numbers.
   void add(int64_t timestamp_us, TrackStatus status, std::span<const double> own, const std::string& where,
            const std::string& field);
   TrackResult answer(size_t frame) const;
@@ -47,11 +46,10 @@ struct EstimateFormat {
   std::string_view name;
   std::string_view description;
   bool (*fits)(std::string_view path, std::string_view first_line);
-  /// Throws: Error, also for what neither the file nor the flags say.
+  /// Throws: Error, also if neither file nor flags say a required fact.
   std::vector<EstimateSequence> (*read)(std::string_view bytes, const EstimateFlags& flags,
                                         const std::string& where);
 };
-/// Sorted by name.
 std::span<const EstimateFormat> estimate_formats();
 
 /// `format`: a name; empty: by ending and first line.
@@ -59,21 +57,21 @@ std::span<const EstimateFormat> estimate_formats();
 std::vector<EstimateSequence> load_estimates(const std::string& path, const std::string& format,
                                              const EstimateFlags& flags);
 
-/// Poses with the posture or joints of a second file at the same time stamps. A frame that one of them lacks is
-/// lost. Throws: Error unless exactly the first has poses.
+/// Adds the posture or joints of a second file at the same time stamps. A frame that one of them lacks is lost.
+/// Throws: Error unless exactly the first has poses.
 EstimateSequence merged(const EstimateSequence& poses, const EstimateSequence& beside, const std::string& where);
 
 /// m per unit, 1 for "none".
-/// Throws: Error for another word, or if `flag` (may be empty) says something else.
+/// Throws: Error for another word, or if a nonempty `flag` differs.
 double meters_of(std::string_view unit, const std::string& flag, const std::string& where,
                  const std::string& field);
 /// Throws: Error likewise.
 double microseconds_of(std::string_view unit, const std::string& flag, const std::string& where,
                        const std::string& field);
-/// Throws: Error unless the time is within 300 years of 0.
+/// Throws: Error beyond 300 years from 0.
 int64_t timestamp_of(double time, double unit_us, const std::string& where, const std::string& field);
-/// Parts of joints alone. `frame`: the file's word, may be empty.
-/// Throws: Error if neither file nor flags say the frame.
+/// Parts of joints alone. `frame`: the file's, may be empty.
+/// Throws: Error if neither file nor flags say it.
 EstimateParts parts_of_joints(std::string_view units, std::string_view frame, const EstimateFlags& flags,
                               const std::string& where);
 

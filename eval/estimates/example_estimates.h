@@ -39,7 +39,6 @@ inline std::string track_text(std::span<const HandFrame> frames) {
   return text;
 }
 
-/// "x,y,z" with this separator.
 inline std::string numbers_text(std::span<const double> numbers, const char* separator) {
   return fmt::format("{}", fmt::join(numbers, separator));
 }
@@ -70,7 +69,7 @@ inline std::string angles_text(std::span<const HandFrame> frames, const std::str
 
 using Move = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 
-/// The joints of an order as glovebench-joints; a point that we lack is at the wrist.
+/// As glovebench-joints; a point that our skeleton lacks is at the wrist.
 inline std::string joints_text(
     std::span<const HandFrame> frames, const render::Subject& subject, const JointOrder& order,
     const Move& move = [](const Eigen::Vector3d& p) { return p; }, const std::string& frame = "camera") {

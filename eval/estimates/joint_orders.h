@@ -15,12 +15,11 @@ struct NamedJoint {
   int joint = -1;
 };
 
-/// How a program orders and names its joints.
 struct JointOrder {
   std::string name;  ///< empty: unknown
   std::vector<NamedJoint> joints;
 
-  /// Index of a joint by its name or number. Empty for another word.
+  /// By name or number. Empty for another word.
   std::optional<size_t> find(std::string_view word) const;
 };
 std::span<const JointOrder> joint_orders();

@@ -9,15 +9,15 @@
 
 namespace glovebench::eval {
 
-/// MediaPipe's 21 landmarks as WebXR joints: wrist, thumb CMC to tip, other fingers MCP to tip.
+/// MediaPipe's landmarks as WebXR joints: wrist, thumb CMC to tip, other fingers MCP to tip.
 const std::array<int, 21>& landmark_joints();
 
 struct JointLabel {
   Eigen::Vector3d p_camera = Eigen::Vector3d::Zero();  ///< m
   bool is_visible = false;
 };
-/// WebXR's 25 joints. A joint lies in the flesh: it is visible if the surface at its pixel is at most 20 mm nearer,
-/// or 35 mm at the wrist and the metacarpals' bases.
+/// WebXR's 25 joints. A joint is visible if the surface at its pixel is at most 20 mm nearer, or 35 mm at the
+/// wrist and the metacarpals' bases.
 std::array<JointLabel, kForearmJoint> label_joints(const JointPoses& T_hand_joint,
                                                    const Eigen::Isometry3d& T_camera_hand,
                                                    const DepthImage& true_depth, const PinholeCamera& camera);
@@ -31,7 +31,7 @@ struct ColorView {
 };
 ColorView view_from_color(const DatasetFrame& frame, Side side);
 
-/// Measured depth as the RGB camera would see it: the nearest sample of each pixel. Inputs must be rectified.
+/// Measured depth in the RGB camera: the nearest sample of each pixel. Inputs must be rectified.
 DepthImage register_depth(const DepthImage& depth, const RgbdCalibration& calibration);
 
 /// Steps of 1 / `steps_per_m`; 0 beyond 65535 steps.

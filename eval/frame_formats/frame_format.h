@@ -23,10 +23,10 @@ struct Dataset {
 
 /// A rendered frame; poses and truth are those of the IR camera.
 struct DatasetFrame {
-  int number = 0;  ///< in the movement
+  int number = 0;
   const DeviceFrame& images;
   const HandFrame& truth;
-  render::SyntheticKinect& kinect;    ///< which rendered it
+  render::SyntheticKinect& kinect;
   std::optional<HandFrame> estimate;  ///< empty: lost or not tracked
 };
 
@@ -40,25 +40,25 @@ class FrameWriter {
   virtual void finish() = 0;
 };
 
-/// How frames become files. eval/frame_formats/X_frames.cpp defines `FrameFormat X_frames()`.
+/// eval/frame_formats/X_frames.cpp defines `FrameFormat X_frames()`.
 struct FrameFormat {
   std::string_view name;
   std::string_view description;
   std::string_view conventions;  ///< lines of README.txt: files, units, frames
   bool has_estimates;
-  /// Throws: Error if the folder cannot be written.
+  /// Throws: Error.
   std::unique_ptr<FrameWriter> (*make)(const Dataset& dataset);
 };
 std::span<const FrameFormat> frame_formats();
-/// Throws: Error for an unknown name.
+/// Throws: Error.
 const FrameFormat& find_frame_format(std::string_view name);
 
-/// Text of README.txt: origin, conventions, license.
+/// README.txt: origin, conventions, license.
 std::string dataset_readme(const FrameFormat& format, const RunSpec& spec);
 
-/// A frame's estimate; empty if the hand is lost. An empty function: nothing tracks.
+/// Empty if the hand is lost. An empty function: nothing tracks.
 using Estimator = std::function<std::optional<HandFrame>(const DeviceFrame& images, int number)>;
-/// Renders a run's frames, writes and finishes them.
+/// Renders and writes a run's frames.
 /// Throws: Error.
 void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& estimate, const FrameFormat& format,
                   const Dataset& dataset);

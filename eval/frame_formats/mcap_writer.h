@@ -17,8 +17,8 @@ struct McapChannel {
 };
 using McapMetadata = std::map<std::string, std::string>;
 
-/// Writes an MCAP file of the profile "ros2": chunks with indexes, compressed by zstd, and a summary. Holds one
-/// chunk in memory. The file appears at `finish`.
+/// Writes an MCAP file of the profile "ros2", indexed and compressed by zstd. Holds one chunk in memory. The file
+/// appears at `finish`.
 /// Throws: Error, from every function.
 /// Format: https://mcap.dev/spec
 class McapWriter {
@@ -49,8 +49,7 @@ class McapWriter {
   unsigned long crc_ = 0;  ///< of all bytes since the last section began
   std::string chunk_;
   ChunkIndex open_;
-  std::map<uint16_t, std::map<uint64_t, std::vector<uint64_t>>>
-      entries_;  ///< of the open chunk, by channel and time
+  std::map<uint16_t, std::map<uint64_t, std::vector<uint64_t>>> entries_;  ///< of the open chunk
   std::vector<ChunkIndex> chunks_;
   std::map<uint16_t, uint64_t> message_counts_;
 };

@@ -41,7 +41,7 @@ struct RosLine {
 std::string ros_markers(const RosHeader& header, std::string_view name, std::span<const Eigen::Vector3d> spheres,
                         std::span<const RosLine> lines, const RosColor& color);
 
-/// Definition of a type ("sensor_msgs/Image") and of all that it names, as in an MCAP schema "ros2msg".
+/// Definition of a type ("sensor_msgs/Image") and of all that it names, as MCAP's "ros2msg".
 std::string ros_definition(std::string_view type);
 
 }  // namespace glovebench::eval

@@ -10,7 +10,7 @@
 
 namespace glovebench::eval {
 
-/// Reads little-endian fields one after another.
+/// Reads successive little-endian fields.
 /// Throws: Error at the end of the bytes, from every function.
 class FieldReader {
  public:

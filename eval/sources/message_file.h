@@ -7,7 +7,7 @@
 
 namespace glovebench::eval {
 
-// Files of ROS messages in chunks, which may be compressed. Their indexes are not used.
+// Files of ROS messages in chunks, which may be compressed.
 
 struct MessageTopic {
   std::string name;
@@ -15,13 +15,11 @@ struct MessageTopic {
   std::string encoding;  ///< of messages: "cdr", "ros1"
 };
 inline constexpr size_t kMostTopics = 4096;
-/// A name of a topic or type.
-/// Throws: Error if it is long or has control characters.
+/// Throws: Error for a long name or control characters.
 std::string topic_name(std::string_view text, const std::string& where);
 
-/// Where a message lies.
 struct MessagePlace {
-  uint64_t chunk = 0;   ///< position of the chunk in the file; 0: the message lies outside of chunks
+  uint64_t chunk = 0;   ///< position in the file; 0: the message is in no chunk
   uint64_t offset = 0;  ///< in the unpacked chunk, or in the file
   uint64_t size = 0;
 };
@@ -71,7 +69,7 @@ class MessageReader {
   MessageFormat format_;
   uint64_t kept_ = 0;  ///< the chunk; 0: none
   std::string buffer_;
-  std::string_view records_;  ///< of the chunk
+  std::string_view records_;
 };
 
 }  // namespace glovebench::eval

@@ -12,7 +12,6 @@
 
 namespace glovebench::eval {
 
-/// Times of images, and how one is read by its index.
 struct RecordedImages {
   std::vector<int64_t> depth_us, color_us;        ///< from 0 to 1e16
   std::function<DepthImage(size_t index)> depth;  ///< Throws: Error
@@ -24,7 +23,7 @@ struct RecordedImages {
 TrackSource paired_source(const std::string& where, const RgbdCalibration& calibration, RecordedImages images,
                           int64_t max_gap_us);
 
-/// The calibration of depth that is registered to color: two cameras like the RGB camera.
+/// Two cameras like the RGB camera, for depth that is registered to color.
 RgbdCalibration registered_to_color(const RgbdCalibration& calibration);
 
 /// m; 0: no value.

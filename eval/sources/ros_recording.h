@@ -13,11 +13,11 @@
 
 namespace glovebench::eval {
 
-/// The topics of images. CameraInfo is `camera_info` beside them.
+/// CameraInfo is `camera_info` beside them.
 struct ImageTopics {
   std::string color = "/camera/color/image_raw", depth = "/camera/depth/image_rect_raw";
 };
-/// Reads "color=TOPIC,depth=TOPIC", each of which may be left out.
+/// Reads "color=TOPIC,depth=TOPIC"; both are optional.
 /// Throws: Error.
 ImageTopics parse_image_topics(const std::string& text);
 
@@ -38,10 +38,9 @@ struct RosIndex {
 RosIndex index_recording(std::string_view file, const ImageTopics& topics, const std::string& where);
 
 /// From CameraInfo and static transforms. Depth in the color camera's frame is registered to color.
-/// Throws: Error if something is missing.
+/// Throws: Error.
 RgbdCalibration calibration_of(const RosIndex& index, const ImageTopics& topics, const std::string& where);
 
-/// Opens a file of ROS messages.
 /// Throws: Error.
 TrackSource open_ros_recording(const std::string& path, const SourceFlags& flags, bool quiet);
 

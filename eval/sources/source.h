@@ -16,7 +16,7 @@ namespace glovebench::eval {
 struct TrackSource {
   std::unique_ptr<Device> device;
   int frame_count = 0;                    ///< 0: live
-  std::function<int()> dropped;           ///< number of lost images and frames
+  std::function<int()> dropped;           ///< lost images and frames
   std::function<int64_t()> arrived_us;    ///< when the last frame was complete, since 1970
   std::function<std::string()> ended_by;  ///< why a live device ended
 };
@@ -33,11 +33,11 @@ struct SourceFlags {
   void add(Command command, const std::string& help);
 };
 
-/// Where frames come from. eval/sources/X_source.cpp defines `SourceKind X_source()`.
+/// eval/sources/X_source.cpp defines `SourceKind X_source()`.
 struct SourceKind {
-  std::string_view name;         ///< of `--source NAME:ARGUMENT`
-  std::string_view usage;        ///< for the help; brackets: may be left out
-  std::string_view description;  ///< for the help
+  std::string_view name;   ///< of `--source NAME:ARGUMENT`
+  std::string_view usage;  ///< for the help; brackets: may be left out
+  std::string_view description;
   /// Warns of a changed recording unless `quiet`.
   /// Throws: Error.
   TrackSource (*open)(const std::string& argument, const SourceFlags& flags, bool quiet);
@@ -45,15 +45,15 @@ struct SourceKind {
 std::span<const SourceKind> source_kinds();
 
 /// Rectifies the images.
-/// Throws: Error for an unknown kind, and as `SourceKind::open`.
+/// Throws: Error, also for an unknown kind.
 TrackSource open_source(const SourceFlags& flags, bool quiet);
 
-/// Gives `take` up to `count` frames, spread over a recording or the first of a live device. Skips damaged frames,
-/// and names them on stderr unless `quiet`. `title`: for the progress bar.
+/// Gives `take` up to `count` frames, spread over a recording or a live device's first. Skips damaged frames, and
+/// names them on stderr unless `quiet`. `title`: for the progress bar.
 void take_spread(TrackSource& source, int count, const std::string& title, bool quiet,
                  const std::function<void(const DeviceFrame&)>& take);
 
-/// The results of all frames of a recording. Skips damaged frames, and names them on stderr unless `quiet`.
+/// Treats damaged frames as `take_spread`.
 /// Throws: Error.
 std::vector<TrackResult> track_recording(TrackSource& source, Method& method, bool quiet);
 

@@ -41,7 +41,7 @@ inline std::string mcap_message(uint16_t topic, std::string_view message) {
   return FieldBytes().put(topic).put(uint32_t{0}).put(uint64_t{0}).put(uint64_t{0}).raw(message).record(5);
 }
 
-/// `size`: that the chunk claims to have.
+/// `size`: as the chunk claims.
 inline std::string mcap_chunk(std::string_view compression, std::string_view packed, uint64_t size,
                               uint32_t crc = 0) {
   return FieldBytes()
@@ -55,7 +55,6 @@ inline std::string mcap_chunk(std::string_view compression, std::string_view pac
       .record(6);
 }
 
-/// `records`: of the data.
 inline std::string mcap_file(const std::string& records) {
   return "\x89MCAP0\r\n" + records + FieldBytes().put(uint32_t{0}).record(15);
 }

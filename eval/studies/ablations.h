@@ -18,7 +18,6 @@ struct Ablation {
   std::vector<AblationRow> rows;
 };
 
-/// Other settings change one thing in it.
 inline constexpr const char* kDefaultSetting = "default";
 std::vector<Setting> ablation_settings(const TrackerConfig& tracker);
 /// All but the choice of postures. Labels assume the profile `paper`.
@@ -27,10 +26,9 @@ std::vector<Ablation> ablations();
 /// Runs on source truths: DB_open_power on power grasps, other databases on all five.
 Runs run_rows(const StudyContext& context, const std::vector<Ablation>& wanted);
 
-/// Table "ablations".
 reports::Table ablation_table(const Runs& runs, const std::vector<Ablation>& ablations);
 
-/// A look-up is wrong if its error is larger: a quarter of the way from open hand to power grasp.
+/// A look-up with a larger error is wrong: a quarter of the way from open hand to power grasp.
 inline constexpr double kWrongLookUp_deg = 15;
 
 /// lag.*: the posture's delay. Intervals resample movements.
@@ -48,16 +46,15 @@ reports::Measure interpolation_measure(const Runs& runs);
 /// Rows for these measures beyond `ablations`.
 std::vector<Ablation> measured_ablations();
 
-/// DB_20_random_NUMBER: DB_20_postures with movement postures drawn at random from the same pool. `number`: seed,
-/// >= 1.
+/// DB_20_random_NUMBER: DB_20_postures with random movement postures from the same pool. `number`: seed, >= 1.
 PostureSet random_choice(int number);
-/// Largest RMS distance from a pool posture to the nearest of the set.
+/// Largest RMS distance from a pool posture to the set.
 double covering_radius_deg(const PostureSet& set);
 
 Ablation posture_choice_ablation(const std::vector<PostureSet>& choices);
-/// Runs the default setting. Frees each database (0.9 GB) after use.
+/// Runs the default setting. Frees each database after use.
 Runs run_posture_choices(const StudyContext& context, const std::vector<PostureSet>& choices);
-/// Table "postures", DB_20_postures first. `runs` must include it.
+/// DB_20_postures first, which `runs` must include.
 reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureSet>& choices);
 
 }  // namespace glovebench::eval

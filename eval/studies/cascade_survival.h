@@ -15,8 +15,7 @@ struct StageSurvival {
   Sample survived_percent;  ///< 100 if the stage keeps the true neighbor, else 0
 };
 
-/// How often the true neighbor (TrueNeighborSearch) survives each stage. Frames without a hand count as 0. Uses the
-/// workbench's threads.
+/// How often the true neighbor (TrueNeighborSearch) survives each stage. Frames without a hand count as 0.
 std::vector<StageSurvival> measure_survival(const StudyContext& context, const std::vector<std::string>& databases,
                                             const std::vector<Cascade>& cascades, reports::TruthKind truth);
 

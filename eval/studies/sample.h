@@ -10,10 +10,10 @@
 
 namespace glovebench::eval {
 
-/// [stratum][noise seed][frame]; empty without value, as for a lost frame. A stratum is a trajectory.
+/// [trajectory][noise seed][frame]; empty without value, as for a lost frame.
 using Sample = std::vector<std::vector<std::vector<std::optional<double>>>>;
 
-/// `value` is empty without values, `interval` also with too few to resample.
+/// `value` is empty without values, `interval` also with too few.
 struct Estimated {
   std::optional<double> value;
   std::optional<reports::ConfidenceInterval> interval;
@@ -22,7 +22,7 @@ struct Estimated {
 std::optional<double> mean(const Sample& sample);
 Estimated estimate_mean(const Sample& sample);
 
-/// `combine` of the samples' means. All samples must have the same frames, which are resampled together.
+/// `combine` of the samples' means. All samples must have the same frames; these are resampled together.
 Estimated estimate(std::span<const Sample> samples,
                    const std::function<std::optional<double>(std::span<const double> means)>& combine);
 

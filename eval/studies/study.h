@@ -14,7 +14,7 @@ namespace glovebench::eval {
 struct StudyOptions {
   TrackerConfig tracker;
   std::vector<uint64_t> seeds = {1};
-  bool quick = false;             ///< for a test, not a measurement
+  bool quick = false;             ///< for tests
   std::vector<Cascade> cascades;  ///< of Figure 8; empty: the paper's
 };
 
@@ -26,15 +26,15 @@ struct StudyContext {
 };
 
 struct Study {
-  std::string_view name;   ///< "fig8"
-  std::string_view title;  ///< "Figure 8: matching cascades"
+  std::string_view name;  ///< "fig8"
+  std::string_view title;
   reports::StudyResult (*run)(const StudyContext& context);
   double cpu_s;             ///< per seed, roughly
   bool on_request = false;  ///< only if named
 };
 /// In running order.
 const std::vector<Study>& studies();
-/// Throws: Error for an unknown name.
+/// Throws: Error.
 const Study& study(std::string_view name);
 
 struct Setting {
@@ -49,8 +49,8 @@ struct Setting {
 /// All frames; with `quick`, a stretch.
 FrameRange frames_of(const StudyOptions& options);
 
-/// Each setting with each database on these trajectories (empty: all five; quick: one), with the study's seeds and
-/// the paper's noise. Order: trajectory, seed, setting, database.
+/// Each setting with each database on these trajectories (empty: all five; quick: one), with the paper's noise.
+/// Order: trajectory, seed, setting, database.
 std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<Setting>& settings,
                                  const std::vector<std::string>& databases, reports::TruthKind truth,
                                  const std::vector<std::string>& trajectories = {});
@@ -76,7 +76,7 @@ Sample sample_of(const Selection& runs,
 Sample sample_of(const Selection& runs, std::string_view metric);
 /// [trajectory][seed].
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs);
-/// Times of a stage, or of whole frames, over all frames and runs.
+/// Of a stage, or of whole frames, over all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
 std::optional<double> tracked_percent(const Selection& runs);
@@ -85,8 +85,8 @@ std::optional<double> tracked_percent(const Selection& runs);
 std::vector<reports::Cell> cells(const Estimated& estimated);
 using reports::cell;
 const std::vector<reports::Column>& error_columns();
-/// 12 cells: mean errors of position, posture and rotation, each with its change from `reference` and interval.
-/// Null: no change.
+/// 12 cells: mean errors of position, posture and rotation, each with its change from `reference` (may be null)
+/// and interval.
 std::vector<reports::Cell> error_cells(const Selection& runs, const Selection* reference);
 
 reports::StudyResult run_figure7(const StudyContext& context);
@@ -94,16 +94,15 @@ reports::StudyResult run_figure8(const StudyContext& context);
 reports::StudyResult run_figure9(const StudyContext& context);
 reports::StudyResult run_ablations(const StudyContext& context);
 reports::StudyResult run_monocular(const StudyContext& context);
-/// Figures 5 and 6 with profiles paper and paper-literal: what the curves say of the filter.
+/// Figures 5 and 6 with profiles paper and paper-literal.
 reports::StudyResult run_filter(const StudyContext& context);
-/// The effect of each deviation from the paper. No measures.
 reports::StudyResult run_deviations(const StudyContext& context);
-/// Figure 4 with profiles paper and paper-literal. No measures.
+/// Figure 4, profiles paper and paper-literal.
 reports::StudyResult run_paper_literal(const StudyContext& context);
-/// Figure 4 with profiles paper and recommended. No measures.
+/// Figure 4, profiles paper and recommended.
 reports::StudyResult run_recommended(const StudyContext& context);
-/// The program of `options.tracker` beside profiles paper and recommended, on a gloved and a bare hand. No
-/// measures. Throws: Error for a method of the toolkit's own.
+/// The program of `options.tracker` beside profiles paper and recommended, gloved and bare.
+/// Throws: Error unless the method is a program.
 reports::StudyResult run_external(const StudyContext& context);
 /// monocular.depth_error_cm: with the first database and the tracker's own hand.
 reports::StudyResult measure_monocular(const StudyContext& context, const std::vector<std::string>& databases);

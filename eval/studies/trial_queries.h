@@ -19,10 +19,10 @@ inline constexpr double kTrialAngleNoise_deg = 3.0;  ///< standard deviation
 inline constexpr double kTrialDistance = 0.70;
 inline constexpr std::array<double, 3> kTrialReach = {0.12, 0.07, 0.10};
 
-/// A blend of two postures (or the only one) with noise on each angle, a uniform rotation and an origin in the box.
+/// A blend of two postures (or the only one) with noise, a uniform rotation and an origin in the box.
 HandFrame draw_trial_hand(const PostureSet& postures, RandomStream& random);
 
-/// The synthetic Kinect with subject 1, and the stages before the look-up. Not thread-safe.
+/// A synthetic Kinect with subject 1, and the stages before the look-up. Not thread-safe.
 class TrialCamera {
  public:
   TrialCamera(Workbench& workbench, const TrackerConfig& config, const render::NoiseConfig& noise);
@@ -43,7 +43,7 @@ struct TrialQuery {
   std::vector<LabelImage> images;  ///< by size
   int redraws = 0;                 ///< rejected hands before it
 };
-/// Queries under the paper's noise. Threads do not change them.
+/// Threads do not change the queries.
 /// Throws: Error if hardly any hand can be looked up.
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,

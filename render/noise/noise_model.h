@@ -12,12 +12,12 @@
 namespace glovebench::render {
 
 /// Variance per |grad z| of `gradient`, m px: standard deviation 1.4 mm at 45 degrees and 0.7 m (Nguyen et al.
-/// 2012). Not tuned.
+/// 2012).
 inline constexpr double kGradientGain = 0.0014 * 0.0014 / (0.7 / 575.816);
 
 struct KinectNoiseConfig {
   double lateral_sigma_px = 0.5;  ///< of the sampled position (Handa et al. 2014), >= 0
-  /// before quantization, 1/8 px, >= 0; with quantization: axial deviation of Khoshelham and Elberink 2012
+  /// 1/8 px, before quantization, >= 0; quantized: axial deviation of Khoshelham and Elberink 2012
   double disparity_sigma_steps = 0.40;
   double grazing_from_deg = 70.0;     ///< incidence where dropouts begin, [0, 90)
   double grazing_to_deg = 85.0;       ///< incidence where all drop out, (grazing_from_deg, 90]
@@ -44,10 +44,10 @@ struct DepthNoise {
                     const FrameKey& key);
 };
 std::span<const DepthNoise> depth_noises();
-/// Throws: Error for an unknown name.
+/// Throws: Error.
 const DepthNoise& find_depth_noise(std::string_view name);
 
-/// Throws: Error for an unknown model.
+/// Throws: Error.
 DepthImage add_depth_noise(const DepthImage& depth, const PinholeCamera& camera, const NoiseConfig& config,
                            const FrameKey& key);
 

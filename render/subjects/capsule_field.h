@@ -6,7 +6,7 @@
 
 namespace glovebench::render {
 
-/// Balls along a segment, with linear radius, m.
+/// A segment with linear radius, m.
 struct Capsule {
   Eigen::Vector3d a;
   Eigen::Vector3d b;
@@ -15,8 +15,8 @@ struct Capsule {
 };
 
 enum class Joining : uint8_t {
-  palm,    ///< palm and forearm, with each other
-  segment  ///< fingers, with each other and the palm
+  palm,    ///< palm and forearm
+  segment  ///< fingers, also with the palm
 };
 
 struct UnionPart {
@@ -33,17 +33,16 @@ struct FieldSample {
 
 FieldSample distance_to(const Capsule& capsule, const Eigen::Vector3d& p);
 
-/// Smooth union of distances d_i with shares s_i: -k log sum s_i exp(-d_i / k), at most a full part's smallest
-/// distance.
+/// -k log sum s_i exp(-d_i / k) of distances d_i and shares s_i, at most a full part's smallest distance.
 FieldSample smooth_union(std::span<const Capsule> capsules, std::span<const UnionPart> parts,
                          const Eigen::Vector3d& p);
 
-/// k between segments and palm, m.
+/// k of `smooth_union` between segments and palm, m.
 inline constexpr double kSegmentJoining = 0.0015;
 /// k inside the palm, m.
 inline constexpr double kPalmJoining = 0.005;
 
-/// Moves `p` along the gradient to `level` by Newton steps. May stop short in creases.
+/// Newton steps along the gradient to `level`. May stop short in creases.
 Eigen::Vector3d project_to_level(std::span<const Capsule> capsules, std::span<const UnionPart> parts, double level,
                                  Eigen::Vector3d p);
 

@@ -8,31 +8,29 @@
 
 namespace glovebench::render {
 
-/// A gloved hand of capsules (render/README.md). The seed determines person, skeleton and glove. A posture moves
-/// the capsules and projects vertices onto their union (Vaillant et al. 2013, "Implicit Skinning", without
-/// contact).
+/// A gloved hand of capsules (render/README.md), drawn by the seed. A posture moves the capsules and projects
+/// vertices onto their union (Vaillant et al. 2013, "Implicit Skinning", without contact).
 class CapsuleHand {
  public:
-  /// `definition`: gives the thumb's zero.
+  /// `definition`: defines the thumb's zero.
   CapsuleHand(uint64_t seed, Side side, const Skeleton& definition);
 
-  /// Spread fingers; only connected parts touch.
+  /// Spread fingers.
   static Posture rest_posture();
 
   PosedHand pose(const Posture& posture) const;
   /// Faster than `pose`.
   JointPoses joints(const Posture& posture) const;
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// Of surface, folds and skeleton.
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
-  /// Of the right hand; a left hand mirrors it.
+  /// Of the right hand, which a left hand mirrors.
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
   /// Field value at each vertex (glove, folds), m. NaN at the cuff's flat end.
   const std::vector<double>& levels() const { return levels_; }
-  /// The field that vertex `v` follows.
+  /// Of vertex `v`.
   FieldSample field_at(size_t v, const std::vector<Capsule>& placed, const Eigen::Vector3d& p) const;
 
  private:

@@ -7,7 +7,7 @@
 
 namespace glovebench::render {
 
-/// The right hand's skeleton (render/README.md). `definition` gives the thumb's zero. The seed tilts the joints.
+/// Right hand (render/README.md). `definition` gives the thumb's zero. The seed tilts the joints.
 Skeleton make_skeleton(const HandDimensions& hand, const Skeleton& definition, uint64_t seed);
 
 }  // namespace glovebench::render

@@ -11,11 +11,11 @@ namespace glovebench::render {
 struct CapsuleEnd {
   int joint = kWristJoint;
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< in the joint's frame, m
-  /// added to `place` if the palm is fully arched, m
+  /// added if the palm is fully arched, m
   Eigen::Vector3d arched = Eigen::Vector3d::Zero();
 };
 
-/// Webs, thenar and palm pads span several joints and deform.
+/// May span several joints and deform (webs, pads).
 struct HandCapsule {
   CapsuleEnd a;
   CapsuleEnd b;

@@ -12,7 +12,7 @@ struct HandDimensions {
   bool woman = false;
   double length = 0;   ///< wrist crease to middle fingertip
   double breadth = 0;  ///< across the metacarpal heads
-  /// Joint to joint: thumb metacarpal, proximal, distal; others proximal, intermediate, distal (to the bone's end).
+  /// Thumb metacarpal, proximal, distal; others proximal, intermediate, distal (to the bone's end).
   std::array<std::array<double, 3>, 5> segments{};
   std::array<double, 5> pulp{};          ///< end of the distal bone to fingertip
   std::array<double, 5> middle_girth{};  ///< at the PIP (thumb: IP) joint
@@ -27,10 +27,10 @@ struct Published {
 };
 Published published_length(bool woman);
 Published published_breadth(bool woman);
-/// For both sexes. `segment`: 0..2 as in HandDimensions, 3: pulp.
+/// `segment`: 0..2 as in HandDimensions, 3: pulp.
 Published published_segment(int finger, int segment);
 
-/// Draws segments that fit the length, and girths that fit the breadth, with spread.
+/// Segments vary around the drawn length, girths around the breadth.
 HandDimensions draw_dimensions(uint64_t seed);
 
 }  // namespace glovebench::render

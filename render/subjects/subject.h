@@ -11,14 +11,14 @@
 
 namespace glovebench::render {
 
-/// 1: the tracker's hand, 2: its mesh reshaped, from 3: capsules.
+/// Subject 1: the tracker's hand; 2: its mesh, reshaped; from 3: capsules.
 inline constexpr int kFirstCapsuleSubject = 3;
 inline constexpr int kSubjectCount = 22;
 
 /// Copies share the hand.
 class Subject {
  public:
-  // Implicit: every tracker's hand can be a subject.
+  // Implicit, so that a tracker's hand is a subject.
   Subject(std::shared_ptr<const HandModel> model) : hand_(std::move(model)) {}
   Subject(std::shared_ptr<const CapsuleHand> hand) : hand_(std::move(hand)) {}
 
@@ -31,7 +31,7 @@ class Subject {
   std::variant<std::shared_ptr<const HandModel>, std::shared_ptr<const CapsuleHand>> hand_;
 };
 
-/// `tracker_hand` is subject 1. Capsule hands take its side and thumb zero.
+/// Capsule hands take side and thumb zero of `tracker_hand`.
 /// Throws: Error for an unknown number.
 Subject make_subject(int number, const std::string& mesh_path, std::shared_ptr<const HandModel> tracker_hand);
 

@@ -10,7 +10,6 @@
 
 namespace glovebench::reports {
 
-/// The values with which a claim holds. One end may be infinite.
 struct Rule {
   enum class Kind { below, at_most, above, at_least, within };
   Kind kind = Kind::below;
@@ -26,7 +25,6 @@ constexpr auto names_of(Rule::Kind) {
 bool holds(const Rule& rule, double value);
 /// True if any value from low to high satisfies the rule.
 bool meets(const Rule& rule, double low, double high);
-/// "below 10", "within 5..15"
 std::string to_string(const Rule& rule);
 
 /// Reproduction: the paper's experiment. Consistency: the paper's number is plausible.
@@ -37,11 +35,11 @@ constexpr auto names_of(ClaimKind) {
 
 /// What the paper says, and what a run must measure.
 struct ClaimDefinition {
-  std::string claim;        ///< one sentence
-  std::string quote;        ///< the paper's words that are judged
-  std::string source;       ///< section or figure of the paper
+  std::string claim;
+  std::string quote;        ///< the paper's words
+  std::string source;       ///< section or figure
   std::string paper_value;  ///< as printed; "": no number
-  std::string measured;     ///< what is measured, on which truth; the rule's meaning
+  std::string measured;     ///< what, on which truth; the rule's meaning
   std::string measure;      ///< of a Measure
   Rule rule;
   bool ours = false;  ///< the paper states neither the rule nor its bound
@@ -53,9 +51,9 @@ struct ClaimDefinition {
   friend bool operator==(const ClaimDefinition&, const ClaimDefinition&) = default;
 };
 
-/// A change of a claim. The first one creates it.
+/// The first change creates the claim.
 struct ClaimChange {
-  std::string date;                   ///< "2026-11-21"
+  std::string date;
   std::optional<std::string> commit;  ///< empty only for the newest change
   ClaimDefinition definition;
   std::vector<std::string> set;         ///< changed fields; none: only the program changed
@@ -65,7 +63,6 @@ struct ClaimChange {
   friend bool operator==(const ClaimChange&, const ClaimChange&) = default;
 };
 
-/// The newest entry holds.
 struct Claim {
   std::string id;                    ///< "position-error-source"
   std::vector<ClaimChange> history;  ///< oldest first, not empty
@@ -75,11 +72,10 @@ struct Claim {
   friend bool operator==(const Claim&, const Claim&) = default;
 };
 
-/// A change in how all claims are judged.
 struct JudgingChange {
   std::string date;
   std::optional<std::string> commit;  ///< as in ClaimChange
-  std::string rule;                   ///< sentences; valid from `date` on
+  std::string rule;                   ///< valid from `date` on
   std::string why;
 
   friend bool operator==(const JudgingChange&, const JudgingChange&) = default;
@@ -106,8 +102,8 @@ const std::vector<Claim>& claims();
 /// Throws: Error.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
 
-/// One sentence per entry of `earlier` that `later` changes. It may add entries, and fill a missing commit or
-/// `came_out` once.
+/// A sentence per entry of `earlier` that `later` changes. It may add entries, and fill an empty commit or
+/// `came_out`.
 std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

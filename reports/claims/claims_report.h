@@ -11,13 +11,11 @@ namespace glovebench::reports {
 std::string measured_text(const ClaimVerdict& verdict);
 /// "below 10 mm", "above 0.5 (ours)".
 std::string rule_text(const ClaimVerdict& verdict);
-/// "20 claims: 11 reproduced, ...".
 std::string count_text(const std::vector<ClaimVerdict>& verdicts);
-/// "3 required (*): 2 hold, 1 inconclusive, 0 failed, 0 not run".
 std::string required_text(const std::vector<ClaimVerdict>& verdicts);
 /// How many claims that are not required would hold by chance: at most 5% of those with an interval.
 std::string chance_text(const std::vector<ClaimVerdict>& verdicts);
-/// How claims are judged, with a summary of their histories.
+/// With a summary of the claims' histories.
 std::string judging_text();
 
 /// At most 80 columns. Then `if_not` of claims that do not hold.
@@ -26,9 +24,9 @@ std::string claims_table(const std::vector<ClaimVerdict>& verdicts);
 std::string claims_markdown(const std::vector<ClaimVerdict>& verdicts);
 /// tables/claims.csv.
 std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& verdicts);
-/// Verdicts, histories and judging.
+/// With histories and judging.
 std::string claims_json(const std::vector<ClaimVerdict>& verdicts);
-/// A section of the page with histories. Failed and open claims are unfolded.
+/// HTML with histories; failed and open claims are unfolded.
 std::string claims_section(const std::vector<ClaimVerdict>& verdicts);
 
 }  // namespace glovebench::reports

@@ -16,7 +16,7 @@ enum class ClaimOutcome {
   not_consistent,
   inconclusive,
   not_run,
-  withdrawn  ///< listed, not judged
+  withdrawn
 };
 constexpr auto names_of(ClaimOutcome) {
   return std::to_array<std::string_view>(
@@ -25,9 +25,9 @@ constexpr auto names_of(ClaimOutcome) {
 
 struct ClaimVerdict {
   Claim claim;
-  std::optional<Measure> measure;  ///< empty if not run; its numbers are finite or empty
+  std::optional<Measure> measure;  ///< empty if not run; no NaN or infinity
   ClaimOutcome outcome = ClaimOutcome::not_run;
-  std::optional<double> p = {};  ///< that the rule is broken, adjusted by Holm; of required claims with an interval
+  std::optional<double> p = {};  ///< that the rule is broken (Holm), of required claims with an interval
 
   friend bool operator==(const ClaimVerdict&, const ClaimVerdict&) = default;
 };
@@ -35,18 +35,18 @@ struct ClaimVerdict {
 /// False for a quick run, or with another configuration than the paper's.
 bool are_claims_judged(const RunResult& result);
 
-/// Measures of Figures 4 to 6 and studies, if run. Empty if claims are not judged.
+/// Of Figures 4 to 6 and studies, if run. Empty if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
 
 /// Two-sided p-value of a broken rule: 1 if the number breaks it, 0.05 if the 95% interval touches the bound. In
-/// between follows Student's t with 4 degrees of freedom, the fewest of an interval (five blocks or movements). Its
-/// scale is the interval's arm toward the bound, or half its width if that is longer.
+/// between, it follows Student's t with 4 degrees of freedom (five blocks). Its scale is the interval's arm toward
+/// the bound, or half its width if longer.
 double p_value(const Rule& rule, double value, const ConfidenceInterval& interval);
 
-/// Judges (reports/README.md, "Claims"), in the order of the claims.
+/// In the order of `claims` (reports/README.md, "Claims").
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
-/// Outcomes of required claims that are not withdrawn.
+/// Without withdrawn claims.
 struct RequiredClaims {
   int hold = 0;
   int inconclusive = 0;  ///< part of the interval breaks the rule

@@ -9,7 +9,6 @@
 
 namespace glovebench::reports {
 
-/// See `verdict_of` (gate_rule.h).
 enum class Verdict {
   better,           ///< significant, and at least the minimum effect
   worse,            ///< likewise
@@ -20,10 +19,10 @@ constexpr auto names_of(Verdict) {
   return std::to_array<std::string_view>({"better", "worse", "same", "not enough data"});
 }
 
-/// Name of rows over all experiments: means of their differences.
+/// Rows over all experiments: means of their differences.
 inline constexpr std::string_view kAllExperiments = "all";
 
-/// Fewer blocks of frames give no interval to rely on.
+/// Fewer blocks give no reliable interval.
 inline constexpr int kFewestBlocks = 5;
 
 struct CompareConfig {
@@ -38,20 +37,20 @@ struct CompareConfig {
 struct ComparisonRow {
   std::string experiment;          ///< name or kAllExperiments
   const Metric* metric = nullptr;  ///< gated
-  int pairs = 0;                   ///< frames of all seeds with both values
-  int frames = 0;                  ///< frames of all seeds
+  int pairs = 0;                   ///< frames with both values, of all seeds
+  int frames = 0;                  ///< of all seeds
   std::optional<double> baseline;  ///< mean over pairs
   std::optional<double> candidate;
   std::optional<double> difference;  ///< candidate - baseline; positive is worse
   std::optional<double> low, high;   ///< simultaneous interval
-  int blocks = 0;                    ///< resampled, of frames
+  int blocks = 0;                    ///< of frames, resampled
   int movement_frames = 0;           ///< of the longest movement, with a pair in any seed
   int trajectories = 1;
   /// Frames of all seeds that would decide, if further movements vary like these.
   int enough_frames = 0;  ///< 0: decided or unknown
   double minimum_effect = 0;
-  bool is_measured = false;  ///< by a noise floor; else a default
-  bool is_equal = false;     ///< in every frame; with pairs
+  bool is_measured = false;  ///< minimum_effect is of a noise floor, not the default
+  bool is_equal = false;     ///< in every frame; false without pairs
   Verdict verdict = Verdict::not_enough_data;
 };
 
@@ -64,7 +63,7 @@ struct ChangedFrame {
   std::optional<double> candidate_vertex_error_mm;
 };
 
-/// Differences per frame of an experiment: means over seeds with both values.
+/// Mean differences over seeds with both values.
 struct FrameDifferences {
   std::string experiment;
   int first_frame = 0;
@@ -87,11 +86,11 @@ struct Comparison {
   ComparedResult baseline;
   ComparedResult candidate;
   CompareConfig config;
-  int seeds = 0;             ///< maximum per experiment
-  bool other_seeds = false;  ///< noise seeds differ
+  int seeds = 0;  ///< maximum per experiment
+  bool other_seeds = false;
   bool has_noise_floor = false;
-  std::vector<std::string> preselected;  ///< metrics chosen beforehand; empty: all
-  std::vector<ComparisonRow> rows;       ///< all experiments first
+  std::vector<std::string> preselected;  ///< metrics; empty: all
+  std::vector<ComparisonRow> rows;       ///< kAllExperiments first
   std::vector<FrameDifferences> frames;
   std::vector<ChangedFrame> worst;  ///< most changed first; at most kWorstFrames
   std::vector<ConfigurationChange> configuration;
@@ -101,8 +100,8 @@ struct Comparison {
 };
 inline constexpr int kWorstFrames = 6;
 
-/// Compares frame by frame and seed by seed (ci/README.md, "When a change counts"). Standard errors:
-/// paired_bootstrap.h. Student's t has blocks - 1 degrees of freedom. `floor` gives minimum effects; may be null.
+/// Compares per frame and seed (ci/README.md, "When a change counts"). Student's t has blocks - 1 degrees of
+/// freedom. `floor` gives minimum effects; may be null.
 /// Throws: Incomparable.
 Comparison compare_results(const NamedResult& baseline, const NamedResult& candidate, const NoiseFloor* floor,
                            const PairingOptions& pairing = {}, const CompareConfig& config = {});

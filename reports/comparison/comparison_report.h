@@ -13,21 +13,20 @@ namespace glovebench::reports {
 struct ComparisonReport {
   Comparison comparison;
   std::vector<SpeedRow> speed;    ///< empty if not measured
-  StageTimeChanges times;         ///< for information; empty without times
+  StageTimeChanges times;         ///< empty without times
   std::vector<Picture> pictures;  ///< of the worst frames
   /// As in PageMaterial.
   std::vector<std::string> scripts;
 };
 
-/// For a terminal: changed rows or all, then counts of verdicts.
+/// For a terminal: rows, then counts of verdicts. `all_rows`: not only changed ones.
 std::string comparison_table(const ComparisonReport& report, bool all_rows, size_t columns = kTerminalColumns);
-/// For a job summary or pull request.
 std::string comparison_markdown(const ComparisonReport& report);
 std::string comparison_json(const ComparisonReport& report);  ///< reports/schema/comparison.schema.json
 std::string comparison_csv(const ComparisonReport& report);
-std::string comparison_latex(const ComparisonReport& report);  ///< booktabs tabular to \input
-/// A suite per experiment, a case per metric and speed ratio. A case fails if it stops the change (gate_rule.h),
-/// and is skipped without enough data.
+std::string comparison_latex(const ComparisonReport& report);
+/// A suite per experiment, a case per metric and speed ratio. A case fails if it stops the change, and is skipped
+/// without enough data.
 std::string comparison_junit(const ComparisonReport& report);
 /// One case with an error.
 std::string incomparable_junit(const std::string& message);
@@ -37,12 +36,12 @@ std::string comparison_page(const ComparisonReport& report);
 /// Throws: Error if the folder holds a run or baseline. The functions below call this.
 void require_own_folder(const std::string& folder);
 
-/// Writes the files of a comparison (reports/README.md) as one set (core/base/file_set.h). Returns their names.
-/// Throws: Error if the folder cannot be written.
+/// Writes a comparison's files (reports/README.md) as one set (core/base/file_set.h). Returns their names.
+/// Throws: Error.
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report);
 /// Throws: Error.
 void remove_comparison(const std::string& folder);
-/// Writes comparison.md and junit.xml. Removes other files of an earlier comparison.
+/// Writes comparison.md and junit.xml, and removes an earlier comparison's other files.
 void write_refusal(const std::string& folder, const std::string& message);
 
 }  // namespace glovebench::reports

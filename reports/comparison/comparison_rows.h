@@ -9,7 +9,7 @@ namespace glovebench::reports {
 
 /// Rows that share the family error: all experiments and each.
 int row_count(size_t metrics, size_t experiments);
-/// All experiments first, then each. `draws` must have `config`'s seed and resamples.
+/// kAllExperiments first. `draws` must have `config`'s seed and resamples.
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
                                            const CompareConfig& config, Draws& draws);
 

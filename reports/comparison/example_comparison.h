@@ -7,7 +7,6 @@
 
 namespace glovebench::reports {
 
-/// `reach`: half width of the interval.
 inline ComparisonRow example_row(const std::string& experiment, std::string_view metric, double baseline,
                                  double difference, double reach, Verdict verdict) {
   ComparisonRow row;
@@ -52,7 +51,6 @@ inline ComparisonReport small_comparison() {
   return report;
 }
 
-/// Noise, and a change that begins at a third of the movement and fades.
 inline std::vector<std::optional<double>> example_differences(const std::string& name, size_t metric, double level,
                                                               bool loses_frames) {
   std::vector<std::optional<double>> values;

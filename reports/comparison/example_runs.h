@@ -32,7 +32,7 @@ inline NamedResult example_named(const std::string& name, std::vector<Experiment
   return named;
 }
 
-/// Errors of about 3 mm + `shift_mm`: the movement's, a slow change per seed and `purpose`, noise per frame.
+/// Errors of about 3 mm + `shift_mm`. They depend on movement, seed and `purpose`.
 inline ExperimentResult noisy_experiment(const std::string& trajectory, const std::vector<uint64_t>& seeds,
                                          int frames, const std::string& purpose, double shift_mm) {
   std::vector<double> movement(frames, 0);

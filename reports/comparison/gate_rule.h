@@ -7,27 +7,26 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/speed.h"
 
-// A change stops if any compared metric, in an experiment or over all, rises by its minimum effect with an interval
-// above zero, or by twice that (a share of frames: once) whatever the interval, or if a fast path is slower than
-// its limit (speed.h).
+// A change stops if any compared metric, in an experiment or over all, rises by its minimum effect with an
+// interval above zero, or by twice that (a share of frames: once) whatever the interval, or if a fast path is
+// slower than its limit (speed.h).
 
 namespace glovebench::reports {
 
 /// What another machine can cause; for a share, at least two frames. `frames`: of all seeds.
 double least_effect(const Metric& metric, int frames);
-/// The noise floor's effect or the default; at least least_effect. Grows if a result has fewer `seeds` than the
-/// floor. `floor` may be null.
+/// From `floor` (may be null), else the default; at least least_effect. Grows if a result has fewer `seeds` than
+/// the floor.
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 
-/// False without an interval, or if it does not decide and has fewer than kFewestBlocks.
+/// False without interval, or if it does not decide and has fewer than kFewestBlocks.
 bool shows_interval(const ComparisonRow& row);
 Verdict verdict_of(const ComparisonRow& row);
-/// The rule above, for a row.
 bool stops(const ComparisonRow& row);
-/// True if the row stops the change without being `worse`.
+/// The row stops, but is not `worse`.
 bool is_worse_in_places(const ComparisonRow& row);
-/// The least that must be added to every candidate frame for the row to stop the change. It must have a difference.
+/// The least to add to every candidate frame so that the row stops. The row must have a difference.
 double missing_to_stop(const ComparisonRow& row);
 
 struct GateDecision {

@@ -14,7 +14,7 @@ namespace glovebench::reports {
 /// Candidate minus baseline: [run][frame], empty where either has no value.
 struct PairedDifferences {
   std::vector<std::vector<std::optional<double>>> by_seed;
-  bool is_equal = true;  ///< each value, or its absence
+  bool is_equal = true;  ///< in all values and gaps
   int pairs = 0;
   int frames = 0;  ///< of all seeds
   std::optional<double> baseline_mean;
@@ -30,12 +30,11 @@ struct BlockSums {
   Eigen::MatrixXd sums;
   Eigen::MatrixXd counts;
 };
-/// Blocks have about equal lengths, at least `block_frames` if there are that many frames. Skips blocks without a
-/// pair.
+/// Blocks are about equally long, at least `block_frames` if there are so many. Skips blocks without a pair.
 BlockSums block_sums(const PairedDifferences& differences, int block_frames);
 
-/// How often each resample (row) has each block or seed. Draws n - 1 of n: the variance is unbiased (rescaled
-/// bootstrap, Rao and Wu, JASA 1988). Experiments on one trajectory share draws.
+/// How often each resample (row) has each block or seed. Draws n - 1 of n, so the variance is unbiased (rescaled
+/// bootstrap, Rao and Wu, JASA 1988). Experiments on a trajectory share draws.
 class Draws {
  public:
   Draws(uint64_t seed, int resamples) : seed_(seed), resamples_(resamples) {}

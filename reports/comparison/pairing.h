@@ -24,7 +24,7 @@ constexpr auto names_of(Across) {
 }
 
 struct PairingOptions {
-  /// Pairs different noise seeds in their order; counts must be equal. Otherwise seeds must be equal.
+  /// Pairs noise seeds in order; counts must be equal. Otherwise seeds must be equal.
   bool other_seeds = false;
   /// Compares shared experiments. Otherwise the candidate needs all of the baseline's.
   bool partial = false;
@@ -48,16 +48,17 @@ struct Pairing {
   std::vector<std::pair<const ExperimentResult*, const ExperimentResult*>> experiments;  ///< baseline, candidate
   std::vector<std::string> only_in_baseline;                                             ///< experiments
   std::vector<std::string> only_in_candidate;
-  std::vector<ConfigurationChange> across = {};                   ///< difference in PairingOptions::across
+  std::vector<ConfigurationChange> across = {};
   std::vector<std::shared_ptr<const ExperimentResult>> cut = {};  ///< with only the shared frames
 };
 
-/// Gated metrics of both results, and why others are not compared.
+/// Gated metrics of both results.
 std::vector<const Metric*> shared_metrics(const Protocol& baseline, const Protocol& candidate);
+/// Other metrics, with reasons.
 std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, const Protocol& candidate);
 
-/// Throws: Incomparable with the first difference: protocol (except metrics), hash of a shared truth or database
-/// (also if missing), repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
+/// Throws: Incomparable with the first difference: protocol (except metrics), hash of a shared truth or database,
+/// repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
 /// Across noise or subject, also if two experiments of one result differ in nothing else.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 

@@ -12,28 +12,27 @@ namespace glovebench::reports {
 
 struct SettingRun {
   NamedResult run;                ///< the row has its name
-  std::optional<double> time_ms;  ///< of a frame, measured while no other job ran
+  std::optional<double> time_ms;  ///< per frame, measured without other jobs
 };
 
 /// Runs of the same frames, each compared with the reference.
 struct SettingsTable {
   std::string reference;
-  bool is_paper = false;                    ///< reference has the paper's configuration
-  std::string experiments;                  ///< names of the compared experiments
+  bool is_paper = false;                    ///< has the paper's configuration
+  std::string experiments;                  ///< names of those compared
   std::map<std::string, std::string> runs;  ///< `run_name` by setting
   CompareConfig config;                     ///< of all comparisons together
-  std::vector<std::string> preselected;     ///< metrics chosen before; empty: all
-  Table table;                              ///< quantity, setting, mean, difference with its interval, verdict
+  std::vector<std::string> preselected;     ///< metrics; empty: all
+  Table table;                              ///< quantity, setting, mean, difference with interval, verdict
   Table changes;                            ///< fields that differ from the reference
-  std::vector<std::string> enough;          ///< a line per undecided row: data that would decide
+  std::vector<std::string> enough;          ///< per undecided row: data that would decide
   std::string recommendation;
   std::string explanation;
 };
 
 std::vector<std::string> headline_metrics();
 
-/// Compares each run with the one of the paper's configuration, else with the first. All intervals hold together
-/// (CompareConfig::family_error).
+/// Compares each run with the one of the paper's configuration, else with the first.
 /// Throws: Error for fewer than two runs or a repeated name; Incomparable.
 SettingsTable compare_settings(const std::vector<SettingRun>& runs, const PairingOptions& pairing,
                                const CompareConfig& config = {});
@@ -41,7 +40,6 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
 std::string settings_text(const SettingsTable& settings, size_t columns);
 std::string settings_markdown(const SettingsTable& settings);
 std::string settings_html(const SettingsTable& settings);
-/// CSV and LaTeX name experiments, runs, confidence and chosen metrics.
 std::string settings_csv(const SettingsTable& settings);
 std::string settings_latex(const SettingsTable& settings);
 

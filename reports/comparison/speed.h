@@ -5,18 +5,18 @@
 
 namespace glovebench::reports {
 
-/// Speed relative to the plain implementation in one process, comparable between machines.
+/// Measured in one process, comparable between machines.
 struct SpeedRatio {
   std::string name;  ///< without /plain and /fast
   double ratio = 0;  ///< plain / fast, medians of CPU time
-  double low = 0;    ///< range of paired repetitions' ratios, without one at each end
+  double low = 0;    ///< range of repetitions' ratios, without one at each end
   double high = 0;
 
   friend bool operator==(const SpeedRatio&, const SpeedRatio&) = default;
 };
 
-/// Reads a file of speed_json, or of glovebench_bench's --benchmark_out with at least three repetitions of
-/// NAME/plain and NAME/fast. Sorted by name.
+/// Reads speed_json or glovebench_bench's --benchmark_out with at least three repetitions of NAME/plain and
+/// NAME/fast. Sorts by name.
 /// Throws: Error, also without a pair or for a failed benchmark.
 std::vector<SpeedRatio> read_speed_ratios(const std::string& path);
 std::vector<SpeedRatio> parse_speed_ratios(const std::string& text, const std::string& where);

@@ -9,7 +9,6 @@
 
 namespace glovebench::reports {
 
-/// Stage times depend on machine and load.
 struct StageTimes {
   std::string processor;
   int threads = 0;

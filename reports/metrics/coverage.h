@@ -8,9 +8,9 @@ namespace glovebench::reports {
 
 struct FrameRecord;
 
-// The rules of coverage. They are part of the protocol.
+// These rules are part of the protocol.
 
-/// A hand is visible if this much of its camera-facing area is in both images and in the volume.
+/// Least visible_percent (visibility.h) of a visible hand.
 inline constexpr double kVisible_percent = 30;
 inline constexpr double kVolumeNear_mm = 400, kVolumeFar_mm = 950;  ///< z in the IR camera's frame
 /// A frame is found, or "covered", below these errors.
@@ -19,15 +19,13 @@ inline constexpr double kFoundPosition_mm = 50, kFoundRotation_deg = 30;
 inline constexpr double kUsablePosition_mm = 10, kUsableRotation_deg = 10;
 inline constexpr double kUsableFingertips_mm = 20;  ///< mean of the five
 
-/// All rules by name.
 std::map<std::string, double> coverage_rules();
 
 // Errors are compared to 1e-6, as in files.
 
 /// False for frames of older results.
 bool is_visible(const FrameRecord& frame);
-/// True if the frame is tracked within the usable errors. Empty if the estimate lacks pose or fingertips. Ignores
-/// other errors that the result lacks.
+/// Tracked within the usable errors. Empty if the estimate lacks pose or fingertips; ignores other missing errors.
 std::optional<bool> is_usable(const FrameRecord& frame);
 
 }  // namespace glovebench::reports

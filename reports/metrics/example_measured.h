@@ -1,6 +1,6 @@
 #pragma once
 
-// For a test that computes the metrics in another language.
+// For a test that computes metrics in another language.
 
 #include "core/base/math.h"
 #include "core/base/random.h"
@@ -72,7 +72,7 @@ inline Json metrics_json(const FrameRecord& record) {
   return json;
 }
 
-/// Measures one frame per case. `person`: the hand in front of the camera.
+/// A frame per case. `person`: the hand in front of the camera.
 inline Json frames_json(const HandModel& tracker_hand, const HandModel& person, const RgbdCalibration& cameras,
                         std::vector<FrameErrors>& measured) {
   Json frames = Json::array();
@@ -99,7 +99,7 @@ inline Json frames_json(const HandModel& tracker_hand, const HandModel& person, 
 
 }  // namespace measured_example
 
-/// Points, poses and cameras of invented frames (m, IR camera's frame), and their metrics.
+/// Invented frames (m, IR camera's frame) and their metrics.
 inline nlohmann::ordered_json example_measured_json(const HandModel& tracker_hand) {
   using namespace measured_example;
   HandSizes sizes = HandShape().sizes;

@@ -8,14 +8,14 @@
 
 namespace glovebench::reports {
 
-/// The metric that a column shows, or whose interval ("_low", "_high") or change it shows. Null for other columns.
+/// The metric whose value, interval ("_low", "_high") or change the column shows. Null for other columns.
 const Metric* metric_in(const Column& column);
 
-// Each metric: what it is, its formula, the frames that count, whether it is compared.
+// Each metric: meaning, formula, frames that count, whether it is compared.
 
 /// A paragraph each, for a terminal.
 std::string glossary_text(size_t columns);
-/// An HTML list. The headings of `to_html_with_links` lead to its entries.
+/// A list. Headings of `to_html_with_links` lead to its entries.
 std::string glossary_html();
 std::string to_html_with_links(const Table& table, const std::vector<std::string>& plots = {});
 

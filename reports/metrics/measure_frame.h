@@ -12,7 +12,7 @@
 
 namespace glovebench::reports {
 
-/// An angle is observed if it moves at least so many visible pixels.
+/// An observed angle moves at least so many visible pixels.
 inline constexpr int kObservedPixels = 30;
 
 struct FrameTruth {
@@ -24,7 +24,7 @@ struct FrameTruth {
   std::optional<double> visible_percent = {};     ///< visibility.h; empty if not requested
 };
 
-/// Input of metrics. All values are finite.
+/// All values are finite.
 struct MeasuredFrame {
   const TrackResult& estimate;
   const FrameTruth& truth;
@@ -39,14 +39,14 @@ struct FrameErrors {
   FrameRecord record;
   std::vector<std::optional<double>> joint_errors_mm;  ///< by joint; empty if lost
 };
-/// Mean over these joints. Empty if one is not estimated.
+/// Empty if one of the joints is not estimated.
 std::optional<double> mean_error_mm(const MeasuredFrame& frame, std::span<const int> joints);
 
-/// The metrics of a frame that the estimate has what they need for. A tracked frame must be finite.
+/// Metrics whose needs the estimate meets. A tracked estimate must be finite.
 FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTruth& truth,
                           const HandModel& tracker_model);
 
-/// Pixels per patch, from an image of patch + 1.
+/// `patch_image`: patch + 1.
 std::array<int, kPatchCount> count_patches(const Image<uint8_t>& patch_image);
 
 }  // namespace glovebench::reports

@@ -26,10 +26,10 @@ enum class Needs {
   internals
 };
 
-/// A number per frame or experiment, from one of `of_tracked`, `of_any`, `of_record`, `of_experiment`; the others
-/// are null. With a gate, less is better. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
+/// One of `of_tracked`, `of_any`, `of_record` and `of_experiment` is given, the others are null. With a gate, less
+/// is better. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
 struct Metric {
-  /// Limits for changes of the mean, in the metric's unit.
+  /// For changes of the mean, in the metric's unit.
   struct Gate {
     /// Used without a noise floor.
     double minimum_effect;
@@ -41,22 +41,22 @@ struct Metric {
   std::string_view description;
   std::string_view formula = {};  ///< plain text; primes mark the estimate
   std::string_view heading = {};  ///< in the table "More metrics"; empty: not there
-  /// Order in files, then by key. Never change it: protocol ids depend on it.
+  /// Order in files, then by key. Protocol ids depend on it.
   int place = 1000;
   std::optional<Gate> gate = {};  ///< empty: not compared
 
-  std::optional<double> (*of_tracked)(const MeasuredFrame&) = nullptr;  ///< column; not for lost frames
-  Needs needs = Needs::hand;  ///< of a column of tracked frames, which is else empty
-  bool is_partial = false;    ///< empty in some tracked frames
+  std::optional<double> (*of_tracked)(const MeasuredFrame&) = nullptr;  ///< column; empty if lost
+  Needs needs = Needs::hand;                                            ///< without it, `of_tracked` has no value
+  bool is_partial = false;                                              ///< empty in some tracked frames
   /// Column, also for lost frames.
   std::optional<double> (*of_any)(const TrackResult&, const FrameTruth&) = nullptr;
-  /// Share of the frames that have a value; no column.
+  /// Share of frames with a value; no column.
   std::optional<bool> (*of_record)(const FrameRecord&) = nullptr;
-  std::string_view of_column = {};  ///< for a share: the column that it needs
+  std::string_view of_column = {};  ///< column that `of_record` needs
   /// Over all frames and seeds; no column.
   std::optional<double> (*of_experiment)(const ExperimentResult&) = nullptr;
-  std::string_view over = {};  ///< with `of_experiment`: the frames that count, and how lost ones count
-  int digits = 2;              ///< with `of_experiment`, for people
+  std::string_view over = {};  ///< of `of_experiment`: see averaged_over
+  int digits = 2;              ///< of `of_experiment`, for people
 
   bool is_share() const { return of_record != nullptr; }
   bool is_column() const { return of_tracked || of_any; }
@@ -66,10 +66,9 @@ struct Metric {
 
 /// All metrics, by place.
 std::span<const Metric> metrics();
-/// Columns, in the order of FrameRecord::values.
+/// In the order of FrameRecord::values.
 std::span<const Metric> frame_metrics();
 std::vector<std::string> frame_metric_keys();
-/// Metrics with a gate.
 std::span<const Metric> gated_metrics();
 
 /// Null for an unknown key.

@@ -7,8 +7,8 @@
 
 namespace glovebench::reports {
 
-/// Percent of the hand's area that faces the IR camera and is inside both (rectified) images and the volume of
-/// coverage.h. Hidden triangles count, too. A triangle is where its centroid is. 0 if none faces the camera.
+/// Percentage of the hand's area facing the IR camera that is inside both (rectified) images and coverage.h's
+/// volume. Counts hidden triangles. A triangle is where its centroid is. 0 if none faces the camera.
 double visible_percent(const PosedHand& hand, std::span<const Triangle> triangles,
                        const Eigen::Isometry3d& T_camera_hand, const RgbdCalibration& calibration);
 

@@ -7,7 +7,6 @@
 
 namespace glovebench::reports {
 
-/// Tiles show their frame number.
 inline FrameSheet example_sheet(const std::string& figure, int frames) {
   FrameSheet sheet{figure, "", 16, 160, 128, 0, frames};
   const int rows = (frames + sheet.columns - 1) / sheet.columns;
@@ -28,7 +27,6 @@ inline FrameSheet example_sheet(const std::string& figure, int frames) {
   return sheet;
 }
 
-/// A time if the key ends in ms or us.
 inline Column example_column(const std::string& key) {
   return {key, key, 2, key.find("_ms") != std::string::npos || key.find("_us") != std::string::npos};
 }
@@ -93,7 +91,6 @@ inline StudyResult example_ablations() {
   return {"ablations", "What the paper asserts, one change at a time", {table}, {}};
 }
 
-/// Sheets of both curves and gray pictures.
 inline PageMaterial example_material(const RunResult& result, std::vector<std::string> scripts) {
   PageMaterial material{std::move(scripts), {example_sheet("figure5", 117), example_sheet("figure6", 137)}, {}};
   for (const WorstFrame& worst : worst_frames(result))

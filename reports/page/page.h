@@ -11,8 +11,8 @@
 
 namespace glovebench::reports {
 
-/// All frames of a curve in one image. A frame has two tiles, one above the other: true hand, estimated minus true
-/// depth. Frame i is in column i % columns, pair of tile rows i / columns.
+/// All frames of a curve in one image. A frame has two tiles: true hand, and below it estimated minus true depth.
+/// Frame i is in column i % columns, pair of tile rows i / columns.
 struct FrameSheet {
   std::string figure;  ///< "figure5"
   std::string image;   ///< bytes of a JPEG or PNG file
@@ -23,7 +23,7 @@ struct FrameSheet {
   int frames = 0;
 };
 
-/// Depth differences from here on have the strongest color.
+/// Larger depth differences have the strongest color.
 inline constexpr double kSheetDifferenceMm = 20;
 
 struct PageMaterial {
@@ -31,12 +31,11 @@ struct PageMaterial {
   std::vector<std::string> scripts;
   std::vector<FrameSheet> sheets;  ///< of Figures 5 and 6
   std::vector<Picture> worst_frames;
-  std::vector<std::string> warnings = {};  ///< of the run, a sentence each
-  std::set<std::string> from_files = {};   ///< truths (truth_name) and databases that `explain` needs files of
+  std::vector<std::string> warnings = {};  ///< a sentence each
+  std::set<std::string> from_files = {};   ///< truths (truth_name) and databases that `explain` reads from files
 };
 
-/// index.html in one file (reports/README.md). Tables and keyframes need no JavaScript. `timings`: for robot
-/// commands and, with studies, the machine.
+/// index.html in one file (reports/README.md). `timings`: for robot commands and, with studies, the machine.
 std::string html_page(const RunResult& result, const PaperNumbers& paper, const Timings& timings = {},
                       const PageMaterial& material = {});
 
@@ -47,16 +46,14 @@ struct WorstFrame {
   std::string metric;  ///< by which it was chosen
 };
 
-/// Half of `count` by position error, half by posture error (RMS). From subject 1 on source truth under the
-/// headline noise, else from all experiments. At most two per experiment, 0.5 s apart in a run. None lost or
+/// Half of `count` by position error, half by posture error (RMS), from subject 1 on source truth under the
+/// headline noise, else from all experiments. At most two per experiment, 0.5 s apart in a run; none lost or
 /// repeated.
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count = 8);
 
-/// Shows every stage of the frame of the run in `folder`. `from_files` as in PageMaterial: PATH stands for the
-/// folder of such a file.
+/// `folder`: of the run. `from_files`: as in PageMaterial; PATH stands for such a file's folder.
 std::string explain_command(const WorstFrame& worst, const std::set<std::string>& from_files = {},
                             const std::string& folder = ".");
-/// Experiment, frame, errors.
 std::string caption(const WorstFrame& worst);
 
 }  // namespace glovebench::reports

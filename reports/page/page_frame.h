@@ -8,21 +8,19 @@ namespace glovebench::reports {
 
 struct Picture {
   std::string caption;
-  std::string image;         ///< of a PNG or JPEG file
+  std::string image;         ///< bytes of a PNG or JPEG file
   std::string command = {};  ///< shows it again; may be empty
 };
 
 /// Empty without pictures.
 std::string picture_section(const std::string& title, const std::vector<Picture>& pictures);
 
-/// "data:image/png;base64,..." of a PNG or JPEG file's bytes.
+/// `image`: bytes of a PNG or JPEG file.
 std::string data_uri(const std::string& image);
 
-/// Where data/page_charts.js draws a chart. `chart`: its name there, with a number if there are several
-/// ("differences 3"). `label`: what it shows.
+/// Where data/page_charts.js draws `chart`, a name there, with a number if there are several ("differences 3").
 std::string chart_place(const std::string& chart, const std::string& label);
-/// The end of a page with charts. `tables`: CSV texts by name. `scripts`: as in PageMaterial. Empty without
-/// scripts.
+/// The end of a page. `tables`: CSV texts by name. `scripts`: as in PageMaterial. Empty without scripts.
 std::string chart_scripts(const nlohmann::ordered_json& tables, const std::vector<std::string>& scripts);
 
 /// A document in the project's style, plus `style`.

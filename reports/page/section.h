@@ -13,20 +13,19 @@ struct Section {
   std::string html;   ///< below the heading, or with its own
 };
 
-/// Where a chart's numbers are.
 std::string data_note(const std::string& table);
 
 /// Figure 4 or other experiments' errors; Figures 5 and 6 if run.
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
 std::vector<Section> study_sections(const RunResult& result);
-/// Curves and worst frames of each experiment, where a click on its bar leads. `from_files` as in PageMaterial.
+/// Curves and worst frames of each experiment. `from_files`: as in PageMaterial.
 Section frames_section(const RunResult& result, const std::set<std::string>& from_files);
 
-/// Keyframes of a curve, with one frame's place and slider for data/page_frames.js.
 std::string keyframes_html(const FrameSheet& sheet);
+/// One frame with a slider, for data/page_frames.js.
 std::string frame_viewer_html(const FrameSheet& sheet);
-/// CSS with each sheet once. Tiles are windows on it.
+/// CSS with each sheet once.
 std::string sheet_style(const std::vector<FrameSheet>& sheets);
 
 }  // namespace glovebench::reports

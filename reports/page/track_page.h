@@ -7,7 +7,7 @@
 
 namespace glovebench::reports {
 
-/// A page in one file: counts of each status, path and angles over time. `scripts`: as in PageMaterial.
+/// Counts of each status, path and angles over time. `scripts`: as in PageMaterial.
 std::string track_page(const std::string& title, const std::vector<Estimate>& estimates,
                        const std::vector<std::string>& scripts);
 

@@ -6,7 +6,7 @@
 
 namespace glovebench::trajectories {
 
-/// A person's palm joints, segment lengths and marker positions. 0: the nominal hand.
+/// Palm joints, segment lengths and marker positions. 0: the nominal hand.
 class HandParameters {
  public:
   explicit HandParameters(const CaptureHand& nominal);
@@ -18,7 +18,7 @@ class HandParameters {
   const Eigen::MatrixXd& frame_constraints() const { return frame_constraints_; }
 
   CaptureHand hand(const Eigen::VectorXd& parameters) const;
-  /// Derivative of the markers (capture frame, three rows each) by the parameters.
+  /// Of the markers (capture frame, three rows each) by the parameters.
   Eigen::MatrixXd jacobian(const CaptureHand& hand, const HandState& state) const;
 
  private:
@@ -34,8 +34,8 @@ struct Calibration {
   std::vector<HandState> states;
 };
 
-/// Fits the hand and all states together by damped Gauss-Newton (bundle adjustment). `points`: [frame][marker], or
-/// gaps. Ends when a step gains less than `smallest_gain` of the cost.
+/// Fits hand and states by damped Gauss-Newton (bundle adjustment) until a step gains less than `smallest_gain` of
+/// the cost. `points`: [frame][marker], or gaps.
 Calibration calibrate_hand(const CaptureHand& start, const std::vector<std::vector<Eigen::Vector3d>>& points,
                            const std::vector<HandState>& states, double robust_scale, double smallest_gain);
 

@@ -20,10 +20,10 @@ struct HandState {
   Eigen::Isometry3d T_capture_hand = Eigen::Isometry3d::Identity();  ///< m
 };
 
-/// Rotation about the hand origin and translation (capture frame), then angles.
+/// Rotation about the hand origin, translation (both capture frame), angles.
 inline constexpr int kStateSize = 6 + kAngleCount;
 using StateStep = Eigen::Matrix<double, kStateSize, 1>;
-/// Takes a step within joint limits.
+/// Within joint limits.
 HandState moved(const HandState& state, const StateStep& step);
 
 /// Marker positions, capture frame, m.
@@ -31,16 +31,16 @@ std::vector<Eigen::Vector3d> predict_points(const CaptureHand& hand, const HandS
 /// Of predict_points, three rows per marker.
 Eigen::MatrixXd state_jacobian(const CaptureHand& hand, const HandState& state);
 
-/// Pose of the marker's joint, or of the palm, in the hand frame.
+/// T_hand_joint of the marker's joint or palm.
 Eigen::Isometry3d marker_frame(const PlacedMarker& marker, const JointPoses& T_hand_joint);
 
 /// Size relative to `hand`: median ratio of distances that no posture changes; 1 without any. `points`:
 /// [frame][marker], or gaps.
-/// Throws: Error if no hand has this size.
+/// Throws: Error for an impossible size.
 double hand_scale(const CaptureHand& hand, const std::vector<std::vector<Eigen::Vector3d>>& points,
                   const std::string& where);
 
-/// Guesses each frame from its neighbor, beginning with the frame of most points.
+/// Guesses frames from neighbors, beginning with the one of most points.
 /// Throws: Error if no frame has three palm points.
 std::vector<HandState> start_states(const CaptureHand& hand,
                                     const std::vector<std::vector<Eigen::Vector3d>>& points, double robust_scale,

@@ -11,7 +11,7 @@ namespace glovebench::trajectories {
 struct PosturePrior {
   Posture center = Posture::Zero();  ///< rad
   double deviation = radians_from_degrees(60);
-  /// end joint from kEndJointShare of its middle joint, rad
+  /// from kEndJointShare of the middle joint, rad
   double end_joint_deviation = radians_from_degrees(15);
 };
 
@@ -30,14 +30,14 @@ struct FrameFitOptions {
 
 struct WeightedResiduals {
   Eigen::VectorXd residuals;  ///< three per marker, weighted, in kPointDeviation; 0: unseen
-  Eigen::VectorXd row_scale;  ///< Jacobian rows (m) to `residuals`; 0: unseen
+  Eigen::VectorXd row_scale;  ///< from m to `residuals`; 0: unseen
   double cost = 0;
 };
 /// `points`: a point or gap per marker.
 WeightedResiduals weighted_residuals(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                      const HandState& state, double robust_scale);
 
-/// Fixes angles at limits that the step would cross.
+/// Fixes angles whose step would cross a limit.
 void hold_at_limits(const HandState& state, Eigen::Ref<Eigen::MatrixXd> H, Eigen::Ref<Eigen::VectorXd> b);
 
 struct FrameFit {
@@ -45,11 +45,11 @@ struct FrameFit {
   double cost = 0;
 };
 
-/// Fits a state by damped Gauss-Newton with Cauchy's weights, joint limits and a prior about `start`.
+/// Damped Gauss-Newton with Cauchy's weights, joint limits and a prior about `start`.
 FrameFit fit_frame(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points, const HandState& start,
                    const FrameFitOptions& options = {});
 
-/// Distances from the markers, m. NaN for gaps.
+/// m; NaN for gaps.
 std::vector<double> point_distances(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                                     const HandState& state);
 
@@ -57,21 +57,21 @@ struct Observability {
   bool pose = false;
   std::array<bool, kAngleCount> angles = {};
 };
-/// An angle is shown if points with kPointDeviation determine it to this.
+/// An angle is observable if points with kPointDeviation determine it to this.
 inline constexpr double kShownDeviation = radians_from_degrees(15);
 Observability observability(const CaptureHand& hand, const std::vector<Eigen::Vector3d>& points,
                             const HandState& state, double robust_scale);
 
 struct Bridged {
   std::vector<HandState> states;
-  std::vector<std::array<bool, kAngleCount>> angles;  ///< of each frame
+  std::vector<std::array<bool, kAngleCount>> angles;
   std::vector<bool> poses;
   std::array<bool, kAngleCount> never_shown = {};
-  int angle_gaps = 0;  ///< of angles that other frames show
+  int angle_gaps = 0;  ///< of angles that others show
 };
 
-/// Interpolates what frames do not show; constant at the ends. An angle that no frame shows is 0, or kEndJointShare
-/// of the middle joint. `shown`, `times_s`: one per frame.
+/// Interpolates what is not observable; constant at the ends. An angle that no frame shows is 0, or kEndJointShare
+/// of the middle joint. `shown`, `times_s`: per frame.
 Bridged bridge_gaps(const std::vector<HandState>& states, const std::vector<Observability>& shown,
                     const std::vector<double>& times_s);
 

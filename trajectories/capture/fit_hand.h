@@ -24,14 +24,14 @@ inline constexpr int64_t kLongestPoseGapUs = 500'000;
 
 struct HandFit {
   CaptureHand hand;
-  double scale = 1;  ///< of the model's hand, before calibration
+  double scale = 1;  ///< of the model, before calibration
   std::vector<FittedFrame> frames;
   std::array<bool, kAngleCount> never_shown = {};
   int angle_gaps = 0;
-  int missing_points = 0;  ///< of labeled markers, over all frames
+  int missing_points = 0;  ///< of labeled markers
 };
 
-/// Fits a right hand and its movement to captured points. `markers`: from place_markers.
+/// Fits a right hand and its movement. `markers`: from place_markers.
 /// Throws: Error if the capture is no hand.
 HandFit fit_hand(const MarkerSequence& sequence, const std::vector<PlacedMarker>& markers, const Skeleton& skeleton,
                  const std::string& where);

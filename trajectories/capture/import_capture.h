@@ -18,15 +18,15 @@ HandFit import_capture(const std::vector<std::string>& paths, const Format& form
 
 struct CapturePlacement {
   Side side = Side::right;
-  /// empty: kViewingDistance above the back of the average hand, fingers up
+  /// empty: kViewingDistance above the average hand's back, fingers up
   std::optional<Eigen::Isometry3d> T_capture_camera;
 };
 inline constexpr double kViewingDistance = 0.7;  ///< m
 
-/// Takes every nth frame.
 Trajectory trajectory_of(const HandFit& fit, const CapturePlacement& placement, const std::string& name, int every);
 
-/// At most `count` postures by low-dispersion sampling, from the first frame's. `names`: by frame; empty: numbers.
+/// Samples at most `count` postures with low dispersion, from the first frame's. `names`: by frame; empty:
+/// numbers.
 PostureSet postures_of(const HandFit& fit, const std::string& name, size_t count,
                        const std::vector<std::string>& names);
 

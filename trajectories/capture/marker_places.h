@@ -14,8 +14,8 @@ namespace glovebench::trajectories {
 
 inline constexpr int kPalm = -1;  ///< the hand frame
 
-/// WebXR's names denote joint centers. Other markers lie on the skin.
-inline constexpr int kWebxrJointCount = kForearmJoint;  ///< without the forearm
+/// WebXR's names are joint centers, other markers lie on the skin.
+inline constexpr int kWebxrJointCount = kForearmJoint;
 bool is_webxr_joint(const std::string& name);
 /// All joint centers, without frames.
 MarkerSequence sequence_of_joints();
@@ -31,20 +31,20 @@ struct PlacedMarker {
   bool is_joint_center() const { return deviation.isZero(); }
 };
 
-/// Other names with their places.
+/// Places of other names.
 using MarkerLayout = std::map<std::string, std::string>;
 /// Reads "glovebench-marker-layout" (README.md).
 /// Throws: Error.
 MarkerLayout parse_marker_layout(std::string_view text, const std::string& where);
 
-/// Reads a file of a layout. Empty if `path` is empty.
+/// Empty if `path` is empty.
 /// Throws: Error.
 MarkerLayout load_marker_layout(const std::string& path);
 
-/// The place on a right hand. `name`: of README.md ("index_proximal_2") or WebXR. Empty for others.
+/// The place on a right hand. Empty unless `name` is of README.md ("index_proximal_2") or WebXR.
 std::optional<PlacedMarker> place_marker(const std::string& name, const HandModel& model);
 
-/// Throws: Error for a point without a place, or a layout name without a point.
+/// Throws: Error for a point without place, or a layout name without point.
 std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, const MarkerLayout& layout,
                                         const HandModel& model, const std::string& where);
 

@@ -21,7 +21,7 @@ struct MarkerSequence {
 };
 
 inline constexpr size_t kMaxMarkers = 200;
-inline constexpr size_t kMaxMarkerFrames = 432'000;  ///< an hour at 120 Hz
+inline constexpr size_t kMaxMarkerFrames = 432'000;
 inline constexpr double kMaxCoordinate = 100;
 
 inline Eigen::Vector3d gap() {
@@ -33,12 +33,12 @@ inline bool is_seen(const Eigen::Vector3d& point) {
 /// True for "unlabeled...", "unnamed..." (any case) and "*...".
 bool is_unlabeled(const std::string& name);
 
-/// Reads a time in seconds.
+/// `cell`: seconds.
 /// Throws: Error.
 int64_t timestamp_from(std::string_view cell, const std::string& where, const std::string& field);
 
 /// A gap if all cells are empty or NaN. `scale`: m per unit.
-/// Throws: Error if only some cells are empty, or a cell is no number or too large.
+/// Throws: Error if only some cells are empty, or one is invalid.
 Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale, const std::string& where,
                            const std::string& field);
 
@@ -53,7 +53,7 @@ void add_frame(MarkerFrame frame, int64_t first_us, size_t text_bytes, MarkerSeq
 /// Format "csv", mm to 0.001.
 std::string csv_markers(const MarkerSequence& sequence);
 
-/// Largest distance of a point from its marker's predicted place, m.
+/// Largest distance from a marker's predicted place, m.
 inline constexpr double kLabelGate = 0.015;
 
 struct Relabeling {
@@ -66,8 +66,7 @@ struct Relabeling {
 Relabeling relabel(const std::vector<Eigen::Vector3d>& predicted, const std::vector<Eigen::Vector3d>& labeled,
                    const std::vector<Eigen::Vector3d>& unlabeled);
 
-/// A distinct column for each row, with the least sum of finite costs (Kuhn and Munkres). At most as many rows as
-/// columns.
+/// A distinct column per row, with the least sum of finite costs (Kuhn and Munkres). Needs rows <= columns.
 std::vector<int> assign(const Eigen::MatrixXd& cost);
 
 }  // namespace glovebench::trajectories

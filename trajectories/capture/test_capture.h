@@ -15,12 +15,12 @@ struct CaptureFlaws {
   double noise = 0;            ///< of each coordinate, m
   double placement = 0;        ///< of markers, relative to kPlacement
   double gap_share = 0;        ///< of all points
-  double swap_share = 0;       ///< of frames with two neighbors swapped
+  double swap_share = 0;       ///< of frames with two swapped neighbors
   double unlabeled_share = 0;  ///< of all points
   uint64_t seed = 1;
 };
 
-/// Deviation of a finger marker, m: across, height, along. The fit assumes another.
+/// Deviations, m: across, height, along. The fit assumes another.
 inline const Eigen::Vector3d kPlacement(0.0015, 0.001, 0.003);
 inline constexpr int kGapFrames = 4;
 inline constexpr int kUnlabeledColumns = 3;

@@ -19,14 +19,14 @@ struct Format {
   std::string_view description;
   // One reader is given, others are null.
   Trajectory (*trajectory)(std::string_view bytes, const std::string& where) = nullptr;
-  /// `name`: for a file without one.
+  /// `name`: if the file has none.
   PostureSet (*postures)(std::string_view bytes, const std::string& name, const std::string& where) = nullptr;
   MarkerSequence (*markers)(std::string_view bytes, Side side, const std::string& where) = nullptr;
 };
 /// Sorted by name.
 std::span<const Format> formats();
 
-/// Formats with this reader: `formats_with(&Format::markers)`.
+/// Example: `formats_with(&Format::markers)`.
 template <typename Reader>
 std::vector<const Format*> formats_with(Reader Format::*reader) {
   std::vector<const Format*> found;
@@ -35,7 +35,7 @@ std::vector<const Format*> formats_with(Reader Format::*reader) {
   return found;
 }
 
-/// Chooses by the path's ending. Null for an unknown one.
+/// By the ending; null for an unknown one.
 template <typename Reader>
 const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   for (const Format* format : formats_with(reader))
@@ -43,7 +43,7 @@ const Format* format_of_file(std::string_view path, Reader Format::*reader) {
   return nullptr;
 }
 
-/// By the ending, which built-in names lack.
+/// Built-in names lack an ending.
 inline bool is_trajectory_file(std::string_view name) {
   return format_of_file(name, &Format::trajectory) != nullptr;
 }
@@ -51,7 +51,7 @@ inline bool is_posture_file(std::string_view name) {
   return format_of_file(name, &Format::postures) != nullptr;
 }
 
-/// Reads by the ending.
+/// Chooses the format by the ending.
 /// Throws: Error.
 Trajectory load_trajectory(const std::string& path);
 /// A set without a name gets the file's.

@@ -16,11 +16,11 @@ std::vector<Posture> movement_posture_pool(const PostureSet& gestures);
 /// The sets of section IV.
 std::vector<PostureSet> make_database_posture_sets(const PostureSet& gestures);
 
-/// Generated files by path in the data folder, from its gestures and scripts.
+/// Files by path in the data folder, made from its gestures and scripts.
 /// Throws: Error.
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder);
 
-/// A Markdown table of the source trajectories.
+/// Markdown.
 /// Throws: Error.
 std::string source_properties_table(const std::string& data_folder);
 

@@ -6,8 +6,7 @@
 
 namespace glovebench::trajectories {
 
-/// Indices of `count` postures, each farthest (posture_distance) from `given` and earlier ones. Ties: the lower
-/// index.
+/// Indices into `pool`, each farthest (posture_distance) from `given` and earlier ones. Ties: the lower index.
 /// Throws: Error if the pool is too small or `given` is empty.
 /// Paper: section III, reference 1.
 std::vector<size_t> low_dispersion_sample(const std::vector<Posture>& pool, const std::vector<Posture>& given,

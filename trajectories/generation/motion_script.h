@@ -32,7 +32,7 @@ struct HandPose {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// Keyframes from first to last frame. The seed determines drift and tremor.
+/// The seed determines drift and tremor.
 struct MotionScript {
   std::string name;
   std::string description;
@@ -49,14 +49,14 @@ inline constexpr uint64_t kLargestMotionScript = uint64_t{1} << 18;  // bytes
 /// Throws: Error.
 MotionScript parse_motion_script(std::string_view text, const PostureSet& gestures, const std::string& where);
 
-/// Share of the way at a share of the time, 0..1 (Flash and Hogan 1985).
+/// Share of the way at a share of time, 0..1 (Flash and Hogan 1985).
 double minimum_jerk(double time);
 
 /// Linear from a to b. Rotations take the shortest turn.
 WristAngles mix(const WristAngles& a, const WristAngles& b, double share);
 Posture mix(const Posture& a, const Posture& b, double share);
 HandPose mix(const HandPose& a, const HandPose& b, double share);
-/// `keys`: in the order of frames. After the last one its value stays.
+/// `keys`: in the order of frames. The last value stays.
 template <typename Value>
 Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
   size_t next = 1;
@@ -67,8 +67,8 @@ Value value_at(const std::vector<Keyframe<Value>>& keys, int frame) {
   return mix(a.value, b.value, minimum_jerk(static_cast<double>(frame - a.frame) / (b.frame - a.frame)));
 }
 
-/// R_camera_hand; arguments in rad. At 0 fingers point up in the image and the back faces the camera. Roll is about
-/// camera y, pitch about x, yaw about z.
+/// R_camera_hand, rad. At 0, fingers point up in the image and the back faces the camera. Roll is about camera y,
+/// pitch about x, yaw about z.
 Eigen::Quaterniond hand_rotation(double yaw, double pitch, double roll);
 
 /// At 15 Hz.

@@ -10,7 +10,7 @@
 #include "core/base/enum_names.h"
 #include "core/robot/robot_command.h"
 
-/// ROS messages. Their content is unchecked.
+/// ROS messages, unchecked.
 namespace glovebench::ros {
 
 /// builtin_interfaces/Time and Duration
@@ -53,16 +53,16 @@ struct JointState {
 
 namespace glovebench {
 
-/// The outcome of a message, in the order of the checks.
+/// Outcomes in the order of the checks.
 enum class Receipt {
   foreign,       ///< another sender owns the stream
   bad_time,      ///< before 1970, or nanoseconds of 1 s or more
-  wrong_joints,  ///< not exactly the topic's joints
+  wrong_joints,  ///< not the topic's joints
   wrong_points,  ///< not one point with one position per joint
   wrong_frame,
   not_finite,
   not_rotation,  ///< no unit quaternion
-  stale,         ///< older than `silence_s`, or delayed by a gap
+  stale,         ///< older than `silence_s`, or within 0.1 s of a gap or a clock's jump
   starting,      ///< its stream began less than 0.2 s ago
   went_back,     ///< stamp not after the sender's last one
   accepted,
@@ -83,24 +83,23 @@ struct RobotState {
 
 inline constexpr const char* kBaseFrame = "base_link";
 
-/// ROS names (`rh_FFJ1` ...) of the hand's controller, the wrist's, and all (ShadowJoint).
+/// ROS names (`rh_FFJ1` ...). `hand_joint_names` has all, by ShadowJoint.
 const std::vector<std::string>& hand_trajectory_names();
 const std::vector<std::string>& wrist_trajectory_names();
 const std::vector<std::string>& hand_joint_names();
-/// From base to flange.
 const std::vector<std::string>& arm_joint_names();
 
 /// Throws: Error for times outside 0 to 2^31 s.
 ros::Time ros_time(int64_t time_us);
 int64_t nanoseconds(const ros::Time& time);
 
-/// A measured state is trusted if its time is this near to now.
+/// A trusted measured state is this near to now.
 inline constexpr int64_t kMeasuredAgeUs = 100'000;
 
-/// Time in which a controller reaches targets on a straight path without exceeding the guard's speeds.
+/// Time for a straight path to the targets within the guard's speeds.
 int64_t time_to_targets_us(double longest_step_s);
 
-/// The command's targets as one point, to reach in `time_us`, with the frame's time stamp. There must be targets.
+/// The targets, which must exist, as one point to reach in `time_us`. The stamp is the frame's time.
 /// Throws: Error if a target is not finite.
 ros::JointTrajectory hand_message(const RobotCommand& command, int64_t time_us);
 ros::JointTrajectory wrist_message(const RobotCommand& command, int64_t time_us);
@@ -109,7 +108,7 @@ ros::PoseStamped pose_message(const RobotCommand& command);
 
 struct JointsRead {
   Receipt receipt = Receipt::accepted;
-  std::vector<double> positions;  ///< rad, in the order of `names`; empty unless accepted
+  std::vector<double> positions;  ///< rad, by `names`; empty unless accepted
 };
 JointsRead read_joints(const ros::JointTrajectory& message, const std::vector<std::string>& names);
 struct PoseRead {

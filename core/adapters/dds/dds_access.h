@@ -14,12 +14,12 @@ struct DdsAccess {
   bool operator==(const DdsAccess&) const = default;
 };
 
-/// Topic names, with ROS 2's prefix `rt/`.
+/// Topic names (ROS 2's prefix is `rt/`). `hand` and `wrist`: JointTrajectory.
 struct Topics {
-  const char* hand;          ///< JointTrajectory
-  const char* wrist;         ///< JointTrajectory
+  const char* hand;
+  const char* wrist;
   const char* arm;           ///< PoseStamped of the wrist
-  const char* joint_states;  ///< JointState as commanded
+  const char* joint_states;  ///< JointState, commanded
 };
 
 namespace topics {

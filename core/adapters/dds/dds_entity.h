@@ -22,23 +22,21 @@ namespace glovebench {
 /// Throws: Error for an error code.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
-/// Limits of the memory that others can fill.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
 inline constexpr int kMaxWaiting = 10'000;        // messages in a reader
 
-/// A writer keeps this many messages, as in ROS 2.
+/// Messages that a writer keeps, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
-/// Messages dropped for their size, in this process.
+/// Messages that this process dropped.
 int64_t dds_messages_too_large();
 
 struct DdsDomain;
 
-/// Makes entities in a domain.
 class DdsParticipant {
  public:
-  /// Throws: Error for a domain outside 0..230, an unknown interface, an interface together with CYCLONEDDS_URI, or
-  /// other access than the domain already has.
+  /// Throws: Error for a domain outside 0..230, an unknown interface, an interface beside CYCLONEDDS_URI, or other
+  /// access than the domain already has.
   explicit DdsParticipant(int domain, const DdsAccess& access = {});
   ~DdsParticipant() { dds_delete(entity_); }
   DdsParticipant(const DdsParticipant&) = delete;
@@ -48,9 +46,9 @@ class DdsParticipant {
   dds_entity_t make_topic(const dds_topic_descriptor_t& type, const std::string& name) const;
   /// Reliable, volatile, as in ROS 2.
   dds_entity_t make_writer(dds_entity_t topic) const;
-  /// Reliable, volatile. Senders block while `max_waiting` messages wait.
+  /// Senders block while `max_waiting` messages wait.
   dds_entity_t make_reader(dds_entity_t topic, int max_waiting) const;
-  /// Keeps the last `depth` messages from other participants.
+  /// The last `depth` messages from other participants.
   dds_entity_t make_reader_of_others(dds_entity_t topic, int depth) const;
 
  private:
@@ -69,7 +67,7 @@ class DdsWriter {
   void write(const Message& message, int64_t source_ns) const {
     checked_dds(DdsType<Message>::write(writer_, message, source_ns), topic_, "a message to be sent");
   }
-  /// Returns false if listeners still lack messages.
+  /// False if listeners still lack messages.
   bool wait_for_listeners(double timeout_s) const {
     return dds_wait_for_acks(writer_, static_cast<dds_duration_t>(timeout_s * 1e9)) == DDS_RETCODE_OK;
   }
@@ -84,13 +82,12 @@ class DdsWriter {
   dds_entity_t writer_;
 };
 
-/// Watches for other writers on topics.
 class DdsOtherWriters {
  public:
   /// Searches for 1 s.
   /// Throws: Error as `refuse`.
   DdsOtherWriters(const DdsParticipant& participant, std::vector<std::string> topics);
-  /// Throws: Error if another participant writes on the topics now.
+  /// Throws: Error if another participant writes on the topics.
   void refuse();
 
  private:
@@ -101,16 +98,16 @@ class DdsOtherWriters {
   std::map<dds_instance_handle_t, std::string> writers_;
 };
 
-/// A reader ignores messages from more writers than this.
+/// A reader ignores further writers.
 inline constexpr size_t kMostWriters = 64;
 
-/// Messages ignored for this reason, in this process.
+/// Messages of further writers that this process ignored.
 int64_t dds_messages_of_too_many();
 
 class DdsSenders {
  public:
   explicit DdsSenders(dds_entity_t reader) : reader_(reader) {}
-  /// The writer's participant, even if it is gone. Beyond kMostWriters: empty, and counts the message.
+  /// The writer's participant, even if gone. Beyond kMostWriters: empty, and counts the message.
   std::optional<uint64_t> of(dds_instance_handle_t writer);
   /// Participants with a writer now.
   std::set<uint64_t> present();
@@ -140,7 +137,7 @@ class DdsReader {
   dds_entity_t entity() const { return reader_; }
   DdsSenders& senders() { return senders_; }
 
-  /// The next message. Decodes it only if `is_wanted(sender)`.
+  /// Decodes the next message only if `is_wanted(sender)`.
   template <typename IsWanted>
   std::optional<Received> take(const IsWanted& is_wanted) {
     for (;;) {

@@ -14,10 +14,10 @@ struct DdsServerOptions {
   DdsAccess access;
   ServedRobot robot;
   std::string log;
-  /// Largest age of the log's last state, s.
+  /// Of the log's last state, s.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
-  std::function<bool()> stopping;  ///< polled at 100 Hz; true ends the server
+  std::function<bool()> stopping;  ///< polled at 100 Hz; true ends
   std::function<void(const std::string&)> tell = [](const std::string&) {};
 };
 
@@ -26,8 +26,8 @@ struct DdsServerSummary {
   int64_t lost_log_lines = 0;
 };
 
-/// Serves a robot over DDS until `stopping`. Publishes JointState at 100 Hz.
-/// Throws: Error if domain or log is unusable or another server has it.
+/// Serves a robot until `stopping`. Publishes JointState at 100 Hz.
+/// Throws: Error if domain or log is unusable or in use by another server.
 DdsServerSummary serve(const DdsServerOptions& options);
 
 }  // namespace glovebench

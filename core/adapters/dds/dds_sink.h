@@ -13,21 +13,22 @@ struct DdsSinkOptions {
   Topics topics = topics::kOwn;
   bool arm = true;
   double longest_step_s = CommandLimits().longest_step_s;  ///< of the commands' guard
-  bool alone = false;                                      ///< allow no other writer on the topics
+  bool alone = false;                                      ///< allow no other writer
 };
 
-/// Sends commands as a ROS 2 node would (core/adapters/dds/README.md). Does not wait for listeners.
+/// Sends commands as a ROS 2 node (core/adapters/dds/README.md). Does not wait for listeners.
 class DdsSink : public RobotCommandSink {
  public:
   /// `domain`: 0..230.
   /// Throws: Error if domain or network is unusable or, if `alone`, another writer appears within 1 s.
   explicit DdsSink(int domain = 0, const DdsSinkOptions& options = {});
 
-  /// Sets the next command's source time, us since 1970. Default: time of sending.
+  /// Sets the next command's source time, us since 1970 (default: time of sending).
   void frame_arrived(int64_t system_us) { arrived_ns_ = system_us * 1000; }
-  /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or `alone` is broken.
+  /// Throws: Error if a target is not finite, a time stamp is negative, DDS refuses, or another writer breaks
+  /// `alone`.
   void send(const RobotCommand& command) override;
-  /// Waits up to 1 s until listeners have all messages.
+  /// Waits up to 1 s for listeners to have all messages.
   void finish() override;
 
   int64_t sent() const { return sent_; }
@@ -35,7 +36,7 @@ class DdsSink : public RobotCommandSink {
 
  private:
   DdsParticipant participant_;
-  std::optional<DdsOtherWriters> others_;  ///< first: searches before this writes
+  std::optional<DdsOtherWriters> others_;
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
   std::optional<DdsWriter<ros::PoseStamped>> arm_;
   std::optional<int64_t> arrived_ns_;

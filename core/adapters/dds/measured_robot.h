@@ -11,13 +11,13 @@
 
 namespace glovebench {
 
-/// Joints measured by a robot's driver (core/adapters/dds/README.md, "A controller's topics").
+/// Joints measured by the robot's driver (core/adapters/dds/README.md, "A controller's topics").
 class MeasuredJoints {
  public:
-  /// `names`: order of the results.
+  /// `names`: order of results.
   MeasuredJoints(const DdsParticipant& participant, const std::string& topic, std::vector<std::string> names);
 
-  /// Positions in the newest message, rad, if it is trusted. `system_us`: since 1970. `steady_us`: monotonic.
+  /// The newest message's positions, rad, if trusted. `steady_us`: monotonic.
   std::optional<std::vector<double>> latest(int64_t system_us, int64_t steady_us);
   /// Why `latest` returned nothing, else "".
   const std::string& doubt() const { return doubt_; }
@@ -29,7 +29,7 @@ class MeasuredJoints {
     std::string fault;
     int64_t source_us = 0;
     std::optional<int64_t> stamp_us;
-    int64_t taken_us = 0;  ///< steady clock
+    int64_t taken_us = 0;
   };
   void take_all(int64_t steady_us);
   State read(const ros::JointState& message) const;
@@ -38,8 +38,8 @@ class MeasuredJoints {
   std::string topic_;
   std::vector<std::string> names_;
   DdsReader<ros::JointState> reader_;
-  std::optional<State> state_;           ///< with any of the joints
-  std::map<uint64_t, int64_t> tellers_;  ///< by publisher: last message, steady clock
+  std::optional<State> state_;
+  std::map<uint64_t, int64_t> tellers_;
   std::string doubt_ = "nothing asked";
 };
 
@@ -55,8 +55,7 @@ class MeasuredRobot {
 
   /// Empty if any joint is unknown.
   std::optional<MeasuredState> look();
-  /// Waits up to `timeout_s` for all joints.
-  /// Throws: Error.
+  /// Throws: Error unless all joints are known within `timeout_s`.
   MeasuredState state(double timeout_s);
 
  private:
@@ -66,11 +65,11 @@ class MeasuredRobot {
   std::vector<MeasuredJoints> hand_, arm_;  ///< by preference
 };
 
-/// A joint up to this far beyond a limit, or J1 beyond J2, counts as at the limit.
+/// A joint this far beyond a limit, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// Targets for `CommandGuard::start_from`. `T_base_hand` is used only without an arm.
-/// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
+/// For `CommandGuard::start_from`. `T_base_hand` is used only without an arm.
+/// Throws: Error if a joint is farther than kMeasuredNoise beyond a limit.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);
 

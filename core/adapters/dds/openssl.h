@@ -9,10 +9,10 @@ namespace glovebench {
 struct OpensslResult {
   bool is_success;
   std::string output;
-  std::string reason;  ///< last line of standard error
+  std::string reason;  ///< stderr's last line
 };
 
-/// Runs `openssl` in a folder. Pass private keys only by `input` (standard input).
+/// Runs `openssl` in a folder. Pass private keys only by `input` (its stdin).
 /// Throws: Error if the program cannot run.
 OpensslResult run_openssl(const std::string& folder, std::vector<std::string> arguments,
                           std::string_view input = "");

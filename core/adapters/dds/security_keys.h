@@ -22,16 +22,16 @@ struct SecurityRole {
 /// `sender` (track), `server`, `robot` (its driver), `observer`.
 const std::vector<SecurityRole>& security_roles();
 
-/// Requires identities and authenticated encryption.
+/// Requires identities and encryption.
 std::string governance_document();
 std::string permissions_document(const SecurityRole& role, const Validity& validity);
 
-/// Makes all roles' keys (core/adapters/dds/README.md, "DDS Security"). `others`: roles with another validity.
+/// Makes all keys (core/adapters/dds/README.md, "DDS Security"). `others`: roles with another validity.
 /// Throws: Error if the folder is not empty or cannot be made.
 void make_security_keys(const std::string& folder, const Validity& validity,
                         const std::map<std::string, Validity>& others = {});
 
-/// Cyclone DDS's configuration for a role.
+/// Cyclone DDS's configuration.
 /// Throws: Error if a file is missing, unreadable, expired at `now_s` or of another key set.
 std::string security_configuration(const std::string& folder, const std::string& role, int64_t now_s);
 

@@ -10,16 +10,13 @@
 
 #include "core/adapters/dds/dds_entity.h"
 
-// A private loopback bus with both ends in this process.
-
 namespace glovebench {
 
-/// kFar reaches kDomain through the network, not within the process.
+/// kFar reaches kDomain through the network only.
 inline constexpr int kDomain = 7, kFar = 8;
 inline constexpr const char* kFarDomain =
     "<Domain id=\"8\"><Discovery><ExternalDomainId>7</ExternalDomainId></Discovery></Domain>";
 
-/// Sends messages of any size.
 class UnboundedWriter {
  public:
   explicit UnboundedWriter(const std::string& topic)
@@ -49,7 +46,7 @@ class UnboundedWriter {
   dds_entity_t participant_, writer_ = 0;
 };
 
-/// Gives this process and its children a private loopback bus. `more`: configuration.
+/// For this process and its children.
 inline void use_loopback_dds(const std::string& more = "") {
   const std::string uri =
       "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"

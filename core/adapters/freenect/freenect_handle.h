@@ -13,7 +13,7 @@ void require_freenect(bool success, const char* field, const std::string& expect
 
 class FreenectHandle {
  public:
-  /// Throws: Error if the device is missing or cannot be opened.
+  /// Throws: Error if the device cannot be opened.
   explicit FreenectHandle(int index);
   ~FreenectHandle();
   FreenectHandle(const FreenectHandle&) = delete;

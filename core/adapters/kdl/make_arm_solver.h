@@ -7,7 +7,7 @@
 namespace glovebench {
 
 /// Inverse kinematics by Orocos KDL (ChainIkSolverPos_NR_JL), from `start` a little towards `rest`. Exact to 0.01
-/// mm and 1e-5 rad. Not thread-safe. Null in a build without KDL.
+/// mm and 1e-5 rad. Not thread-safe. Null without KDL.
 std::unique_ptr<ArmSolver> make_arm_solver(const ArmJoints& rest = kArmAtRest);
 
 }  // namespace glovebench

@@ -5,7 +5,7 @@
 
 #include "core/base/image.h"
 
-/// The camera of test_camera_driver.cpp. Its name, "test_camera", may be followed by words.
+/// Of test_camera_driver.cpp. Words may follow its name.
 namespace glovebench::test_camera {
 
 inline constexpr std::string_view kName = "test_camera", kMirrored = "mirrored", kFine = "100um", kYuv = "yuv",
@@ -14,9 +14,8 @@ inline constexpr int kDepthWidth = 320, kDepthHeight = 240, kColorWidth = 640, k
 inline constexpr int kFrames = 6;  ///< of each kind
 inline constexpr int64_t kDepthPeriod_us = 33'000, kColorPeriod_us = 41'000;
 inline constexpr float kHorizontalFov = 1.0, kVerticalFov = 0.75;  ///< rad, of the color camera
-inline constexpr int kShow = 1;  ///< the command to show the image of a number, an int
+inline constexpr int kShow = 1;  ///< command to show an image; its int argument is the number
 
-/// As the unmirrored camera sees them.
 inline uint16_t depth_step(int u, int v, int frame) {
   return static_cast<uint16_t>(u % 16 == 0 ? 0 : 400 + 3 * u + v + 10 * frame);
 }

@@ -9,9 +9,9 @@
 
 namespace glovebench {
 
-// The messages between glovebench and a tracker that is a program (eval/guides/tracker.md).
+// Messages between glovebench and a tracker program (eval/guides/tracker.md).
 
-inline constexpr int kTrackerProtocol = 1;  ///< version
+inline constexpr int kTrackerProtocol = 1;
 inline constexpr double kDepthUnit_mm = 0.1;
 
 /// The first line: calibration, hand, angles.
@@ -21,7 +21,7 @@ std::string frame_line(int number, const DeviceFrame& frame);
 /// z in units of kDepthUnit_mm; 0: no value, or too far for 16 bits.
 std::vector<uint16_t> depth_units(const DeviceFrame& frame, const OptionalLine& line);
 
-/// The answer to frame `number`, with the time stamp missing.
+/// The answer to frame `number`, without time stamp.
 /// Throws: Error if it is none.
 TrackResult parse_answer(std::string_view line, int number);
 

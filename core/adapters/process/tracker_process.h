@@ -30,17 +30,16 @@ class Descriptor {
   int number_;
 };
 
-/// The program has ended, or closed stdin or stdout and was killed.
+/// The program ended, or closed stdin or stdout and was killed.
 struct ProgramEnded : Error {
   explicit ProgramEnded(int code);
-  int exit_code;  ///< as a shell says it: 128 + N after signal N
+  int exit_code;  ///< as a shell's: 128 + N after signal N
 };
 
 inline constexpr size_t kLongestAnswer = size_t{64} << 10;  ///< bytes of a line
 
-/// A program that reads frames from stdin and answers on stdout in lines. /bin/sh -c runs the command. A guard, a
-/// process between the two, ends the program and all that it started when this object or glovebench ends. SIGPIPE
-/// must be ignored.
+/// A program that reads frames from stdin and answers on stdout in lines, run by /bin/sh -c. A guard process ends
+/// it and all that it started when this object or glovebench ends. SIGPIPE must be ignored.
 class TrackerProcess {
  public:
   using Clock = std::chrono::steady_clock;
@@ -53,10 +52,10 @@ class TrackerProcess {
   TrackerProcess& operator=(const TrackerProcess&) = delete;
 
   /// Sends the parts and returns the next line, without its end.
-  /// Throws: ProgramEnded; Error if the deadline passes or a line is too long. Nothing can be exchanged afterwards.
+  /// Throws: ProgramEnded; Error if the deadline passes or a line is too long. No exchange may follow.
   std::string exchange(std::span<const std::string_view> parts, Clock::time_point deadline);
 
-  /// Kills the program and what it started, unless that was done. Returns its exit code.
+  /// Kills the program and what it started, once. Returns its exit code.
   int kill();
 
  private:
@@ -64,10 +63,10 @@ class TrackerProcess {
   void receive();
 
   pid_t guard_ = -1;
-  int exit_code_ = 0;  ///< after `kill`
+  int exit_code_ = 0;
   Descriptor to_program_, from_program_;
-  Descriptor lifeline_;   ///< the guard kills when this closes
-  std::string received_;  ///< not yet returned
+  Descriptor lifeline_;  ///< its closing makes the guard kill
+  std::string received_;
 };
 
 }  // namespace glovebench

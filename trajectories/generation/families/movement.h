@@ -16,7 +16,7 @@ inline constexpr int kMovementFrames = 100;            ///< of movements known b
 inline constexpr uint64_t kMostMovements = 1'000'000;  ///< largest seed
 
 struct MovementMaterial {
-  PostureSet gestures;                              ///< random postures keep away from these
+  PostureSet gestures;                              ///< that random postures avoid
   PostureSet captured;                              ///< for captured families
   Skeleton skeleton;                                ///< its parts must not overlap
   double least_distance_deg = kGestureDistanceDeg;  ///< finger_distance from each gesture
@@ -24,8 +24,7 @@ struct MovementMaterial {
 /// Throws: Error.
 MovementMaterial load_movement_material(const std::string& data_folder, const Skeleton& skeleton);
 
-/// A movement at 15 Hz. Depends only on family, seed and material. A shorter movement is the beginning of a longer
-/// one.
+/// At 15 Hz. A shorter movement is the beginning of a longer one.
 /// Throws: Error if the ranges allow no posture or pose.
 Trajectory generate_movement(const MovementFamily& family, uint64_t seed, const MovementMaterial& material,
                              int frame_count = kMovementFrames);

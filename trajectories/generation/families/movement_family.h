@@ -19,7 +19,7 @@ struct Range {
 inline constexpr Range kDipShare = {0.5, 0.9};        ///< of a finger's PIP angle
 inline constexpr double kNeighborCorrelation = 0.6;   ///< of neighboring fingers' flexions, index to little
 inline constexpr double kGestureDistanceDeg = 15;     ///< least finger_distance from gestures
-inline constexpr double kMostOverlap = 2e-3;          ///< of a hand's parts, m
+inline constexpr double kMostOverlap = 2e-3;          ///< of hand parts, m
 inline constexpr double kLongestMovementRestS = 0.3;  ///< between two ways
 
 /// Ranges to draw from (trajectories/README.md).
@@ -28,11 +28,11 @@ struct MovementFamily {
   std::string_view description;
 
   // In every frame.
-  Range tilt_deg;   ///< back of the hand: 0 faces the camera, 180 faces away
+  Range tilt_deg;   ///< as tilt_deg() (movement.h)
   Range depth;      ///< hand's origin, m
-  double off_axis;  ///< largest x and y of the origin, share of half the depth image
+  double off_axis;  ///< origin's largest x and y, share of half the depth image
   // Key poses.
-  Range tilt_axis_deg;  ///< in the image, from the hand's breadth (0) to its length (90); reversed in half of the
+  Range tilt_axis_deg;  ///< in the image: 0 is the hand's breadth, 90 its length; reversed in half of the
                         ///< movements
   double yaw_deg;       ///< about the optical axis, both ways
   // Between keys. The slower of both sets the time.
@@ -43,14 +43,13 @@ struct MovementFamily {
   std::array<Range, 2> bends;  ///< of alternate keys
   double wrist;                ///< largest share of the wrist's limits
   Range posture_s;             ///< from posture to posture, s
-  bool captured = false;       ///< people's postures, not random ones
+  bool captured = false;       ///< people's postures
 };
 
 std::span<const MovementFamily> movement_families();
 std::vector<std::string> movement_family_names();
 /// Throws: Error for an unknown name.
 const MovementFamily& find_movement_family(std::string_view name);
-/// For `glovebench list families`.
 std::string movement_families_text();
 
 }  // namespace glovebench::trajectories

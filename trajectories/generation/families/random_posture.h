@@ -6,8 +6,8 @@
 
 namespace glovebench::trajectories {
 
-/// A random posture within limits and `bend`. MCP and PIP flexions are uniform and correlate with neighboring
-/// fingers (kNeighborCorrelation). DIP is a share of PIP (kDipShare). Parts may overlap, and a gesture may be near.
+/// Within limits and `bend`. MCP and PIP flexions are uniform and correlated (kNeighborCorrelation). DIP is a
+/// share of PIP (kDipShare). Parts may overlap, and a gesture may be near.
 Posture random_posture(const MovementFamily& family, const Range& bend, RandomStream& random);
 
 }  // namespace glovebench::trajectories
