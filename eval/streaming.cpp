@@ -130,44 +130,53 @@ Table empty_table(const Streaming& streaming) {
   table.title = "Streaming accuracy";
   table.explanation = fmt::format(
       "In use: the errors of the newest answer that is finished, against the truth at {} moments a frame, which "
-      "lies "
-      "between two frames' truths; before the first answer the hand is lost (after Li, Wang and Ramanan 2020, who "
-      "use "
-      "answers when a frame is taken). A tracker that has finished takes the newest frame; frames that it never "
-      "takes "
-      "are dropped, and it does not see them. Age: from the frame of the answer in use to its use. Time of a "
-      "frame: "
-      "{}.",
+      "lies between two frames' truths; before the first answer the hand is lost (after Li, Wang and Ramanan 2020, "
+      "who use answers when a frame is taken). A tracker that has finished takes the newest frame; frames that it "
+      "never takes are dropped, and it does not see them. Age: from the frame of the answer in use to its use. "
+      "Time "
+      "of a frame, a mean over the answered ones: {}.",
       kUsesPerFrame,
-      is_time ? "mean over the frames, measured while no other job of the command ran, the first as long as the "
-                "second, since a live system has started before; other times give other results"
-              : "as given");
+      is_time
+          ? "our trackers' processor time, the time until a program answers; measured while no other job of the "
+            "command ran. The first frame counts as long as the second, since a live system has started before; "
+            "other times give other results"
+          : "as given");
   return table;
 }
 
-/// Means of one experiment over its frames and seeds.
+/// Means of one experiment over its frames and seeds. Empty without an answer.
 struct PlaybackMeans {
-  double tracker_ms = 0;
+  std::optional<double> tracker_ms;
   double dropped_percent = 0;
   std::optional<double> age_ms;
 };
 
+bool is_answer(const TrackResult& result) {
+  return result.status != TrackStatus::missing;
+}
+
 PlaybackMeans means_of(const Streaming& streaming, const Experiment& experiment, std::span<const MeasuredRun> runs,
-                       const std::vector<Playback>& playbacks) {
+                       const std::vector<Playback>& playbacks, std::span<const MeasuredRun> in_use) {
   std::vector<double> times, ages;
-  size_t kept = 0;
+  size_t kept = 0, frames = 0;
   for (const MeasuredRun* each : experiment.runs) {
-    const Playback& playback = playbacks[static_cast<size_t>(each - runs.data())];
+    const auto r = static_cast<size_t>(each - runs.data());
     const std::vector<double> arrivals = arrivals_ms(each->run.spec);
-    std::ranges::copy(tracker_times_ms(streaming, each->run), std::back_inserter(times));
-    kept += playback.kept.size();
-    for (const HandFrame& frame : moments_of(each->run.spec)) {
-      const double moment = milliseconds(frame);
-      if (const auto place = playback.in_use(moment)) ages.push_back(moment - arrivals[playback.kept[*place]]);
+    const std::vector<double> tracker_ms = tracker_times_ms(streaming, each->run);
+    for (size_t f = 0; f < tracker_ms.size(); ++f)
+      if (is_answer(each->run.answers[f])) times.push_back(tracker_ms[f]);
+    kept += playbacks[r].kept.size();
+    frames += tracker_ms.size();
+    const std::vector<HandFrame> moments = moments_of(each->run.spec);
+    for (size_t m = 0; m < moments.size(); ++m) {
+      const double moment = milliseconds(moments[m]);
+      const std::optional<size_t> place = playbacks[r].in_use(moment);
+      if (place && is_answer(in_use[r].run.answers[m]))
+        ages.push_back(moment - arrivals[playbacks[r].kept[*place]]);
     }
   }
-  const double frames = static_cast<double>(times.size());
-  return {reports::mean(times).value(), 100 * (1 - static_cast<double>(kept) / frames), reports::mean(ages)};
+  const double kept_share = static_cast<double>(kept) / static_cast<double>(frames);
+  return {reports::mean(times), 100 * (1 - kept_share), reports::mean(ages)};
 }
 
 }  // namespace
@@ -200,9 +209,9 @@ reports::StudyResult streaming_study(Workbench& workbench, const Streaming& stre
   const std::vector<Experiment> usual = experiments_of(runs), streamed = experiments_of(in_use);
   Table table = empty_table(streaming);
   for (size_t e = 0; e < usual.size(); ++e) {
-    const PlaybackMeans means = means_of(streaming, usual[e], runs, playbacks);
+    const PlaybackMeans means = means_of(streaming, usual[e], runs, playbacks, in_use);
     reports::Row& row = table.rows.emplace_back(reports::experiment_names(usual[e].key));
-    row.insert(row.end(), {means.tracker_ms, means.dropped_percent, reports::cell(means.age_ms)});
+    row.insert(row.end(), {reports::cell(means.tracker_ms), means.dropped_percent, reports::cell(means.age_ms)});
     const reports::ExperimentResult as_usual = evaluate(usual[e]), as_used = evaluate(streamed[e]);
     for (const Shown& shown : kShown) {
       const reports::Metric& metric = reports::metric_of(shown.metric);

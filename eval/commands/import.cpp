@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/file_set.h"
+#include "core/base/text.h"
 #include "core/base/whole_file.h"
 #include "eval/commands/flags.h"
 #include "eval/program.h"

@@ -3,7 +3,11 @@
 namespace glovebench::eval {
 
 SourceKind bag_source() {
-  return {"bag", "bag:FILE", "images of ROS 1", open_ros_recording};
+  return {.name = "bag",
+          .usage = "bag:FILE",
+          .description = "images of ROS 1",
+          .open = open_ros_recording,
+          .has_topics = true};
 }
 
 }  // namespace glovebench::eval

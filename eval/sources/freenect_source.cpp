@@ -37,7 +37,8 @@ TrackSource open_freenect(const std::string& argument, const SourceFlags& flags,
 }  // namespace
 
 SourceKind freenect_source() {
-  return {"freenect", kUsage, "a Kinect v1", open_freenect};
+  return {
+      .name = "freenect", .usage = kUsage, .description = "a Kinect v1", .open = open_freenect, .is_live = true};
 }
 
 }  // namespace glovebench::eval

@@ -3,7 +3,11 @@
 namespace glovebench::eval {
 
 SourceKind mcap_source() {
-  return {"mcap", "mcap:FILE", "images of ROS 2", open_ros_recording};
+  return {.name = "mcap",
+          .usage = "mcap:FILE",
+          .description = "images of ROS 2",
+          .open = open_ros_recording,
+          .has_topics = true};
 }
 
 }  // namespace glovebench::eval

@@ -14,6 +14,7 @@
 #include "eval/sources/field_reader.h"
 #include "eval/sources/paired_recording.h"
 #include "eval/sources/source.h"
+#include "eval/terminal.h"
 
 namespace glovebench::eval {
 namespace {
@@ -129,12 +130,14 @@ OniTimes oni_times_of(const std::string& path) {
   return parse_oni_times({reinterpret_cast<const char*>(memory.bytes().data()), memory.bytes().size()}, path);
 }
 
-TrackSource open_oni_source(const std::string& path, const SourceFlags& flags, bool) {
+TrackSource open_oni_source(const std::string& path, const SourceFlags& flags, bool quiet) {
   const OniTimes times = oni_times_of(path);
   const std::shared_ptr<OniPlayer> player = open_oni(path);
   const RgbdCalibration calibration =
       flags.calibration.empty() ? calibration_from_json(to_json(player->calibration()), path)  // checks it
                                 : load_calibration(flags.calibration);
+  if (flags.calibration.empty() && !quiet)
+    say("glovebench: {}: depth counts as registered to color; if it is not, give --calibration\n", path);
   RecordedImages images{times.depth_us, times.color_us,
                         [player, times](size_t i) {
                           return depth_in_m(player->depth_steps(times.depth_us[i]), player->steps_per_m());

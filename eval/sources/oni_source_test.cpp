@@ -175,6 +175,7 @@ TEST_F(OniSource, IsTracked) {
       {"track", "--source", "oni:" + path("a.oni"), "--database", "DB_open_power", "-o", path("estimates.csv")});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("0 of 6 frames tracked")) << "they show no hand";
+  EXPECT_THAT(run.err, HasSubstr("a.oni: depth counts as registered to color; if it is not, give --calibration"));
 }
 
 }  // namespace

@@ -23,9 +23,11 @@ TrackSource open_distorted(const SourceFlags& flags, bool quiet) {
   const size_t colon = flags.source.find(':');
   const auto found = std::ranges::find(source_kinds(), flags.source.substr(0, colon), &SourceKind::name);
   if (found == source_kinds().end()) refuse(flags.source);
-  const bool may_be_bare = found->usage.find('[') != std::string_view::npos;
   const std::string argument = colon == std::string::npos ? "" : flags.source.substr(colon + 1);
-  if (argument.empty() && !(may_be_bare && colon == std::string::npos)) refuse(flags.source);
+  if (argument.empty() && !(found->is_live && colon == std::string::npos)) refuse(flags.source);
+  if (flags.every_frame && !found->is_live) throw Error("--every-frame", "--source", flags.source, "freenect");
+  if (!flags.topics.empty() && !found->has_topics)
+    throw Error("--topics", "--source", flags.source, "bag:FILE or mcap:FILE");
   return found->open(argument, flags, quiet);
 }
 

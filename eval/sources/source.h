@@ -41,6 +41,8 @@ struct SourceKind {
   /// Warns of a changed recording unless `quiet`.
   /// Throws: Error.
   TrackSource (*open)(const std::string& argument, const SourceFlags& flags, bool quiet);
+  bool is_live = false;     ///< a camera: needs no argument, takes --every-frame
+  bool has_topics = false;  ///< takes --topics
 };
 std::span<const SourceKind> source_kinds();
 

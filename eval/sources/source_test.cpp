@@ -87,6 +87,14 @@ TEST(Sources, AreNamedWhereOneIsUnknown) {
         << wrong;
 }
 
+TEST(Sources, TakeOnlyTheirOwnFlags) {
+  EXPECT_THAT(
+      [] { open_source({.source = "tum:a", .calibration = "", .topics = "color=/c"}, true); },
+      testing::ThrowsMessage<Error>(HasSubstr("--topics: --source: found tum:a, expected bag:FILE or mcap:FILE")));
+  EXPECT_THAT([] { open_source({.source = "oni:a", .calibration = "", .topics = "", .every_frame = true}, true); },
+              testing::ThrowsMessage<Error>(HasSubstr("--every-frame: --source: found oni:a, expected freenect")));
+}
+
 class SourcesLong : public CommandTest {
  protected:
   void render(const std::string& format) const {
