@@ -6,10 +6,10 @@
 
 #include "bench/bench_data.h"
 #include "bench/peers/peers.h"
+#include "core/pose/alignment.h"
 #include "core/pose/closest_point.h"
 #include "core/pose/closest_point_search.h"
-#include "core/pose/icp.h"
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 
 namespace glovebench::bench {
 namespace {

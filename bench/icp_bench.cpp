@@ -8,9 +8,9 @@
 #include "bench/peers/peers.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "core/pose/alignment.h"
 #include "core/pose/alignments/robust_alignment.h"
-#include "core/pose/icp.h"
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 
 namespace glovebench::bench {
 namespace {

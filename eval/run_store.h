@@ -7,7 +7,7 @@
 namespace glovebench::eval {
 
 /// The folder of a run in progress. After a crash the same command resumes and writes the same bytes.
-/// FOLDER/.unfinished/ marks the run, locks it and holds finished parts.
+/// FOLDER/.unfinished/ marks the run, locks it and holds finished parts as KEY.stored (`run_key`, `study_key`).
 class RunStore {
  public:
   /// Throws: Error, also if another run holds the folder.

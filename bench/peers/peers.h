@@ -10,8 +10,8 @@
 #include "core/cloud/labeled_cloud.h"
 #include "core/database/look_up.h"
 #include "core/database/look_up_parts.h"
+#include "core/pose/alignment.h"
 #include "core/pose/closest_point.h"
-#include "core/pose/icp.h"
 
 // Other libraries, each on one thread (bench/README.md). Null without GLOVEBENCH_PEERS.
 

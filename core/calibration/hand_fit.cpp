@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/calibration/size_equations.h"
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 
 namespace glovebench::calibration {
 namespace {
@@ -166,7 +166,7 @@ class Fit {
   template <typename Visit>
   int for_each_point(const HandModel& model, size_t v, int max_points, const Visit& visit) const {
     const PosedHand posed = model.pose(fit_.poses[v].posture);
-    Matcher matcher(model, posed, subsample(views_[v].seen.points, max_points), {});
+    SurfaceMatcher matcher(model, posed, subsample(views_[v].seen.points, max_points), {});
     matcher.cull(fit_.poses[v].T_camera_hand);
     matcher.match(fit_.poses[v].T_camera_hand);
     int without_face = 0;

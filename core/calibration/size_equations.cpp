@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/math.h"
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 #include "core/pose/surface_pull.h"
 
 namespace glovebench::calibration {
@@ -55,7 +55,7 @@ SizeEquations size_equations(const SurfaceMotion& motion, const TrackedView& vie
                              double tukey_mm) {
   const HandModel& model = motion.model();
   const PosedHand hand = model.pose(pose.posture);
-  Matcher matcher(model, hand, subsample(view.seen.points, kPointsOfView), {});
+  SurfaceMatcher matcher(model, hand, subsample(view.seen.points, kPointsOfView), {});
   matcher.cull(pose.T_camera_hand);
   matcher.match(pose.T_camera_hand);
   const std::vector<Eigen::Vector3f> moves = motion.at(pose.posture, hand);

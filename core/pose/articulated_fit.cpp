@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/math.h"
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 #include "core/pose/surface_pull.h"
 
 namespace glovebench {
@@ -239,7 +239,7 @@ class Run {
   const FitSchedule& schedule_;
   const HandObservation& seen_;
   PosedHand hand_;
-  Matcher matcher_;
+  SurfaceMatcher matcher_;
   StepMatrix H_points_ = StepMatrix::Zero();
 };
 

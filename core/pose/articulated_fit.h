@@ -5,9 +5,9 @@
 #include <span>
 
 #include "core/camera/pinhole_camera.h"
+#include "core/pose/alignment.h"
 #include "core/pose/articulated_step.h"
 #include "core/pose/hand_mask.h"
-#include "core/pose/icp.h"
 
 namespace glovebench {
 

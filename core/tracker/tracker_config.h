@@ -8,7 +8,7 @@
 #include "core/camera/registration.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/database/look_up.h"
-#include "core/pose/icp.h"
+#include "core/pose/alignment.h"
 #include "core/segmentation/color_table.h"
 #include "core/tracker/method_names.h"
 

@@ -1,6 +1,6 @@
+#include "core/pose/alignment.h"
 #include "core/pose/horn.h"
-#include "core/pose/icp.h"
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 
 namespace glovebench {
 namespace {
@@ -12,7 +12,7 @@ struct Pairs {
 };
 
 /// Into `pairs`, whose memory is kept.
-void make_pairs(const Matcher& matcher, const Eigen::Isometry3d& T_camera_hand, Pairs& pairs) {
+void make_pairs(const SurfaceMatcher& matcher, const Eigen::Isometry3d& T_camera_hand, Pairs& pairs) {
   pairs.model_camera.clear();
   pairs.cloud_camera.clear();
   const Eigen::Isometry3f T = T_camera_hand.cast<float>();
@@ -34,7 +34,7 @@ Alignment align_horn(const HandModel& model, const PosedHand& hand, RecycledVect
   Alignment result;
   result.T_camera_hand = T_camera_hand_coarse;
   result.points = static_cast<int>(points.size());
-  Matcher matcher(model, hand, std::move(points), config);
+  SurfaceMatcher matcher(model, hand, std::move(points), config);
   Pairs pairs;
   const auto pair_now = [&] {
     matcher.match(result.T_camera_hand);

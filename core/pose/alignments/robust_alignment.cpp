@@ -30,7 +30,7 @@ struct Pair {
   Eigen::Vector3d normal;
 };
 
-RecycledVector<Pair> pairs_of(const Matcher& matcher) {
+RecycledVector<Pair> pairs_of(const SurfaceMatcher& matcher) {
   RecycledVector<Pair> pairs;
   for (size_t i = 0; i < matcher.closest().size(); ++i) {
     const ClosestPoint& closest = matcher.closest()[i];
@@ -134,7 +134,7 @@ std::optional<Eigen::Isometry3d> step_of_horn(const RecycledVector<Pair>& pairs)
 }
 
 /// Takes all steps, or returns false with the reason in `result.status`.
-bool take_steps(Matcher& matcher, std::span<const Step> steps, const IcpConfig& config, double width,
+bool take_steps(SurfaceMatcher& matcher, std::span<const Step> steps, const IcpConfig& config, double width,
                 Alignment& result) {
   matcher.cull(result.T_camera_hand);
   for (const Step& step : steps) {
@@ -169,8 +169,8 @@ Alignment align_robust(const HandModel& model, const PosedHand& hand, RecycledVe
   result.T_camera_hand = T_camera_hand_coarse;
   result.points = static_cast<int>(points.size());
   const size_t stride = std::clamp<size_t>(points.size() / kEnough, 1, kStride);
-  Matcher some(model, hand, every_nth(points, stride), config);
-  Matcher all(model, hand, std::move(points), config);
+  SurfaceMatcher some(model, hand, every_nth(points, stride), config);
+  SurfaceMatcher all(model, hand, std::move(points), config);
   if (!take_steps(some, kOnSome, config, width, result)) {
     // All points may share a color with the hand although a part of them does not.
     result.T_camera_hand = T_camera_hand_coarse;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/pose/icp.h"
-#include "core/pose/matcher.h"
+#include "core/pose/alignment.h"
+#include "core/pose/surface_matcher.h"
 
 namespace glovebench {
 

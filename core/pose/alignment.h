@@ -50,7 +50,7 @@ Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, con
                               std::span<const LabeledPoint> points, bool center_visible_surface = true);
 
 /// `align` sets all fields of the result, obeys `max_iterations` and `cull_each_iteration`, and matches by
-/// `Matcher`.
+/// `SurfaceMatcher`.
 struct AlignmentEntry {
   std::string_view name;
   std::string_view description;

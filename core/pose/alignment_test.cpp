@@ -1,4 +1,4 @@
-#include "core/pose/icp.h"
+#include "core/pose/alignment.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 
 namespace glovebench {
 
@@ -6,8 +6,8 @@ Eigen::Vector3f viewpoint_hand(const Eigen::Isometry3d& T_camera_hand) {
   return T_camera_hand.inverse().translation().cast<float>();
 }
 
-Matcher::Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
-                 const IcpConfig& config)
+SurfaceMatcher::SurfaceMatcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
+                               const IcpConfig& config)
     : model_(model),
       hand_(hand),
       cloud_(std::move(cloud)),
@@ -15,12 +15,12 @@ Matcher::Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<L
       coloring_(config.color_sensitive ? Surface::Coloring::by_color : Surface::Coloring::any_color),
       points_hand_(cloud_) {}
 
-void Matcher::cull(const Eigen::Isometry3d& T_camera_hand) {
+void SurfaceMatcher::cull(const Eigen::Isometry3d& T_camera_hand) {
   surface_.assign(model_, hand_, viewpoint_hand(T_camera_hand), coloring_);
   if (implementation_ == Implementation::fast) search_.start(surface_);
 }
 
-void Matcher::match(const Eigen::Isometry3d& T_camera_hand) {
+void SurfaceMatcher::match(const Eigen::Isometry3d& T_camera_hand) {
   // The search runs in the hand frame: moving the points by the inverse pose is the same as moving the hand.
   const Eigen::Isometry3f T = T_camera_hand.inverse().cast<float>();
   for (size_t i = 0; i < cloud_.size(); ++i) points_hand_[i].p = T * cloud_[i].p;

@@ -1,8 +1,8 @@
-#include "core/pose/icp.h"
+#include "core/pose/alignment.h"
 
 #include "core/base/registry.h"
 #include "core/pose/closest_point.h"
-#include "core/pose/matcher.h"
+#include "core/pose/surface_matcher.h"
 
 namespace glovebench {
 namespace {

@@ -3,18 +3,18 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "core/pose/alignment.h"
 #include "core/pose/closest_point.h"
 #include "core/pose/closest_point_search.h"
-#include "core/pose/icp.h"
 
 namespace glovebench {
 
 /// Closest points on camera-facing faces.
-class Matcher {
+class SurfaceMatcher {
  public:
   /// `model` and `hand` must outlive it. `cloud`: camera frame, m; labels as the surface's.
-  Matcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
-          const IcpConfig& config);
+  SurfaceMatcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
+                 const IcpConfig& config);
 
   void cull(const Eigen::Isometry3d& T_camera_hand);
   /// Call after `cull`.
